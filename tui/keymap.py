@@ -354,6 +354,13 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("topics.kind", "m", "kind", "Topics, services, actions", footer=True, short="Services"),
         Key("topics.freeze", "space", "freeze", "Freeze the message, or resume it", footer=True, short="Freeze"),
         Key("topics.stop", "x", "stop", "Stop publishing at a rate; cancel the goal"),
+        Key(
+            "topics.expect",
+            "E",
+            "expect",
+            "Name a file of expected rates, to be checked all the time",
+            shown="E",
+        ),
         Key("topics.hidden", "D", "hidden", "Show hidden topics and built-in services too", shown="D"),
         Key("topics.fold", "left", "fold(True)", "Fold this line of the message"),
         Key("topics.unfold", "right", "fold(False)", "Unfold this line of the message"),

@@ -105,6 +105,7 @@ class NodePorts:
             profiles=self.profiles.all,
             active_profile=self.profiles.active,
             profile_changes=self.profiles.changes,
+            rate_checks=self.topics.rate_checks.poll(self.profiles.active_profile, self.parameters.trees),
             capabilities=self._capabilities,
             problem=self.problem,
         )

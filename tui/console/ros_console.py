@@ -57,6 +57,7 @@ class RosConsole(NodePorts):
         frozen: FrozenNodes | None = None,
         types: TypeSource | None = None,
         stop_means: Sequence[ConfiguredMeans] = (),
+        expected: str = "",
     ) -> None:
         """`own_profiles` is where profiles are saved; `workspace_profiles` finds further folders with profiles;
         `active_profile` is the name, or the absolute path, of the one with which the system starts.
@@ -65,7 +66,8 @@ class RosConsole(NodePorts):
         local copy of a remote parameter file, or raises `OSError`; it may run in any thread.
 
         `link` returns the state of the network; `foreign`: see `ConsoleNode`; `buffer` keeps the last minutes; `frozen`
-        returns nodes of stopped processes; `types` builds missing message types; `stop_means` stop robots without lock.
+        returns nodes of stopped processes; `types` builds missing message types; `stop_means` stop robots without lock;
+        `expected` is the path of a file with the rates that topics should have.
         """
         super().__init__(
             self._connect_robot,
@@ -78,7 +80,7 @@ class RosConsole(NodePorts):
         self._profile_store_of = profile_folders, own_profiles, workspace_profiles, fetch
         self._active_profile = active_profile
         self._graph_events, self._frozen, self._stop_means = graph_events, frozen, stop_means
-        self._history_file = history
+        self._history_file, self._expected_file = history, expected
         self._foreign = foreign
         self._faults: set[str] = set()
         self._ready = threading.Event()
@@ -137,6 +139,8 @@ class RosConsole(NodePorts):
         active = self._active_profile
         if os.path.isabs(active) and (opened := store.open(active)).ok:
             active = opened.text
+        if self._expected_file and not (answer := self.topics.expect(self._expected_file)).ok:
+            self.printed(Severity.WARN, LABEL, f"settings, expected: {answer.text}")
         node = ConsoleNode(
             *(robot, self, self._graph_events, history),
             active_profile=active,

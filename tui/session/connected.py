@@ -53,6 +53,7 @@ class Connected:
         self._last_message = message
         self._watching: RobotProcess | None = None
         self._forget_notices: Callable[[], None] = lambda: None
+        settings = read_settings()
         self.console = RosConsole(
             launch_info=self._launch_info,
             profile_folders=[ROOT / "profiles", *options.profile_folders],
@@ -65,7 +66,8 @@ class Connected:
             fetch=fetched,
             buffer=buffer,
             types=DomainTypes(),
-            stop_means=read_settings().stop_means,
+            stop_means=settings.stop_means,
+            expected=settings.expected,
         )
         self.launcher = system(self.console)
         self._local_tuner = LocalTuner()

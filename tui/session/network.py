@@ -36,6 +36,7 @@ def run_network(options: AttachOptions) -> int:
         print(error, file=sys.stderr)
         return 1
     choose(options.appearance.workspace)
+    settings = read_settings()
     console = RosConsole(
         profile_folders=options.appearance.profile_folders,
         own_profiles=config_folder() / "profiles",
@@ -46,7 +47,8 @@ def run_network(options: AttachOptions) -> int:
         foreign=True,
         frozen=frozen_nodes,
         types=DomainTypes(),
-        stop_means=read_settings().stop_means,
+        stop_means=settings.stop_means,
+        expected=settings.expected,
     )
     message = [(Severity.INFO, OUTPUT.format(options.way, domain()))]
 

@@ -55,6 +55,10 @@ stop_means: []
 # part of the name begins with an underscore) is left out anyway.
 graph_hides: [{", ".join(TOOL_NAMES)}]
 
+# A file with the rates and ages that topics should have, checked all the time, as `bot-console graph --rates` writes it
+# and `graph --check` reads it; empty: none, until E in the Topics pane names one.
+expected: ""
+
 # Keys: the id of an action, as `bot-console config --keys` lists them, and the keys that do it from now on.
 keys: {{}}
 #  app.quit: ctrl+d
@@ -76,6 +80,8 @@ class Settings:
     stop_means: tuple[ConfiguredMeans, ...] = ()
     graph_hides: tuple[str, ...] = TOOL_NAMES
     """Patterns of the names of topics and nodes that the graph leaves out."""
+    expected: str = ""
+    """The file with the rates that topics should have; empty: none."""
 
     @property
     def kept(self) -> RingSize | None:
@@ -128,6 +134,7 @@ def _settings(data: object, path: str) -> Settings:
     theme = one("theme", "dark", lambda name: _one_of(name, THEME_NAMES))
     glyphs = one("glyphs", "auto", lambda name: _one_of(name, GLYPHS))
     layout = one("layout", "last", lambda _: "")
+    expected = one("expected", "", lambda _: "")
     keep = [
         _number(given.pop(name, default), maximum, default, f"{path}: {name}", wrong)
         for name, default, maximum in (("keep_minutes", KEEP_MINUTES, 60.0), ("keep_megabytes", KEEP_MEGABYTES, 4096.0))
@@ -137,7 +144,7 @@ def _settings(data: object, path: str) -> Settings:
     keys = _keys(given.pop("keys", None), path, wrong)
     hides = _names(given.pop("graph_hides", list(TOOL_NAMES)), f"{path}: graph_hides", wrong)
     wrong += [f"{path}: '{str(name)[:40]}' is not a setting" for name in given]
-    return Settings(theme, glyphs, layout, keys, tuple(wrong), keep[0], keep[1], means, hides)
+    return Settings(theme, glyphs, layout, keys, tuple(wrong), keep[0], keep[1], means, hides, expected)
 
 
 def _names(value: object, name: str, wrong: list[str]) -> tuple[str, ...]:

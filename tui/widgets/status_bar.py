@@ -15,7 +15,7 @@ from rich.text import Text
 STATE_COLUMNS = 25
 """Columns of the state and its reason, so that the figures after it do not move; a longer text takes what it needs."""
 MAX_NAMED_TOPICS = 3
-"""Topics missing in a recording that are named one by one."""
+"""Topics that are late, or missing in a recording, and named one by one."""
 UNKNOWN = NO_ROBOT, NO_DATA = "no robot yet", "no command and no odometry yet"
 LEFT, RIGHT = "↶↷"
 COLOURS = {
@@ -132,6 +132,11 @@ def _problems(snapshot: ConsoleSnapshot, acknowledged: int, alarms: Sequence[str
         yield _both(counted(errors, "new error" if acknowledged else "error"))
     if alarms:
         yield f"⚠ {sanitize(', '.join(alarms))}", f"⚠ {counted(len(alarms), 'alarm')}"
+    late = [each for each in snapshot.rate_checks if each.late]
+    if late:
+        named = ", ".join(f"{each.topic} {each.measured}" for each in late[:MAX_NAMED_TOPICS])
+        more = f" and {len(late) - MAX_NAMED_TOPICS} more" if len(late) > MAX_NAMED_TOPICS else ""
+        yield f"⚠ late: {sanitize(named)}{more}", f"⚠ {len(late)} late"
     dead = [each.label for each in snapshot.launch.processes if each.state is ProcessState.CRASHED]
     if dead:
         yield f"✗ ended: {sanitize(', '.join(dead))}", f"✗ {len(dead)} ended"

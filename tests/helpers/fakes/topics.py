@@ -41,6 +41,10 @@ class FakeTopics:
     def measured(self) -> Mapping[str, Measure]:
         return {topic: self.figures.get(topic, Measure()) for topic in self.measuring}
 
+    def expect(self, path: str) -> Answer:
+        self.asked.append(("expect", path))
+        return Answer(not self.problem, self.problem or "checking 1 topic")
+
     def listen(self, topic: str) -> None:
         self.listening = topic
         self._heard = LiveMessage(topic)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo, RateCheck
 from bot_console.tui.console.topics.port import Field, Reply
 from bot_console.tui.panes.topics.pane import TopicsPane
 from bot_console.tui.panes.topics.table import TopicRows
@@ -58,6 +58,35 @@ def test_topics_show_rates_and_faults() -> None:
         assert "1/3" in line and " 50 " in line and "37 kB" in line and "2.1 ms" in line
         await at(session, "/cmd_vel_teleop")
         assert "!/cmd_vel_teleop" in session.text() and "nobody publishes it" in session.text()
+
+    run(live(), play, SIZE)
+
+
+def test_expected_rates_come_from_a_file_and_show_what_is_late_here_and_in_alarms(tmp_path) -> None:
+    file = tmp_path / "expected.yaml"
+    checks = (
+        RateCheck("/odom", "100 Hz ± 20 %", "50 Hz", True, times=1),
+        RateCheck("/scan", "10 Hz ± 20 %", "10 Hz", False),
+    )
+
+    async def play(session: Session) -> None:
+        await opened(session, "E")
+        await session.type(str(file))
+        await session.press("enter")
+        assert ("expect", str(file)) in session.console.asked
+        session.console.change(rate_checks=checks)
+        await session.settle()
+        await at(session, "/odom")
+        assert "!/odom" in session.text() and "50 Hz, expected 100 Hz ± 20 %" in session.text()
+        await at(session, "/scan")
+        assert "!/scan" not in session.text() and "expected 10 Hz ± 20 %  sensor_msgs" in session.text()
+        await session.press("B")
+        assert "✗ active" in session.text() and "1 of 2 active" in session.text()
+        asked = len(session.console.asked)
+        await session.press("d", "enter")
+        assert "not an alarm" in session.text() and len(session.console.asked) == asked
+        await session.press("9", "E", "ctrl+u", "enter")
+        assert ("expect", "") in session.console.asked
 
     run(live(), play, SIZE)
 

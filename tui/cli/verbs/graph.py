@@ -7,13 +7,13 @@ import sys
 import time
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
-from pathlib import Path
 
 from bot_console.tui.console.graph.connections import connections, is_hidden, is_own_service, unconnected
-from bot_console.tui.console.graph.expected import Expected, differences, read, written
+from bot_console.tui.console.graph.expected import Expected, differences, read_file, written
 from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.ros_console import RosConsole
+from bot_console.tui.console.topics.port import Measure
 from bot_console.tui.format import sanitize
 from bot_console.tui.session.reached_console import reached_console, settled
 from bot_console.tui.settings.settings import read_settings
@@ -28,8 +28,11 @@ the file is YAML, as `bot-console graph` writes it; all parts may be left out:
   nodes: [/robot_navigator, /safety_monitor]
   topics:
     /odom: {type: nav_msgs/msg/Odometry, publishers: [/simulator], rate: 50, tolerance: 0.1}
+    /scan: {rate: 10, max_age: 0.5}   # Hz, with a tolerance of 0.2 unless another is given; seconds
   services: {/reset: std_srvs/srv/Trigger}
   exact: false   # true: nothing else may be there
+a parameter file with rates as greenwave_monitor takes them (topics./scan.expected_frequency) will do, too
+E in the Topics pane checks the same file all the time, and so does `expected:` in the settings
 """
 
 
@@ -39,8 +42,8 @@ def run(words: list[str]) -> int:
     expected = None
     if given.check:
         try:
-            expected = read(Path(given.check).read_text("utf-8"))
-        except (OSError, UnicodeDecodeError, ValueError) as error:
+            expected = read_file(given.check)
+        except ValueError as error:
             print(f"{given.check} cannot be used: {sanitize(str(error))}", file=sys.stderr)
             return 2
     with reached_console() as console:
@@ -88,9 +91,9 @@ def _compare(console: RosConsole, expected: Expected, given: argparse.Namespace)
     while found and time.monotonic() < deadline:
         time.sleep(GRAPH_POLL_S)
         found = differences(expected, console.snapshot().graph)
-    if not found and expected.rated:
-        rates = _measured(console, expected.rated, given.measure)
-        found = differences(expected, console.snapshot().graph, rates)
+    if not found and expected.measured:
+        measured = _measured(console, list(expected.measured), given.measure)
+        found = differences(expected, console.snapshot().graph, measured)
     for each in found:
         print(sanitize(each))
     parts = f"{len(expected.nodes)} nodes, {len(expected.topics)} topics"
@@ -107,7 +110,7 @@ def _known(console: RosConsole, wait: float) -> GraphInfo:
     return settled(lambda: console.snapshot().graph, has_nodes, STILL, wait)
 
 
-def _measured(console: RosConsole, topics: list[str], seconds: float) -> Mapping[str, float | None]:
+def _measured(console: RosConsole, topics: list[str], seconds: float) -> Mapping[str, Measure]:
     if not topics:
         return {}
     console.topics.measure(topics)
@@ -115,7 +118,7 @@ def _measured(console: RosConsole, topics: list[str], seconds: float) -> Mapping
     while time.monotonic() < end:
         time.sleep(min(1.0, max(0.0, end - time.monotonic())))
         console.topics.measured()
-    return {topic: each.rate for topic, each in console.topics.measured().items()}
+    return console.topics.measured()
 
 
 def _parser() -> argparse.ArgumentParser:

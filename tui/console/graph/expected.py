@@ -1,36 +1,28 @@
 """A ROS graph as a file: written from a running system, and compared with one.
 
 The file is YAML: `nodes` (names), `topics` (by name: `type`, `publishers`, `subscribers`, `rate` in Hz with a
-`tolerance`), `services` and `actions` (types by name). The graph may contain more than the file mentions unless `exact`
-is set.
+`tolerance`, `max_age` in s), `services` and `actions` (types by name). The graph may contain more than the file
+mentions unless `exact` is set. A ROS parameter file is one, too, if it has parameters as those of greenwave_monitor.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any, cast
 
 import yaml
+from bot_console.tui.console.graph.expected_topic import TOLERANCE, ExpectedTopic, deviation, from_parameters
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.parameters.file.text import KEYWORD, sections, value_at
+from bot_console.tui.console.topics.port import Measure
 from bot_console.tui.text.yaml_faults import UNREADABLE, fault_of
 
-TOLERANCE = 0.2
-"""Relative deviation allowed from an expected rate if the file gives no tolerance."""
 PARTS = ("nodes", "topics", "services", "actions", "exact")
-ABOUT_TOPIC = ("type", "publishers", "subscribers", "rate", "tolerance")
+ABOUT_TOPIC = ("type", "publishers", "subscribers", "rate", "tolerance", "max_age")
 TOOLS = ("/rosout", "/parameter_events")
-
-
-@dataclass(frozen=True)
-class Topic:
-    """The expectations for a topic; None if the file says nothing."""
-
-    type: str | None = None
-    publishers: frozenset[str] | None = None
-    subscribers: frozenset[str] | None = None
-    rate: float | None = None
-    tolerance: float = TOLERANCE
+INFINITE = float("inf")
 
 
 @dataclass(frozen=True)
@@ -38,19 +30,31 @@ class Expected:
     """The contents of such a file."""
 
     nodes: frozenset[str] = frozenset()
-    topics: Mapping[str, Topic] = field(default_factory=lambda: {})
+    topics: Mapping[str, ExpectedTopic] = field(default_factory=lambda: {})
     services: Mapping[str, str] = field(default_factory=lambda: {})
     actions: Mapping[str, str] = field(default_factory=lambda: {})
     exact: bool = False
 
     @property
-    def rated(self) -> list[str]:
-        """The topics whose rates have to be measured."""
-        return [_full(name) for name, each in self.topics.items() if each.rate is not None]
+    def measured(self) -> dict[str, ExpectedTopic]:
+        """The topics whose messages have to be counted."""
+        return {name: each for name, each in self.topics.items() if each.is_measured}
+
+
+def read_file(path: str) -> Expected:
+    """Read such a file; raises `ValueError` with what is wrong."""
+    try:
+        return read(Path(path).expanduser().read_text("utf-8"))
+    except OSError as error:
+        raise ValueError(error.strerror or str(error)) from None
+    except UnicodeDecodeError:
+        raise ValueError("it is not a text file") from None
 
 
 def read(text: str) -> Expected:
     """Parse such a file; raises `ValueError` with what is wrong."""
+    if KEYWORD in text:
+        return Expected(topics=_of_parameters(text))
     try:
         whole: Any = yaml.safe_load(text)
     except UNREADABLE as error:
@@ -58,11 +62,19 @@ def read(text: str) -> Expected:
     found = _mapping(whole, "the file", PARTS)
     return Expected(
         _names(found.get("nodes"), "nodes"),
-        {name: _topic(name, each) for name, each in _mapping(found.get("topics"), "topics").items()},
+        {_full(name): _topic(name, each) for name, each in _mapping(found.get("topics"), "topics").items()},
         _types(found.get("services"), "services"),
         _types(found.get("actions"), "actions"),
         bool(found.get("exact", False)),
     )
+
+
+def _of_parameters(text: str) -> dict[str, ExpectedTopic]:
+    values = {name: value_at(name, place) for each in sections(text) for name, place in each.places.items()}
+    found = from_parameters(values)
+    if not found:
+        raise ValueError("none of its parameters expects a rate, as topics./scan.expected_frequency does")
+    return found
 
 
 def _mapping(value: Any, what: str, known: tuple[str, ...] = ()) -> Mapping[str, Any]:
@@ -92,28 +104,31 @@ def _types(value: Any, what: str) -> dict[str, str]:
     return {_full(name): str(each) for name, each in _mapping(value, what).items()}
 
 
-def _topic(name: str, value: Any) -> Topic:
+def _topic(name: str, value: Any) -> ExpectedTopic:
     if value is None or isinstance(value, str):
-        return Topic(type=value)
+        return ExpectedTopic(type=value)
     found = _mapping(value, name, ABOUT_TOPIC)
-    rate, tolerance = found.get("rate"), found.get("tolerance", TOLERANCE)
-    for each in (rate, tolerance):
-        if each is not None and (not isinstance(each, (int, float)) or each < 0):
+    rate, tolerance, age = found.get("rate"), found.get("tolerance", TOLERANCE), found.get("max_age")
+    for each in (rate, tolerance, age):
+        if each is not None and (
+            isinstance(each, bool) or not isinstance(each, (int, float)) or not 0 <= each < INFINITE
+        ):
             raise ValueError(f"'{each}' at {name} should be a number, zero or greater")
     ends = [
         _names(found[each], f"{each} of {name}") if each in found else None for each in ("publishers", "subscribers")
     ]
     kind = found.get("type")
-    return Topic(None if kind is None else str(kind), ends[0], ends[1], rate, float(tolerance))
+    return ExpectedTopic(None if kind is None else str(kind), ends[0], ends[1], rate, float(tolerance), age)
 
 
-def differences(expected: Expected, info: GraphInfo, rates: Mapping[str, float | None] | None = None) -> list[str]:
-    """How a graph differs from the expectations, one line each; `rates` are in Hz, as far as they were measured."""
+def differences(expected: Expected, info: GraphInfo, measured: Mapping[str, Measure] | None = None) -> list[str]:
+    """How a graph differs from the expectations, one line each; without `measured`, rates and ages are not compared."""
     nodes = {each.name: each for each in info.nodes if not each.hidden}
     found = [f"node {name} is missing" for name in sorted(expected.nodes - nodes.keys())]
     for name, topic in sorted(expected.topics.items()):
-        measured = replace(topic, rate=None) if rates is None else topic
-        found += _about_topic(_full(name), measured, list(nodes.values()), (rates or {}).get(_full(name)))
+        found += _about_topic(name, topic, list(nodes.values()))
+        if measured is not None and (text := deviation(topic, measured.get(name, Measure()))):
+            found.append(f"topic {name}: {text}, expected {topic.text}")
     kinds = (("service", expected.services, "services"), ("action", expected.actions, "action_servers"))
     for what, wanted, kind in kinds:
         there = _types_of(list(nodes.values()), kind)
@@ -124,7 +139,7 @@ def differences(expected: Expected, info: GraphInfo, rates: Mapping[str, float |
                 found.append(f"{what} {name} is of type {', '.join(sorted(there[name]))}, not {type_name}")
     if expected.exact:
         found += [f"node {name} was not expected" for name in sorted(nodes.keys() - expected.nodes)]
-        known = {_full(each) for each in expected.topics}
+        known = expected.topics.keys()
         there = _types_of(list(nodes.values()), "publishers").keys() | _types_of(list(nodes.values()), "subscriptions")
         found += [f"topic {each} was not expected" for each in sorted(there - known) if not _is_tool(each)]
     return found
@@ -143,7 +158,7 @@ def _types_of(nodes: list[NodeInfo], kind: str) -> dict[str, set[str]]:
     return found
 
 
-def _about_topic(name: str, topic: Topic, nodes: list[NodeInfo], rate: float | None) -> list[str]:
+def _about_topic(name: str, topic: ExpectedTopic, nodes: list[NodeInfo]) -> list[str]:
     publishers = {node.name for node in nodes for each in node.publishers if each.name == name}
     subscribers = {node.name for node in nodes for each in node.subscriptions if each.name == name}
     if not publishers and not subscribers:
@@ -159,13 +174,10 @@ def _about_topic(name: str, topic: Topic, nodes: list[NodeInfo], rate: float | N
         if wanted is not None:
             found += [f"{each} no longer {verb} {name}, or not yet" for each in sorted(wanted - there)]
             found += [f"{each} {verb} {name}, which was not expected" for each in sorted(there - wanted)]
-    if topic.rate is not None and (rate is None or abs(rate - topic.rate) > topic.tolerance * topic.rate):
-        measured = "nothing" if not rate else f"{rate:.3g} Hz"
-        found.append(f"topic {name} has {measured} instead of {topic.rate:g} Hz (tolerance {topic.tolerance:.0%})")
     return found
 
 
-def written(info: GraphInfo, rates: Mapping[str, float | None]) -> str:
+def written(info: GraphInfo, measured: Mapping[str, Measure]) -> str:
     """The text of a file that matches a graph, including measured rates."""
     nodes = [each for each in info.nodes if not each.hidden]
     topics: dict[str, Any] = {}
@@ -174,7 +186,7 @@ def written(info: GraphInfo, rates: Mapping[str, float | None]) -> str:
         about: dict[str, Any] = {"type": min(types[name])}
         about["publishers"] = sorted(n.name for n in nodes for each in n.publishers if each.name == name)
         about["subscribers"] = sorted(n.name for n in nodes for each in n.subscriptions if each.name == name)
-        rate = rates.get(name)
+        rate = measured[name].rate if name in measured else None
         if rate:
             about["rate"] = float(f"{rate:.2g}")
         topics[name] = about

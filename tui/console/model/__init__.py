@@ -11,6 +11,7 @@ from bot_console.tui.console.model.logs import LogFilter, LoggerLevel, LogRecord
 from bot_console.tui.console.model.parameters import Kind, ParameterInfo, ParameterTree, Value, same
 from bot_console.tui.console.model.profiles import Profile, ProfileDifference
 from bot_console.tui.console.model.range import Range
+from bot_console.tui.console.model.rates import RateCheck
 from bot_console.tui.console.model.snapshot import Capabilities, ConsoleSnapshot, LinkInfo
 
 __all__ = [
@@ -40,6 +41,7 @@ __all__ = [
     "Profile",
     "ProfileDifference",
     "Range",
+    "RateCheck",
     "SetOutcome",
     "Severity",
     "Value",

@@ -13,6 +13,7 @@ from bot_console.tui.console.model.launch import LaunchInfo
 from bot_console.tui.console.model.logs import LogState
 from bot_console.tui.console.model.parameters import ParameterTree
 from bot_console.tui.console.model.profiles import Profile
+from bot_console.tui.console.model.rates import RateCheck
 from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
 
 
@@ -62,6 +63,8 @@ class ConsoleSnapshot:
     """The profile that was applied last and not undone; empty if there is none."""
     profile_changes: int = 0
     """How many values of the active profile differ from those of the running nodes."""
+    rate_checks: tuple[RateCheck, ...] = ()
+    """The topics whose rate or age is expected; those that are late first."""
     capabilities: Capabilities = field(default_factory=Capabilities)
     problem: str = ""
     """Why the console itself cannot go on, for instance because its thread has died; empty when all is well."""

@@ -49,6 +49,11 @@ class NodeProfiles:
         return name
 
     @property
+    def active_profile(self) -> Profile | None:
+        """The active profile itself."""
+        return self._profile(self.active)
+
+    @property
     def changes(self) -> int:
         """How many values of the active profile differ from those of the running nodes."""
         profile, trees = self._profile(self.active), self._parameters.trees

@@ -14,6 +14,7 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.gate import Gate
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.topics.port import Goal, LiveMessage, Measure, Payload, Repeated, Reply, Slot, Values
+from bot_console.tui.console.topics.rate_checks import RateChecks
 
 if TYPE_CHECKING:
     from bot_console.tui.console.calls import Calls
@@ -50,6 +51,7 @@ class NodeTopics:
         self._requested: dict[str, frozenset[str]] = {}
         """The topics to measure, by requester."""
         self._earlier: dict[str, list[Values]] = {}
+        self.rate_checks = RateChecks(self)
 
     def attach(self, node: Node, calls: Calls) -> None:
         """The system has been reached."""
@@ -104,6 +106,21 @@ class NodeTopics:
     def measured(self) -> Mapping[str, Measure]:
         """Their measurements."""
         return self._meters.measured() if self._attached else {}
+
+    def expect(self, path: str) -> Answer:
+        """Check the rates and ages that a file expects."""
+        from bot_console.tui.console.graph.expected import read_file
+
+        try:
+            found = read_file(path).measured if path.strip() else {}
+        except ValueError as error:
+            return Answer(False, f"{path} cannot be used: {error}")
+        if path.strip() and not found:
+            return Answer(
+                False, f"{path} expects no rate and no age; write for instance  topics: {{/scan: {{rate: 10}}}}"
+            )
+        self.rate_checks.expect(found)
+        return Answer(True, f"checking {', '.join(found)}" if found else "no file is checked any more")
 
     def listen(self, topic: str) -> None:
         """Keep the newest message of this topic."""

@@ -139,6 +139,12 @@ class Topics(Protocol):
         """The measurements of those topics."""
         ...
 
+    def expect(self, path: str) -> Answer:
+        """Check all the time whether topics have the rates and ages that a file expects; the results are in
+        `ConsoleSnapshot.rate_checks`. An empty path ends that.
+        """
+        ...
+
     def listen(self, topic: str) -> None:
         """Keep the newest message of this topic and of no other; an empty name stops that."""
         ...

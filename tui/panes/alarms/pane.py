@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
 from bot_console.tui import keymap
-from bot_console.tui.console.model import ConsoleSnapshot
+from bot_console.tui.console.model import ConsoleSnapshot, RateCheck
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.panes.alarms.alarm import Alarm, AlarmText, texts_of
 from bot_console.tui.panes.alarms.condition import read
-from bot_console.tui.panes.alarms.rows import AlarmRows, row_of
+from bot_console.tui.panes.alarms.rows import AlarmRows, row_of, row_of_check
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
@@ -34,6 +34,9 @@ EXAMPLE = "/battery/percentage < 0.2"
 NAMED = re.compile(r"([^/<>=()]+?):\s+(.+)")
 """A name, a colon and blanks, a condition."""
 
+NO_ALARM = "This is an expected rate, not an alarm."
+EXPECTED = "Expected by a file, a profile or a monitor; E in Topics names the file."
+
 EMPTY = Placeholder(
     "An alarm watches a condition over topics and parameters and says when it becomes true.",
     (("a", f"Add an alarm, such as  low battery: {EXAMPLE}"), ("9", "Topics that can be watched"), ("?", "Help")),
@@ -48,7 +51,7 @@ class AlarmsPane(ListPane):
         "Conditions over fields of topics and parameters, such as  low battery: /battery/percentage < 0.2  or\n"
         "/scan/ranges[0] < 0.4 and /odom/twist.twist.linear.x > 1. They are watched all the time, at each message;\n"
         "each time that one begins to hold it is told once, with the terminal's bell where b asks for it. They are\n"
-        "kept for the next start."
+        "kept for the next start. Topics whose rates are expected (E in Topics) are listed first."
     )
     BINDINGS = keymap.bindings("alarms")
 
@@ -63,6 +66,8 @@ class AlarmsPane(ListPane):
         self._query = Query()
         self._waiting: dict[str, str] = {}
         """Paths that cannot be watched now, and why."""
+        self._checks: Sequence[RateCheck] = ()
+        """The topics whose rates are expected."""
         self._polled = self._drawn = self._asked = float("-inf")
 
     def compose(self) -> ComposeResult:
@@ -82,7 +87,8 @@ class AlarmsPane(ListPane):
         return self.query_one(AlarmRows)
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Redraw the list; its content comes by time, not by snapshots."""
+        """Redraw the list; its content comes by time, except for expected rates."""
+        self._checks = snapshot.rate_checks
         self._arrange()
 
     def tick(self) -> None:
@@ -131,7 +137,8 @@ class AlarmsPane(ListPane):
         for alarm in self._alarms:
             waits = next((self._waiting[each] for each in alarm.paths if each in self._waiting), "")
             alarm.problem = waits or alarm.problem
-        every = [row_of(each, now) for each in self._alarms]
+        every = [row_of_check(each, time.time()) for each in self._checks]
+        every += [row_of(each, now) for each in self._alarms]
         shown = [each for each in every if self._query.matches(f"{each.name} {each.condition}")]
         self._list.exchange(shown)
         holding = sum(each.holds is True for each in every)
@@ -140,9 +147,9 @@ class AlarmsPane(ListPane):
 
     def _describe(self) -> None:
         alarm = self._current
-        self._list.show_placeholder(FILTERED_OUT if self._alarms else EMPTY)
+        self._list.show_placeholder(FILTERED_OUT if self._alarms or self._checks else EMPTY)
         if alarm is None:
-            text = ""
+            text = EXPECTED if self._is_expected else ""
         else:
             values = "  ".join(f"{each} = {alarm.values[each]:.4g}" for each in alarm.paths if each in alarm.values)
             text = alarm.problem or values or "no value yet"
@@ -151,7 +158,12 @@ class AlarmsPane(ListPane):
     @property
     def _current(self) -> Alarm | None:
         row = self._list.current
-        return next((each for each in self._alarms if row and each.text.name == row.name), None)
+        return next((each for each in self._alarms if row and not row.expected and each.text.name == row.name), None)
+
+    @property
+    def _is_expected(self) -> bool:
+        """Whether an expected rate is at the cursor."""
+        return self._list.current is not None and self._list.current.expected
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Describe the alarm at the cursor."""
@@ -178,7 +190,9 @@ class AlarmsPane(ListPane):
     def action_edit(self) -> None:
         """Edit the alarm at the cursor."""
         alarm = self._current
-        if alarm is None:
+        if self._is_expected:
+            self.notify(NO_ALARM, severity="warning")
+        elif alarm is None:
             self.action_add()
         else:
             self._ask("alarm", f"{alarm.text.name}: {alarm.text.condition}", alarm)
@@ -226,6 +240,8 @@ class AlarmsPane(ListPane):
     def action_delete(self) -> None:
         """Delete the alarm at the cursor."""
         alarm = self._current
+        if self._is_expected:
+            self.notify(NO_ALARM, severity="warning")
         if alarm is not None:
             self._alarms.remove(alarm)
             self._release(alarm)

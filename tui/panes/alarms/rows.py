@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from bot_console.tui.console.model import RateCheck
 from bot_console.tui.console.query import Query
 from bot_console.tui.format import counted, cut, sanitize
 from bot_console.tui.panes.alarms.alarm import Alarm
@@ -32,6 +33,8 @@ class Row:
     """Whole seconds for which it is so."""
     times: int
     value: str
+    expected: bool = False
+    """Whether it is an expected rate rather than an alarm."""
 
 
 def row_of(alarm: Alarm, now: float) -> Row:
@@ -42,6 +45,12 @@ def row_of(alarm: Alarm, now: float) -> Row:
     return Row(text.name, text.condition, text.bell, alarm.holds, age, alarm.times, alarm.problem or values)
 
 
+def row_of_check(check: RateCheck, now: float) -> Row:
+    """The row of an expected rate at a time (s since the epoch)."""
+    age = max(0, int(now - check.since / 1e9)) if check.late is not None else 0
+    return Row(check.topic, check.expected, False, check.late, age, check.times, check.measured, True)
+
+
 class AlarmRows(ItemList[Row]):
     """One alarm per row."""
 
@@ -49,8 +58,8 @@ class AlarmRows(ItemList[Row]):
         """The selected row was clicked."""
 
     def key(self, item: Row) -> object:
-        """The alarm's name."""
-        return item.name
+        """The alarm's name, which may also be that of an expected topic."""
+        return item.name, item.expected
 
     def matches(self, index: int, query: Query) -> bool:
         """Whether an alarm matches a filter."""

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
 from bot_console.tui import keymap
-from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo
+from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo, RateCheck
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.console.topics.port import LiveMessage
+from bot_console.tui.files.save_file import typed_path
 from bot_console.tui.format import counted
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.topics.message import MessageRows
@@ -18,8 +19,9 @@ from bot_console.tui.panes.topics.rows import Kind, Row, matches, rows
 from bot_console.tui.panes.topics.table import TopicRows, heading
 from bot_console.tui.text.figures import age_text, rate_text
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
+from bot_console.tui.widgets.prompt.common import wrong_path
 from bot_console.tui.widgets.prompt.line import Prompt
-from bot_console.tui.widgets.prompt.question import Choice, Fill, Option
+from bot_console.tui.widgets.prompt.question import Choice, Fill, Line, Option
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
@@ -29,6 +31,7 @@ MEASURE_POLL_S = 1.0
 """Seconds between two looks at what was measured."""
 MESSAGE_POLL_S = 0.25
 """Seconds between two looks at the message that is open."""
+EXPECTED_FILE = "expected-rates-file"
 SIDE = 110
 """Cells from which list and message stand side by side."""
 
@@ -41,7 +44,8 @@ class TopicsPane(ListPane):
         "Every topic with its publishers and subscribers, rate, bandwidth, age of the newest message, latency by the\n"
         "stamps of headers, type and offered QoS; only the rows in view are measured, and only while they are seen.\n"
         "Enter opens the newest message as a tree that goes on living. P fills in a message and publishes it. m lists\n"
-        "services and actions, which Enter calls. What is wrong with a topic is marked ! and said below."
+        "services and actions, which Enter calls. What is wrong with a topic is marked ! and said below.\n"
+        "E names a file of expected rates (`bot-console graph --rates` writes one); what is late is marked, too."
     )
     BINDINGS = keymap.bindings("topics")
 
@@ -52,6 +56,7 @@ class TopicsPane(ListPane):
         super().__init__(*args, **kwargs)
         self._info: GraphInfo | None = None
         self._problem = ""
+        self._checks: Sequence[RateCheck] = ()
         self._kind = Kind.TOPICS
         self._query = Query()
         self._every = 0
@@ -105,6 +110,9 @@ class TopicsPane(ListPane):
         if snapshot.graph is not self._info or snapshot.problem != self._problem:
             self._info, self._problem = snapshot.graph, snapshot.problem
             self._arrange()
+        if snapshot.rate_checks is not self._checks:
+            self._checks = snapshot.rate_checks
+            self._list.checks = {each.topic: each for each in self._checks}
         self._poll(self.clock())
 
     def _arrange(self) -> None:
@@ -214,8 +222,12 @@ class TopicsPane(ListPane):
             return f"{goal.status}, {goal.feedback_count} feedback, {goal.seconds:.1f} s  {goal.problem}"
         if row.problem or self._list.measure_of(row.name).problem:
             return row.problem or self._list.measure_of(row.name).problem
+        check = self._list.checks.get(row.name) if self._kind is Kind.TOPICS else None
+        if check is not None and check.late:
+            return f"{check.measured}, expected {check.expected}"
         ends = f"{' '.join(row.gives) or 'nobody'} → {' '.join(row.takes) or 'nobody'}"
-        return f"{row.type}  {ends if self._kind is Kind.TOPICS else ' '.join(row.gives) or 'no server'}"
+        expected = f"expected {check.expected}  " if check is not None else ""
+        return f"{expected}{row.type}  {ends if self._kind is Kind.TOPICS else ' '.join(row.gives) or 'no server'}"
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Tell of the row at the cursor."""
@@ -341,6 +353,19 @@ class TopicsPane(ListPane):
         else:
             self.notify(f"Nothing is published to {row.name} from here at a rate.", severity="warning")
 
+    def action_expect(self) -> None:
+        """Ask for a file that expects rates, the one of last time at first; an empty name ends the checks."""
+        last = self.state_store.get(EXPECTED_FILE)
+        text = last if isinstance(last, str) else ""
+        self.ask(Line("file of expected rates", self._expect, text=text, check=_wrong_or_none))
+
+    def _expect(self, path: str) -> None:
+        path = str(typed_path(path).absolute()) if path.strip() else ""
+        answer = self.console.topics.expect(path)
+        if answer.ok and path:
+            self.state_store.put(EXPECTED_FILE, path)
+        self.report(answer)
+
     def action_fill(self) -> None:
         """Fill in a message, a request or a goal, and send it."""
         row = self._list.current
@@ -358,6 +383,10 @@ class TopicsPane(ListPane):
         self.ask(
             Fill(row.name, lambda _: None, payload=self._kind.payload, name=row.name, type=row.type, traffic=traffic)
         )
+
+
+def _wrong_or_none(text: str) -> str:
+    return wrong_path(text) if text.strip() else ""
 
 
 def _next(kind: Kind) -> Kind:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from bot_console.tui.console.model import RateCheck
 from bot_console.tui.console.topics.port import Goal, Measure, Repeated
 from bot_console.tui.format import cut, cut_name, sanitize
 from bot_console.tui.panes.topics.rows import Kind, Row
@@ -84,6 +85,8 @@ class TopicRows(ItemList[Row]):
         self.opened = ""
         """Whose message stands beside the list."""
 
+        self.checks: Mapping[str, RateCheck] = {}
+        """What is expected of topics."""
         self._measured: dict[str, Measure] = {}
         self._texts: dict[str, str] = {}
         self._columns: tuple[object, Columns] | None = None
@@ -114,7 +117,8 @@ class TopicRows(ItemList[Row]):
         top = self.scroll_offset.y
         for index in range(top, min(len(self.rows), top + self.size.height)):
             name = self.rows[index].name
-            text = self._figures(name, amounts=True, latency=True) + self._mark(name)
+            late = "!" if self.is_late(name) else ""
+            text = self._figures(name, amounts=True, latency=True) + self._mark(name) + late
             if self._texts.get(name) != text:
                 self._texts[name] = text
                 self.row_changed(index)
@@ -127,6 +131,10 @@ class TopicRows(ItemList[Row]):
         goal = self.goals.get(name)
         return "▶" if name in self.repeated or (goal is not None and goal.active) else " "
 
+    def is_late(self, name: str) -> bool:
+        """Whether a topic is not as expected."""
+        return self.kind is Kind.TOPICS and name in self.checks and self.checks[name].late is True
+
     def _figures(self, name: str, *, amounts: bool, latency: bool) -> str:
         known = self._measured.get(name, Measure())
         text = f"{rate_text(known.rate, provisional=known.provisional):>{RATE}}"
@@ -137,20 +145,21 @@ class TopicRows(ItemList[Row]):
     def row(self, index: int, width: int) -> list[Segment]:
         """Mark, name, publishers and subscribers, figures, type, QoS."""
         row, shown = self.rows[index], self.columns(width)
-        style = self._style("warn") if row.problem else None
+        late = self.is_late(row.name)
+        style = self._style("warn") if row.problem or late else None
         mark = self._mark(row.name)
         open_ = row.name == self.opened
         ends = f"{len(row.gives)}/{len(row.takes)}"
         segments = [
             Segment(mark, self._style("good")),
-            Segment("!" if row.problem else " ", style),
+            Segment("!" if row.problem or late else " ", style),
             Segment(cut_name(sanitize(row.name), shown.name - 2, pad=True), self._style("head") if open_ else style),
             Segment(f"{ends:>{ENDS}}", style or (self._style("dim") if not row.takes else None)),
         ]
         if shown.figures:
             figures = self._figures(row.name, amounts=shown.amounts, latency=shown.latency)
             rates = RATE + AMOUNT * shown.amounts
-            dim = self._style("dim") if self.measure_of(row.name).provisional else None
+            dim = self._style("dim") if self.measure_of(row.name).provisional else style if late else None
             segments += [Segment(figures[:rates], dim), Segment(figures[rates:])]
         if shown.type:
             segments.append(Segment(cut("  " + _short(row.type), shown.type, pad=True), self._style("dim")))

@@ -28,13 +28,15 @@ def run_ros(options: AttachOptions, described: str) -> int:
     def launched() -> LaunchInfo:
         return launchers.info()
 
+    settings = read_settings()
     console = RosConsole(
         launch_info=launched,
         profile_folders=[PROFILES, *options.appearance.profile_folders],
         own_profiles=config_folder() / "profiles",
         capabilities=CAPABILITIES,
         foreign=True,
-        stop_means=read_settings().stop_means,
+        stop_means=settings.stop_means,
+        expected=settings.expected,
     )
     launchers = launcher_of_machine(console.record, console.printed)
     rmw = os.environ.get("RMW_IMPLEMENTATION", "as installed")

@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 import pytest
 from bot_console.tui.console.bags.port import RecordingInfo
-from bot_console.tui.console.model import ConsoleSnapshot, LaunchInfo, LinkInfo, LogState, Severity
+from bot_console.tui.console.model import ConsoleSnapshot, LaunchInfo, LinkInfo, LogState, RateCheck, Severity
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.widgets.status_bar import drive_figures, reason_first, status_text
 
@@ -104,3 +104,10 @@ def test_topics_missing_in_a_recording_are_named() -> None:
     recording = RecordingInfo("/home/ada/bag", missing=("/a", "/b", "/c", "/tf"))
     assert "● REC bag without /a, /b, /c and 1 more" in status_text(ConsoleSnapshot(recording=recording))
     assert "without" not in status_text(ConsoleSnapshot(recording=RecordingInfo("/home/ada/bag")))
+
+
+def test_topics_that_are_late_are_named() -> None:
+    checks = (RateCheck("/scan", "10 Hz ± 20 %", "4 Hz", True), RateCheck("/odom", "50 Hz ± 20 %", "50 Hz", False))
+    assert "⚠ late: /scan 4 Hz" in status_text(ConsoleSnapshot(rate_checks=checks))
+    assert "⚠ 1 late" in status_text(ConsoleSnapshot(rate_checks=checks), columns=20)
+    assert "late" not in status_text(ConsoleSnapshot(rate_checks=checks[1:]))

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.console.graph.expected import differences, read, written
+from bot_console.tui.console.graph.expected_topic import ExpectedTopic
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.topics.port import Measure
 
 ODOM = ("nav_msgs/msg/Odometry",)
 GRAPH = GraphInfo(
@@ -24,14 +26,15 @@ services: {/reset: std_srvs/srv/Trigger}
 
 def test_an_expected_graph_has_no_differences() -> None:
     assert differences(read(FILE), GRAPH) == []
-    assert differences(read(FILE), GRAPH, {"/odom": 54.0}) == []
+    assert differences(read(FILE), GRAPH, {"/odom": Measure(rate=54.0, age=0.0)}) == []
 
 
 def test_rates_have_a_tolerance() -> None:
     expected = read(FILE)
-    assert expected.rated == ["/odom"]
-    assert differences(expected, GRAPH, {"/odom": 44.0}) == ["topic /odom has 44 Hz instead of 50 Hz (tolerance 10%)"]
-    assert "has nothing instead of 50 Hz" in differences(expected, GRAPH, {})[0]
+    assert list(expected.measured) == ["/odom"]
+    slow = {"/odom": Measure(rate=44.0, age=0.0)}
+    assert differences(expected, GRAPH, slow) == ["topic /odom: 44 Hz, expected 50 Hz ± 10 %"]
+    assert "/odom: nothing, expected 50 Hz" in differences(expected, GRAPH, {})[0]
 
 
 def test_missing_and_different_parts_are_reported_one_per_line() -> None:
@@ -58,16 +61,30 @@ actions: {/go: a/action/B}
     ]
 
 
+def test_ages_are_compared_too() -> None:
+    expected = read("topics: {odom: {max_age: 0.5}}")
+    assert differences(expected, GRAPH, {"/odom": Measure(rate=1.0, age=0.9)}) == [
+        "topic /odom: nothing for 0.9 s, expected at most 0.5 s old"
+    ]
+
+
+def test_a_parameter_file_of_greenwave_monitor_is_read() -> None:
+    text = (
+        "greenwave_monitor:\n  ros__parameters:\n    topics:\n      /odom: {expected_frequency: 50.0, tolerance: 10}\n"
+    )
+    assert read(text).topics == {"/odom": ExpectedTopic(rate=50.0, tolerance=0.1)}
+
+
 def test_exact_reports_everything_not_listed() -> None:
     found = differences(read("{nodes: [/sim], exact: true}"), GRAPH)
     assert found == ["node /nav was not expected", "topic /odom was not expected"]
 
 
 def test_a_written_file_matches_the_graph_it_was_written_from() -> None:
-    text = written(GRAPH, {"/odom": 49.7})
+    text = written(GRAPH, {"/odom": Measure(rate=49.7, age=0.0)})
     again = read(text)
     assert again.topics["/odom"].rate == 50.0 and "/_bot_console" not in text
-    assert differences(again, GRAPH, {"/odom": 49.7}) == []
+    assert differences(again, GRAPH, {"/odom": Measure(rate=49.7, age=0.0)}) == []
 
 
 @pytest.mark.parametrize(
@@ -78,6 +95,8 @@ def test_a_written_file_matches_the_graph_it_was_written_from() -> None:
         ("topics: [/odom]", "topics should be a mapping"),
         ("topics: {/odom: {rte: 5}}", "'rte' in /odom is unknown"),
         ("topics: {/odom: {rate: fast}}", "'fast' at /odom should be a number"),
+        ("topics: {/odom: {max_age: .inf}}", "'inf' at /odom should be a number"),
+        ("/robot: {ros__parameters: {speed: 1.0}}", "none of its parameters expects a rate"),
         ("nodes: [", "this is not YAML"),
         ("nodes: !!timestamp x", "this is not YAML: has a value that its tag does not allow"),
         ("[" * 1000, "this is not YAML: nested too deeply"),
