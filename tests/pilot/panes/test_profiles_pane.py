@@ -39,6 +39,22 @@ def test_differences_are_shown_before_applying() -> None:
     run(live(), play, (120, 40))
 
 
+def test_profiles_are_compared_until_one_is_previewed_and_c_compares_all() -> None:
+    async def play(session: Session) -> None:
+        await session.press("7")
+        row = next(line for line in session.lines() if "max_speed" in line)
+        assert "1.0" in row and "3.0" in row and "⚠" in row and "→" not in row
+        await session.press("down")
+        assert "1.0 → 3.0" in session.text()
+        await session.press("c")
+        assert "1.0 → 3.0" not in session.text()
+        assert any("max_speed" in line and "⚠" in line for line in session.lines())
+        await session.press("c")
+        assert "1.0 → 3.0" in session.text()
+
+    run(live(), play, (80, 24))
+
+
 def test_description_is_shown_in_full_at_80_columns_and_after_resizing() -> None:
     title = "Outdoor: higher speed, larger distances, and then so many words that no list has room for all of them"
     system = live()

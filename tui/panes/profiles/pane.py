@@ -17,6 +17,7 @@ from bot_console.tui.files.save_file import typed_path
 from bot_console.tui.format import counted, value_text
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
+from bot_console.tui.panes.profiles.comparison import ComparisonRows, compared
 from bot_console.tui.panes.profiles.dry_run import Asking
 from bot_console.tui.panes.profiles.presets import PresetMenu
 from bot_console.tui.panes.profiles.replacement import Replacement
@@ -24,6 +25,7 @@ from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, ent
 from bot_console.tui.panes.profiles.user_profiles import OwnProfiles
 from bot_console.tui.safety.stop_messages import stops_of_ending
 from bot_console.tui.state_store import LAST_FILE
+from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.prompt.common import wrong_path
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Confirmation, Line
@@ -45,6 +47,8 @@ class ProfilesPane(ListPane):
     HELP = (
         "A profile is a ROS parameter file with the settings for one environment. Below the list stands what it\n"
         "would change, and what would be refused: by descriptors, and by nodes that can check values in advance.\n"
+        "Where it would change nothing, and for every profile after c, all profiles are compared: ⚠ less safe than\n"
+        "now, ✗ would be refused, dim: as now.\n"
         "a sets the values live, all or nothing over all nodes; w also resets the simulator into the profile's world.\n"
         "o opens any parameter file the same way, S saves what runs as a profile; m renames and d deletes one that\n"
         "was saved so. A launch profile takes the place of the running system, after a question. p shows the presets\n"
@@ -59,6 +63,8 @@ class ProfilesPane(ListPane):
         self._outcomes: dict[tuple[str, str], SetOutcome] = {}
         self._reported = ""
         self._held = False
+        self._comparing = False
+        """Whether the user wants the comparison even where there is something to preview."""
         self._query = Query()
         self._own = OwnProfiles(self.console, self._later, self.ask, self.report)
         self._asking = Asking(self.console, self._later, self._compare)
@@ -71,6 +77,8 @@ class ProfilesPane(ListPane):
         yield ProfileRows()
         yield StaticText(id="profile-head")
         yield DifferenceRows()
+        yield Picture(id="profile-columns")
+        yield ComparisonRows()
         yield StaticText(id="profile-status")
         yield Prompt(id="profile-prompt")
 
@@ -110,10 +118,27 @@ class ProfilesPane(ListPane):
         if profile is not None and not self._held:
             self._differences = () if profile.problem else self.console.profiles.differences(profile.name)
             self._asking.ask(self._differences, self._snapshot)
-        shown = self.query_one(DifferenceRows)
-        shown.exchange(entries(self._differences, self._outcomes, self._asking, shown.size.width or self.size.width))
-        self.query_one("#profile-head", StaticText).show_whole(self._head(profile), HEAD)
+        if not self._show_comparison(profile):
+            shown = self.query_one(DifferenceRows)
+            width = shown.size.width or self.size.width
+            shown.exchange(entries(self._differences, self._outcomes, self._asking, width))
+            self.query_one("#profile-head", StaticText).show_whole(self._head(profile), HEAD)
         self.query_one("#profile-status", StaticText).show_whole(self._reported or self._summary(profile), STATUS)
+
+    def _show_comparison(self, profile: Profile | None) -> bool:
+        """Compare all profiles if the user wants it, or there is nothing to preview; whether they differ at all."""
+        wanted = self._comparing or not (self._differences or self._outcomes or self._held)
+        rows, width = self.query_one(ComparisonRows), self.size.width
+        if wanted:
+            snapshot, listed = self._snapshot, self._list.rows
+            rows.show(compared(snapshot, listed, profile, self.console.profiles.differences, width))
+            self.query_one("#profile-columns", Picture).set_lines((rows.heading(width),))
+        compares = wanted and bool(rows.rows)
+        for part, visible in (("#profile-columns", compares), ("#profile-head", not compares)):
+            self.query_one(part).display = visible
+        rows.display = compares
+        self.query_one(DifferenceRows).display = not compares
+        return compares
 
     def on_resize(self) -> None:
         """Fold what is said anew."""
@@ -172,9 +197,15 @@ class ProfilesPane(ListPane):
         self._outcomes, self._reported, self._held = {}, "", False
         self._compare()
 
+    def action_compare(self) -> None:
+        """Compare all profiles, or preview the selected one again."""
+        self._comparing = not self._comparing
+        self._compare()
+
     def action_scroll(self, step: int) -> None:
-        """Scroll the differences."""
-        shown = self.query_one(DifferenceRows)
+        """Scroll what is below the list."""
+        comparison = self.query_one(ComparisonRows)
+        shown = comparison if comparison.display else self.query_one(DifferenceRows)
         shown.scroll_relative(y=step * max(1, shown.size.height // 2), animate=False, force=True)
 
     def action_apply(self, reset_world: bool) -> None:

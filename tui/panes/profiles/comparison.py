@@ -1,0 +1,215 @@
+"""Compares profiles: columns are profiles, rows the values in which they differ, the riskiest first."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from bot_console.tui.console.model import ConsoleSnapshot, ParameterInfo, Profile, ProfileDifference, Value
+from bot_console.tui.console.parameters.safety import importance
+from bot_console.tui.console.parameters.unit import unit_in_description
+from bot_console.tui.format import cut, sanitize, value_text
+from bot_console.tui.widgets.item_list import ItemList
+from bot_console.tui.widgets.picture import Line
+from rich.cells import cell_len
+from rich.segment import Segment
+
+MIN_COLUMN, MAX_COLUMN = 12, 18
+"""Cells of the column of a profile."""
+NAMES, UNITS, NODES = 22, 6, 24
+"""Cells of a parameter's name, of its unit, and of its node, which is left out first."""
+LAST = 9
+"""The rank of parameters that no rule of safety knows."""
+MAX_DRAWN = 1e300
+"""Numbers from this size on, infinite ones and NaN have no bar."""
+BARS = "▁▂▃▄▅▆▇█"
+
+
+@dataclass(frozen=True)
+class Cell:
+    """The value that a profile gives a parameter; `mark` is ⚠ if it is less safe than now, ✗ if it is refused."""
+
+    value: Value
+    mark: str = ""
+    bar: str = " "
+    stays: bool = False
+
+
+@dataclass(frozen=True)
+class ComparedValue:
+    """A parameter in which profiles differ, of one node or several, with its value now and in each profile."""
+
+    nodes: tuple[str, ...]
+    name: str
+    unit: str
+    cells: tuple[Cell, ...]
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """The titles of the columns, the first one being what runs, and the rows."""
+
+    titles: tuple[str, ...] = ()
+    rows: tuple[ComparedValue, ...] = ()
+    left_out: int = 0
+    """Profiles for whose columns there is no room."""
+    shown: int = -1
+    """The column of the selected profile."""
+
+
+def columns_in(width: int) -> int:
+    """The number of columns that fit a width in cells, at least what runs and one profile."""
+    return max(2, (width - NAMES - UNITS) // MIN_COLUMN)
+
+
+def compared(
+    snapshot: ConsoleSnapshot,
+    profiles: Sequence[Profile],
+    selected: Profile | None,
+    differences: Callable[[str], Sequence[ProfileDifference]],
+    width: int,
+) -> Comparison:
+    """Compare what runs with as many profiles as fit, the selected one among them.
+
+    Launch profiles and unreadable files have no values. `differences` is what applying a profile would change.
+    """
+    current = snapshot.active_profile
+    unchanged = bool(current) and not snapshot.profile_changes
+    usable = [each for each in profiles if not (each.problem or each.launch or (unchanged and each.name == current))]
+    room = columns_in(width) - 1
+    names = [each.name for each in usable]
+    chosen = names.index(selected.name) if selected is not None and selected.name in names else -1
+    first = max(0, min(chosen - room + 1, len(names) - room))
+    visible = names[first : first + room]
+    titles = (f"● {current}" if unchanged else "now", *(f"● {each}" if each == current else each for each in visible))
+    changes = [{(each.node, each.name): each for each in differences(name) if not each.unknown} for name in visible]
+    keys = dict.fromkeys(key for each in changes for key in each)
+    trees = snapshot.parameters
+    found = [
+        (_rank(parameter, changes), _row(parameter, changes))
+        for node, name in keys
+        if node in trees and (parameter := trees[node].get(name)) is not None
+    ]
+    found.sort(key=lambda each: (each[0], each[1].name, each[1].nodes))
+    shown = 0 if chosen < 0 else chosen - first + 1
+    return Comparison(titles, _merged(row for _, row in found), len(names) - len(visible), shown)
+
+
+def _merged(rows: Iterable[ComparedValue]) -> tuple[ComparedValue, ...]:
+    """The rows, with one for all nodes that have the same parameter with the same values."""
+    found: dict[tuple[str, str, tuple[Cell, ...]], ComparedValue] = {}
+    for row in rows:
+        key = (row.name, row.unit, row.cells)
+        before = found.get(key)
+        found[key] = row if before is None else replace(before, nodes=before.nodes + row.nodes)
+    return tuple(found.values())
+
+
+_Changes = Mapping[tuple[str, str], ProfileDifference]
+
+
+def _rank(parameter: ParameterInfo, changes: Sequence[_Changes]) -> tuple[bool, int]:
+    """What takes from the robot's safety in any profile comes first, then what decides most of how it drives."""
+    key = (parameter.node, parameter.name)
+    unsafe = any(key in each and each[key].unsafe for each in changes)
+    rank = importance(parameter)
+    return not unsafe, LAST if rank is None else rank
+
+
+def _row(parameter: ParameterInfo, changes: Sequence[_Changes]) -> ComparedValue:
+    key = (parameter.node, parameter.name)
+    found = [each.get(key) for each in changes]
+    values = [parameter.value, *(parameter.value if each is None else each.then for each in found)]
+    bars = _bars(values)
+    cells = [Cell(parameter.value, bar=bars[0])]
+    for value, bar, each in zip(values[1:], bars[1:], found, strict=True):
+        mark = "" if each is None else "✗" if each.refusal else "⚠" if each.unsafe else ""
+        cells.append(Cell(value, mark, bar, each is None))
+    return ComparedValue((parameter.node,), parameter.name, unit_in_description(parameter.description), tuple(cells))
+
+
+def _bars(values: Sequence[Value]) -> list[str]:
+    """A bar for each number, on the scale from zero to the greatest of them."""
+    numbers = [each for each in values if isinstance(each, (int, float)) and not isinstance(each, bool)]
+    if len(numbers) < len(values):
+        return [" "] * len(values)
+    finite = [each for each in numbers if abs(each) < MAX_DRAWN]
+    low, high = min(0, 0, *finite), max(0, 0, *finite)
+    steps = len(BARS) - 1
+    return [
+        BARS[round((each - low) / ((high - low) or 1) * steps)] if abs(each) < MAX_DRAWN else " " for each in numbers
+    ]
+
+
+class ComparisonRows(ItemList[ComparedValue]):
+    """The values in which profiles differ, one column for each profile."""
+
+    can_focus = False
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.comparison = Comparison()
+        self._repeated: set[str] = set()
+
+    def key(self, item: ComparedValue) -> object:
+        """The parameter."""
+        return item.nodes, item.name
+
+    def show(self, comparison: Comparison) -> None:
+        """Show a comparison."""
+        before, self.comparison = self.comparison, comparison
+        counts = Counter(each.name for each in comparison.rows)
+        self._repeated = {name for name, count in counts.items() if count > 1}
+        self.exchange(comparison.rows)
+        if (before.titles, before.shown) != (comparison.titles, comparison.shown):
+            self.refresh()
+
+    def heading(self, width: int) -> Line:
+        """The titles of the columns, that of the selected profile in its own colour."""
+        names, across, nodes = self._columns(width)
+        parts = [(" " * (names + UNITS), "")]
+        for at, title in enumerate(self.comparison.titles):
+            text = cut(sanitize(title), across - 1)
+            parts += [
+                (" " * (across - 1 - cell_len(text)), ""),
+                (text, "accent" if at == self.comparison.shown else "dim"),
+            ]
+            parts += [(" ", "")]
+        left = f"  +{self.comparison.left_out}" if self.comparison.left_out else ""
+        return (*parts, ("  node" if nodes else "", "dim"), (left, "dim"))
+
+    def _columns(self, width: int) -> tuple[int, int, int]:
+        """The cells of the names, of each profile and of the nodes."""
+        count = max(1, len(self.comparison.titles))
+        longest = max((cell_len(self._label(each)) for each in self.comparison.rows), default=0) + 2
+        names = min(max(longest, 12), max(NAMES, width - UNITS - count * MIN_COLUMN))
+        across = min(MAX_COLUMN, max(MIN_COLUMN, (width - names - UNITS) // count))
+        return names, across, NODES if width - names - UNITS - across * count >= NODES else 0
+
+    def _label(self, row: ComparedValue) -> str:
+        name, first = sanitize(row.name), next(iter(row.nodes), "")
+        if len(row.nodes) > 1:
+            return f"{name} ×{len(row.nodes)}"
+        return f"{name} {sanitize(first.rpartition('/')[2])}" if row.name in self._repeated else name
+
+    def row(self, index: int, width: int) -> list[Segment]:
+        """Name, unit, and for each profile its value, a bar and a mark."""
+        row = self.rows[index]
+        names, across, nodes = self._columns(width)
+        dim = self.part_style("row-list--dim")
+        parts = [
+            Segment(cut(self._label(row), names - 1, pad=True) + " "),
+            Segment(cut(sanitize(row.unit), UNITS - 1, pad=True) + " ", dim),
+        ]
+        marks = {"⚠": self.part_style("row-list--warn"), "✗": self.part_style("row-list--error")}
+        for at, cell in enumerate(row.cells):
+            text = cut(sanitize(value_text(cell.value)), across - 5)
+            chosen = self.part_style("row-list--strong") if at == self.comparison.shown else None
+            style = marks.get(cell.mark, dim if cell.stays else chosen)
+            parts += [
+                Segment(" " * (across - 5 - cell_len(text)) + text + " ", style),
+                Segment(cell.bar, dim if cell.stays else style),
+                Segment(f" {cell.mark or ' '} ", marks.get(cell.mark)),
+            ]
+        return [*parts, Segment(f"  {sanitize(' '.join(row.nodes))}" if nodes else "", dim)]
