@@ -206,6 +206,9 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("profiles.scroll_up", "left,h", "scroll(-1)", "Scroll the values up"),
     ),
     "history": (
+        Key("history.open", "enter", "open", "List the changes of a set, or close it", footer=True, short="Open"),
+        Key("history.fold", "left,h", "fold(True)", "Close the set"),
+        Key("history.unfold", "right,l", "fold(False)", "Open the set"),
         Key("history.back", "u", "back", "Go back to this row", footer=True, short="Back to here"),
         Key("history.before", "b", "before", "Restore the value from before this change", footer=True, short="Before"),
         Key("history.refused", "x", "refused", "Only what was refused, or all", footer=True, short="Refused"),

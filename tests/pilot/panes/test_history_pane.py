@@ -52,6 +52,22 @@ def test_source_and_reason_fit_at_80_columns_beside_long_names() -> None:
     run(live(), play, (80, 24))
 
 
+def test_values_set_together_are_one_row_that_enter_opens_and_undoes_together() -> None:
+    async def play(session: Session) -> None:
+        session.console.take(NAVIGATOR, {"max_speed": 3.0, "turn_rate": 2.0}, ChangeSource.PROFILE, by="outdoor")
+        await session.press("H")
+        assert "▸ profile outdoor  2 values, 2 less safe" in session.text()
+        assert "▲" in session.lines()[2], "the line of time"
+        await session.press("enter")
+        assert "▾ profile outdoor" in session.text() and "1.0 → 2.0" in session.text()
+        await session.press("down", "left")
+        assert "▸ profile outdoor" in session.text() and "1.0 → 2.0" not in session.text()
+        await session.press("b", "y")
+        assert asked(session) == [{NAVIGATOR: {"max_speed": 1.0, "turn_rate": 1.0}}]
+
+    run(live(), play, (100, 30))
+
+
 def test_going_back_to_a_row_asks_and_sets_all_values_together() -> None:
     async def play(session: Session) -> None:
         session.console.parameters.set(NAVIGATOR, {"max_speed": 2.0})

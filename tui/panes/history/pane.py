@@ -15,9 +15,12 @@ from bot_console.tui.console.query import Query, parse
 from bot_console.tui.format import counted, sanitize, value_text
 from bot_console.tui.panes.history.export import FORMS, export
 from bot_console.tui.panes.history.revert import Return, returns, values_at
-from bot_console.tui.panes.history.rows import ChangeRows, command, day_text, details, words
+from bot_console.tui.panes.history.rows import ChangeRows, command, day_text, details, set_details, words
+from bot_console.tui.panes.history.sets import ChangeSet, changes_of, grouped
+from bot_console.tui.panes.history.strip import time_strip
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.text.refusals import of_many
+from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Confirmation
@@ -43,9 +46,10 @@ class HistoryPane(ListPane):
     TITLE = "History"
     HELP = (
         "Every change of a parameter and every refusal, whoever made it, the newest first; those of earlier runs\n"
-        "stand below with their date. u goes back to a row: whatever was changed after it gets the value that it had\n"
-        "then, all or nothing, after a question. Log and plot look at the moment of the row at the cursor; Escape is\n"
-        "now."
+        "stand below with their date. What was changed together, as by a profile, is one row that Enter opens; the\n"
+        "line at the top shows the rows of one run over time. u goes back to a row: whatever was changed after it\n"
+        "gets the value that it had then, all or nothing, after a question. Log and plot look at the moment of the\n"
+        "row at the cursor; Escape is now."
     )
     BINDINGS = keymap.bindings("history")
 
@@ -56,9 +60,12 @@ class HistoryPane(ListPane):
         self._query = Query()
         self._only_refused = False
         self._problem = ""
+        self._opened: set[tuple[str, int]] = set()
+        """The sets whose changes are listed."""
 
     def compose(self) -> ComposeResult:
-        """The changes, what is known of the one at the cursor, a prompt."""
+        """A line of time, the changes, what is known of the one at the cursor, a prompt."""
+        yield Picture(id="history-strip")
         yield ChangeRows()
         yield StaticText(id="history-detail")
         yield Prompt(id="history-prompt")
@@ -84,7 +91,7 @@ class HistoryPane(ListPane):
     def _arrange(self) -> None:
         """Show what passes the filter."""
         shown = [each for each in reversed(self._every) if self._wanted(each)]
-        self._list.exchange(shown)
+        self._list.exchange(grouped(shown, self._opened, self._is_unsafe))
         more = ("refused" if self._only_refused else "", self._journal.problem)
         self.report_filter(len(shown), len(self._every), *more)
         self._describe()
@@ -94,17 +101,40 @@ class HistoryPane(ListPane):
             return False
         return not self._query.terms or self._query.matches(words(change), change.node)
 
+    def _is_unsafe(self, change: Change) -> bool:
+        tree = self.console.snapshot().parameters.get(change.node)
+        parameter = tree.get(change.name) if tree and change.accepted else None
+        return parameter is not None and bool(takes_safety(parameter, change.old, change.new))
+
     def _describe(self) -> None:
-        change = self._list.current
+        row = self._list.current
         self._list.show_placeholder(FILTERED_OUT if self.words or self._only_refused else EMPTY)
-        text = details(change) if change is not None else Text(sanitize(self._problem), "dim")
+        strip = self.query_one("#history-strip", Picture)
+        line = time_strip(self._list.rows, row, self.size.width)
+        strip.display = bool(line)
+        strip.set_lines((line,))
+        if isinstance(row, ChangeSet):
+            text = set_details(row)
+        else:
+            text = details(row) if row is not None else Text(sanitize(self._problem), "dim")
         self.query_one("#history-detail", StaticText).show_text(text)
+
+    def on_picture_resized(self, event: Picture.Resized) -> None:
+        """Draw the line of time for the new width."""
+        event.stop()
+        self._describe()
+
+    @property
+    def _current(self) -> Change | None:
+        """The change at the cursor; the last one of a set."""
+        row = self._list.current
+        return row.newest if isinstance(row, ChangeSet) else row
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Another change: tell of it, and look at its moment."""
         event.stop()
         self._describe()
-        change = self._list.current
+        change = self._current
         if change is not None and self._list.has_focus:
             self.time_cursor.move(change.stamp, self)
 
@@ -137,15 +167,41 @@ class HistoryPane(ListPane):
 
     def action_back(self) -> None:
         """Go back to the row at the cursor, after a question."""
-        change = self._list.current
+        change = self._current
         if change is not None:
             moment = day_text(change.stamp)
             self._ask(values_at(self._every, change), f"Go back to {moment}, {change.node} {change.name}?")
 
+    def action_open(self) -> None:
+        """List the changes of a set, or no longer."""
+        row = self._list.current
+        if isinstance(row, ChangeSet):
+            self._fold(row, row.opened)
+
+    def action_fold(self, closes: bool) -> None:
+        """Open or close the set at the cursor, or the one that the change at the cursor is part of."""
+        row, at = self._list.current, self._list.cursor
+        if closes and isinstance(row, Change):
+            above = (each for each in reversed(self._list.rows[:at]) if isinstance(each, ChangeSet))
+            row = next((each for each in above if row in each.changes), None)
+        if isinstance(row, ChangeSet):
+            self._fold(row, closes)
+
+    def _fold(self, row: ChangeSet, closes: bool) -> None:
+        if closes == row.opened:
+            self._opened ^= {row.key}
+            self._arrange()
+            self._list.cursor = next(at for at, each in enumerate(self._list.rows) if self._list.key(each) == row.key)
+
     def action_before(self) -> None:
         """Put the value before one change back, after a question where that takes from the robot's safety."""
-        change = self._list.current
+        row, change = self._list.current, self._current
         if change is None:
+            return
+        if isinstance(row, ChangeSet):
+            # The oldest change of a value comes last, so that its old value stays.
+            olds = {(each.node, each.name): each.old for each in row.changes if each.accepted and each.old is not None}
+            self._ask(olds, f"Put {counted(len(olds), 'value')} back?")
             return
         if not change.accepted:
             self.notify(f"{change.name} was not set, so there is nothing to put back.")
@@ -196,15 +252,16 @@ class HistoryPane(ListPane):
 
     def action_plot(self) -> None:
         """Plot the parameter at the cursor."""
-        change = self._list.current
+        change = self._current
         if change is not None:
             self.post_message(self.PlotWanted(f"{change.node}:{change.name}"))
 
     def action_copy(self) -> None:
         """Copy the command that makes the change, through the terminal (OSC 52)."""
-        change = self._list.current
+        change = self._current
         if change is not None:
-            text = command(change, change.new)
+            row = self._list.current
+            text = "\n".join(command(each, each.new) for each in reversed(changes_of(row))) if row else ""
             self.host.copy_to_clipboard(text)
             self.notify(text, title="Copied")
 
@@ -213,4 +270,5 @@ class HistoryPane(ListPane):
         self.ask_file(f"export to ({' '.join(FORMS)})", "history.csv", self._export)
 
     def _export(self, path: Path) -> Answer:
-        return Answer(True, f"{counted(export(path, self._list.rows[::-1]), 'change')} exported to {path}")
+        shown = [each for each in self._every if self._wanted(each)]
+        return Answer(True, f"{counted(export(path, shown), 'change')} exported to {path}")

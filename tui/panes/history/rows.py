@@ -7,7 +7,9 @@ from collections.abc import Sequence
 
 from bot_console.tui.console.model import Change, ChangeSource, Kind, ParameterInfo, Value
 from bot_console.tui.console.query import Query
-from bot_console.tui.format import clock_text, command_of, cut, sanitize, value_text
+from bot_console.tui.format import clock_text, command_of, counted, cut, sanitize, value_text
+from bot_console.tui.panes.history.sets import ChangeSet, HistoryRow, changes_of
+from bot_console.tui.text.bars import bars
 from bot_console.tui.text.refusals import verdict_of_change
 from bot_console.tui.widgets.item_list import ItemList
 from rich.segment import Segment
@@ -34,6 +36,10 @@ SPARED = 8
 TAIL = 16
 """Cells that are kept for who, or why not."""
 MOMENT, MARK = 12, 2
+BARS = 4
+"""Cells of the old and the new value as bars, with a gap; left out first."""
+INDENT = "  "
+"""What stands before the name of a change of an open set."""
 NARROW = 70
 """Below so many cells no node is named in a row; what is known of the row at the cursor names it."""
 
@@ -55,6 +61,10 @@ def words(change: Change) -> str:
 def day_text(stamp: int) -> str:
     """Date and time of a change of an earlier run, in local time."""
     return time.strftime("%m-%d %H:%M", time.localtime(stamp // 10**9))
+
+
+def _moment(change: Change) -> str:
+    return day_text(change.stamp) if change.seq < 0 else clock_text(change.stamp)[:8]
 
 
 def changed_text(change: Change) -> str:
@@ -82,30 +92,53 @@ def details(change: Change) -> Text:
     return text
 
 
-class ChangeRows(ItemList[Change]):
-    """Changes, the newest first."""
+def set_text(row: ChangeSet) -> str:
+    """How many values a set has, and what is to be known of them."""
+    refused = sum(not each.accepted for each in row.changes)
+    text = counted(len(row.changes), "value")
+    text += f", {row.unsafe} less safe" if row.unsafe else ""
+    return text + (f", {refused} refused or not set" if refused else "")
+
+
+def set_details(row: ChangeSet) -> Text:
+    """Which values a set has changed."""
+    text = Text(no_wrap=False, overflow="fold")
+    begin, end = clock_text(row.changes[-1].stamp), clock_text(row.stamp)
+    text.append(f"{sanitize(who(row.newest))}  {set_text(row)}\n", "bold")
+    text.append(f"{day_text(row.stamp)[:5]} {begin} .. {end} · Enter lists them, u goes back to after them\n", "dim")
+    text.append(", ".join(dict.fromkeys(sanitize(each.name) for each in reversed(row.changes))), "dim")
+    return text
+
+
+class ChangeRows(ItemList[HistoryRow]):
+    """Changes, and sets of changes, the newest first."""
 
     def __init__(self) -> None:
         super().__init__()
         self._node = self._name = self._values = 0
+        self._members: frozenset[int] = frozenset()
+        """The changes that stand below their set."""
 
-    def key(self, item: Change) -> object:
+    def key(self, item: HistoryRow) -> object:
         """A change is itself, wherever it stands."""
-        return item.seq
+        return item.key if isinstance(item, ChangeSet) else item.seq
 
-    def exchange(self, rows: Sequence[Change], *, stay: bool = True) -> None:
+    def exchange(self, rows: Sequence[HistoryRow], *, stay: bool = True) -> None:
         """Show other changes; the cursor stays on its own, or on the newest where it was there."""
         before = self._node, self._name, self._values
-        self._node = min(NODE, max((len(each.node) for each in rows), default=0))
-        self._name = min(NAME, max((len(each.name) for each in rows), default=0))
-        self._values = min(VALUES, max((len(changed_text(each)) for each in rows[:200]), default=0))
+        single = [each for each in rows if not isinstance(each, ChangeSet)]
+        sets = [each for each in rows if isinstance(each, ChangeSet)]
+        self._members = frozenset(each.seq for found in sets if found.opened for each in found.changes)
+        self._node = min(NODE, max((len(each.node) for each in single), default=0))
+        self._name = min(NAME, max((len(each.name) for each in single), default=0) + (len(INDENT) if sets else 0))
+        self._values = min(VALUES, max((len(changed_text(each)) for each in single[:200]), default=0))
         super().exchange(rows, stay=stay and self.cursor > 0)
         if (self._node, self._name, self._values) != before:
             self.refresh()
 
     def matches(self, index: int, query: Query) -> bool:
-        """Whether a change matches a filter."""
-        return query.matches(words(self.rows[index]), self.rows[index].node)
+        """Whether a change, or one of a set, matches a filter."""
+        return any(query.matches(words(each), each.node) for each in changes_of(self.rows[index]))
 
     def _style(self, name: str) -> Style:
         return self.part_style(f"row-list--{name}")
@@ -122,18 +155,39 @@ class ChangeRows(ItemList[Change]):
             found.append(each - given)
         return found[0], found[2], found[1]
 
+    def _bars(self, change: Change, width: int) -> list[Segment]:
+        """The old and the new value as bars, where there is room."""
+        taken = MOMENT + MARK + sum(each + len(GAP) for each in self._widths(width) if each)
+        if width < taken + BARS + 2 * TAIL:
+            return []
+        text = "".join(bars((change.old, change.new)))
+        return [Segment(text + " " * (BARS - len(text)), self._style("dim" if change.accepted else "error"))]
+
+    def _set(self, row: ChangeSet) -> list[Segment]:
+        """A set: who made it, and how many values it has."""
+        bad = any(not each.accepted for each in row.changes)
+        sign, loud = "▾" if row.opened else "▸", self._style("error" if bad else "warn" if row.unsafe else "dim")
+        return [
+            Segment(f"{_moment(row.newest):<{MOMENT}}", self._style("dim")),
+            Segment(f"{sign} ", self._style("dim")),
+            Segment(sanitize(who(row.newest)) + GAP, self._style("strong")),
+            Segment(set_text(row), loud),
+        ]
+
     def row(self, index: int, width: int) -> list[Segment]:
-        """One change."""
+        """One change, or a set."""
         change = self.rows[index]
         dim = self._style("dim")
+        if isinstance(change, ChangeSet):
+            return self._set(change)
         of_node, of_name, of_values = self._widths(width)
-        moment = day_text(change.stamp) if change.seq < 0 else clock_text(change.stamp)[:8]
+        moment = _moment(change)
         node = sanitize(change.node)
         node = cut("…" + node[1 - of_node :] if len(node) > of_node else node, of_node, pad=True)
         head = [Segment(f"{moment:<{MOMENT}}", dim)]
         if of_node:
             head.append(Segment(node + GAP, dim))
-        name = cut(sanitize(change.name), of_name, pad=True)
+        name = cut((INDENT if change.seq in self._members else "") + sanitize(change.name), of_name, pad=True)
         mark = MARKS[verdict_of_change(change)]
         values = cut(changed_text(change), of_values, pad=True)
         refused = self._style("error")
@@ -143,5 +197,6 @@ class ChangeRows(ItemList[Change]):
             Segment(f"{mark} ", refused),
             Segment(name + GAP, self._style("plain") if change.accepted else refused),
             Segment(values + GAP, self._style("strong") if change.accepted else refused),
+            *self._bars(change, width),
             Segment(tail, dim if change.accepted else refused),
         ]

@@ -10,6 +10,7 @@ from bot_console.tui.console.model import ConsoleSnapshot, ParameterInfo, Profil
 from bot_console.tui.console.parameters.safety import importance
 from bot_console.tui.console.parameters.unit import unit_in_description
 from bot_console.tui.format import cut, sanitize, value_text
+from bot_console.tui.text.bars import bars
 from bot_console.tui.widgets.item_list import ItemList
 from bot_console.tui.widgets.picture import Line
 from rich.cells import cell_len
@@ -21,9 +22,6 @@ NAMES, UNITS, NODES = 22, 6, 24
 """Cells of a parameter's name, of its unit, and of its node, which is left out first."""
 LAST = 9
 """The rank of parameters that no rule of safety knows."""
-MAX_DRAWN = 1e300
-"""Numbers from this size on, infinite ones and NaN have no bar."""
-BARS = "▁▂▃▄▅▆▇█"
 
 
 @dataclass(frozen=True)
@@ -121,25 +119,12 @@ def _row(parameter: ParameterInfo, changes: Sequence[_Changes]) -> ComparedValue
     key = (parameter.node, parameter.name)
     found = [each.get(key) for each in changes]
     values = [parameter.value, *(parameter.value if each is None else each.then for each in found)]
-    bars = _bars(values)
-    cells = [Cell(parameter.value, bar=bars[0])]
-    for value, bar, each in zip(values[1:], bars[1:], found, strict=True):
+    drawn = bars(values)
+    cells = [Cell(parameter.value, bar=drawn[0])]
+    for value, bar, each in zip(values[1:], drawn[1:], found, strict=True):
         mark = "" if each is None else "✗" if each.refusal else "⚠" if each.unsafe else ""
         cells.append(Cell(value, mark, bar, each is None))
     return ComparedValue((parameter.node,), parameter.name, unit_in_description(parameter.description), tuple(cells))
-
-
-def _bars(values: Sequence[Value]) -> list[str]:
-    """A bar for each number, on the scale from zero to the greatest of them."""
-    numbers = [each for each in values if isinstance(each, (int, float)) and not isinstance(each, bool)]
-    if len(numbers) < len(values):
-        return [" "] * len(values)
-    finite = [each for each in numbers if abs(each) < MAX_DRAWN]
-    low, high = min(0, 0, *finite), max(0, 0, *finite)
-    steps = len(BARS) - 1
-    return [
-        BARS[round((each - low) / ((high - low) or 1) * steps)] if abs(each) < MAX_DRAWN else " " for each in numbers
-    ]
 
 
 class ComparisonRows(ItemList[ComparedValue]):

@@ -1,0 +1,49 @@
+"""The changes of the history on a line of time. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from bot_console.tui.format import clock_text
+from bot_console.tui.panes.history.sets import HistoryRow, changes_of
+from bot_console.tui.text.refusals import verdict_of_change
+from bot_console.tui.widgets.picture import Line, Piece
+
+MIN_CELLS = 12
+"""Cells of the line of time; on less, none is drawn."""
+CHANGED, REFUSED, CHOSEN = "▲", "✗", "◆"
+
+
+def time_strip(rows: Sequence[HistoryRow], chosen: HistoryRow | None, width: int) -> Line:
+    """A mark for each row of the run of the chosen one, or of the newest, between its first and its last change."""
+    if not rows:
+        return ()
+    run = changes_of(chosen or rows[0])[0].run
+    shown = [each for each in rows if changes_of(each)[0].run == run]
+    first, last = min(each.stamp for each in shown), max(each.stamp for each in shown)
+    begin, end = (f" {clock_text(each)[:8]} " for each in (first, last))
+    cells = width - len(begin) - len(end)
+    if cells < MIN_CELLS or first == last:
+        return ()
+    marks: list[Piece] = [("─", "dim")] * cells
+    for each in shown:
+        at = (each.stamp - first) * (cells - 1) // (last - first)
+        if any(verdict_of_change(change) for change in changes_of(each)):
+            marks[at] = (REFUSED, "error")
+        elif marks[at][0] != REFUSED:
+            marks[at] = (CHANGED, "accent")
+    if chosen is not None:
+        at = (chosen.stamp - first) * (cells - 1) // (last - first)
+        marks[at] = (CHOSEN, "error" if marks[at][0] == REFUSED else "strong")
+    return ((begin, "dim"), *_joined(marks), (end, "dim"))
+
+
+def _joined(marks: Sequence[Piece]) -> list[Piece]:
+    """Neighbours of the same style as one piece."""
+    found: list[Piece] = []
+    for text, style in marks:
+        if found and found[-1][1] == style:
+            found[-1] = (found[-1][0] + text, style)
+        else:
+            found.append((text, style))
+    return found
