@@ -339,6 +339,7 @@ TABLE: dict[str, tuple[Key, ...]] = {
             footer=True,
             short="Details",
         ),
+        Key("launch.write", "S", "write", "Write a launch file that starts the running nodes again", shown="S"),
         Key("launch.timeline", "t", "timeline", "All launch events"),
         Key("launch.fold", "left,h", "fold(True)", "Close the group"),
         Key("launch.unfold", "right,l", "fold(False)", "Open the group"),

@@ -142,6 +142,10 @@ class Bus(Protocol):
         """The frozen processes, by pid, with their nodes, as far as known."""
         ...
 
+    def processes(self) -> Mapping[int, Sequence[str]]:
+        """The other processes of this machine in the domain, by pid, with their nodes, as far as known."""
+        ...
+
     def overhear(self, hear: Hear | None) -> None:
         """Pass on each message that this process publishes or receives; None ends that.
 

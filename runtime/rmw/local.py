@@ -51,6 +51,10 @@ class LocalBus:
         with self._lock:
             return sum(each.published for publishers in self._publishers.values() for each in publishers)
 
+    def processes(self) -> Mapping[int, Sequence[str]]:
+        """No other processes are in this domain."""
+        return {}
+
     def overhear(self, hear: Hear | None) -> None:
         """Pass on each published message, without a subscription; None ends that."""
         self.tap.hear = hear

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -42,6 +42,7 @@ class NodePorts:
         link: Callable[[], LinkInfo],
         buffer: Keeper | None,
         types: TypeSource | None,
+        processes: Callable[[], Mapping[int, Sequence[str]]],
     ) -> None:
         self.gate = Gate()
         self._capabilities = capabilities
@@ -52,7 +53,7 @@ class NodePorts:
         provenance = Provenance(self._profile_at)
         self.start_values = provenance.starts
         self.logs = NodeLogs(self.gate)
-        self.graph = NodeGraph(self.gate)
+        self.graph = NodeGraph(self.gate, launch_info, lambda: self.parameters.trees, processes)
         self.topics = NodeTopics(self.gate, lambda: self.graph.info, types)
         self.drive = RobotDrive(
             self.gate,

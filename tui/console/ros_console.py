@@ -9,7 +9,7 @@ import os
 import threading
 import time
 import traceback
-from collections.abc import Callable, Container, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
@@ -58,6 +58,7 @@ class RosConsole(NodePorts):
         types: TypeSource | None = None,
         stop_means: Sequence[ConfiguredMeans] = (),
         expected: str = "",
+        processes: Callable[[], Mapping[int, Sequence[str]]] = dict,
     ) -> None:
         """`own_profiles` is where profiles are saved; `workspace_profiles` finds further folders with profiles;
         `active_profile` is the name, or the absolute path, of the one with which the system starts.
@@ -67,7 +68,8 @@ class RosConsole(NodePorts):
 
         `link` returns the state of the network; `foreign`: see `ConsoleNode`; `buffer` keeps the last minutes; `frozen`
         returns nodes of stopped processes; `types` builds missing message types; `stop_means` stop robots without lock;
-        `expected` is the path of a file with the rates that topics should have.
+        `expected` is the path of a file with the rates that topics should have; `processes` returns the nodes of
+        programs on this machine, by pid.
         """
         super().__init__(
             self._connect_robot,
@@ -76,6 +78,7 @@ class RosConsole(NodePorts):
             link=link,
             buffer=buffer,
             types=types,
+            processes=processes,
         )
         self._profile_store_of = profile_folders, own_profiles, workspace_profiles, fetch
         self._active_profile = active_profile

@@ -17,7 +17,14 @@ from bot_console.tui.pane_table import PaneEntry
 from bot_console.tui.session import robot_starter
 from bot_console.tui.session.composition import embedded, node_process
 from bot_console.tui.session.embedded.domain import nodes_there
-from bot_console.tui.session.embedded.hooks import DomainTypes, fetched, frozen_nodes, graph_events, take_over_streams
+from bot_console.tui.session.embedded.hooks import (
+    DomainTypes,
+    fetched,
+    frozen_nodes,
+    graph_events,
+    node_processes,
+    take_over_streams,
+)
 from bot_console.tui.session.embedded.process_reports import log_process_reports
 from bot_console.tui.session.embedded.ros2_command_line import Ros2CommandLine
 from bot_console.tui.session.embedded.workspaces import SIMULATOR_LAUNCH, SYSTEM_LAUNCH, config_folders
@@ -68,6 +75,7 @@ class Connected:
             types=DomainTypes(),
             stop_means=settings.stop_means,
             expected=settings.expected,
+            processes=node_processes,
         )
         self.launcher = system(self.console)
         self._local_tuner = LocalTuner()

@@ -10,8 +10,10 @@ from typing import TypeVar
 
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.session.embedded.domain import socket_folder
+from bot_console.tui.session.embedded.hooks import node_processes
 from bot_console.tui.session.embedded.reaching import reach_ros
 from bot_console.tui.session.launch_host.address import connect_to_host, host_addresses
+from bot_console.tui.session.launch_host.merged import MergedInfo
 from bot_console.tui.session.launch_host.proxy import HostedLauncher
 
 LINK = 10.0
@@ -26,14 +28,18 @@ T = TypeVar("T")
 def reached_console(*, learning: bool = False) -> Generator[RosConsole | None]:
     """A console on the system of this domain, or behind the routers in the environment; None, after printing why.
 
-    With `learning`, the launch hosts of the domain report what nodes have declared.
+    With `learning`, the launch hosts of the domain report what they have launched, and what nodes have declared.
     """
     alone = reach_ros()
     if alone:
         print(alone, file=sys.stderr)
         yield None
         return
-    console = RosConsole()
+    hosts: dict[str, HostedLauncher] = {}
+    launches = MergedInfo()
+    console = RosConsole(
+        launch_info=lambda: launches.of({name: each.info() for name, each in hosts.items()}), processes=node_processes
+    )
     console.start()
     with contextlib.ExitStack() as stack:
         stack.callback(console.close)
@@ -42,16 +48,17 @@ def reached_console(*, learning: bool = False) -> Generator[RosConsole | None]:
             yield None
             return
         if learning:
-            _listen_to_hosts(console, stack)
+            _listen_to_hosts(console, hosts, stack)
         yield console
 
 
-def _listen_to_hosts(console: RosConsole, stack: contextlib.ExitStack) -> None:
+def _listen_to_hosts(console: RosConsole, hosts: dict[str, HostedLauncher], stack: contextlib.ExitStack) -> None:
     for address in host_addresses(socket_folder()):
         connection = connect_to_host(address)
         if connection is not None:
             host = HostedLauncher(connection, console.record, console.printed, owner=False, learn=console.learn)
             stack.callback(host.close)
+            hosts[address] = host
 
 
 def known(console: RosConsole, timeout_s: float) -> bool:

@@ -255,7 +255,13 @@ class ZenohBus:
 
     def stopped(self) -> Mapping[int, Sequence[str]]:
         """The frozen processes of the mesh, by pid, with their nodes; Zenoh itself considers them alive for long."""
-        pids = self._session.stopped()
+        return self._nodes_of(self._session.stopped())
+
+    def processes(self) -> Mapping[int, Sequence[str]]:
+        """The processes of the mesh on this machine, by pid, with their nodes."""
+        return self._nodes_of(self._session.processes())
+
+    def _nodes_of(self, pids: Mapping[str, int]) -> Mapping[int, Sequence[str]]:
         if not pids:
             return {}
         nodes = self._graph().nodes_of(pids)

@@ -108,6 +108,10 @@ class Session(Lifetime):
         """The frozen processes of the mesh: the first 8 digits of their session ids, mapped to their pids."""
         return {}
 
+    def processes(self) -> Mapping[str, int]:
+        """The processes of the mesh on this machine: the first 8 digits of their session ids, mapped to their pids."""
+        return {}
+
     def stopped_afar(self) -> Sequence[int]:
         """The pids of frozen processes behind a router, as far as it reports them; empty without a router."""
         return ()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.sensors.frame_model import Frames
 from bot_console.tui.console.sensors.model import Diagnostics, Level, Picture, ReportedStatus, Status
 
@@ -16,6 +17,7 @@ class FakeSensors:
         self.tree = Frames()
         self.watched = False
         self.watched_nodes: set[str] = set()
+        self.written_launches: list[str] = []
 
     def diagnostics(self) -> Diagnostics:
         return self.info
@@ -31,6 +33,10 @@ class FakeSensors:
 
     def watch_nodes(self, on: bool, requester: str) -> None:
         self.watched_nodes = self.watched_nodes - {requester} | ({requester} if on else set())
+
+    def write_launch(self, path: str) -> Answer:
+        self.written_launches.append(path)
+        return Answer(True, f"{path}: 2 programs")
 
     def frames(self) -> Frames:
         return self.tree if self.watched else Frames()

@@ -152,6 +152,17 @@ def test_a_launch_file_is_picked_and_its_arguments_are_filled_in() -> None:
     run(live(), play)
 
 
+def test_a_launch_file_for_what_runs_is_written(tmp_path) -> None:
+    async def play(session: Session) -> None:
+        await session.press("8", "S", "ctrl+u")
+        await session.type(str(tmp_path / "again.launch.py"))
+        await session.press("enter")
+        assert session.console.graph.written_launches == [str(tmp_path / "again.launch.py")]
+        assert "2 programs" in session.text()
+
+    run(live(), play, (100, 30))
+
+
 def test_argument_outside_its_choices_is_rejected() -> None:
     async def play(session: Session) -> None:
         session.launcher.declared = arguments()[:1]

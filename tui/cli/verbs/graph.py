@@ -18,6 +18,8 @@ from bot_console.tui.format import sanitize
 from bot_console.tui.session.reached_console import reached_console, settled
 from bot_console.tui.settings.settings import read_settings
 
+PARAMETERS_TIMEOUT_S = 15.0
+"""Seconds to wait for the parameters of all nodes."""
 STILL = 1.0
 """Seconds without a change after which the graph counts as known."""
 GRAPH_POLL_S = 0.1
@@ -46,13 +48,15 @@ def run(words: list[str]) -> int:
         except ValueError as error:
             print(f"{given.check} cannot be used: {sanitize(str(error))}", file=sys.stderr)
             return 2
-    with reached_console() as console:
+    with reached_console(learning=given.launch is not None) as console:
         return 1 if console is None else _judge(console, expected, given)
 
 
 def _judge(console: RosConsole, expected: Expected | None, given: argparse.Namespace) -> int:
     if expected is not None:
         return _compare(console, expected, given)
+    if given.launch is not None:
+        return _write_launch(console, given)
     info = _known(console, given.wait)
     if given.findings:
         found = findings(info)
@@ -65,6 +69,21 @@ def _judge(console: RosConsole, expected: Expected | None, given: argparse.Names
     topics = [each.name for each in info.topics] if given.rates else []
     print(written(info, _measured(console, topics, given.measure)), end="")
     return 0
+
+
+def _with_parameters(console: RosConsole) -> tuple[GraphInfo, bool]:
+    """The graph, and whether all of its nodes with parameters have reported them."""
+    snapshot = console.snapshot()
+    nodes = [each for each in snapshot.graph.nodes if not each.hidden]
+    offered = {n.name for n in nodes for each in n.services if each.name == f"{n.name}/list_parameters"}
+    return snapshot.graph, bool(nodes) and offered <= snapshot.parameters.keys()
+
+
+def _write_launch(console: RosConsole, given: argparse.Namespace) -> int:
+    settled(lambda: _with_parameters(console), lambda found: found[1], STILL, max(given.wait, PARAMETERS_TIMEOUT_S))
+    answer = console.graph.write_launch(given.launch)
+    print(sanitize(answer.text), file=sys.stdout if answer.ok else sys.stderr)
+    return 0 if answer.ok else 2
 
 
 def lines_of(info: GraphInfo, hides: Iterable[str]) -> Iterator[str]:
@@ -133,6 +152,13 @@ def _parser() -> argparse.ArgumentParser:
     what.add_argument("--text", action="store_true", help="print a line for each topic, service and action")
     what.add_argument(
         "--findings", action="store_true", help="print what looks wrong, such as a topic that nobody publishes"
+    )
+    what.add_argument(
+        "--launch",
+        nargs="?",
+        const="live.launch.py",
+        metavar="FILE",
+        help="write a launch file, and a parameter file beside it, that start the running nodes again (live.launch.py)",
     )
     parser.add_argument("--rates", action="store_true", help="also write the rates of topics")
     parser.add_argument("--wait", type=float, default=5.0, metavar="S", help="seconds to wait for the graph (5)")

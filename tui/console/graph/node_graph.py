@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.gate import Gate
-from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.model import GraphInfo, LaunchInfo, ParameterTree
 
 if TYPE_CHECKING:
     from bot_console.tui.console.graph.watch import GraphWatch
@@ -18,8 +20,16 @@ class NodeGraph:
 
     _watch: GraphWatch | None = None
 
-    def __init__(self, gate: Gate) -> None:
+    def __init__(
+        self,
+        gate: Gate,
+        launch: Callable[[], LaunchInfo],
+        trees: Callable[[], Mapping[str, ParameterTree]],
+        processes: Callable[[], Mapping[int, Sequence[str]]],
+    ) -> None:
+        """`processes` returns the nodes of programs on this machine, by pid."""
         self._gate = gate
+        self._launch, self._trees, self._processes = launch, trees, processes
         self._requesters: frozenset[str] = frozenset()
 
     def attach(self, watch: GraphWatch) -> None:
@@ -30,6 +40,19 @@ class NodeGraph:
     def info(self) -> GraphInfo:
         """The graph; the same object until it changes."""
         return self._watch.info if self._watch else NO_GRAPH
+
+    def write_launch(self, path: str) -> Answer:
+        """Write a launch file and a parameter file."""
+        from bot_console.tui.console.launch.launch_writer import RunningSystem, write_launch
+        from bot_console.tui.files.save_file import NotSaved, typed_path
+
+        if self._gate.unreached:
+            return Answer(False, self._gate.unreached)
+        try:
+            system = RunningSystem(self.info, self._launch(), self._trees(), self._processes())
+            return Answer(True, write_launch(typed_path(path), system).text)
+        except NotSaved as error:
+            return Answer(False, f"not saved: {error}")
 
     def watch_nodes(self, on: bool, requester: str) -> None:
         """Check which nodes respond while a requester wants it, as soon as the system is reached."""

@@ -4,9 +4,15 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from bot_console.tui.console.answer import Answer
+
 
 class Graph(Protocol):
     """Watches what costs the nodes something only while somebody looks at it."""
+
+    def write_launch(self, path: str) -> Answer:
+        """Write a launch file and a parameter file that start the running nodes again, as far as that can be known."""
+        ...
 
     def watch_nodes(self, on: bool, requester: str) -> None:
         """Check which nodes do not respond (`GraphInfo.silent`) while a requester wants it, unless that is known from

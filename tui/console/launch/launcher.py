@@ -268,8 +268,9 @@ class RosLauncher(ProcessVerbs):
         """Add a new process."""
         key = f"{event.process_name}@{len(self._held)}"
         place = run.tree.place(event.action, context)
-        process = LaunchedProcess(key, event.process_name, place)
-        held = _Held(process, run, event.action, recipe(event, context))
+        made_from = recipe(event, context)
+        process = LaunchedProcess(key, event.process_name, place, made_from.program)
+        held = _Held(process, run, event.action, made_from)
         self._held[key] = self._by_action[event.action] = held
         if self._closed or run.ending:
             process.exit_requested()

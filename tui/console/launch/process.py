@@ -9,7 +9,7 @@ from dataclasses import replace
 from enum import Enum
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.model import ProcessInfo, ProcessState
+from bot_console.tui.console.model import ProcessInfo, ProcessState, Program
 
 INTERRUPTED = (0, -2, -15, 130)
 """Exit codes of a process that ended on request."""
@@ -34,8 +34,8 @@ class Order(Enum):
 class LaunchedProcess:
     """The displayed state of a process, and the requests waiting for its next change."""
 
-    def __init__(self, key: str, label: str, group: tuple[str, ...] = ()) -> None:
-        self.info = ProcessInfo(key, label, ProcessState.STARTING, group=group)
+    def __init__(self, key: str, label: str, group: tuple[str, ...] = (), program: Program | None = None) -> None:
+        self.info = ProcessInfo(key, label, ProcessState.STARTING, group=group, program=program)
         self._starts = 0
         self._alive = False
         self._ran = False

@@ -13,6 +13,8 @@ import shlex
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from bot_console.tui.console.model import Program
+
 if TYPE_CHECKING:
     from launch.events.process import ProcessStarted
 
@@ -29,6 +31,14 @@ class Recipe:
     prefix: str
     is_node: bool
     package: str | None
+
+    @property
+    def program(self) -> Program:
+        """The same for people and files; what an environment adds is not in it."""
+        command = tuple(map(str, self.command[len(shlex.split(self.prefix)) :]))
+        respawn, delay = bool(self.options.get("respawn")), self.options.get("respawn_delay")
+        folder = self.options.get("cwd") or ""
+        return Program(command, self.package or "", self.prefix, str(folder), respawn, delay)
 
     def action(self) -> Any:
         """A new action that runs the same program."""

@@ -6,7 +6,14 @@ not changed since the last snapshot is the same object, so a pane redraws by com
 
 from bot_console.tui.console.model.changes import RESTARTED, Change, ChangeSource, JournalState, SetOutcome
 from bot_console.tui.console.model.graph import Endpoint, GraphInfo, IncompatiblePair, NodeInfo
-from bot_console.tui.console.model.launch import LaunchArgument, LaunchEvent, LaunchInfo, ProcessInfo, ProcessState
+from bot_console.tui.console.model.launch import (
+    LaunchArgument,
+    LaunchEvent,
+    LaunchInfo,
+    ProcessInfo,
+    ProcessState,
+    Program,
+)
 from bot_console.tui.console.model.logs import LogFilter, LoggerLevel, LogRecord, LogState, Severity
 from bot_console.tui.console.model.parameters import Kind, ParameterInfo, ParameterTree, Value, same
 from bot_console.tui.console.model.profiles import Profile, ProfileDifference
@@ -40,6 +47,7 @@ __all__ = [
     "ProcessState",
     "Profile",
     "ProfileDifference",
+    "Program",
     "Range",
     "RateCheck",
     "SetOutcome",

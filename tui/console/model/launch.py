@@ -22,6 +22,21 @@ class ProcessState(str, Enum):
 
 
 @dataclass(frozen=True, slots=True)
+class Program:
+    """What a process runs: its command without the prefix, and what launch did with it."""
+
+    command: tuple[str, ...]
+    package: str = ""
+    """Empty: the path of the program suffices."""
+    prefix: str = ""
+    folder: str = ""
+    """The working directory; empty: that of the launch."""
+    respawn: bool = False
+    respawn_delay: float | None = None
+    """Seconds."""
+
+
+@dataclass(frozen=True, slots=True)
 class ProcessInfo:
     """A process that a launch file started. `group` is its path of launch files and groups, outermost first."""
 
@@ -44,6 +59,8 @@ class ProcessInfo:
     """When a person, or the end of its launch, last requested its end."""
     ended: int = 0
     """When it last ended."""
+    program: Program | None = None
+    """None: not known, as from a launch host of an earlier version."""
 
 
 @dataclass(frozen=True, slots=True)

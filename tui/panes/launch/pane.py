@@ -254,6 +254,14 @@ class LaunchPane(ListPane):
         if not answer.ok:
             self.report(answer)
 
+    def action_write(self) -> None:
+        """Ask for the launch file to write."""
+
+        def write(path: Path) -> Answer:
+            return self.console.graph.write_launch(str(path))
+
+        self.ask_file("write a launch file for what runs", "live.launch.py", write, replaces=False)
+
     def action_open(self) -> None:
         """Choose a launch file, fill in its arguments, run it."""
         if self.launcher is None or self._why_not:

@@ -31,6 +31,14 @@ def frozen_nodes(domain: int) -> Mapping[int, Sequence[str]]:
     return bus_of(domain).stopped()
 
 
+def node_processes() -> Mapping[int, Sequence[str]]:
+    """The processes of this machine in the domain, by pid, with their nodes."""
+    from bot_console.runtime.rmw.middleware import bus_of
+    from bot_console.tui.session.embedded.domain import domain
+
+    return bus_of(domain()).processes()
+
+
 def fetched(address: str) -> Path:
     """The local copy of a parameter file on a server."""
     from bot_console.runtime.files.remote_parameters import local_copy

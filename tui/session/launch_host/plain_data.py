@@ -12,6 +12,7 @@ from bot_console.tui.console.model import (
     LaunchInfo,
     ProcessInfo,
     ProcessState,
+    Program,
     Severity,
 )
 
@@ -45,6 +46,9 @@ def to_info(data: Mapping[str, Any], before: LaunchInfo, kept: int) -> LaunchInf
 def _process(data: Mapping[str, Any]) -> ProcessInfo:
     fields = dict(data)
     fields.update(state=ProcessState(data["state"]), nodes=tuple(data["nodes"]), group=tuple(data["group"]))
+    if (program := data.get("program")) is not None:
+        words: dict[str, Any] = {**program, "command": tuple(program["command"])}
+        fields["program"] = Program(**words)
     return ProcessInfo(**fields)
 
 

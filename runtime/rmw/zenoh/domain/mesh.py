@@ -148,6 +148,10 @@ class MeshSession(Session):
         found = sockets(os.path.dirname(self.socket.path))
         return {each.zid: each.pid for each in found if each != self.socket and each.is_stopped()}
 
+    def processes(self) -> Mapping[str, int]:
+        """All processes of the mesh, including this one."""
+        return {each.zid: each.pid for each in sockets(os.path.dirname(self.socket.path))}
+
     def pid_of(self, zid: str) -> int | None:
         """The process of another session of the mesh."""
         found = sockets(os.path.dirname(self.socket.path))

@@ -36,12 +36,14 @@ def save(
     nodes: tuple[str, ...] = (),
     *,
     only_changed: bool = False,
+    all_of_them: bool = False,
     title: str = "",
 ) -> Saved:
     """Write the parameters of some nodes (default: all); raises `NotSaved`, in which case the file is unchanged.
 
     With `only_changed`, only those that differ from their declared value or, if that is unknown, from their start
-    value. `title` is a comment line at the beginning of a new file.
+    value. With `all_of_them`, also built-in ones, and those that cannot be set in a running node. `title` is a comment
+    line at the beginning of a new file.
 
     In an existing file, values are replaced in place and new ones are added.
     """
@@ -49,7 +51,8 @@ def save(
     left_out: list[str] = []
     for tree in trees.values():
         for each in tree.parameters if not nodes or tree.node in nodes else ():
-            if each.value is None or each.name in BUILT_IN or each.read_only or (only_changed and not each.changed):
+            left = not all_of_them and (each.name in BUILT_IN or each.read_only or (only_changed and not each.changed))
+            if each.value is None or left:
                 continue
             if reason := _unwritable(each):
                 left_out.append(f"{each.node} {each.name} {reason}")
