@@ -5,6 +5,11 @@ It is a separate module because verbs that start nothing set it, too.
 
 from __future__ import annotations
 
+import os
+
+RANGE_VARIABLE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
+"""Not imported from `rmw`: launch, which uses this module, does not depend on the middleware."""
+
 _meet = False
 
 
@@ -15,5 +20,5 @@ def let_children_meet(meet: bool) -> None:
 
 
 def children_meet() -> bool:
-    """Whether they join the domain."""
-    return _meet
+    """Whether they join the domain; never if the environment keeps programs from discovering each other."""
+    return _meet and os.environ.get(RANGE_VARIABLE, "") != "OFF"

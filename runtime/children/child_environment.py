@@ -9,15 +9,12 @@ import os
 import sys
 from collections.abc import Iterable, Mapping
 
-from bot_console.runtime.children.child_discovery import children_meet
+from bot_console.runtime.children.child_discovery import RANGE_VARIABLE, children_meet
 from bot_console.runtime.commands import BIN, COMMAND_VARIABLE, command
 from bot_console.runtime.importer import is_installed
 from bot_console.runtime.shim_folder import shim_folder
 from bot_console.runtime.workspace.discover import SOURCED_VARIABLE, workspace
 from bot_console.runtime.workspace.program import source_folders
-
-RANGE_VARIABLE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
-"""Not imported from `rmw`: launch, which uses this module, does not depend on the middleware."""
 
 EMBEDDED = {"BOT_CONSOLE_RUNTIME": "embedded"}
 """Makes the shims stand for the embedded runtime even if there is a real rclpy: a child meets its parent's nodes."""

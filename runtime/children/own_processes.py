@@ -18,9 +18,10 @@ WARM_UP = "bot_console.runtime.children.warm_up:warm_up"
 PREPARE = "bot_console.runtime.children.import_prefetch:import_needed"
 MEMBER_PROGRAM = "bot_console.runtime.rmw.lockstep.member_program:member_program"
 """The function of jobs whose process takes part in a stepped run; named only, as launch does not depend on rmw."""
+SHARE = "bot_console.runtime.rmw.zenoh.domain.domain_bus:share_domains"
+"""What a process calls first that joins the domain; named only, for the same reason."""
 
 _guard = threading.Lock()
-_beginnings: list[str] = []
 _servers: list[ForkServer] = []
 
 
@@ -45,21 +46,8 @@ def close_fork_server() -> None:
         each.close()
 
 
-def begin_children_with(function: str) -> None:
-    """Make each child process call `package.module:function` before anything else, for instance to choose its
-    middleware.
-    """
-    if function not in _beginnings:
-        _beginnings.append(function)
-
-
-def beginnings() -> list[str]:
-    """Return the functions that each child process calls first."""
-    return list(_beginnings)
-
-
-def begun(called: Sequence[str], function: str, arguments: Sequence[Any]) -> Callable[[], object]:
-    """In the child process: return what to run, after calling the functions that come first."""
-    for each in called:
-        function_named(each)()
+def begun(joins: bool, function: str, arguments: Sequence[Any]) -> Callable[[], object]:
+    """In the child process: return what to run, after joining the domain if the program `joins` it."""
+    if joins:
+        function_named(SHARE)()
     return function_named(function)(*arguments)

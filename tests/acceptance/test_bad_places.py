@@ -137,9 +137,8 @@ def test_launch_runs_without_log_files_if_home_is_unwritable(tmp_path: Path) -> 
     assert f"log files are not kept: {home}/.ros/log cannot be written" in done.stderr
 
 
-@pytest.mark.parametrize("isolation", ["process", "thread"])
 def test_files_in_working_folder_do_not_shadow_libraries_of_launch_host(
-    isolation: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     for name in ("queue", "tty", "yaml", "socket", "random", "launch", "bot_console"):
         (tmp_path / f"{name}.py").write_text("raise SystemExit('not meant for you')\n")
@@ -149,7 +148,7 @@ def test_files_in_working_folder_do_not_shadow_libraries_of_launch_host(
     monkeypatch.chdir(tmp_path)
     host = start_host(log=tmp_path / "host.log")
     launcher = HostedLauncher(host.connection, lambda *record: None, lambda *printed: None)
-    answer = launcher.launch(str(PROGRAM_LAUNCH), {"program": str(node), "isolation": isolation}).result(TIMEOUT_S)
+    answer = launcher.launch(str(PROGRAM_LAUNCH), {"program": str(node)}).result(TIMEOUT_S)
     states = [each.state for each in launcher.info().processes]
     launcher.close()
     host.end()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import subprocess
 import sys
 from collections.abc import Mapping
@@ -79,6 +80,16 @@ from launch_ros.actions import Node
 def generate_launch_description():
     return LaunchDescription([Node(executable={file!r}, output="screen")])
 """
+LAUNCHING = """
+from launch import LaunchDescription, LaunchService
+from launch_ros.actions import Node
+
+service = LaunchService(noninteractive=True)
+service.include_launch_description(LaunchDescription([Node(executable={file!r}, output="screen")]))
+raise SystemExit(service.run())
+"""
+"""A script that launches without `bot-console`."""
+FIRST_MADE_UP_PID = (1 << 22) + 1
 
 
 @pytest.fixture
@@ -90,20 +101,24 @@ def finish(line: list[str], env: Mapping[str, str], cwd: Path) -> subprocess.Com
     return subprocess.run(line, env=dict(env), cwd=cwd, capture_output=True, text=True, check=False, timeout=100)
 
 
-@pytest.mark.parametrize("way", ["run", "launch", "python3"])
+@pytest.mark.parametrize("way", ["run", "launch", "python3", "script"])
 def test_children_meet_their_parent(way: str, home: Path) -> None:
-    file, launch = home / "parent.py", home / "children.launch.py"
+    file, launch, script = home / "parent.py", home / "children.launch.py", home / "launching.py"
     file.write_text(PARENT)
     launch.write_text(LAUNCH.format(file=str(file)))
+    script.write_text(LAUNCHING.format(file=str(file)))
     line = {
         "run": ["bot-console", "run", str(file)],
         "launch": ["bot-console", "launch", str(launch), "--noninteractive"],
         "python3": [str(PYTHON), str(file)],
+        "script": [str(PYTHON), str(script)],
     }[way]
     own = {"ROS_DOMAIN_ID": "3", "BOT_CONSOLE_SOCKET_DIR": str(home)}
-    env = {**(set_up(home) if way == "python3" else environment(home)), **own}
+    env = {**(set_up(home) if way in ("python3", "script") else environment(home)), **own}
     done = finish(["env", *line], env, home)
     assert FOUND in done.stdout, done.stdout + done.stderr
+    launched = map(int, re.findall(r"process started with pid \[(\d+)\]", done.stdout + done.stderr))
+    assert all(pid < FIRST_MADE_UP_PID for pid in launched), done.stdout
 
 
 def test_process_forked_after_init_is_reported(home: Path) -> None:

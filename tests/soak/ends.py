@@ -60,8 +60,8 @@ KINDS: dict[str, Callable[[Terminal], None]] = {
     "node raises": lambda terminal: terminal.type("q"),
 }
 
-NODES = {"node aborts": ("process", "os.abort()"), "node raises": ("thread", "raise RuntimeError('broken node')")}
-"""Kinds in which a node has died before the end: its isolation, and how it dies."""
+NODES = {"node aborts": "os.abort()", "node raises": "raise RuntimeError('broken node')"}
+"""Kinds in which a node has died before the end, and how it dies."""
 
 NODE = """import os, rclpy
 rclpy.init()
@@ -80,11 +80,10 @@ def generate_launch_description():
 
 def died(kind: str, folder: Path) -> list[str]:
     """The console's arguments for a kind in which a node dies; writes its launch file."""
-    isolation, act = NODES[kind]
     node, launch = folder / "broken_node.py", folder / "broken.launch.py"
-    node.write_text(NODE.format(act))
+    node.write_text(NODE.format(NODES[kind]))
     launch.write_text(LAUNCH_FILE.format(str(node)))
-    return ["--launch", str(launch), "--simulator", f"isolation:={isolation}"]
+    return ["--launch", str(launch), "--simulator"]
 
 
 def end(kind: str, folder: Path, base: Path) -> str:

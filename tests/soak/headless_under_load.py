@@ -139,7 +139,18 @@ SYSTEMS = {each.__name__: each for each in (robot, course, aborted)}
 
 def run(words: list[str]) -> str:
     """The outcome of one run: its report, or its last output."""
-    line = [sys.executable, "-X", "faulthandler", "-m", "bot_console.tui", "--headless", "--fast", "--seed", "1", *words]
+    line = [
+        sys.executable,
+        "-X",
+        "faulthandler",
+        "-m",
+        "bot_console.tui",
+        "--headless",
+        "--fast",
+        "--seed",
+        "1",
+        *words,
+    ]
     env = {**os.environ, "PYTHONHASHSEED": str(random.randrange(1 << 32))}
     with subprocess.Popen(
         line, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=env, start_new_session=True
@@ -159,7 +170,9 @@ def stacks(hanging: subprocess.Popen[str]) -> str:
     """End a process that hangs; returns what it has printed, and the stacks of its threads and its children's."""
     found: list[str] = []
     if spy := shutil.which("py-spy"):
-        looked = subprocess.run([spy, "dump", "--subprocesses", "--pid", str(hanging.pid)], capture_output=True, text=True)
+        looked = subprocess.run(
+            [spy, "dump", "--subprocesses", "--pid", str(hanging.pid)], capture_output=True, text=True, check=False
+        )
         found.append(looked.stdout + looked.stderr)
     os.killpg(hanging.pid, signal.SIGABRT)
     try:

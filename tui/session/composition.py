@@ -28,7 +28,7 @@ from bot_console.tui.console.bags.port import RingSize
 from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.session.embedded.child_host import why_it_hangs
 from bot_console.tui.session.embedded.domain import domain, socket_folder, take_part
-from bot_console.tui.session.embedded.own_processes import isolate, watch_threads
+from bot_console.tui.session.embedded.own_processes import watch_threads
 from bot_console.tui.session.embedded.process_reports import log_process_reports
 from bot_console.tui.session.embedded.rotating_file import rotate_launch_files
 from bot_console.tui.session.embedded.vitals import find_vitals
@@ -148,7 +148,6 @@ def become_host(workspaces: Sequence[Path]) -> str:
     choose(workspaces)
     if problem := take_part():
         return problem
-    isolate()
     watch_threads()
     rotate_launch_files()
     return ""

@@ -4,7 +4,7 @@ This is a process of the operating system (`os_child`), a node process, i.e. a t
 a separate process for a Python program (`forked_child`).
 """
 
-from bot_console.runtime.children.own_processes import CAN_FORK, begin_children_with, close_fork_server, fork_server
+from bot_console.runtime.children.own_processes import CAN_FORK, close_fork_server, fork_server
 from launch.child.child import Child, Output
 from launch.child.process_reports import News, on_news, report_news
 from launch.child.python_program import PythonProgram
@@ -16,7 +16,6 @@ __all__ = [
     "News",
     "Output",
     "PythonProgram",
-    "begin_children_with",
     "close_fork_server",
     "fork_server",
     "on_news",

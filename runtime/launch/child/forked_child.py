@@ -9,7 +9,8 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from typing import NamedTuple
 
-from bot_console.runtime.children.own_processes import beginnings, begun, fork_server
+from bot_console.runtime.children.child_discovery import children_meet
+from bot_console.runtime.children.own_processes import begun, fork_server
 from bot_console.runtime.process.fork_server import Job, Report
 from launch.child.child import Output
 from launch.child.process_reports import NewsReader
@@ -144,7 +145,7 @@ async def start_forked_child(
     """Run a program in a separate process; raises `OSError` if it cannot be started."""
     loop = asyncio.get_running_loop()
     child = ForkedChild(name, output, loop)
-    words = (beginnings(), program.function, program.arguments)
+    words = (children_meet(), program.function, program.arguments)
     first = f"{begun.__module__}:{begun.__name__}"
     job = Job(name, first, words, list(argv), dict(env), os.path.abspath(cwd or os.getcwd()))
     own = start_job(job, emulate_tty=emulate_tty)

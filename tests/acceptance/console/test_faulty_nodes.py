@@ -199,6 +199,34 @@ def test_node_holding_interpreter_lock_in_c_is_named_with_its_line(system: Syste
     system.all_others_go_on()
 
 
+HANGING_LAUNCH = """
+import ctypes
+
+from launch import LaunchDescription
+from launch.actions import RegisterEventHandler
+from launch.event_handlers import OnProcessIO
+from launch_ros.actions import Node
+
+
+def hang(event):
+    if b"go" in event.text:
+        ctypes.PyDLL(None).sleep(100000)
+
+
+def generate_launch_description():
+    node = Node(executable={program!r})
+    return LaunchDescription([node, RegisterEventHandler(OnProcessIO(target_action=node, on_stdout=hang))])
+"""
+"""A launch file that hangs in C, while holding the interpreter lock, once its program prints `go`."""
+WAITS_FOR_FILE = """#!/usr/bin/env python3
+import os, time
+while not os.path.exists({file!r}):
+    time.sleep(0.02)
+print("go", flush=True)
+time.sleep(1000)
+"""
+
+
 @pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="a system that cannot tell it")
 def test_host_with_thread_holding_interpreter_lock_is_named_and_ended(tmp_path: Path) -> None:
     host = start_host(log=tmp_path / "host.log")
@@ -210,13 +238,18 @@ def test_host_with_thread_holding_interpreter_lock_is_named_and_ended(tmp_path: 
         hangs=why_it_hangs(host.process.pid),
     )
     system = System(launcher, [], tmp_path)
-    file = tmp_path / "hangs.py"
-    file.write_text(HEAD + "ctypes.PyDLL(None).sleep(100000)\n")
-    assert launcher.launch(str(PROGRAM_LAUNCH), {"program": str(file), "isolation": "thread"}).result(TIMEOUT_S).ok
-    system.until(lambda: "hangs.py:7, in <module>" in launcher.info().problem, "the line in which it hangs")
-    system.until(lambda: len([text for text in message if "hangs.py:7" in text]) == 1, "that it is in the log")
+    file, program, launch = tmp_path / "go", tmp_path / "waits", tmp_path / "hangs.launch.py"
+    program.write_text(WAITS_FOR_FILE.format(file=str(file)))
+    program.chmod(0o755)
+    launch.write_text(HANGING_LAUNCH.format(program=str(program)))
+    assert launcher.launch(str(launch), {}).result(TIMEOUT_S).ok
+    system.until(lambda: launcher.info().processes, "the process")
+    file.touch()
+    line = "hangs.launch.py:12, in hang"
+    system.until(lambda: line in launcher.info().problem, "the line in which it hangs")
+    system.until(lambda: len([text for text in message if line in text]) == 1, "that it is in the log")
     refused = launcher.kill(launcher.info().processes[0].key).result(TIMEOUT_S)
-    assert (refused.ok, "hangs.py:7" in refused.text) == (False, True)
+    assert (refused.ok, line in refused.text) == (False, True)
     launcher.close(timeout_s=10 * TIMEOUT_S)
     host.end(timeout_s=10 * TIMEOUT_S)
     assert host.process.returncode == -9

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from typing import Any
 
 import pytest
@@ -15,7 +16,7 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rclpy.executors import ExternalShutdownException
 from sensor_msgs.msg import LaserScan
-from systems import Program, System, system
+from systems import System, system
 
 PACKAGE = "bot_console_robot"
 NODES = {
@@ -132,10 +133,8 @@ def spinning(make: Callable[[Any], object]) -> Callable[[], None]:
         rclpy.init()
         node = rclpy.create_node("other")
         make(node)
-        try:
+        with suppress(ExternalShutdownException, KeyboardInterrupt):
             rclpy.spin(node)
-        except (ExternalShutdownException, KeyboardInterrupt):
-            pass
 
     return run
 

@@ -102,9 +102,9 @@ def launched(run: Launch, tmp_path: Path) -> Any:
     for name, text in FILES.items():
         (tmp_path / f"{name}.yaml").write_text(text)
 
-    def found(isolation: str) -> dict[str, list[str]]:
+    def found(arguments: dict[str, str]) -> dict[str, list[str]]:
         include = IncludeLaunchDescription(str(tmp_path / "x.launch.py"))
-        lines = run([include], {"isolation": isolation}).lines
+        lines = run([include], arguments).lines
         hints = [re.fullmatch(r"\[(\w+)-\d+\] \[WARN\] \[\S+\]: (.*)", line) for line in lines]
         by_process: dict[str, list[str]] = {name: [] for name in HINTS}
         for each in hints:
@@ -115,12 +115,12 @@ def launched(run: Launch, tmp_path: Path) -> Any:
     return found
 
 
-@pytest.mark.parametrize("isolation", ["process", "thread"])
+@pytest.mark.parametrize("arguments", [{"isolation": "process"}, {}], ids=["process", "shared"])
 def test_processes_of_a_launch_report_mistakes_with_their_lines(
-    launched: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, isolation: str
+    launched: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: dict[str, str]
 ) -> None:
     monkeypatch.setenv(SHOW, "1")
-    found = launched(isolation)
+    found = launched(arguments)
     for name, hint in HINTS.items():
         expected = [hint.format(here=tmp_path)] if hint else []
         if name in ("misspelt", "file_misspelt", "wildcard"):  # the others end before the program reads anything
@@ -130,4 +130,4 @@ def test_processes_of_a_launch_report_mistakes_with_their_lines(
 
 def test_without_a_reader_they_print_the_words_of_ros_alone(launched: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv(SHOW, raising=False)
-    assert not any(launched("process").values())
+    assert not any(launched({"isolation": "process"}).values())

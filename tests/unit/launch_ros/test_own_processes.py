@@ -15,14 +15,12 @@ import pytest
 if not hasattr(os, "fork"):
     pytest.skip("needs fork", allow_module_level=True)
 
-from bot_console.runtime.children import own_processes
-from bot_console.runtime.process import stepped
+from bot_console.runtime.children.child_discovery import let_children_meet
 from launch.actions import EmitEvent, ExecuteProcess, RegisterEventHandler, Shutdown
-from launch.child import News, begin_children_with, close_fork_server, fork_server, on_news
+from launch.child import News, close_fork_server, fork_server, on_news
 from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
 from launch.events import matches_action
 from launch.events.process import SignalProcess
-from launch.isolation import isolate_by_default
 from launch_ros.actions import Node
 from launching import Launch
 from processes.waiting_node import WAITS, once_up
@@ -78,27 +76,44 @@ def test_node_has_its_own_process_with_arguments_and_environment(run: Launch, sc
     assert len(pids) == 1 and pids[0] < 1 << 22 and f"process has finished cleanly [pid {pids[0]}]" in text
 
 
-def test_isolation_argument_and_default_decide_who_gets_a_process(run: Launch, script: Any) -> None:
-    path = script("import os; print('own' if os.getpid() < 1 << 22 else 'thread')")
-    node = lambda: [Node(executable=path, output="screen")]  # noqa: E731
-    assert lines_of(run(node()).text) == ["thread"]
-    isolate_by_default("process")
-    try:
-        assert lines_of(run(node()).text)[-1:] == ["own"]
-        assert lines_of(run(node(), {"isolation": "thread"}).text)[-1:] == ["thread"]
-        with stepped(virtual_main=True):
-            assert lines_of(run(node(), PROCESS).text)[-1:] == ["thread"]
-    finally:
-        isolate_by_default("thread")
+@pytest.fixture
+def meets(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """This process takes part in a domain, in which its children can meet it."""
+    monkeypatch.delenv("ROS_AUTOMATIC_DISCOVERY_RANGE", raising=False)
+    let_children_meet(True)
+    yield
+    let_children_meet(False)
 
 
-def test_children_run_the_configured_startup_function(
-    run: Launch, script: Any, monkeypatch: pytest.MonkeyPatch
+WHERE = "import os; print('own' if os.getpid() < 1 << 22 else 'shared')"
+
+
+def test_program_that_can_meet_its_launch_has_its_own_process(run: Launch, script: Any, meets: None) -> None:
+    node = Node(executable=script(WHERE), output="screen")
+    assert lines_of(run([node]).text) == ["own"]
+
+
+@pytest.mark.parametrize("apart", ["OFF", "isolated"])
+def test_program_that_could_not_meet_its_launch_shares_its_process(
+    run: Launch, script: Any, meets: None, monkeypatch: pytest.MonkeyPatch, apart: str
 ) -> None:
-    path = script("import tracemalloc; print(tracemalloc.is_tracing())")
-    monkeypatch.setattr(own_processes, "_beginnings", [])
-    begin_children_with("tracemalloc:start")
-    assert lines_of(run([Node(executable=path, output="screen")], PROCESS).text) == ["True"]
+    if apart == "OFF":
+        monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF")
+    else:
+        let_children_meet(False)
+    node = Node(executable=script(WHERE), output="screen")
+    assert lines_of(run([node]).text) == ["shared"]
+
+
+def test_program_joins_the_domain_that_its_launch_has_joined(run: Launch, script: Any, meets: None) -> None:
+    path = script(
+        """
+        from bot_console.runtime.rmw.middleware import is_chosen
+        from bot_console.runtime.rmw.zenoh.domain.domain_bus import shared_bus
+        print(is_chosen(shared_bus))
+        """
+    )
+    assert lines_of(run([Node(executable=path, output="screen")]).text) == ["True"]
 
 
 def test_crash_without_listener_is_printed(run: Launch, script: Any) -> None:
@@ -107,9 +122,11 @@ def test_crash_without_listener_is_printed(run: Launch, script: Any) -> None:
     assert f'File "{path}", line 3 in <module>' in text
 
 
-def test_unknown_isolation_is_rejected_with_known_values(run: Launch, script: Any) -> None:
-    outcome = run([Node(executable=script(""))], {"isolation": "box"})
-    assert "the launch argument 'isolation' must be 'process' or 'thread', not 'box'" in outcome.text
+@pytest.mark.parametrize("wanted", ["thread", "box"])
+def test_isolation_other_than_process_is_rejected_with_what_holds(run: Launch, script: Any, wanted: str) -> None:
+    outcome = run([Node(executable=script(""))], {"isolation": wanted})
+    expected = f"must be 'process', not '{wanted}': programs of yours always run in processes of their own"
+    assert expected in outcome.text
 
 
 @pytest.mark.parametrize(

@@ -113,10 +113,6 @@ def _meet_others(options: Options) -> None:
             problem = f"{why}; so this one runs in isolation"
     if problem:
         print(problem, file=sys.stderr)
-        return
-    from bot_console.tui.session.embedded.own_processes import isolate
-
-    isolate()
 
 
 def _no_report(launches: Launches) -> int:

@@ -57,9 +57,8 @@ def launch(words: Sequence[str]) -> int:
         print(problem, file=sys.stderr)
         return 1
     from bot_console.runtime.importer import install
-    from bot_console.tui.session.embedded.own_processes import isolate, watch_threads
+    from bot_console.tui.session.embedded.own_processes import watch_threads
 
     install()
-    isolate()
     watch_threads()
     return main(["launch", *words])

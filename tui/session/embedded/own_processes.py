@@ -1,11 +1,11 @@
-"""Nodes in their own processes: the default for user code, if programs of this machine can find each other."""
+"""The fork server of a program that launches, started early, and the watch of its threads."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Sequence
 
-from bot_console.runtime.children.own_processes import CAN_FORK, begin_children_with, fork_off_server, fork_server
+from bot_console.runtime.children.own_processes import CAN_FORK, fork_off_server, fork_server
 from bot_console.runtime.children.warm_up import import_shared
 from bot_console.runtime.process.current import MAIN
 from bot_console.runtime.process.fork_server import has_one_thread
@@ -13,12 +13,8 @@ from bot_console.runtime.process.node.running import process_of_thread
 from bot_console.runtime.process.notices import notify
 from bot_console.runtime.process.watch.gil_watch import GilWatch
 from bot_console.runtime.rmw.zenoh.domain.discovery_range import is_in_range
-from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
 
-SHARE = f"{share_domains.__module__}:{share_domains.__name__}"
-
-STARTS_NOTHING = {"-h", "--help", "-p", "--print", "--print-description", "-s", "--show-args", "--show-arguments",
-                  "isolation:=thread"}  # fmt: skip
+STARTS_NOTHING = {"-h", "--help", "-p", "--print", "--print-description", "-s", "--show-args", "--show-arguments"}
 """Arguments with which `launch` needs no process."""
 
 
@@ -35,19 +31,6 @@ def prefork(words: Sequence[str], *, from_here: bool = False) -> None:
             fork_off_server()
         else:
             fork_server()
-
-
-def isolate() -> None:
-    """Run a user's nodes in their own processes, unless a launch says `isolation:=thread`.
-
-    For programs that take part in their domain, after the runtime was installed. If the environment keeps processes
-    from finding each other, all nodes stay in this one.
-    """
-    from launch.isolation import isolate_by_default
-
-    if is_in_range():
-        begin_children_with(SHARE)
-        isolate_by_default("process")
 
 
 def watch_threads() -> None:

@@ -17,7 +17,6 @@ from bot_console.tui.session.embedded import own_processes
         (["some_package"], False),
         (["{file}", "--show-args"], False),
         (["-p", "{file}"], False),
-        (["{file}", "isolation:=thread"], False),
     ],
 )
 def test_fork_server_starts_early_only_if_launch_needs_it(
