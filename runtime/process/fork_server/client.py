@@ -16,10 +16,13 @@ CODE = """\
 import sys
 if sys.path[:1] == [""]:
     sys.path.pop(0)
+sys.path.extend(each for each in {folders!r} if each not in sys.path)
 from bot_console.runtime.process.fork_server.main import main
 main({descriptor}, {warm_up!r}, {prepare!r})
 """
 """The working directory is removed from `sys.path`: a user's `random.py` is for the user's nodes."""
+INSTALLATION = "bot_console_installation"
+"""The module with the folders of the runtime, in a Python that has found it by its shims."""
 ENVIRONMENT = {"OPENBLAS_NUM_THREADS": "1"}
 """OpenBLAS starts threads on import; a fork loses them, and may hang."""
 END_S = 12.0
@@ -91,7 +94,8 @@ def _open_standard_streams() -> None:
 
 
 def _interpreter(_: socket.socket, connection: socket.socket, warm_up: str, prepare: str) -> subprocess.Popen[bytes]:
-    code = CODE.format(descriptor=connection.fileno(), warm_up=warm_up, prepare=prepare)
+    folders = list(getattr(sys.modules.get(INSTALLATION), "FOLDERS", ()))
+    code = CODE.format(descriptor=connection.fileno(), warm_up=warm_up, prepare=prepare, folders=folders)
     return subprocess.Popen(
         [sys.executable, "-c", code],
         stdin=subprocess.DEVNULL,
