@@ -12,7 +12,7 @@ import re
 import shutil
 import sys
 import tempfile
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from pathlib import Path
 
 from bot_console.runtime.importer import install
@@ -112,12 +112,19 @@ class Photographer:
         folder.mkdir(parents=True, exist_ok=True)
         (folder / f"{name}.yaml").write_text(text, encoding="utf-8")
 
-    def take(self, name: str) -> None:
-        """Save the screen as an SVG; it uses the reader's fonts, and loads none."""
+    def picture(self, prefix: str = "") -> str:
+        """The screen as an SVG; it uses the reader's fonts, and loads none. Its class names begin with the prefix."""
         svg = self._session.app.export_screenshot(title="bot-console")
         svg = FONT_FACE.sub("", svg).replace("font-family: Fira Code, monospace", f"font-family: {FONTS}")
-        svg = UNIQUE.sub("", svg)
-        svg = "\n".join(line.strip() for line in svg.splitlines() if line.strip()) + "\n"
+        svg = UNIQUE.sub(prefix, svg)
+        return "\n".join(line.strip() for line in svg.splitlines() if line.strip()) + "\n"
+
+    def take(self, name: str) -> None:
+        """Save the screen as an SVG."""
+        self.save(name, self.picture())
+
+    def save(self, name: str, svg: str) -> None:
+        """Save a picture."""
         (self._folder / f"{name}.svg").write_text(svg, encoding="utf-8")
         print(f"{name}.svg  {len(svg) // 1024} KiB")
 
@@ -172,15 +179,15 @@ async def take_all(at: Photographer) -> None:
     at.take("steering")
 
 
-async def main(folder: Path) -> None:
+async def main(folder: Path, play: Callable[[Photographer], Awaitable[None]], size: tuple[int, int]) -> None:
     """Start the robot's own system, photograph it as a new user sees it, end it."""
     folder.mkdir(parents=True, exist_ok=True)
     os.environ["BOT_CONSOLE_USER_DIR"] = str(BEGINNER)
     BEGINNER.mkdir(exist_ok=True)
     session = Session(Options(seed=1, workspace=[BEGINNER]))  # not this tree, whose example adds a pane
     try:
-        async with session.app.run_test(size=LARGE) as pilot:
-            await take_all(Photographer(session, pilot, folder))
+        async with session.app.run_test(size=size) as pilot:
+            await play(Photographer(session, pilot, folder))
             session.console.drive.stop(True)
     finally:
         await asyncio.to_thread(session.close)
@@ -189,4 +196,4 @@ async def main(folder: Path) -> None:
 
 if __name__ == "__main__":
     with contextlib.suppress(KeyboardInterrupt):
-        asyncio.run(main(Path(sys.argv[1]) if len(sys.argv) > 1 else FOLDER))
+        asyncio.run(main(Path(sys.argv[1]) if len(sys.argv) > 1 else FOLDER, take_all, LARGE))

@@ -131,17 +131,10 @@ def _in_workspace(words: Words) -> Words:
 def program() -> NoReturn:
     """The entry point of the process."""
     from bot_console.runtime.programs.exit_messages import run_and_report
-    from bot_console.tui.learn.command_log import log_for, record
+    from bot_console.tui.learn.command_log import recorded
 
-    words, code = sys.argv[1:], 1
-    log = log_for(words)  # of the lesson that is open in this domain
-    if log:
-        record(log, words, None)
-    try:
-        code = run_and_report(_program)
-    finally:
-        if log:
-            record(log, words, code)
+    with recorded(sys.argv[1:]) as ended:
+        code = ended(run_and_report(_program))
     end_program(code)
 
 

@@ -10,8 +10,11 @@ from __future__ import annotations
 
 import os
 import signal
-from collections.abc import Sequence
-from typing import NamedTuple
+import sys
+import time
+from collections.abc import Callable, Generator, Sequence
+from contextlib import contextmanager
+from typing import Any, NamedTuple, TextIO, cast
 
 from bot_console.runtime.domain_id import domain_id
 from bot_console.runtime.rmw.zenoh.domain.folder import base_folder, domain_folder
@@ -19,6 +22,10 @@ from bot_console.runtime.rmw.zenoh.domain.folder import base_folder, domain_fold
 NAME = "commands.jsonl"
 MAX_WORDS, MAX_WORD_CHARACTERS = 40, 200
 """Of a command line, what is recorded."""
+SETTLING_S = 3.0
+"""Seconds for which a command has to run before it counts as one that works: until then it may still fail."""
+MAX_SAID_CHARACTERS = 500
+"""Of the end of what a command writes to stderr."""
 MAX_BYTES = 4_000_000
 """The size from which nothing more is recorded."""
 ENDED_BY_SIGNAL = (128 + signal.SIGINT, 128 + signal.SIGTERM)
@@ -28,10 +35,18 @@ UNRECORDED = frozenset(("--version", "complete", "learn", "release", "stop"))
 
 
 class Command(NamedTuple):
-    """A command line and its exit code; None while it runs."""
+    """A command line, its exit code (None while it runs), and whether it has run for long enough not to fail."""
 
     words: tuple[str, ...]
     code: int | None = None
+    settled: bool = True
+    said: str = ""
+    """The end of its error output, for commands whose exit code does not say whether they had success."""
+
+    @property
+    def works(self) -> bool:
+        """Whether it has done what it was asked for, or is doing it."""
+        return not self.failed if self.code is not None else self.settled
 
     @property
     def failed(self) -> bool:
@@ -63,12 +78,56 @@ def log_for(words: Sequence[str]) -> str:
     return path if os.path.exists(path) else ""
 
 
-def record(path: str, words: Sequence[str], code: int | None) -> None:
+class ErrorTail:
+    """Stands for stderr, and keeps the end of what is written to it."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+        self.text = ""
+
+    def write(self, text: str) -> int:
+        """Write a text."""
+        self.text = (self.text + text)[-MAX_SAID_CHARACTERS:]
+        return self._stream.write(text)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+
+@contextmanager
+def recorded(words: Sequence[str]) -> Generator[Callable[[int], int]]:
+    """Record a command line if a lesson is open; what is yielded takes the exit code and returns it.
+
+    As in ROS 2, `param set` ends with 0 when the node has refused: only its error output tells.
+    """
+    path = log_for(words)
+    if not path:
+        yield lambda code: code
+        return
+    codes: list[int] = []
+    tail, stderr = ErrorTail(sys.stderr), sys.stderr
+    record(path, words, None)
+    if Command(tuple(words)).verb[:1] == ("param",):
+        sys.stderr = cast("TextIO", tail)
+
+    def end(code: int) -> int:
+        codes.append(code)
+        return code
+
+    try:
+        yield end
+    finally:
+        sys.stderr = stderr
+        record(path, words, codes[0] if codes else 1, tail.text)
+
+
+def record(path: str, words: Sequence[str], code: int | None, said: str = "") -> None:
     """Append a command; one that cannot be recorded is left out, since it must not fail for that."""
     import json
 
     kept = [each[:MAX_WORD_CHARACTERS].encode("utf-8", "replace").decode() for each in words[:MAX_WORDS]]
-    line = json.dumps({"pid": os.getpid(), "words": kept, "code": code}) + "\n"
+    row = {"pid": os.getpid(), "at": time.time(), "words": kept, "code": code, "said": said[-MAX_SAID_CHARACTERS:]}
+    line = json.dumps(row) + "\n"
     try:
         if os.path.getsize(path) < MAX_BYTES:
             with open(path, "a", encoding="utf-8") as file:
@@ -77,8 +136,11 @@ def record(path: str, words: Sequence[str], code: int | None) -> None:
         pass
 
 
-def read_log(path: str) -> list[Command]:
-    """Return the commands so far, in the order in which they started; lines that cannot be read are left out."""
+def read_log(path: str, now: float = float("inf")) -> list[Command]:
+    """Return the commands until `now` (s since 1970), in the order in which they started.
+
+    Lines that cannot be read are left out.
+    """
     import json
 
     found: dict[object, Command] = {}
@@ -91,9 +153,10 @@ def read_log(path: str) -> list[Command]:
         try:
             row = json.loads(line)
             words, code, pid = tuple(str(each) for each in row["words"]), row["code"], row["pid"]
+            settled, said = now - float(row["at"]) >= SETTLING_S, str(row["said"])
         except (ValueError, TypeError, KeyError):
             continue
-        command = Command(words, code if isinstance(code, int) else None)
+        command = Command(words, code if isinstance(code, int) else None, settled, said)
         started = found.get((pid, words))
         if started is not None and (started.code is not None or command.code is None):
             found[number] = command  # another process with the same id, or another start of the same words

@@ -30,7 +30,7 @@ VERBS: Mapping[str, Verb] = {
     "saw-failure": Verb(
         "saw-failure WORD ... (of a command line that ended with an exit code that is not 0)", 1, 12, True
     ),
-    "saw-launch": Verb("saw-launch FILE|* [NAME:=VALUE|NAME:=*]", 1, 2, True),
+    "saw-launch": Verb("saw-launch FILE [NAME:=VALUE|NAME:=*] [contains TEXT]", 1, 4, True),
     "saw-topic": Verb("saw-topic NAME", 1, 1, True),
     "saw-pane": Verb("saw-pane PANE", 1, 1, True),
     "saw-curve": Verb("saw-curve TEXT (part of its path)", 1, 1, True),
@@ -38,7 +38,7 @@ VERBS: Mapping[str, Verb] = {
     "saw-profile": Verb("saw-profile NAME|*", 1, 1, True),
     "saw-steering": Verb("saw-steering", 0, 0, True),
     "saw-move": Verb("saw-move METRES", 1, 1, True),
-    "expect-file": Verb("expect-file PATTERN [contains TEXT]", 1, 3, False),
+    "expect-file": Verb("expect-file PATTERN [contains TEXT|lacks TEXT]", 1, 3, False),
     "expect-entry-point": Verb("expect-entry-point NAME|*", 1, 1, False),
     "expect-installed": Verb("expect-installed PATTERN (of files that data_files has to install)", 1, 1, False),
     "expect-parameter-file": Verb("expect-parameter-file PATTERN [PARAMETER [VALUE]]", 1, 3, False),
@@ -91,9 +91,10 @@ def _wrong(verb: str, words: tuple[str, ...]) -> str:
     if verb == "saw-pane":
         return "" if words[0] in PANE_WORDS else f"one of {', '.join(sorted(PANE_WORDS))}"
     if verb == "expect-file" and len(words) > 1:
-        return "" if words[1] == "contains" and len(words) == 3 else "contains TEXT"
+        return "" if words[1] in ("contains", "lacks") and len(words) == 3 else "contains TEXT, lacks TEXT"
     if verb == "saw-launch" and len(words) > 1:
-        return "" if ":=" in words[1] else "an argument as NAME:=VALUE"
+        rest = words[2:] if ":=" in words[1] else words[1:]
+        return "" if not rest or (rest[0] == "contains" and len(rest) == 2) else "NAME:=VALUE, contains TEXT"
     if verb == "saw-node":
         rest = words[1:]
         return "" if len(rest) % 2 == 0 and set(rest[::2]) <= {"with", "as"} else "with PARAMETER, as WORD"

@@ -3,15 +3,34 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
-from bot_console.tui.console.model import Change, ConsoleSnapshot, ParameterInfo
+from bot_console.tui.console.model import RESTARTED, Change, ConsoleSnapshot, ParameterInfo
 from bot_console.tui.format import value_text
 from bot_console.tui.learn.command_log import Command
 
 MAX_STEP_M = 1.0
 """A greater distance between two snapshots is a robot that was moved elsewhere."""
+
+LOOKING = frozenset(("-h", "--help", "-p", "--print", "--print-description", "-s", "--show-args", "--show-arguments"))
+"""Options of `launch` with which nothing is launched."""
+
+REFUSED = "Setting parameter failed"
+"""What `param set` says when the node refuses a value."""
+
+
+class Launched(NamedTuple):
+    """A launch file of the workspace that was launched: its path there, and its text at that time.
+
+    `command` is the number of the command line that did it; -1: it was started from the Launch pane.
+    """
+
+    file: str
+    text: str
+    command: int = -1
 
 
 @dataclass
@@ -23,7 +42,7 @@ class Deeds:
     """By node and name, as seen last."""
     changes: list[Change] = field(default_factory=list[Change])
     commands: list[Command] = field(default_factory=list[Command])
-    launches: set[str] = field(default_factory=set[str])
+    launched: list[Launched] = field(default_factory=list[Launched])
     topics: set[str] = field(default_factory=set[str])
     panes: set[str] = field(default_factory=set[str])
     curves: set[str] = field(default_factory=set[str])
@@ -33,6 +52,8 @@ class Deeds:
     metres: float = 0.0
     """The distance that the robot has driven."""
     _place: tuple[float, float] | None = None
+    _listed: tuple[str, ...] = ()
+    """The launch files that the console listed last."""
 
     def observe(self, snapshot: ConsoleSnapshot) -> None:
         """Take in a snapshot of the console."""
@@ -40,7 +61,6 @@ class Deeds:
         self.topics |= {each.name for each in snapshot.graph.topics}
         for tree in snapshot.parameters.values():
             self.parameters |= {(each.node, each.name): each for each in tree.parameters}
-        self.launches |= {*snapshot.launch.files}
         if snapshot.active_profile:
             self.profiles.add(snapshot.active_profile)
         pose = snapshot.world.pose
@@ -51,23 +71,47 @@ class Deeds:
                 self.metres += step if step < MAX_STEP_M else 0.0
             self._place = place
 
+    def add_launches(
+        self, listed: Sequence[str], commands: Sequence[Command], find: Callable[[str], Sequence[tuple[str, str]]]
+    ) -> None:
+        """Take in what the Launch pane lists and all commands so far, with the launch files as they are now.
+
+        `find` returns the path and text of each file of the workspace that a word may name.
+        """
+        new = Counter(listed) - Counter(self._listed)
+        self.launched += [Launched(*found) for each in new for found in find(each)]
+        for number, command in enumerate(commands[len(self.commands) :], len(self.commands)):
+            if command.verb[:1] == ("launch",) and not LOOKING.intersection(command.verb):
+                self.launched += [Launched(*found, number) for word in command.verb[1:] for found in find(word)]
+        self._listed = tuple(listed)
+        self.commands = [*commands]
+
     def add_changes(self, changes: Iterable[Change]) -> None:
-        """Take in entries of the journal that were made while the lesson was open."""
-        self.changes += [each for each in changes if each.seq >= 0]
+        """Take in entries of the journal that were made while the lesson was open.
+
+        What a node has come back with was set by nobody, and one that has not answered has refused nothing.
+        """
+        self.changes += [each for each in changes if each.seq >= 0 and each.by != RESTARTED and each.answered]
+
+    def started_with(self) -> set[str]:
+        """The words with which a robot was started in the background, among them its profile."""
+        return {word for each in self.commands if each.verb[:1] == ("up",) and each.works for word in each.verb[1:]}
 
     def values_of(self, name: str) -> Sequence[ParameterInfo]:
         """The parameters of all nodes with that name."""
         return [each for (_, own), each in self.parameters.items() if own == name]
 
     def refusals(self, name: str) -> list[str]:
-        """The reasons for which a value of a parameter was refused; empty ones for those of other terminals."""
+        """The reasons for which a value of a parameter was refused."""
         here = [each.reason for each in self.changes if each.name == name and not each.accepted]
-        return here + ["" for each in self.commands if each.failed and is_set_of(each, name)]
+        lines = [each.said for each in self.commands if is_set_of(each, name)]
+        return here + [each.rpartition(REFUSED)[2].strip(": \n") for each in lines if REFUSED in each]
 
     def values_set(self, name: str) -> list[str]:
         """The values that somebody has set, as texts."""
         here = [value_text(each.new) for each in self.changes if each.name == name and each.accepted]
-        return here + [each.words[-1] for each in self.commands if each.code == 0 and is_set_of(each, name)]
+        lines = [each for each in self.commands if each.code == 0 and is_set_of(each, name)]
+        return here + [each.words[-1] for each in lines if REFUSED not in each.said]
 
 
 def is_set_of(command: Command, name: str) -> bool:

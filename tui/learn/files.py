@@ -31,6 +31,12 @@ class WorkspaceFiles:
         wanted = f"*/{pattern.lstrip('/')}"
         return [each for each in self._files if fnmatch.fnmatch(f"/{each.relative_to(self.folder)}", wanted)]
 
+    def named(self, word: str) -> list[tuple[str, str]]:
+        """The path and text of each Python, XML or YAML file that a word of a launch command may name."""
+        if not word.endswith((".py", ".xml", ".yaml", ".yml")):
+            return []
+        return [(self.name_of(each), self.text(each)) for each in self.matching(os.path.basename(word))]
+
     def text(self, path: Path) -> str:
         """The text of a file; empty if it cannot be read or is too large."""
         try:

@@ -13,7 +13,7 @@ from bot_console.tui.console.parameters.file.yaml_tree import Scalar
 from bot_console.tui.console.parameters.file.yaml_tree import Sequence as YamlSequence
 from bot_console.tui.format import value_text
 from bot_console.tui.learn.conditions import Condition
-from bot_console.tui.learn.deeds import Deeds, names_of
+from bot_console.tui.learn.deeds import Deeds, Launched, names_of
 from bot_console.tui.learn.files import WorkspaceFiles
 
 
@@ -96,19 +96,20 @@ def _same(one: str, other: str) -> bool:
 
 def _refused(words: Sequence[str], deeds: Deeds) -> str:
     reasons = deeds.refusals(words[0])
-    if any(len(words) == 1 or not each or words[1].lower() in each.lower() for each in reasons):
+    if any(len(words) == 1 or words[1].lower() in each.lower() for each in reasons):
         return ""
-    accepted = deeds.values_set(words[0])
-    if accepted:
-        return f"{words[0]} took {accepted[-1]}: the callback has to return SetParametersResult(successful=False, ...)"
-    return f"waiting for: a value of {words[0]} that is refused"
+    asked, accepted = f"waiting for: a value of {words[0]} that is refused", deeds.values_set(words[0])
+    if not accepted:
+        return asked
+    how = "the callback has to return SetParametersResult(successful=False, ...)"
+    return f"{asked}; {accepted[-1]} was accepted: to refuse it, {how}"
 
 
 def _command(words: Sequence[str], deeds: Deeds) -> str:
     ran = [each for each in deeds.commands if _in_order(words, each.words)]
-    if any(not each.failed for each in ran):
+    if any(each.works for each in ran):
         return ""
-    failed = f"; it ended with exit code {ran[-1].code}" if ran else ""
+    failed = f"; it ended with exit code {ran[-1].code}" if ran and ran[-1].failed else ""
     return f"waiting for: {' '.join(words)}{failed}"
 
 
@@ -126,15 +127,22 @@ def _in_order(wanted: Sequence[str], given: Sequence[str]) -> bool:
 
 
 def _launch(words: Sequence[str], deeds: Deeds) -> str:
-    file, argument = words[0], words[1] if len(words) > 1 else ""
-    for each in deeds.commands:
-        verb, *rest = each.verb or ("",)
-        launched = verb == "launch" and any(fnmatch.fnmatch(word, f"*{file}") for word in rest)
-        if launched and (not argument or any(fnmatch.fnmatch(word, argument) for word in rest)):
-            return ""
-    if not argument and any(fnmatch.fnmatch(each, f"*{file}") for each in deeds.launches):
+    file, rest = words[0], words[1:]
+    argument = next((each for each in rest[:1] if ":=" in each), "")
+    text = rest[-1] if "contains" in rest else ""
+    ran = [each for each in deeds.launched if fnmatch.fnmatch(f"/{each.file}", f"*/{file}")]
+    passed = [each for each in ran if not argument or _in_order([argument], _line_of(each, deeds))]
+    having = [each for each in passed if text in each.text]
+    if any(each.command < 0 or deeds.commands[each.command].works for each in having):
         return ""
-    return f"waiting for: a launch of {file}{f' with {argument}' if argument else ''}"
+    if any(deeds.commands[each.command].failed for each in having):
+        return f"waiting for: a launch of {having[-1].file} that does not fail"
+    asked = f"waiting for: a launch of {file}{f' with {argument}' if argument else ''}{f' with {text}' if text else ''}"
+    return f"{asked}; {passed[-1].file} had no {text} when it was launched" if passed and not having else asked
+
+
+def _line_of(launched: Launched, deeds: Deeds) -> Sequence[str]:
+    return deeds.commands[launched.command].words if launched.command >= 0 else ()
 
 
 def _moved(words: Sequence[str], driven: float) -> str:
@@ -164,7 +172,7 @@ _DEEDS: Mapping[str, Callable[[Sequence[str], Deeds], str]] = {
         "" if any(words[0] in each for each in deeds.curves) else f"waiting for: a curve of {words[0]} in the plot"
     ),
     "saw-layout": _among("a saved layout {}", lambda deeds: deeds.layouts),
-    "saw-profile": _among("a profile {} to be applied", lambda deeds: deeds.profiles),
+    "saw-profile": _among("a profile {} to be applied", lambda deeds: deeds.profiles | deeds.started_with()),
     "saw-steering": lambda words, deeds: "" if deeds.steered else "waiting for: the robot to be driven by your keys",
 }
 
@@ -173,7 +181,10 @@ def _file(words: Sequence[str], files: WorkspaceFiles) -> str:
     found = files.matching(words[0])
     if not found:
         return f"there is no file {words[0]} in {files.folder}"
-    if len(words) == 1 or any(words[2] in files.text(each) for each in found):
+    having = [each for each in found if words[2:] and words[2] in files.text(each)]
+    if words[1:2] == ["lacks"]:
+        return f"{files.name_of(having[0])} still has {words[2]}" if having else ""
+    if len(words) == 1 or having:
         return ""
     return f"{files.name_of(found[-1])} has no {words[2]}"
 
@@ -193,9 +204,10 @@ def _entry_point(words: Sequence[str], files: WorkspaceFiles) -> str:
 
 
 def _installed(words: Sequence[str], files: WorkspaceFiles) -> str:
-    wanted = files.matching(words[0])
+    folders = [each.folder.resolve() for each in files.packages]
+    wanted = [each for each in files.matching(words[0]) if any(each.resolve().is_relative_to(one) for one in folders)]
     if not wanted:
-        return f"there is no file {words[0]} in {files.folder}"
+        return f"there is no file {words[0]} in a package"
     for package in files.packages:
         installed = {each.resolve() for _, sources in package.data_files for each in sources}
         wanted = [each for each in wanted if each.resolve() not in installed]

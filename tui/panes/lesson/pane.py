@@ -8,7 +8,6 @@ from typing import Any, ClassVar
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.format import sanitize
-from bot_console.tui.layout.named import BUILT_IN
 from bot_console.tui.learn.lesson_view import Lesson, LessonView, OnScreen
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.screens.facts import FactsScreen
@@ -56,6 +55,8 @@ class LessonPane(Pane):
         self._ticks = 0
         self._after = 0
         self._shown: LessonView | None = None
+        self._layouts_before: frozenset[str] | None = None
+        """The layouts that there were when the lesson was opened; None before it is."""
 
     def compose(self) -> ComposeResult:
         """The whole step, or two lines of it."""
@@ -90,12 +91,14 @@ class LessonPane(Pane):
         pane = app.current_pane
         plot = next(iter(app.screen_stack[0].query("#plot")), None)
         curves = getattr(getattr(plot, "_timeline", None), "curves", ())
-        layouts = frozenset(app.stage.arrangement.layouts()) - BUILT_IN.keys() - {self.id or ""}
+        layouts = frozenset(app.stage.arrangement.layouts())
+        if self._layouts_before is None:
+            self._layouts_before = layouts
         driving = snapshot.drive.armed and snapshot.drive.asked not in (None, (0.0, 0.0))
         return OnScreen(
             pane.id or "" if pane is not None else "",
             frozenset(str(each.path) for each in curves),
-            frozenset(str(each) for each in layouts),
+            layouts - self._layouts_before,
             driving,
         )
 

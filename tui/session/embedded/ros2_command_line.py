@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+import signal
 import sys
 import threading
 from collections.abc import Sequence
@@ -18,6 +19,7 @@ from bot_console.tui.console.command_line import Stream
 from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.running_lines import RunningLine, goes_on
+from bot_console.tui.learn.command_log import log_for, record
 
 LINE_TIMEOUT_S = 15.0
 """Seconds after which a line that should end by itself, but does not, is interrupted."""
@@ -38,7 +40,7 @@ class Ros2CommandLine:
 
     def run(self, line: str) -> Future[str]:
         """Run a line in the background; the future has its output, or the `ValueError` of a line that cannot be run."""
-        return in_background(lambda: self._done(line), "ros2")
+        return in_background(lambda: self._recorded(line), "ros2")
 
     def stream(self, line: str) -> Stream | None:
         """Start a line that keeps printing; None for any other."""
@@ -59,10 +61,22 @@ class Ros2CommandLine:
         names = _Names(snapshot, self._known)
         return in_background(lambda: candidates(words, names), "ros2")
 
-    def _done(self, line: str) -> str:
+    def _recorded(self, line: str) -> str:
         words = _words(line)
+        log, text, code = log_for(words), "", 1
+        if log:
+            record(log, words, None)
+        try:
+            text, code = self._done(words)
+        finally:
+            if log:
+                record(log, words, code, text)
+        return text
+
+    def _done(self, words: Sequence[str]) -> tuple[str, int]:
+        """What a line prints, and its exit code."""
         if words[:1] == ["colcon"]:
-            return "\n".join(answers(words[1:]))
+            return "\n".join(answers(words[1:])), 0
         wanted = launched_by(words) if self._launcher is not None else None
         if wanted is None or self._launcher is None:
             return _printed_by(words)
@@ -71,7 +85,7 @@ class Ros2CommandLine:
         answer = self._launcher.launch(wanted.file, wanted.arguments).result(STARTING)
         if not answer.ok:
             raise ValueError(answer.text)
-        return f"{wanted.name} runs, and is listed in the Launch pane, where x ends it"
+        return f"{wanted.name} runs, and is listed in the Launch pane, where x ends it", 0
 
 
 class _Names:
@@ -84,13 +98,13 @@ class _Names:
     def asked(self, *words: str) -> list[str]:
         """The lines that a verb prints."""
         if words not in self._known:
-            self._known[words] = [each.strip() for each in _printed_by(words).splitlines()]
+            self._known[words] = [each.strip() for each in _printed_by(words)[0].splitlines()]
         return self._known[words]
 
     def live(self, *words: str) -> list[str]:
         """The same for verbs that query what is running."""
         found = live_names(self._snapshot, words)
-        return found if found is not None else [each.strip() for each in _printed_by(words).splitlines()]
+        return found if found is not None else [each.strip() for each in _printed_by(words)[0].splitlines()]
 
 
 class _Streamed(RunningLine):
@@ -119,9 +133,11 @@ def _start(words: Sequence[str], printed: RunningLine | list[str]) -> NodeProces
     return process
 
 
-def _printed_by(words: Sequence[str]) -> str:
+def _printed_by(words: Sequence[str]) -> tuple[str, int]:
+    """What a line prints, and its exit code; that of an interrupt if it did not end in time."""
     printed: list[str] = []
     process = _start(words, printed)
-    if process.wait(LINE_TIMEOUT_S) is None:
+    code = process.wait(LINE_TIMEOUT_S)
+    if code is None:
         process.stop()
-    return "".join(printed)
+    return "".join(printed), 128 + signal.SIGINT if code is None else code

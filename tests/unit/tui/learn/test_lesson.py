@@ -3,27 +3,32 @@
 from __future__ import annotations
 
 import json
+import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 from bot_console.tui.console.model import (
+    RESTARTED,
     Change,
     ChangeSource,
     ConsoleSnapshot,
     Endpoint,
     GraphInfo,
     Kind,
+    LaunchInfo,
     NodeInfo,
     ParameterInfo,
     ParameterTree,
     Range,
 )
 from bot_console.tui.console.robot.robot_model import Pose, WorldInfo
-from bot_console.tui.learn.command_log import Command, read_log, record
+from bot_console.tui.learn import command_log
+from bot_console.tui.learn.command_log import SETTLING_S, Command, read_log, record
 from bot_console.tui.learn.conditions import Condition, read_condition
 from bot_console.tui.learn.course import Course, Step, find_course, read_course
-from bot_console.tui.learn.deeds import Deeds
+from bot_console.tui.learn.deeds import Deeds, Launched
 from bot_console.tui.learn.files import WorkspaceFiles
 from bot_console.tui.learn.judging import missing
 from bot_console.tui.learn.lesson import CourseLesson
@@ -82,6 +87,21 @@ def seen(*parameters: ParameterInfo, **facts: Any) -> Deeds:
     return deeds
 
 
+def refused(name: str, reason: str) -> Command:
+    """A command line that has set a parameter, which the node refused."""
+    return Command(("ros2", "param", "set", "/n", name, "9"), 0, said=f"Setting parameter failed: {reason}\n")
+
+
+def launched(*arguments: str, file: str = "x.launch.py", code: int | None = None, settled: bool = True) -> Deeds:
+    """After a command line that launches a file, in a workspace that has only `x.launch.py`."""
+    deeds = Deeds()
+    files = {"x.launch.py": [("launch/x.launch.py", "Node()")]}
+    deeds.add_launches(
+        (), [Command(("launch", "p", file, *arguments), code, settled)], lambda word: files.get(word, ())
+    )
+    return deeds
+
+
 SPEED = parameter("/robot", "speed", 1.0)
 
 
@@ -100,13 +120,18 @@ SPEED = parameter("/robot", "speed", 1.0)
         ("saw-set speed 2.0", seen(changes=[change("speed", 3.0)]), "waiting for: speed to be set to 2.0"),
         ("saw-set speed", seen(changes=[change("speed", 9.0, accepted=False)]), "waiting for: somebody to set speed"),
         ("saw-refused speed fast", seen(changes=[change("speed", 9.0, accepted=False, reason="too fast")]), ""),
-        ("saw-refused speed", seen(changes=[change("speed", 9.0)]), "speed took 9.0: the callback has to return Set"),
-        ("saw-refused speed", seen(commands=[Command(("ros2", "param", "set", "/n", "speed", "9"), 1)]), ""),
         (
             "saw-refused speed",
-            seen(commands=[Command(("param", "set", "/n", "other", "9"), 1)]),
-            "waiting for: a value",
+            seen(changes=[change("speed", 9.0)]),
+            "waiting for: a value of speed that is refused; 9.0 was accepted: to refuse",
         ),
+        ("saw-refused speed", seen(commands=[refused("speed", "too fast")]), ""),
+        ("saw-refused speed fast", seen(commands=[refused("speed", "too fast")]), ""),
+        ("saw-refused speed slow", seen(commands=[refused("speed", "too fast")]), "waiting for: a value of speed"),
+        ("saw-refused speed", seen(commands=[refused("other", "")]), "waiting for: a value of speed that is refused"),
+        ("saw-refused speed", seen(commands=[Command(("param", "set", "/m", "speed", "9"), 1)]), "waiting for: a val"),
+        ("saw-set speed", seen(commands=[refused("speed", "too fast")]), "waiting for: somebody to set speed"),
+        ("saw-set speed 9", seen(commands=[Command(("param", "set", "/n", "speed", "9"), 0)]), ""),
         ("saw-command param get * speed", seen(commands=[Command(("ros2", "param", "get", "/n", "speed"), 0)]), ""),
         (
             "saw-command param get",
@@ -123,15 +148,29 @@ SPEED = parameter("/robot", "speed", 1.0)
         ("saw-failure run *", seen(commands=[Command(("run", "a.py"), 130)]), "waiting for: run *, to see it fail; it"),
         ("saw-command run *", seen(commands=[Command(("run", "a.py"), 130)]), ""),
         ("saw-refused speed", seen(commands=[Command(("param", "set", "/n", "speed", "9"), 130)]), "waiting for: a"),
-        ("saw-launch *.launch.py a:=*", seen(commands=[Command(("launch", "p", "x.launch.py", "a:=1"))]), ""),
+        ("saw-launch *.launch.py a:=*", launched("a:=1"), ""),
+        ("saw-launch *.launch.py b:=*", launched("a:=1"), "waiting for: a launch of *.launch.py with b:=*"),
+        ("saw-launch *.launch.py contains Node", launched(), ""),
         (
-            "saw-launch *.launch.py b:=*",
-            seen(commands=[Command(("launch", "p", "x.launch.py", "a:=1"))]),
-            "waiting for",
+            "saw-launch *.launch.py contains Timer",
+            launched(),
+            "waiting for: a launch of *.launch.py with Timer; launch/x.launch.py had no Timer when it was launched",
+        ),
+        ("saw-launch *.launch.py", launched(code=1), "waiting for: a launch of launch/x.launch.py that does not fail"),
+        ("saw-launch *.launch.py", launched(settled=False), "waiting for: a launch of *.launch.py"),
+        ("saw-launch *.launch.py", launched("--show-args"), "waiting for: a launch of *.launch.py"),
+        ("saw-launch *.launch.py", launched(file="y.launch.py"), "waiting for: a launch of *.launch.py"),
+        (
+            "saw-command run *",
+            seen(commands=[Command(("run", "a.py"), None, settled=False)]),
+            "waiting for: run *",
         ),
         ("saw-curve linear", seen(curves={"/odom/twist.twist.linear.x"}), ""),
         ("saw-curve linear", seen(), "waiting for: a curve of linear in the plot"),
         ("saw-layout *", seen(layouts={"mine"}), ""),
+        ("saw-profile outdoor", seen(profiles={"outdoor"}), ""),
+        ("saw-profile outdoor", seen(commands=[Command(("up", "outdoor"), 0)]), ""),
+        ("saw-profile outdoor", seen(commands=[Command(("up", "outdoor"), 1)]), "waiting for: a profile outdoor to be"),
         ("saw-layout *", seen(), "waiting for: a saved layout"),
         ("saw-pane graph", seen(panes={"plot"}), "waiting for: the pane graph"),
         ("saw-steering", seen(), "waiting for: the robot to be driven by your keys"),
@@ -155,6 +194,7 @@ def package(tmp_path: Path) -> Path:
         "launch/y.launch.py": "",
         "config/x.yaml": "robot:\n  ros__parameters:\n    speed: 1.0\n",
         "config/wrong.yaml": "robot:\n  ros_parameters:\n    speed: 1.0\n",
+        "../../own.yaml": "",
     }.items():
         (folder / path).parent.mkdir(parents=True, exist_ok=True)
         (folder / path).write_text(text, encoding="utf-8")
@@ -167,6 +207,8 @@ def package(tmp_path: Path) -> Path:
         ("expect-file robot_node.py contains declare_parameter", ""),
         ("expect-file robot_node.py contains callback", "intelligent_robot/robot_node.py has no callback"),
         ("expect-file *.cpp", "there is no file *.cpp in "),
+        ("expect-file robot_node.py lacks callback", ""),
+        ("expect-file robot_node.py lacks speed", "intelligent_robot/robot_node.py still has speed"),
         ("expect-entry-point robot_node", ""),
         (
             "expect-entry-point robot_nod",
@@ -177,6 +219,7 @@ def package(tmp_path: Path) -> Path:
             "expect-installed launch/*.launch.py",
             "launch/y.launch.py is not installed: data_files of setup.py has no",
         ),
+        ("expect-installed own.yaml", "there is no file own.yaml in a package"),
         ("expect-parameter-file config/x.yaml speed 1.0", ""),
         ("expect-parameter-file config/x.yaml speed 2.0", "config/x.yaml gives speed the value 1.0, not 2.0"),
         ("expect-parameter-file config/x.yaml sped", "config/x.yaml gives no sped; did you mean speed?"),
@@ -254,6 +297,69 @@ def test_robot_that_is_put_elsewhere_has_not_driven(tmp_path: Path) -> None:
         assert held.observe(snapshot(world=WorldInfo(pose=Pose(x, 0.0, 0.0))), [], OnScreen()) == []
 
 
+def test_launch_file_counts_as_it_was_when_it_was_launched(tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    log.touch()
+    held = lesson(tmp_path, "## A\n```step\nsaw-launch *.launch.py contains Timer\n```\n", str(log))
+    (tmp_path / "x.launch.py").touch()
+    record(str(log), ["launch", "x.launch.py"], 0)
+    assert held.observe(snapshot(), [], OnScreen()) == []
+    (tmp_path / "x.launch.py").write_text("Timer()", encoding="utf-8")
+    assert held.observe(snapshot(), [], OnScreen()) == []
+    record(str(log), ["launch", "x.launch.py"], None)
+    record(str(log), ["launch", "x.launch.py"], 0)
+    assert held.observe(snapshot(), [], OnScreen()) == ["A"]
+
+
+def test_file_launched_from_the_launch_pane_counts_each_time(tmp_path: Path) -> None:
+    held = lesson(tmp_path, "## A\n```step\nsaw-launch *.launch.py contains Timer\n```\n")
+    path = tmp_path / "x.launch.py"
+    path.touch()
+    once = LaunchInfo(files=(str(path),))
+    assert held.observe(snapshot(launch=once), [], OnScreen()) == []
+    path.write_text("Timer()", encoding="utf-8")
+    assert held.observe(snapshot(launch=once), [], OnScreen()) == []
+    assert held.observe(snapshot(launch=LaunchInfo(files=(str(path), str(path)))), [], OnScreen()) == ["A"]
+
+
+def test_command_that_still_runs_counts_once_it_has_run_for_a_while(tmp_path: Path) -> None:
+    path = tmp_path / "log"
+    path.touch()
+    record(str(path), ["run", "a.py"], None)
+    at = json.loads(path.read_text("utf-8"))["at"]
+    assert [each.works for each in read_log(str(path), at + 1.0)] == [False]
+    assert [each.works for each in read_log(str(path), at + SETTLING_S)] == [True]
+
+
+def test_value_that_a_restarted_node_has_was_set_by_nobody(tmp_path: Path) -> None:
+    held = lesson(tmp_path, "## A\n```step\nsaw-set speed\n```\n")
+    assert held.observe(snapshot(), [replace(change("speed", 2.0), by=RESTARTED)], OnScreen()) == []
+    assert held.observe(snapshot(), [change("speed", 2.0)], OnScreen()) == ["A"]
+
+
+def test_node_that_does_not_answer_has_refused_nothing(tmp_path: Path) -> None:
+    held = lesson(tmp_path, "## A\n```step\nsaw-refused speed\n```\n")
+    silent = replace(change("speed", 2.0, accepted=False), answered=False)
+    assert held.observe(snapshot(), [silent], OnScreen()) == []
+
+
+def test_error_output_of_param_commands_is_recorded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "log"
+    path.touch()
+    monkeypatch.setattr(command_log, "log_for", lambda words: str(path))
+    for words in (["ros2", "param", "set"], ["run", "a.py"]):
+        with command_log.recorded(words) as ended:
+            print("x" * 1000, "Setting parameter failed: no", file=sys.stderr)
+            ended(0)
+    assert capsys.readouterr().err.count("failed: no") == 2
+    assert [(each.code, each.said[-4:], len(each.said) > 500) for each in read_log(str(path))] == [
+        (0, " no\n", False),
+        (0, "", False),
+    ]
+
+
 def test_own_names_of_the_student_are_followed(tmp_path: Path) -> None:
     text = "## A\n```console\nros2 param list /{node}\n```\n```step\nsaw-node * with speed as node\n```\n"
     held = lesson(tmp_path, text)
@@ -298,6 +404,7 @@ def deed(condition: Condition, deeds: Deeds) -> bool:
         case "saw-failure":
             deeds.commands.append(Command(tuple(words), 1))
         case "saw-launch":
+            deeds.launched.append(Launched(words[0], words[-1], len(deeds.commands)))
             deeds.commands.append(Command(("launch", *words), None))
         case "saw-steering":
             deeds.steered = True

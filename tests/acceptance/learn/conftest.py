@@ -1,0 +1,23 @@
+"""A student for each test, whose terminals are closed at its end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from helpers.student import Student
+
+
+@pytest.fixture
+def student(tmp_path: Path) -> Iterator[Callable[[Path], Student]]:
+    """Makes a student who opens a course."""
+    at_work: list[Student] = []
+
+    def open_course(course: Path) -> Student:
+        at_work.append(Student(tmp_path, course))
+        return at_work[-1]
+
+    yield open_course
+    for each in at_work:
+        each.close()

@@ -1,0 +1,531 @@
+"""The course week6, done as a student does it: files, three shells, and the console in a fourth terminal.
+
+Before each step its deed is left out, and most steps see a typical mistake first; the lesson's text has to answer both.
+After each deed exactly the steps whose deeds were done are done.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from bot_console.tui.learn.course import COURSES
+from bot_console.tui.learn.sandbox import can_isolate
+from helpers import intelligent_robot
+from helpers.student import Student
+
+WEEK6 = COURSES / "week6"
+NODE = "src/simple_robot.py"
+
+
+def chapter_1(at: Student) -> None:
+    one, two, _ = at.shells
+    id = "a-node-with-a-parameter"
+    at.reads("there is no file *.py", "waiting for: a node with a parameter speed")
+    at.write(NODE, at.listing(id).replace("speed", "sped"))
+    one.start(at.listing(id, 1))
+    at.reads("did you mean sped?")
+    one.interrupt()
+    at.write(NODE, at.listing(id))
+    one.start(at.listing(id, 1))
+    at.does(id)
+
+    at.reads("waiting for: param get * speed")
+    two.run("ros2 param get /simple_robto speed")
+    at.reads("it ended with exit code 1")
+    two.run(at.listing("ask-for-its-value"))
+    at.does("ask-for-its-value")
+
+    id = "an-integer-is-not-a-double"
+    at.reads("waiting for: run * speed:=2, to see it fail")
+    one.interrupt()
+    one.start(at.listing(id).replace(":=2", ":=1.5"))
+    one.shows("speed 1.5 m/s")
+    at.reads("waiting for: run * speed:=2, to see it fail")
+    one.interrupt()
+    assert f"{NODE}:8: speed is a double, which takes no integer: write 2.0" in one.run(at.listing(id))
+    at.does(id)
+
+    at.reads("waiting for: speed with the value 2.0; it is 1.5: speed:=2 is an integer: write 2.0")
+    one.start(at.listing("start-it-with-another-value"))
+    at.does("start-it-with-another-value")
+
+    up, set_speed = at.lines("the-same-on-a-robot")
+    at.reads("waiting for: node /robot_navigator with a parameter max_speed")
+    two.run(up, set_speed.replace("0.6", "0.5"))
+    at.reads("waiting for: max_speed to be set to 0.6", "waiting for: the robot to drive 0.5 m")
+    two.run(set_speed)
+    at.does("the-same-on-a-robot")
+
+
+def restart(at: Student) -> None:
+    """End the node in the first shell and start it again."""
+    at.shells[0].interrupt()
+    at.shells[0].start("bot-console run src/simple_robot.py")
+    at.shells[0].shows("m/s")
+
+
+def chapter_2(at: Student) -> None:
+    two = at.shells[1]
+    at.reads("speed has no description: give declare_parameter a", "start the node again after you have changed it")
+    fragment = at.listing("say-what-a-parameter-means")
+    limit = "            floating_point_range=[FloatingPointRange(from_value=0.0, to_value=5.0)],\n"
+    at.merge(NODE, fragment.replace(limit, ""), '        self.declare_parameter("speed", 1.0)\n')
+    restart(at)
+    at.reads("✓ saw-parameter speed described", "speed has no range: give its ParameterDescriptor")
+    at.edit(NODE, '            description="Speed (m/s)",\n', f'            description="Speed (m/s)",\n{limit}')
+    restart(at)
+    at.does("say-what-a-parameter-means")
+
+    id = "four-types"
+    at.reads("waiting for: node /simple_robot with a parameter robot_name")
+    first = at.listing(id).partition("\n")[0] + "\n"
+    at.merge(NODE, first, '        self.declare_parameter("speed", 1.0, speed)\n', after=True)
+    restart(at)
+    at.reads("✓ saw-node simple_robot with robot_name", "waiting for: node /simple_robot with a parameter sensor_range")
+    at.edit(NODE, first, at.listing(id) + "\n")
+    restart(at)
+    at.does(id)
+
+    names, describe = at.lines("list-them")
+    at.reads("waiting for: param list")
+    two.run(names)
+    at.reads("✓ saw-command param list", "waiting for: param describe * speed")
+    two.run(describe)
+    at.does("list-them")
+
+    up, describe = at.lines("the-robot-describes-its-own")
+    assert "already running" in two.run(up)
+    at.reads("waiting for: param describe * warning_distance")
+    two.run(describe)
+    at.does("the-robot-describes-its-own")
+
+
+def chapter_3(at: Student) -> None:
+    two = at.shells[1]
+    id = "refuse-what-makes-no-sense"
+    at.reads("simple_robot.py has no add_on_set_parameters_callback")
+    fragment = at.listing(id).replace("        self.add_on", "\n        self.add_on", 1)
+    anchor = "        self.create_timer(1.0, self.report)\n"
+    at.merge(NODE, fragment.replace("successful=False", "successful=True"), anchor, after=True)
+    at.does(id)
+    restart(at)
+
+    refuse = at.listing("see-the-refusal-and-its-reason")
+    at.reads("waiting for: a value of speed that is refused: set a value that your callback does not accept")
+    two.run(refuse)
+    at.reads("4.0 was accepted: to refuse it, the callback has to return SetParametersResult(successful=False, ...)")
+    at.edit(NODE, "successful=True, reason", "successful=False, reason")
+    restart(at)
+    assert "faster than 3.0 m/s is not safe" in two.run(refuse)
+    at.does("see-the-refusal-and-its-reason")
+
+    accepted = at.listing("set-one-that-is-fine")
+    at.reads("waiting for: speed to be set to 2.5")
+    two.run(accepted.replace("2.5", "3.5"))
+    at.reads("waiting for: speed to be set to 2.5")
+    two.run(accepted)
+    at.does("set-one-that-is-fine")
+
+    at.reads("waiting for: a value of max_speed that is refused")
+    two.run(*at.lines("the-robot-refuses-too"))
+    at.does("the-robot-refuses-too")
+
+
+def chapter_4(at: Student) -> None:
+    one, two, _ = at.shells
+    at.reads("waiting for: speed to be set to 1.5")
+    two.run(at.listing("use-the-new-value-at-once"))
+    one.shows("speed 1.5 m/s")
+    at.does("use-the-new-value-at-once")
+
+    dump = at.listing("write-all-values-into-a-file")
+    at.reads("waiting for: param dump", "there is no file saved.yaml")
+    two.run(dump.replace("saved", "save"))
+    at.reads("✓ saw-command param dump", "there is no file saved.yaml")
+    two.run(dump)
+    at.does("write-all-values-into-a-file")
+
+    at.reads("waiting for: warning_distance to be set to 1.5")
+    two.run(*at.lines("watch-the-robot-change-its-mind"))
+    at.does("watch-the-robot-change-its-mind")
+
+
+def chapter_5(at: Student) -> None:
+    one, two, _ = at.shells
+    path = "config/simple_robot.yaml"
+    text = at.listing("values-in-a-file")
+    at.reads("there is no file config/*.yaml")
+    at.write(path, text.replace("ros__", "ros_"))
+    at.reads(f"{path}:2: ros_parameters has one underscore")
+    at.write(path, text.replace("simple_robot:", "simple_robto:"))
+    at.does("values-in-a-file")
+
+    at.reads("waiting for: run * --params-file *")
+    one.interrupt()
+    one.start(at.listing("start-with-the-file"))
+    at.reads("it is Rosie: the first line of the file has to be the name of the node")
+    one.interrupt()
+    at.write(path, text)
+    one.start(at.listing("start-with-the-file"))
+    at.does("start-with-the-file")
+
+    at.reads("waiting for: run * --params-file *wrong*, to see it fail")
+    assert "wrong.yaml:2" in two.run(*at.lines("one-underscore"))
+    at.does("one-underscore")
+
+    at.reads("waiting for: a profile warehouse to be applied: press 7, choose a profile, Enter")
+    two.run(*at.lines("a-profile-of-the-robot"))
+    at.does("a-profile-of-the-robot")
+
+
+def chapter_6(at: Student) -> None:
+    one, two, _ = at.shells
+    one.interrupt()
+    id = "one-node-started-by-a-file"
+    down, launch = at.lines(id, 1)
+    at.reads("waiting for: a launch of *.launch.py with simulator_node")
+    at.write("launch/one.py", at.listing(id))
+    two.run(down)
+    two.start(launch.replace("one.launch.py", "one.py"))
+    at.reads("✓ saw-node simulator", "waiting for: a launch of *.launch.py with simulator_node")
+    two.interrupt()
+    (at.workspace / "launch/one.py").rename(at.workspace / "launch/one.launch.py")
+    two.start(launch)
+    at.does(id)
+
+    id = "a-package-that-is-not-there"
+    at.reads("waiting for: launch *.launch.py, to see it fail")
+    two.interrupt()
+    at.edit("launch/one.launch.py", "bot_console_robot", "bot_console_robt")
+    at.reads("waiting for: launch *.launch.py, to see it fail", "did you mean 'bot_console_robot'?")
+    assert "did you mean" in two.run(launch)
+    at.reads("✓ saw-failure", "did you mean 'bot_console_robot'?")
+    at.edit("launch/one.launch.py", "bot_console_robt", "bot_console_robot")
+    at.does(id)
+
+    launch = at.listing("the-robot-by-its-launch-file")
+    at.reads("waiting for: launch bot_console_robot robot_system.launch.py")
+    two.run(launch.replace("bot_console_robot ", "bot_console_robt "))
+    at.reads("waiting for: launch bot_console_robot robot_system.launch.py", "end the other launch first (Ctrl-C)")
+    two.start(launch)
+    at.does("the-robot-by-its-launch-file")
+    two.interrupt()
+
+
+def chapter_7(at: Student) -> None:
+    two = at.shells[1]
+    id, path = "values-beside-the-node", "launch/two.launch.py"
+    launch = at.listing(id, 1)
+    at.reads("waiting for: a launch of *.launch.py with parameters=")
+    at.write(path, at.listing(id).replace("0.8", "1"))
+    two.start(launch)
+    at.reads("✓ saw-launch", "waiting for: max_speed with the value 0.8", "write the value with a point")
+    assert f"{path}:13" in two.interrupt()
+    at.write(path, at.listing(id))
+    two.start(launch)
+    at.does(id)
+    two.interrupt()
+
+    at.reads("waiting for: a launch of *.launch.py with max_sped")
+    at.edit(path, "max_speed", "max_sped")
+    at.reads("waiting for: a launch of *.launch.py with max_sped", "two.launch.py still has max_sped")
+    two.start(launch)
+    two.shows(f"{path}:13: max_sped: ... sets nothing")
+    at.reads("✓ saw-launch", f"{path} still has max_sped")
+    two.interrupt()
+    at.edit(path, "max_sped", "max_speed")
+    two.start(launch)
+    at.does("a-misspelt-name")
+    two.interrupt()
+
+
+def chapter_8(at: Student) -> None:
+    two, three = at.shells[1:]
+    id = "six-nodes-from-one-file"
+    launch = at.listing(id, 1)
+    at.reads("waiting for: a launch of *.launch.py with sensor_node")
+    at.write("launch/system.launch.py", at.listing(id).replace("sensor_node", "sensor"))
+    two.start(launch)
+    at.reads("launch/two.launch.py had no sensor_node when it was launched")
+    two.interrupt()
+    at.write("launch/system.launch.py", at.listing(id))
+    two.start(launch)
+    at.does(id)
+
+    ask = at.listing("who-hears-the-laser")
+    at.reads("waiting for: topic info /scan")
+    three.run(ask.replace("/scan", "/scann"))
+    at.reads("waiting for: topic info /scan")
+    assert "Subscription count: " in three.run(ask)
+    at.does("who-hears-the-laser")
+    two.interrupt()
+
+
+ARGUMENTS = "launch/arguments.launch.py"
+
+
+def chapter_9(at: Student) -> None:
+    two = at.shells[1]
+    id = "declare-an-argument"
+    show = at.listing(id, 1)
+    at.reads("there is no launch/*.launch.py", "waiting for: launch *.launch.py --show-args")
+    imports, argument, parameters = at.listing(id).split("\n\n")
+    at.write(ARGUMENTS, (at.workspace / "launch/two.launch.py").read_text("utf-8"))
+    two.run(show)
+    at.edit(ARGUMENTS, '                parameters=[{"max_speed": 0.8}],', parameters)
+    at.merge(ARGUMENTS, f"{imports}\n\n{argument}", "        [\n", after=True)
+    at.does(id)
+    assert "Greatest speed (m/s)" in two.run(show)
+
+    launch = at.listing("pass-it")
+    at.reads("waiting for: a launch of *.launch.py with max_speed:=*")
+    two.run(launch.replace(":=", "="))
+    at.reads("waiting for: a launch of *.launch.py with max_speed:=*")
+    two.start(launch)
+    at.does("pass-it")
+    two.interrupt()
+
+
+def chapter_10(at: Student) -> None:
+    two = at.shells[1]
+    text = at.listing("indoor-and-outdoor")
+    at.reads("there is no file config/indoor*.yaml", "there is no file config/outdoor*.yaml")
+    at.write("config/indoor_config.yaml", text)
+    at.write("config/outdoor_config.yaml", text.replace("max_speed", "max_sped"))
+    at.reads("outdoor_config.yaml gives no max_speed; did you mean max_sped?")
+    at.write("config/outdoor_config.yaml", text.replace("0.8", "1.6"))
+    at.does("indoor-and-outdoor")
+
+    id = "choose-at-launch"
+    launch = at.listing(id, 1)
+    argument, parameters = at.listing(id).split("\n\n")
+    at.reads("waiting for: a launch of *.launch.py with config_file:=*outdoor* with config_file")
+    two.start(launch)
+    at.reads(f"{ARGUMENTS} had no config_file when it was launched")
+    two.interrupt()
+    at.edit(ARGUMENTS, '                parameters=[{"max_speed": LaunchConfiguration("max_speed")}],', parameters)
+    at.merge(ARGUMENTS, f"{argument}\n", "        [\n", after=True)
+    two.start(launch)
+    at.does(id)
+    two.interrupt()
+
+
+def chapters_11_to_15(at: Student) -> None:
+    """The tools: keys of the console."""
+    two = at.shells[1]
+    keys = at.console.type
+    at.reads("waiting for: somebody to set turn_rate")
+    two.run(at.listing("slide-a-value"))
+    keys("1/turn_rate\r")
+    at.shows("turn_rate  1.0")
+    keys("+")
+    at.does("slide-a-value")
+    keys("0")
+    at.reads("waiting for: the pane history")
+    keys("H")
+    at.does("see-what-was-changed-and-take-it-back")
+    keys("0")
+    at.reads("waiting for: the pane logs")
+    keys("2")
+    at.does("only-warnings")
+    keys("0")
+    at.reads("waiting for: the pane graph")
+    keys("3")
+    at.does("read-the-graph")
+    keys("0")
+    at.reads("waiting for: the pane plot", "waiting for: a curve of angular.z in the plot")
+    keys(at.listing("the-turning-over-time").replace("angular.z", "linear.x") + "\r")
+    at.shows("linear.x")
+    keys("0")
+    at.reads("✓ saw-pane plot", "waiting for: a curve of angular.z in the plot")
+    keys(at.listing("the-turning-over-time") + "\r")
+    at.does("the-turning-over-time")
+    plot, set_rate = at.lines("beside-the-limit")
+    keys("0")
+    at.reads("waiting for: a curve of turn_rate in the plot")
+    keys(f"{plot}\r")
+    keys("0")
+    at.reads("✓ saw-curve", "waiting for: turn_rate to be set to 0.5")
+    two.run(set_rate)
+    at.does("beside-the-limit")
+    keys("0")
+    at.reads("waiting for: the pane steering", "waiting for: the robot to be driven by your keys")
+    keys("6w")
+    at.shows("Steering")
+    keys("0")
+    at.reads("✓ saw-pane steering", "waiting for: the robot to be driven by your keys")
+    keys("6\r")
+    at.does_by("drive-by-hand", lambda: keys("w"))
+    keys(" \r0")
+    at.reads("waiting for: a saved layout")
+    keys("V")
+    at.shows("w Save")
+    keys("wmine\r")
+    at.does("arrange-and-save")
+    keys("\x1b")
+
+
+PACKAGE = "src/intelligent_robot"
+
+
+def chapter_16(at: Student) -> None:
+    two = at.shells[1]
+    at.reads("there is no file intelligent_robot/package.xml")
+    two.run(*at.lines("a-package"))
+    at.does("a-package")
+    up, prefix = at.lines("drive-with-it")
+    at.reads("waiting for: pkg prefix intelligent_robot")
+    two.run(up, prefix.replace("intelligent", "inteligent"))
+    at.reads("it ended with exit code 1")
+    two.run(prefix)
+    at.does("drive-with-it")
+
+
+def scripts(at: Student, *names: str) -> None:
+    """Write the console scripts of `setup.py`."""
+    path = at.workspace / PACKAGE / "setup.py"
+    lines = "".join(f"            '{each} = intelligent_robot.{each}:main',\n" for each in names)
+    text = re.sub(r"('console_scripts': \[\n).*?( +\],)", rf"\1{lines}\2", path.read_text("utf-8"), flags=re.DOTALL)
+    path.write_text(text, "utf-8")
+
+
+def chapter_17(at: Student) -> None:
+    one, two, three = at.shells
+    id = "the-robot-node"
+    down, simulator, run = at.lines(id)
+    at.reads(
+        "there is no file intelligent_robot/robot_node.py", "setup.py has no line for robot_node in console_scripts"
+    )
+    at.write(f"{PACKAGE}/intelligent_robot/robot_node.py", intelligent_robot.ROBOT)
+    scripts(at, "robot_nod")
+    at.reads("has no line for robot_node in console_scripts; did you mean robot_nod?")
+    scripts(at, "robot_node")
+    at.reads("✓ expect-entry-point robot_node", "waiting for: run intelligent_robot robot_node")
+    three.run(down)
+    three.start(simulator)
+    two.start(run)
+    at.does(id)
+
+    at.reads("waiting for: a value of safety_distance that is refused")
+    one.run(at.listing("it-refuses").replace("5.0", "1.0"))
+    at.reads("1.0 was accepted: to refuse it, the callback has to return")
+    one.run(at.listing("it-refuses"))
+    at.does("it-refuses")
+
+    at.reads("setup.py has no line for sensor_node in console_scripts")
+    for program, name in intelligent_robot.OTHERS.items():
+        at.write(f"{PACKAGE}/intelligent_robot/{program}.py", intelligent_robot.OTHER.format(name=name))
+    scripts(at, "robot_node", *intelligent_robot.OTHERS)
+    at.does("sensor-safety-and-telemetry")
+
+
+def chapter_18(at: Student) -> None:
+    two = at.shells[1]
+    at.reads("there is no file intelligent_robot/config/indoor_config.yaml")
+    for name, speed in (("indoor", 0.8), ("outdoor", 2.0)):
+        at.write(f"{PACKAGE}/config/{name}_config.yaml", intelligent_robot.CONFIG.format(speed=speed))
+    wrong = intelligent_robot.CONFIG.format(speed=1.5).replace("ros__", "ros_")
+    at.write(f"{PACKAGE}/config/warehouse_config.yaml", wrong)
+    at.reads("warehouse_config.yaml:2: ros_parameters has one underscore")
+    at.write(f"{PACKAGE}/config/warehouse_config.yaml", wrong.replace("ros_", "ros__"))
+    at.does("three-environments")
+
+    at.reads("config/indoor_config.yaml is not installed: data_files of setup.py has no line for it")
+    at.edit(f"{PACKAGE}/setup.py", "    data_files=[\n", f"    data_files=[\n{at.listing('install-them')}\n")
+    at.edit(f"{PACKAGE}/setup.py", "from setuptools", "import os\nfrom glob import glob\n\nfrom setuptools")
+    at.does("install-them")
+
+    two.interrupt()
+    run = at.listing("try-one")
+    at.reads("waiting for: run intelligent_robot robot_node --params-file *outdoor*")
+    two.run(run.replace("outdoor_config", "outdor_config"))
+    at.reads("waiting for: run intelligent_robot robot_node --params-file *outdoor*")
+    two.start(run)
+    at.does("try-one")
+    two.interrupt()
+
+
+def chapter_19(at: Student) -> None:
+    two = at.shells[1]
+    path = f"{PACKAGE}/launch/robot_system.launch.py"
+    at.reads("there is no file launch/*launch.py in a package")
+    at.write(path, intelligent_robot.LAUNCH.replace('    "telemetry_node": "telemetry_publisher",\n', ""))
+    two.start(at.listing("one-file-for-the-system"))
+    at.reads("robot_system.launch.py had no telemetry_node when it was launched")
+    two.interrupt()
+    at.write(path, intelligent_robot.LAUNCH)
+    two.start(at.listing("one-file-for-the-system"))
+    at.does("one-file-for-the-system")
+    two.interrupt()
+
+    launch = at.listing("with-an-environment")
+    at.reads("waiting for: a launch of intelligent_robot/launch/*launch.py with *:=*outdoor*")
+    two.run(launch.replace("outdoor_config", "outdor_config"))
+    at.reads("waiting for: a launch of intelligent_robot/launch/*launch.py with *:=*outdoor*")
+    two.start(launch)
+    at.does("with-an-environment")
+
+
+def chapter_20(at: Student) -> None:
+    one, two, three = at.shells
+    at.reads("waiting for: max_speed to be set to 2.0", "waiting for: a value of detection_threshold that is refused")
+    one.run(*at.lines("valid-and-invalid"))
+    at.does("valid-and-invalid")
+    two.interrupt()
+    three.interrupt()
+
+    build, lint = at.lines("would-it-build-on-ros-2")
+    at.reads("waiting for: colcon build", "waiting for: lint")
+    at.edit(f"{PACKAGE}/setup.py", "glob('config/*.yaml')", "glob('config/in*.yaml')")
+    one.run(build)
+    assert "outdoor_config.yaml" in one.run(lint)
+    at.reads("outdoor_config.yaml is not installed: data_files of setup.py has no line for it")
+    at.edit(f"{PACKAGE}/setup.py", "glob('config/in*.yaml')", "glob('config/*.yaml')")
+    one.run(build, lint)
+    at.does("would-it-build-on-ros-2")
+
+
+def chapter_21(at: Student) -> None:
+    one = at.shells[0]
+    check = at.listing("grade-yourself")
+    at.reads("waiting for: check --course week6: all rows have to pass")
+    if not can_isolate():
+        check = f"{check} --allow-network"
+    at.edit(f"{PACKAGE}/intelligent_robot/robot_node.py", '"max_speed": 1.0', '"max_speed": 1.5')
+    assert "FAIL" in one.run(check)
+    at.reads("it ended with exit code 1")
+    at.edit(f"{PACKAGE}/intelligent_robot/robot_node.py", '"max_speed": 1.5', '"max_speed": 1.0')
+    assert "13 of 13 points" in one.run(check)
+    at.does("grade-yourself")
+
+
+@pytest.mark.timeout(600)
+def test_first_chapter(student: Callable[[Path], Student]) -> None:
+    chapter_1(student(WEEK6))
+
+
+@pytest.mark.soak
+@pytest.mark.timeout(3600)
+def test_whole_course(student: Callable[[Path], Student]) -> None:
+    at = student(WEEK6)
+    chapter_1(at)
+    chapter_2(at)
+    chapter_3(at)
+    chapter_4(at)
+    chapter_5(at)
+    chapter_6(at)
+    chapter_7(at)
+    chapter_8(at)
+    chapter_9(at)
+    chapter_10(at)
+    chapters_11_to_15(at)
+    chapter_16(at)
+    chapter_17(at)
+    chapter_18(at)
+    chapter_19(at)
+    chapter_20(at)
+    chapter_21(at)
+    assert at.done() == {each.id for each in at.course.steps()}
