@@ -148,7 +148,10 @@ class Student:
         words = [str(home / "bin" / "bot-console"), "learn", str(course)]
         self.console = Pty(words, self.workspace, self._env, SIZE)
         self._screen, self._fed = Emulator(*SIZE), 0
-        self.shows(f" of {len(self._steps)} done")  # From then on, commands are recorded.
+
+    def begin(self) -> None:
+        """Wait until the lesson is shown: from then on, commands are recorded."""
+        self.shows(f" of {len(self._steps)} done")
 
     def screen(self) -> list[str]:
         """The lines on the console's screen."""

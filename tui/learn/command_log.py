@@ -24,7 +24,7 @@ MAX_WORDS, MAX_WORD_CHARACTERS = 40, 200
 """Of a command line, what is recorded."""
 SETTLING_S = 3.0
 """Seconds for which a command has to run before it counts as one that works: until then it may still fail."""
-MAX_SAID_CHARACTERS = 500
+MAX_ERROR_CHARACTERS = 500
 """Of the end of what a command writes to stderr."""
 MAX_BYTES = 4_000_000
 """The size from which nothing more is recorded."""
@@ -40,7 +40,7 @@ class Command(NamedTuple):
     words: tuple[str, ...]
     code: int | None = None
     settled: bool = True
-    said: str = ""
+    errors: str = ""
     """The end of its error output, for commands whose exit code does not say whether they had success."""
 
     @property
@@ -87,7 +87,7 @@ class ErrorTail:
 
     def write(self, text: str) -> int:
         """Write a text."""
-        self.text = (self.text + text)[-MAX_SAID_CHARACTERS:]
+        self.text = (self.text + text)[-MAX_ERROR_CHARACTERS:]
         return self._stream.write(text)
 
     def __getattr__(self, name: str) -> Any:
@@ -121,12 +121,12 @@ def recorded(words: Sequence[str]) -> Generator[Callable[[int], int]]:
         record(path, words, codes[0] if codes else 1, tail.text)
 
 
-def record(path: str, words: Sequence[str], code: int | None, said: str = "") -> None:
+def record(path: str, words: Sequence[str], code: int | None, errors: str = "") -> None:
     """Append a command; one that cannot be recorded is left out, since it must not fail for that."""
     import json
 
     kept = [each[:MAX_WORD_CHARACTERS].encode("utf-8", "replace").decode() for each in words[:MAX_WORDS]]
-    row = {"pid": os.getpid(), "at": time.time(), "words": kept, "code": code, "said": said[-MAX_SAID_CHARACTERS:]}
+    row = {"pid": os.getpid(), "at": time.time(), "words": kept, "code": code, "errors": errors[-MAX_ERROR_CHARACTERS:]}
     line = json.dumps(row) + "\n"
     try:
         if os.path.getsize(path) < MAX_BYTES:
@@ -153,10 +153,10 @@ def read_log(path: str, now: float = float("inf")) -> list[Command]:
         try:
             row = json.loads(line)
             words, code, pid = tuple(str(each) for each in row["words"]), row["code"], row["pid"]
-            settled, said = now - float(row["at"]) >= SETTLING_S, str(row["said"])
+            settled, errors = now - float(row["at"]) >= SETTLING_S, str(row["errors"])
         except (ValueError, TypeError, KeyError):
             continue
-        command = Command(words, code if isinstance(code, int) else None, settled, said)
+        command = Command(words, code if isinstance(code, int) else None, settled, errors)
         started = found.get((pid, words))
         if started is not None and (started.code is not None or command.code is None):
             found[number] = command  # another process with the same id, or another start of the same words

@@ -104,14 +104,14 @@ class Deeds:
     def refusals(self, name: str) -> list[str]:
         """The reasons for which a value of a parameter was refused."""
         here = [each.reason for each in self.changes if each.name == name and not each.accepted]
-        lines = [each.said for each in self.commands if is_set_of(each, name)]
+        lines = [each.errors for each in self.commands if is_set_of(each, name)]
         return here + [each.rpartition(REFUSED)[2].strip(": \n") for each in lines if REFUSED in each]
 
     def values_set(self, name: str) -> list[str]:
         """The values that somebody has set, as texts."""
         here = [value_text(each.new) for each in self.changes if each.name == name and each.accepted]
         lines = [each for each in self.commands if each.code == 0 and is_set_of(each, name)]
-        return here + [each.words[-1] for each in lines if REFUSED not in each.said]
+        return here + [each.words[-1] for each in lines if REFUSED not in each.errors]
 
 
 def is_set_of(command: Command, name: str) -> bool:

@@ -16,6 +16,7 @@ def student(tmp_path: Path) -> Iterator[Callable[[Path], Student]]:
 
     def open_course(course: Path) -> Student:
         at_work.append(Student(tmp_path, course))
+        at_work[-1].begin()
         return at_work[-1]
 
     yield open_course

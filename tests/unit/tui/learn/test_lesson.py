@@ -89,7 +89,7 @@ def seen(*parameters: ParameterInfo, **facts: Any) -> Deeds:
 
 def refused(name: str, reason: str) -> Command:
     """A command line that has set a parameter, which the node refused."""
-    return Command(("ros2", "param", "set", "/n", name, "9"), 0, said=f"Setting parameter failed: {reason}\n")
+    return Command(("ros2", "param", "set", "/n", name, "9"), 0, errors=f"Setting parameter failed: {reason}\n")
 
 
 def launched(*arguments: str, file: str = "x.launch.py", code: int | None = None, settled: bool = True) -> Deeds:
@@ -354,7 +354,7 @@ def test_error_output_of_param_commands_is_recorded(
             print("x" * 1000, "Setting parameter failed: no", file=sys.stderr)
             ended(0)
     assert capsys.readouterr().err.count("failed: no") == 2
-    assert [(each.code, each.said[-4:], len(each.said) > 500) for each in read_log(str(path))] == [
+    assert [(each.code, each.errors[-4:], len(each.errors) > 500) for each in read_log(str(path))] == [
         (0, " no\n", False),
         (0, "", False),
     ]
