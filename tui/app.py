@@ -3,51 +3,53 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, ClassVar, cast
 
 from bot_console.tui import keymap
 from bot_console.tui.appearance import Appearance
-from bot_console.tui.arrangement.arrival import COMING_STATUS, ArrivingApp, System
+from bot_console.tui.arrangement.arrival import COMING_STATUS, ORDERED, Arrival, System
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.files.crash import keep, reason
 from bot_console.tui.keys.keyboard import MAX_PASTE_CHARACTERS, Keyboard
 from bot_console.tui.layout.named import OVERVIEW
-from bot_console.tui.notifying import NotifyingApp
 from bot_console.tui.opening import Opening
-from bot_console.tui.pane_requests import PaneRequests
 from bot_console.tui.pane_table import PANES, PaneEntry
-from bot_console.tui.recording import RecordingApp
 from bot_console.tui.safety.early_stop import EarlyStop
-from bot_console.tui.screens.tuning.requests import TuningRequests
-from bot_console.tui.text.sanitize import counted
+from bot_console.tui.terminal.exception_guard import GuardedApp
+from bot_console.tui.text.sanitize import brief, counted, sanitize
 from bot_console.tui.theme import THEMES
 from bot_console.tui.time_cursor import TimeCursor
 from bot_console.tui.widgets.key_bar import KeyBar
 from bot_console.tui.widgets.pane_area import PaneArea, PanePlaceholder
 from bot_console.tui.widgets.tabs import Tabs
+from bot_console.tui.widgets.toast_place import place_toasts
 from textual import events
 from textual.app import ComposeResult
 from textual.binding import BindingType
 from textual.dom import DOMNode
+from textual.notifications import Notify, SeverityLevel
 from textual.types import CSSPathType
+from textual.widget import Widget
 from textual.widgets import Static
 
 if TYPE_CHECKING:
     from bot_console.tui.console.command_line import CommandLine
-    from bot_console.tui.console.launch.port import Launcher
     from bot_console.tui.console.protocol import Console
+    from bot_console.tui.controls import Controls
     from bot_console.tui.panes.broken_pane import BrokenPane
     from bot_console.tui.panes.pane import Pane
+    from bot_console.tui.tuning.tuner import Tuner
 
 HERE = Path(__file__).parent
+MAX_NOTIFICATIONS = 5
+"""Notifications that are kept; the newest is shown, and those before it once it has gone."""
+PLOT = "plot"
 
-P = TypeVar("P", bound="Pane")
 
-
-class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, ArrivingApp):
+class BotConsoleApp(GuardedApp):
     """rqt for the terminal."""
 
     TITLE = "bot-console"
@@ -61,7 +63,6 @@ class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, Ar
     def __init__(
         self,
         console: Console | None = None,
-        launcher: Launcher | None = None,
         command_line: CommandLine | None = None,
         *,
         refresh_hz: float = 10.0,
@@ -99,27 +100,31 @@ class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, Ar
             lambda: self._reached and self._snapshot.drive.stopped_here,
         )  # fmt: skip
         self._reach, self._reached = reach, False
+        self.tuner: Tuner | None = None
+        """Makes the runs of a tuning; None: tuning is not available."""
         if console is not None:
-            self.attach(System(console, launcher, command_line))
+            self._below = self.attach(System(console, command_line))
         else:
             self._keyboard.passes = lambda _: False
 
-    def attach(self, system: System) -> None:
-        """Start acting on a system."""
-        from bot_console.tui.app_parts import AppParts
+    def attach(self, system: System) -> Sequence[Widget]:
+        """Start acting on a system; returns the widgets between the panes and the key bar."""
         from bot_console.tui.console.model import ConsoleSnapshot
+        from bot_console.tui.controls import controls_of
+        from bot_console.tui.widgets.streams.panels import StreamPanels
 
-        self.console_of_robot, self.launcher = system.console, system.launcher
+        self.console_of_robot = system.console
         self._snapshot = ConsoleSnapshot()
-        self.parts = AppParts(
-            *(self, self, self.stage, system.console, system.command_line),
+        self.controls: Controls = controls_of(
+            *(self, self.stage, system.console, system.command_line),
             early_stop=self.early_stop,
+            time_cursor=self.time_cursor,
             redraw=self.redraw,
             open=self.open,
             changed=self.panes_changed,
         )
-        self.command_handler, self.faults = self.parts.command_handler, self.parts.faults
         self._reached = True
+        return StreamPanels(), self.controls.commands.field(), self.controls.status
 
     async def on_event(self, event: events.Event) -> None:
         """Handle keys one at a time, in order; those that quit from anywhere wait for nothing."""
@@ -137,23 +142,43 @@ class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, Ar
             await self._keyboard.typed(event)
 
     async def _deal(self, event: events.Event) -> None:
-        overtaken = isinstance(event, events.Key) and self._keyboard.was_overtaken(event)
-        if not (self._reached and self.parts.is_spent(event, overtaken=overtaken)):
+        if not (isinstance(event, events.Key) and self._is_spent(event)):
             await super().on_event(event)
+
+    def _is_spent(self, key: events.Key) -> bool:
+        """Whether a key means nothing any more.
+
+        The question whether to quit is not answered by what was typed before the key that asked it.
+        """
+        overtaken = self._keyboard.was_overtaken(key)
+        if not self._reached:
+            return False
+        return (overtaken and not keymap.stops(key.key) and self.controls.quitting.asking) or self.early_stop.has_acted(
+            key
+        )
 
     def compose(self) -> ComposeResult:
         """Tabs, panes, status bar, key bar, and a notice for terminals that are too small; empty frames at first."""
         yield Tabs()
         with PaneArea(id="panes"):
             if self._reached:
-                yield from self.made_at_once()
+                yield from self._all_panes()
             else:
                 yield from (
                     PanePlaceholder(id, title, chosen=chosen) for id, title, chosen in self.stage.at_first(self.size)
                 )
-        yield from self.parts.widgets() if self._reached else (Static("", id=COMING_STATUS, markup=False),)
+        yield from self._below if self._reached else (Static("", id=COMING_STATUS, markup=False),)
         yield KeyBar()
         yield Static("", id="too-small", markup=False)
+
+    def _all_panes(self) -> Iterator[Pane]:
+        """Make all panes; hidden ones make their parts later."""
+        seen = self.stage.seen_at(self.size)
+        for each in ORDERED:
+            pane = self.controls.panes.made(each.load(), each.id)
+            if each.id not in seen:
+                pane.come_late()
+            yield pane
 
     def on_mount(self) -> None:
         """Choose the theme, lay out, and start polling."""
@@ -166,7 +191,7 @@ class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, Ar
             self.call_after_refresh(self._on_first_frame)
             self.call_after_refresh(self._add_plugins)
         elif self._reach is not None:
-            self.arrive(self._reach, self._all_there)
+            Arrival(self, self, self.stage, self._keyboard).begin(self._reach, self._all_there)
 
     def begin_to_pull(self) -> None:
         """Start polling for snapshots."""
@@ -178,9 +203,13 @@ class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, Ar
         if self._opening != Opening(self._opening.pane):
             self.open(self._opening)
 
-    def is_stop(self, key: object) -> bool:
-        """Whether a key stops the robot."""
-        return isinstance(key, events.Key) and keymap.stops(key.key)
+    def make_pane(self, entry: PaneEntry) -> Pane:
+        """Make a pane, or one in its place that says why it cannot be made."""
+        return self.controls.faults.made(entry)
+
+    def waits_for_answer(self) -> bool:
+        """Whether a key was pressed just now, whose effect should be drawn before anything else."""
+        return self.gate.is_eager
 
     def _all_there(self) -> None:
         self._open_first()
@@ -193,7 +222,7 @@ class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, Ar
         found = self._plugins()
         if found:
             self.stage.plugins = [*found]
-            await self.faults.add(found)
+            await self.controls.faults.add(found)
 
     def _heartbeat(self) -> None:
         self.pull()
@@ -201,8 +230,10 @@ class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, Ar
             for pane in self.panes():
                 if not pane.is_ending:
                     pane.tick()
-            self.parts.heartbeat()
-            self.update_notifications()
+            self.controls.commands.poll()
+            self.controls.status.heartbeat()
+            if len(self._notifications):
+                place_toasts(self.screen)  # the newest one that is left, clear of the cursor
             self.stage.drop_unused()
 
     def pull(self) -> None:
@@ -215,20 +246,12 @@ class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, Ar
             self.stage.observe(snapshot)
             for pane in self.visible_panes():
                 pane.show(snapshot)
-            if self.parts.status.is_attached:  # not while the screen is made or taken away
-                self.parts.status.show(snapshot, self.gate.held_back)
-        for requester in self.parts.requesters():
+            if self.controls.status.is_attached:  # not while the screen is made or taken away
+                self.controls.status.show(snapshot, self.gate.held_back)
+        for requester in self.controls.screens.requesters():
             requester.poll()
-        for text in self.parts.safety_news.since(snapshot):
+        for text in self.controls.safety_news.since(snapshot):
             self.notify(text, severity="warning")
-
-    def entries(self) -> Sequence[PaneEntry]:
-        """All available panes."""
-        return self.stage.entries()
-
-    def made(self, kind: type[P], id: str, **facts: Any) -> P:
-        """Make a pane of a class for the system being shown."""
-        return kind(self.console_of_robot, self.launcher, id=id, time_cursor=self.time_cursor, **facts)
 
     def panes(self) -> list[Pane]:
         """All panes, in screen order."""
@@ -283,17 +306,17 @@ class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, Ar
     def action_arrange(self) -> None:
         """Arrange the panes with keys."""
         self.stage.go(OVERVIEW)
-        self.parts.arrange()
+        self.controls.screens.arrange()
 
     def action_all_stop(self) -> None:
         """Stop and hold the robot, or release it."""
-        self.parts.act_on_stop(self.parts.stopping.wanted)
+        self.controls.stopping.pressed()
         self.pull()
 
     async def action_quit(self) -> None:
         """Quit, but ask first when values would be lost."""
         if self._reached:
-            self.parts.quitting.wanted()
+            self.controls.quitting.wanted()
         else:
             self.exit()
 
@@ -301,25 +324,69 @@ class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, Ar
         """Show help for the focused pane."""
         pane = self.current_pane
         if pane is not None:
-            self.parts.help(pane)
+            self.controls.screens.help(pane)
 
     def action_palette(self) -> None:
         """Open the command palette."""
-        self.command_handler.palette()
+        self.controls.commands.palette()
 
     def action_command_line(self) -> None:
         """Open the command line, for the console's own commands and `ros2` lines."""
-        self.command_handler.ask_line()
+        self.controls.commands.ask_line()
+
+    def action_record(self) -> None:
+        """Record all topics into a bag, or end the bag."""
+        if pane := self.current_pane:
+            self.controls.recording.toggle(pane)
+
+    def action_keep_past(self) -> None:
+        """Save the last minutes in a bag."""
+        if pane := self.current_pane:
+            self.controls.recording.keep_past(pane)
+
+    def on_pane_plot_wanted(self, event: Pane.PlotWanted) -> None:
+        """Plot a path that another pane names."""
+        event.stop()
+        plot = cast("Pane", self.query_one(f"#{PLOT}"))
+        plot.go_to(event.path)
+        if not plot.display:
+            self.action_pane(PLOT)
+
+    def on_pane_line_wanted(self, event: Pane.LineWanted) -> None:
+        """Run a command line that a pane asks for."""
+        event.stop()
+        self.controls.commands.runner.run(event.line)
+
+    def on_pane_keys_changed(self, event: Pane.KeysChanged) -> None:
+        """Update what the keys of the pane do."""
+        event.stop()
+        self.stage.show_keys()
+
+    def on_pane_pane_wanted(self, event: Pane.PaneWanted) -> None:
+        """Show another pane, at the item that one names."""
+        event.stop()
+        self.action_pane(event.pane)
+        cast("Pane", self.query_one(f"#{event.pane}")).go_to(event.name)
+
+    def on_pane_edit_wanted(self, event: Pane.EditWanted) -> None:
+        """Open a line of a file in the person's editor."""
+        event.stop()
+        self.controls.leaving.edit(event.file, event.line)
+
+    def on_pane_tuning_wanted(self, event: Pane.TuningWanted) -> None:
+        """Start a tuning, and show it over the panes."""
+        event.stop()
+        self.controls.screens.tune(self.tuner, event)
 
     def on_pane_alarms_hold(self, event: Pane.AlarmsHold) -> None:
         """Name the active alarms in the status bar."""
-        bar = self.parts.status
+        bar = self.controls.status
         bar.alarms = event.names
         bar.show(self._snapshot, self.gate.held_back)
 
     def action_acknowledge(self) -> None:
         """Reset the error count."""
-        bar = self.parts.status
+        bar = self.controls.status
         bar.acknowledge(self._snapshot)
         bar.show(self._snapshot, self.gate.held_back)
 
@@ -351,14 +418,36 @@ class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, Ar
         for note in opening.notes:
             self.notify(note, severity="warning", markup=False)
 
+    def notify(
+        self,
+        message: str,
+        *,
+        title: str = "",
+        severity: SeverityLevel = "information",
+        timeout: float | None = None,
+        markup: bool = False,
+    ) -> None:
+        """Show a notification; the text of nodes and people is never parsed as markup."""
+        super().notify(brief(message), title=sanitize(title), severity=severity, timeout=timeout, markup=False)
+
+    def on_notify(self, event: Notify) -> None:
+        """Make room for a notification above the status line, and say in it how many others there are."""
+        others = len(self._notifications)
+        if others >= MAX_NOTIFICATIONS:
+            self.clear_notifications()
+        if others:
+            event.notification.message += f"  +{others} more"
+        if self.screen_stack:
+            place_toasts(self.screen, another=True)
+
     def contain(self, error: Exception, culprits: list[DOMNode]) -> bool:
         """End only the pane or screen whose code raised; False where none can be blamed."""
-        return self._running and self._reached and self.faults.contain(error, culprits)
+        return self._running and self._reached and self.controls.faults.contain(error, culprits)
 
     async def on_broken_pane_reopen(self, event: BrokenPane.Reopen) -> None:
         """Reopen a pane that ended with an exception."""
         event.stop()
-        await self.faults.reopen(event.pane)
+        await self.controls.faults.reopen(event.pane)
 
     def panes_changed(self) -> None:
         """Lay out again, and show the snapshot in all panes, after a pane was replaced or added."""
@@ -376,7 +465,7 @@ class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, Ar
 
     def action_sleep(self) -> None:
         """Suspend the console; the robot is held meanwhile."""
-        self.parts.leaving.sleep()
+        self.controls.leaving.sleep()
 
     def on_text_selected(self) -> None:
         """Copy the text selected with the mouse."""
@@ -387,4 +476,4 @@ class BotConsoleApp(NotifyingApp, RecordingApp, TuningRequests, PaneRequests, Ar
 
     def action_end_stream(self) -> None:
         """Stop the command line that is running below the panes."""
-        self.command_handler.end_stream()
+        self.controls.commands.end_stream()

@@ -82,4 +82,4 @@ class BagApp(BotConsoleApp):
         self.follow_player()
 
     def _status(self) -> Widget:
-        return self.parts.status
+        return self.controls.status

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Callable, Sequence
-from typing import Any, Protocol, TypeVar
 
+from bot_console.tui.arrangement.pane_maker import PaneMaker
 from bot_console.tui.files.crash import keep, reason
 from bot_console.tui.pane_table import PaneEntry
 from bot_console.tui.panes.broken_pane import BrokenPane
@@ -15,20 +15,6 @@ from bot_console.tui.screens.question import QuestionScreen
 from textual.app import App
 from textual.containers import Container
 from textual.dom import DOMNode
-
-P = TypeVar("P", bound=Pane)
-
-
-class PaneMaker(Protocol):
-    """The app, as far as making panes goes."""
-
-    def entries(self) -> Sequence[PaneEntry]:
-        """All available panes."""
-        ...
-
-    def made(self, kind: type[P], id: str, **facts: Any) -> P:
-        """Make a pane of a class for the system being shown."""
-        ...
 
 
 class Faults:

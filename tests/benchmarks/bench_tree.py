@@ -30,7 +30,6 @@ from bot_console.tui.opening import Opening
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
 from fakes.console import FakeConsole
-from fakes.launcher import FakeLauncher
 
 NODES, EACH = 200, 25
 WORDS = "n1 speed"
@@ -66,7 +65,7 @@ class Counted(ParameterRows):
 async def measure() -> dict[str, float]:
     """One run."""
     console = FakeConsole()
-    app = BotConsoleApp(console, FakeLauncher((), ()), refresh_hz=0, opening=Opening("parameters"))
+    app = BotConsoleApp(console, refresh_hz=0, opening=Opening("parameters"))
     found: dict[str, float] = {}
     async with app.run_test(size=(120, 40)) as pilot:
         await pilot.pause()

@@ -43,7 +43,6 @@ from bot_console.tui.panes.topics.rows import rows
 from bot_console_robot.simulation.simulation import Simulation
 from bot_console_robot.simulation.world_file import load_world
 from fakes.console import FakeConsole
-from fakes.launcher import FakeLauncher
 from textual.app import App, ComposeResult
 from textual.widgets import DataTable, RichLog
 
@@ -95,7 +94,7 @@ def parameter_tree(count: int) -> float:
     console = FakeConsole()
 
     async def measured() -> float:
-        app = BotConsoleApp(console, FakeLauncher((), ()), refresh_hz=0, opening=Opening("parameters"))
+        app = BotConsoleApp(console, refresh_hz=0, opening=Opening("parameters"))
 
         def show() -> None:
             console.change(parameters=MappingProxyType(trees))

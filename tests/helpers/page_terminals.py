@@ -92,13 +92,14 @@ class Terminals:
 
         async def main() -> None:
             launcher = FakeLauncher()
-            app = BotConsoleApp(self.console, launcher, refresh_hz=0, appearance=appearance, plugins=plugins)
+            self.console.launcher = launcher
+            app = BotConsoleApp(self.console, refresh_hz=0, appearance=appearance, plugins=plugins)
             async with app.run_test(size=size, notifications=True) as pilot:
                 reinstall_stdio()
                 screen: Any = Screen(app, pilot, self.console, launcher)  # type: ignore[arg-type] # a real one
                 await screen.settle()
                 await play(screen)
-                assert app.faults.seen == [], "a pane has ended by a fault"
+                assert app.controls.faults.seen == [], "a pane has ended by a fault"
 
         with at_rest():
             asyncio.run(main())

@@ -107,7 +107,8 @@ def run(
 
     async def main() -> None:
         console, launcher = system
-        app = BotConsoleApp(console, launcher, FakeCommandLine(console.asked), refresh_hz=0, appearance=appearance)
+        console.launcher = launcher
+        app = BotConsoleApp(console, FakeCommandLine(console.asked), refresh_hz=0, appearance=appearance)
         with at_rest():
             async with app.run_test(size=size, notifications=True) as pilot:
                 session = Session(app, pilot, console, launcher)
@@ -116,6 +117,6 @@ def run(
                 await session.settle()
                 await play(session)
                 if not faults_wanted:
-                    assert app.faults.seen == [], "a pane has ended by a fault"
+                    assert app.controls.faults.seen == [], "a pane has ended by a fault"
 
     asyncio.run(main())

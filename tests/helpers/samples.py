@@ -274,7 +274,8 @@ def live(parts: tuple[str, ...] = ()) -> tuple[FakeConsole, FakeLauncher]:
         "/opt/launch/single_robot.launch.py",
         "/opt/launch/multi_node_system.launch.py",
     )
-    return console, FakeLauncher(arguments(), files)
+    launcher = console.launcher = FakeLauncher(arguments(), files)
+    return console, launcher
 
 
 def with_camera(*names: str) -> tuple[FakeConsole, FakeLauncher]:

@@ -34,8 +34,8 @@ RARER: list[tuple[str, System, tuple[int, int]]] = [
 
 
 def app_of(system: System, start: str = "overview") -> BotConsoleApp:
-    console, launcher = system()
-    return BotConsoleApp(console, launcher, refresh_hz=0, opening=Opening(start))
+    console, console.launcher = system()
+    return BotConsoleApp(console, refresh_hz=0, opening=Opening(start))
 
 
 @pytest.mark.parametrize(

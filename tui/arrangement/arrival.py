@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Awaitable, Callable, Iterator, Sequence
+from collections.abc import Awaitable, Callable, Sequence
 from functools import partial
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from bot_console.tui.arrangement.early_keys import panes_needed
 from bot_console.tui.arrangement.stage import Stage
+from bot_console.tui.keymap import stops
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.screens.question_screens import prepare
 from bot_console.tui.terminal.visible_screen import mount_unseen
@@ -16,18 +17,13 @@ from bot_console.tui.widgets.key_bar import KeyBar
 from bot_console.tui.widgets.pane_area import PaneArea, PanePlaceholder
 from textual import events
 from textual.app import App
-from textual.widget import MountError
+from textual.widget import MountError, Widget
 
 if TYPE_CHECKING:
-    from bot_console.tui.app_parts import AppParts
     from bot_console.tui.console.command_line import CommandLine
-    from bot_console.tui.console.launch.port import Launcher
     from bot_console.tui.console.protocol import Console
     from bot_console.tui.keys.keyboard import Keyboard, Typed
     from bot_console.tui.panes.pane import Pane
-    from bot_console.tui.terminal.frame_pacing import AnswerGate
-
-P = TypeVar("P", bound="Pane")
 
 COMING_STATUS = "coming-status"
 """The id of the placeholder for the status bar."""
@@ -41,82 +37,78 @@ ORDERED = sorted(PANES, key=lambda entry: entry.place)
 
 
 class System(NamedTuple):
-    """What is shown, and what answers questions about processes and command lines."""
+    """What is shown, and what runs command lines."""
 
     console: Console
-    launcher: Launcher | None = None
     command_line: CommandLine | None = None
 
 
-class ArrivingApp(App[None]):
-    """An app whose first frame is shown before there is a console.
+class Host(Protocol):
+    """The app, as far as its start goes."""
 
-    It brings up one part after the other and handles its messages in between: a stop before anything else, keys for the
-    visible panes once those exist, and all others once everything does.
-    """
+    def attach(self, system: System) -> Sequence[Widget]:
+        """Start acting on a system; returns the widgets between the panes and the key bar."""
+        ...
 
-    parts: AppParts
-    stage: Stage
-    gate: AnswerGate
-    _keyboard: Keyboard
-    _only_unseen = False
-    """Whether everything visible exists, and only hidden parts are still to come."""
-    _rests = 0
-
-    def attach(self, system: System) -> None:
-        """Start acting on a system."""
-        raise NotImplementedError
+    def make_pane(self, entry: PaneEntry) -> Pane:
+        """Make a pane of the system."""
+        ...
 
     def begin_to_pull(self) -> None:
         """Start polling for snapshots."""
-        raise NotImplementedError
+        ...
 
     def panes_changed(self) -> None:
         """Lay out again, and show the snapshot in all panes."""
-        raise NotImplementedError
+        ...
 
-    def is_stop(self, key: object) -> bool:
-        """Whether a key stops the robot."""
-        raise NotImplementedError
+    def waits_for_answer(self) -> bool:
+        """Whether a key was pressed just now, whose effect should be drawn before anything else."""
+        ...
 
-    def made(self, kind: type[P], id: str, **facts: Any) -> P:
-        """Make a pane of a class for the system being shown."""
-        raise NotImplementedError
 
-    def made_at_once(self) -> Iterator[Pane]:
-        """Make all panes; hidden ones make their parts later."""
-        seen = self.stage.seen_at(self.size)
-        for each in ORDERED:
-            pane = self.made(each.load(), each.id)
-            if each.id not in seen:
-                pane.come_late()
-            yield pane
+class Arrival:
+    """Brings up one part after the other, and lets the app handle its messages in between.
 
-    def arrive(self, reach: Callable[[], System], there: Callable[[], None]) -> None:
+    A stop is handled before anything else, keys for the visible panes once those exist, and all others once everything
+    does.
+    """
+
+    def __init__(self, app: App[None], host: Host, stage: Stage, keyboard: Keyboard) -> None:
+        self._app = app
+        self._host = host
+        self._stage = stage
+        self._keyboard = keyboard
+        self._only_unseen = False
+        """Whether everything visible exists, and only hidden parts are still to come."""
+        self._rests = 0
+        self._steps: deque[Callable[[], Awaitable[None]]] = deque()
+
+    def begin(self, reach: Callable[[], System], there: Callable[[], None]) -> None:
         """Bring up everything; `reach` connects to the system, `there` is called once all of it exists."""
         self._there = there
-        self._steps: deque[Callable[[], Awaitable[None]]] = deque([partial(self._bring_system, reach)])
-        self.call_after_refresh(self.bring_next)
+        self._steps.append(partial(self._bring_system, reach))
+        self._app.call_after_refresh(self.bring_next)
 
     async def bring_next(self) -> None:
         """Bring up the next part, and continue once the app has handled its messages."""
-        if not self.is_running:
+        if not self._app.is_running:
             return
         if self._keyboard.is_busy:
-            self.set_timer(KEY_POLL_S, self.bring_next)
+            self._app.set_timer(KEY_POLL_S, self.bring_next)
             return
         if self._is_resting():
             self._rests += 1
-            self.set_timer(HIDDEN_PANE_PAUSE_S, self.bring_next)
+            self._app.set_timer(HIDDEN_PANE_PAUSE_S, self.bring_next)
             return
         try:
             await self._steps.popleft()()
         except MountError:
-            if self.screen_stack[0].is_attached:
+            if self._app.screen_stack[0].is_attached:
                 raise
             return  # a signal has ended the app meanwhile
         if self._steps:
-            self.call_later(self.bring_next)
+            self._app.call_later(self.bring_next)
         else:
             self._there()
 
@@ -124,20 +116,20 @@ class ArrivingApp(App[None]):
         """Whether hidden parts should wait, to stay out of the way of the next key."""
         return (
             self._only_unseen
-            and self.gate.is_eager
+            and self._host.waits_for_answer()
             and self._keyboard.next is None
             and self._rests * HIDDEN_PANE_PAUSE_S < MAX_HIDDEN_PANE_PAUSE_S
         )
 
     async def _bring_system(self, reach: Callable[[], System]) -> None:
-        self.attach(reach())
-        screen = self.screen_stack[0]
-        with self.batch_update():
+        widgets = self._host.attach(reach())
+        screen = self._app.screen_stack[0]
+        with self._app.batch_update():
             await screen.query_one(f"#{COMING_STATUS}").remove()
-            await screen.mount(*self.parts.widgets(), before=screen.query_one(KeyBar))
-        self.begin_to_pull()
-        await self._keyboard.hold(self.is_stop)
-        places = {each for each, _, _ in self.stage.at_first(self.size)}
+            await screen.mount(*widgets, before=screen.query_one(KeyBar))
+        self._host.begin_to_pull()
+        await self._keyboard.hold(is_stop)
+        places = {each for each, _, _ in self._stage.at_first(self._app.size)}
         seen = [each for each in ORDERED if each.id in places]
         self._steps += [partial(self._import_pane, each) for each in seen]
         hidden = deque(each for each in ORDERED if each not in seen)
@@ -155,12 +147,12 @@ class ArrivingApp(App[None]):
             return
 
     async def _bring_seen(self, entries: list[PaneEntry]) -> None:
-        area = self.screen_stack[0].query_one(PaneArea)
+        area = self._app.screen_stack[0].query_one(PaneArea)
         await area.mount(*map(self._made, entries))
         coming = area.query(PanePlaceholder)
         for each in coming:  # all in one frame: else there is one without any panes in between
             each.display = False
-        self.panes_changed()
+        self._host.panes_changed()
         await coming.remove()
         self._only_unseen = True
         await self._keyboard.hold(self._may_act)
@@ -173,13 +165,13 @@ class ArrivingApp(App[None]):
         self._steps.extendleft((partial(self._bring_hidden, entry), partial(self._import_pane, entry)))
 
     async def _bring_hidden(self, entry: PaneEntry) -> None:
-        area = self.screen_stack[0].query_one(PaneArea)
+        area = self._app.screen_stack[0].query_one(PaneArea)
         behind = {each.id for each in ORDERED[ORDERED.index(entry) + 1 :]}
         before = next((each for each in area.children if each.id in behind), None)
         pane = self._made(entry)
         pane.come_late()
         await mount_unseen(area, pane, before)
-        self.stage.poll_again()
+        self._stage.poll_again()
         await self._keyboard.hold(self._may_act)
 
     def _awaited(self) -> Sequence[str]:
@@ -187,17 +179,22 @@ class ArrivingApp(App[None]):
         return self._needed(key) or () if key is not None else ()
 
     def _may_act(self, key: Typed) -> bool:
-        wanted = () if self.is_stop(key) else self._needed(key)
-        return wanted is not None and {*wanted} <= {each.id for each in self.stage.panes()}
+        wanted = () if is_stop(key) else self._needed(key)
+        return wanted is not None and {*wanted} <= {each.id for each in self._stage.panes()}
 
     def _needed(self, key: Typed) -> Sequence[str] | None:
-        return panes_needed(self, self.stage, key.key) if isinstance(key, events.Key) else None
+        return panes_needed(self._app, self._stage, key.key) if isinstance(key, events.Key) else None
 
     async def _complete(self) -> None:
-        self.panes_changed()
+        self._host.panes_changed()
         prepare()
 
     def _made(self, entry: PaneEntry) -> Pane:
-        pane = self.parts.faults.made(entry)
+        pane = self._host.make_pane(entry)
         pane.display = False  # until it is laid out, and shown the newest
         return pane
+
+
+def is_stop(key: Typed) -> bool:
+    """Whether a key stops the robot."""
+    return isinstance(key, events.Key) and stops(key.key)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from bot_console.tui.console.bags.node_bags import NodeBags
 from bot_console.tui.console.gate import READ_ONLY, Gate
 from bot_console.tui.console.graph.node_graph import NodeGraph
+from bot_console.tui.console.launch.gated_launcher import GatedLauncher
 from bot_console.tui.console.logs.node_logs import NodeLogs
 from bot_console.tui.console.model import Capabilities, ConsoleSnapshot, LaunchInfo, LinkInfo, Severity
 from bot_console.tui.console.parameters.node_parameters import NodeParameters
@@ -24,6 +25,7 @@ from bot_console.tui.console.topics.node_topics import NodeTopics
 if TYPE_CHECKING:
     from bot_console.tui.console.bags.port import Keeper
     from bot_console.tui.console.graph.type_discovery import TypeSource
+    from bot_console.tui.console.launch.port import Launcher
     from bot_console.tui.console.robot.drive_node import DriveNode
 
 NOWHERE = ("", "", 0)
@@ -69,8 +71,13 @@ class NodePorts:
         )
         self.sensors = NodeSensors(self.gate, lambda: self.graph.info)
         self.bags = NodeBags(self.gate, buffer)
+        self.launcher: Launcher | None = None
         self._by_path: tuple[object, dict[str, str]] = (), {}
         self._snapshot = ConsoleSnapshot(capabilities=capabilities)
+
+    def attach_launcher(self, launcher: Launcher) -> None:
+        """Give the panes what launches for this console."""
+        self.launcher = GatedLauncher(self.gate, launcher)
 
     def refuse_changes(self) -> None:
         """Make the console read-only; a stop still passes."""

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from bot_console.tui.console.bags.port import Recording
     from bot_console.tui.console.gate import Gate
     from bot_console.tui.console.graph.port import Graph
+    from bot_console.tui.console.launch.port import Launcher
     from bot_console.tui.console.logs.port import Logs
     from bot_console.tui.console.parameters.port import Parameters
     from bot_console.tui.console.parameters.profile_port import Profiles
@@ -75,6 +76,11 @@ class Console(Protocol):
     @property
     def bags(self) -> Recording:
         """Records into bags."""
+        ...
+
+    @property
+    def launcher(self) -> Launcher | None:
+        """Launches files, and starts and ends processes; None: this console has nothing to do so."""
         ...
 
     def snapshot(self) -> ConsoleSnapshot:

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.files.save_file import NotSaved, typed_path
@@ -101,14 +100,12 @@ class Pane(LazyParts):
     def __init__(
         self,
         console: Console,
-        launcher: Launcher | None = None,
         *,
         id: str | None = None,
         time_cursor: TimeCursor | None = None,
     ) -> None:
         super().__init__(id=id)
         self.console = console
-        self.launcher = launcher
         self.time_cursor = time_cursor or TimeCursor()
         self.border_title = self.TITLE
         self._caption = ""

@@ -47,14 +47,18 @@ class Quitting:
             )
         )
 
-    def keep_held(self) -> bool:
+    def keeps_held(self) -> bool:
         """Turn the stop for the question into one that only a person releases; returns whether there was one."""
-        held, self._holding = self._holding, False
-        return held
+        if not self._holding:
+            return False
+        self._holding = False
+        self._app.notify("The robot stays held.")
+        return True
 
     def _go_on(self) -> None:
         self.asking = False
-        if self.keep_held():
+        if self._holding:
+            self._holding = False
             self._console.drive.stop(False)  # which withdraws only this console's stop
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.console.robot.robot_model import RobotStop
@@ -15,22 +15,32 @@ from textual.screen import Screen
 class Stopping:
     """Holds the robot for this console, and withdraws that stop; others' stops are released only after a question."""
 
-    def __init__(self, app: App[None], console: Console) -> None:
+    def __init__(self, app: App[None], console: Console, keeps_held: Callable[[], bool]) -> None:
+        """`keeps_held`: keep the robot held that is held only for a question; returns whether it was."""
         self._app = app
         self._console = console
+        self._keeps_held = keeps_held
         self._question: Screen[None] | None = None
         """The question whether to release what others hold; on the screen, or answered."""
 
-    def wanted(self) -> None:
+    def pressed(self) -> None:
         """Hold the robot, or release it; a stop that nobody has acknowledged is sent again.
 
-        The question whether to release has keys of its own: pressed again meanwhile, this key leaves the robot held.
+        While the question whether to quit holds the robot, it stays held instead. The question whether to release has
+        keys of its own: pressed again meanwhile, this key leaves the robot held.
         """
+        if self._keeps_held():
+            return
         drive = self._console.snapshot().drive
         if self._asking or not drive.stopped_here or (drive.lockable and not drive.stop_confirmed):
             self.hold()
         else:
             self.release()
+
+    def pressed_early(self) -> None:
+        """Hold the robot for a key that was pressed behind other input; it never releases."""
+        if not self._keeps_held():
+            self.hold()
 
     @property
     def held_here(self) -> bool:

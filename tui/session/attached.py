@@ -11,10 +11,8 @@ from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.foreground.foreground import Foreground
 from bot_console.tui.cli.interpreter import collect_from_now_on
 from bot_console.tui.console.command_line import CommandLine
-from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.model import Severity
 from bot_console.tui.console.ros_console import RosConsole
-from bot_console.tui.session.pane_dependencies import for_panes
 from bot_console.tui.session.plugins import find_plugins
 
 READY = 20.0
@@ -29,19 +27,21 @@ class AttachedSession:
         command_line: CommandLine,
         options: Options,
         *,
-        launcher: Launcher | None = None,
         message: Sequence[tuple[Severity, str]] = (),
         on_first_frame: Callable[[], None] = lambda: None,
         on_close: Callable[[], None] = lambda: None,
     ) -> None:
-        """`said` are lines for the log; `on_close` ends what was started with the console, before that leaves."""
+        """`message` are lines for the log; `on_close` ends what was started with the console, before that leaves."""
         self._console = console
         self._last_message = message
         self._first_frame = on_first_frame
         self._on_close = on_close
+        if options.read_only:
+            console.refuse_changes()
         appearance = appearance_of(options)
         self.app = BotConsoleApp(
-            *for_panes(console, launcher, command_line, read_only=options.read_only),
+            console,
+            command_line,
             opening=options.opening._replace(notes=(*options.opening.notes, *appearance.notes)),
             on_first_frame=self._on_first_frame,
             appearance=appearance,

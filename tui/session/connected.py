@@ -28,7 +28,6 @@ from bot_console.tui.session.embedded.hooks import (
 from bot_console.tui.session.embedded.process_reports import log_process_reports
 from bot_console.tui.session.embedded.ros2_command_line import Ros2CommandLine
 from bot_console.tui.session.embedded.workspaces import SIMULATOR_LAUNCH, SYSTEM_LAUNCH, config_folders
-from bot_console.tui.session.pane_dependencies import for_panes
 from bot_console.tui.session.plugins import find_plugins
 from bot_console.tui.session.protocol import ClosableLauncher
 from bot_console.tui.session.robot_starter import RobotProcess
@@ -52,7 +51,7 @@ class Connected:
         system: Callable[[RosConsole], ClosableLauncher] = embedded,
         buffer: Keeper | None = None,
     ) -> None:
-        """`said` are early lines for the log; `system` makes the launcher, in this process by default.
+        """`message` are early lines for the log; `system` makes the launcher, in this process by default.
 
         `buffer` keeps the last minutes.
         """
@@ -89,8 +88,10 @@ class Connected:
         take_over_streams()
         self.console.start()
         threading.Thread(target=self._launch, name="start", daemon=True).start()
-        lines = Ros2CommandLine(self.launcher)
-        return System(*for_panes(self.console, self.launcher, lines, read_only=self._options.read_only))
+        self.console.attach_launcher(self.launcher)
+        if self._options.read_only:
+            self.console.refuse_changes()
+        return System(self.console, Ros2CommandLine(self.launcher))
 
     def plugins(self) -> Sequence[PaneEntry]:
         """The panes of other packages."""

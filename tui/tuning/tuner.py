@@ -9,6 +9,8 @@ from bot_console.tui.tuning.job import Progress
 from bot_console.tui.tuning.specification import TuningSpecification
 from bot_console.tui.tuning.tunable import Setting
 
+NO_TUNER = "Tuning is not available: this console is read-only, or has no simulator."
+
 
 class Tuning(Protocol):
     """A tuning in the background. No method blocks."""

@@ -49,7 +49,7 @@ def hang():
 
 for each in ("stop", "hold_early", "settle_early", "release"):
     noting(each)
-BotConsoleApp(console, launcher, FakeCommandLine(console.asked), on_first_frame=hang).run()
+BotConsoleApp(console, FakeCommandLine(console.asked), on_first_frame=hang).run()
 """
 MOVES = "".join(f"\x1b[<35;{10 + at % 90};{5 + at % 30}M" for at in range(3000))
 BEFORE = {

@@ -40,8 +40,8 @@ def source(tmp_path: Path):
 
 def drive(play) -> None:
     async def main() -> None:
-        console, launcher = live()
-        app = BotConsoleApp(console, launcher, refresh_hz=0, plugins=find_plugins)
+        console, _ = live()
+        app = BotConsoleApp(console, refresh_hz=0, plugins=find_plugins)
         async with app.run_test(size=(120, 40)) as pilot:
             await pilot.pause()
             await pilot.pause()
@@ -69,7 +69,7 @@ def test_example_in_a_workspace_starts_and_stops_the_robot(source: Path) -> None
         await pilot.pause()
         assert str(label.content) == "Robot Status: Running"
         assert console.asked[-1][0] == "set" and ("all_stop", False) in console.asked
-        assert not app.faults.seen
+        assert not app.controls.faults.seen
 
     drive(play)
 

@@ -12,6 +12,7 @@ from typing import Any
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.gate import CLOSED, Gate, done
+from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.logs.file import open_log
 from bot_console.tui.console.logs.port import LogView
 from bot_console.tui.console.logs.search import matching
@@ -61,6 +62,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
 
     def __init__(self, snapshot: ConsoleSnapshot | None = None) -> None:
         self.gate = Gate("")
+        self.launcher: Launcher | None = None
         self.records = LogStore(1000)
         self.current = snapshot or ConsoleSnapshot()
         self.asked: list[tuple[Any, ...]] = []

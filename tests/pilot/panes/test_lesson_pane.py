@@ -64,7 +64,6 @@ def run(folder: Path, play: Callable[[Session], Awaitable[None]], size: tuple[in
         console, launcher = live()
         app = BotConsoleApp(
             console,
-            launcher,
             FakeCommandLine(console.asked),
             refresh_hz=0,
             appearance=replace(Appearance(), arrangement=Arrangement(WithLesson(Forgetful()), NAME)),
@@ -76,7 +75,7 @@ def run(folder: Path, play: Callable[[Session], Awaitable[None]], size: tuple[in
                 await session.settle()
                 await session.settle()
                 await play(session)
-                assert app.faults.seen == []
+                assert app.controls.faults.seen == []
 
     asyncio.run(main())
 

@@ -121,11 +121,11 @@ def test_exception_in_an_overlay_closes_it(monkeypatch: pytest.MonkeyPatch) -> N
 
 
 def test_exception_outside_panes_stops_robot_and_prints_one_line(monkeypatch: pytest.MonkeyPatch, state: Path) -> None:
-    console, launcher = live()
+    console, _ = live()
     message = io.StringIO()
 
     async def main() -> int | None:
-        app = BotConsoleApp(console, launcher, refresh_hz=0)
+        app = BotConsoleApp(console, refresh_hz=0)
         app.error_console = Console(file=message, width=1000)
         monkeypatch.setattr(StatusBar, "show", boom)
         try:
@@ -161,7 +161,7 @@ def test_plugin_panes_that_arrive_during_exit_are_ignored() -> None:
             app._running = False
 
         with patch.object(area, "mount", mounted_at_the_end):
-            await app.faults.add([replace(PANES[0], id="theirs")])
+            await app.controls.faults.add([replace(PANES[0], id="theirs")])
         app._running = True
 
     run(live(), play)

@@ -52,7 +52,7 @@ def press_stop(console: RosConsole, play: Callable[[BotConsoleApp], None], *keys
 def status(app: BotConsoleApp) -> str:
     """The status line as it is drawn now."""
     app.call_from_thread(app.pull)
-    return str(app.parts.status.render())
+    return str(app.controls.status.render())
 
 
 @pytest.mark.parametrize("state", ["starting", "connected", "lost", "read-only", "closed"])

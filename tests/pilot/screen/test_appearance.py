@@ -90,9 +90,7 @@ def test_action_is_remapped_to_another_key(monkeypatch: pytest.MonkeyPatch) -> N
         monkeypatch.setitem(TABLE, scope, keys)
 
     async def play(session: Session) -> None:
-        app = BotConsoleApp(
-            session.console, session.launcher, refresh_hz=0, appearance=Appearance(keys=remap({"app.zoom": "f9"}))
-        )
+        app = BotConsoleApp(session.console, refresh_hz=0, appearance=Appearance(keys=remap({"app.zoom": "f9"})))
         async with app.run_test(size=(120, 40)) as pilot:
             await pilot.press("z")
             assert len(app.visible_panes()) > 1

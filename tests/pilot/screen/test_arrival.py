@@ -49,7 +49,7 @@ def arrive(typed: str, play: Callable[[Session], Awaitable[None]], panes: int = 
             assert app.query(PanePlaceholder) and not app.query("Pane")
             for character in typed:
                 app.post_message(events.Key(NAMES.get(character, character), character))
-            return System(console, launcher, FakeCommandLine(console.asked))
+            return System(console, FakeCommandLine(console.asked))
 
         app = BotConsoleApp(reach=reach, refresh_hz=0)
         with at_rest():
@@ -69,8 +69,8 @@ def test_the_keys_of_the_first_frame_are_those_of_the_pane_that_is_coming() -> N
 
         def reach() -> System:
             lines.extend(strip.text for strip in app.screen._compositor.render_strips())
-            console, launcher = live()
-            return System(console, launcher, FakeCommandLine(console.asked))
+            console, _ = live()
+            return System(console, FakeCommandLine(console.asked))
 
         app = BotConsoleApp(reach=reach, refresh_hz=0, opening=Opening(pane="steering"))
         with at_rest():
@@ -98,10 +98,10 @@ def test_in_the_end_all_looks_as_if_it_had_been_there_at_once() -> None:
 
 
 def test_the_first_frame_has_the_places_of_the_panes_the_tabs_and_the_keys(monkeypatch: pytest.MonkeyPatch) -> None:
-    async def never(app: BotConsoleApp) -> None:
+    async def never(arrival: Arrival) -> None:
         return
 
-    monkeypatch.setattr(BotConsoleApp, "bring_next", never)
+    monkeypatch.setattr(Arrival, "bring_next", never)
 
     async def main() -> None:
         app = BotConsoleApp(reach=lambda: System(live()[0]), refresh_hz=0)

@@ -88,9 +88,9 @@ def test_exception_in_lazy_composition_ends_only_that_pane(monkeypatch: pytest.M
     monkeypatch.setattr(ProfilesPane, "compose", compose)
 
     async def play(session: Session) -> None:
-        assert session.app.faults.seen == []
+        assert session.app.controls.faults.seen == []
         await session.press("7")
-        assert [str(each) for each in session.app.faults.seen] == ["no parts"]
+        assert [str(each) for each in session.app.controls.faults.seen] == ["no parts"]
         broken = session.pane(BrokenPane)
         assert broken.id == "profiles" and broken.display and "no parts" in session.text()
         await session.press("B")

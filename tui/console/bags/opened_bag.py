@@ -15,6 +15,7 @@ from bot_console.tui.console.bags.contents import Contents
 from bot_console.tui.console.bags.node_bags import NodeBags
 from bot_console.tui.console.gate import Gate
 from bot_console.tui.console.graph.node_graph import NodeGraph
+from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.logs.node_logs import NodeLogs
 from bot_console.tui.console.model import (
     Capabilities,
@@ -151,6 +152,7 @@ class OpenedBag:
         self.graph = NodeGraph(self.gate)
         self.sensors = NodeSensors(self.gate, lambda: graph)
         self.bags = NodeBags(self.gate)
+        self.launcher: Launcher | None = None
         self._snapshot = ConsoleSnapshot(
             seq=1,
             stamp=about.end,

@@ -91,7 +91,7 @@ class LaunchPane(ListPane):
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Draw the processes anew when they are another object."""
         why_not = snapshot.capabilities.launch or (
-            "" if self.launcher else "this console was started without a launcher"
+            "" if self.console.launcher else "this console was started without a launcher"
         )
         self._elsewhere = snapshot.capabilities.launched_elsewhere
         state = (snapshot.launch, why_not, snapshot.problem)
@@ -217,7 +217,7 @@ class LaunchPane(ListPane):
     def action_do(self, verb: str) -> None:
         """Start, stop, restart or kill what is at the cursor."""
         row = self._list.current
-        if row is None or self.launcher is None or not self.may_change():
+        if row is None or self.console.launcher is None or not self.may_change():
             return
         info = self._info or LaunchInfo()
         chosen = [row.process] if row.process else [each for each in info.processes if _belongs(each, row.group)]
@@ -238,7 +238,7 @@ class LaunchPane(ListPane):
 
     def _do(self, verb: str, processes: list[ProcessInfo]) -> None:
         for each in processes:
-            answer: Future[Answer] = getattr(self.launcher, verb)(each.key)
+            answer: Future[Answer] = getattr(self.console.launcher, verb)(each.key)
             answer.add_done_callback(lambda done: self.host.call_later(self._answered, done))
 
     def _ended(self, verb: str, processes: Sequence[ProcessInfo]) -> str:
@@ -264,7 +264,7 @@ class LaunchPane(ListPane):
 
     def action_open(self) -> None:
         """Choose a launch file, fill in its arguments, run it."""
-        if self.launcher is None or self._why_not:
+        if self.console.launcher is None or self._why_not:
             self.notify(self._why_not or "There is no launcher.", severity="warning", markup=False)
             return
         if not self.may_change():
@@ -273,7 +273,7 @@ class LaunchPane(ListPane):
             Choice(
                 "Open a launch file",
                 self._chosen,
-                find=partial(files_for, self.launcher.files()),
+                find=partial(files_for, self.console.launcher.files()),
                 hint="type part of a name, or a path",
                 empty="No launch files in the workspace; type a path.",
             )
@@ -284,7 +284,7 @@ class LaunchPane(ListPane):
 
     async def _ask(self, path: str) -> None:
         """Read the arguments beside the event loop: a launch file is a program."""
-        launcher = self.launcher
+        launcher = self.console.launcher
         if launcher is None:
             return
         try:
@@ -298,9 +298,9 @@ class LaunchPane(ListPane):
             self._launch(path, {})
 
     def _launch(self, path: str, values: Mapping[str, str]) -> None:
-        if self.launcher is not None:
+        if self.console.launcher is not None:
             self._read = ""
-            answer = self.launcher.launch(path, values)
+            answer = self.console.launcher.launch(path, values)
             answer.add_done_callback(lambda done: self.host.call_later(self._launched, done))
 
     def _launched(self, done: Future[Answer]) -> None:

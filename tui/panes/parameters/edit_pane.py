@@ -15,9 +15,9 @@ from bot_console.tui.keys.key import Mode
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.parameters import editing, tuning
 from bot_console.tui.panes.parameters.table import ParameterRows
-from bot_console.tui.screens.tuning.requests import NO_TUNER
 from bot_console.tui.text.refusals import of_many
 from bot_console.tui.tuning.tunable import Setting, Tunable, find_tunables
+from bot_console.tui.tuning.tuner import NO_TUNER
 from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Elements, Line
 
 MARKING = (

@@ -321,7 +321,7 @@ class ProfilesPane(ListPane):
 
     def _ask_launch(self, profile: Profile) -> None:
         """A launch profile takes the place of all that runs."""
-        if self.launcher is None:
+        if self.console.launcher is None:
             self.notify("this console was started without a launcher")
             return
         running = [each for each in self._snapshot.launch.processes if each.state is ProcessState.RUNNING]
@@ -339,7 +339,7 @@ class ProfilesPane(ListPane):
         )
 
     def _replace_system(self, profile: Profile) -> None:
-        launcher = self.launcher
+        launcher = self.console.launcher
         if launcher is None:
             return
         ended = (ProcessState.EXITED, ProcessState.CRASHED, ProcessState.ABANDONED)

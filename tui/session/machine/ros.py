@@ -39,11 +39,12 @@ def run_ros(options: AttachOptions, described: str) -> int:
         expected=settings.expected,
     )
     launchers = launcher_of_machine(console.record, console.printed)
+    console.attach_launcher(launchers)
     rmw = os.environ.get("RMW_IMPLEMENTATION", "as installed")
     # Where it searches has a line of its own, which fits a small terminal: an empty console is explained by it.
     lines = (f"Searching {network_use(os.environ)}", OUTPUT.format(described, rmw))
     message = [(Severity.INFO, line) for line in lines]
     session = AttachedSession(
-        console, MachineCommandLine(), options.appearance, launcher=launchers, message=message, on_close=launchers.close
+        console, MachineCommandLine(), options.appearance, message=message, on_close=launchers.close
     )
     return session.run()

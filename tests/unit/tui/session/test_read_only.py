@@ -20,8 +20,10 @@ def test_read_only_option_reaches_the_session(words: list[str]) -> None:
 def test_panes_of_attached_session_get_a_console_launcher_and_lines_that_change_nothing(read_only: bool) -> None:
     console, launcher, asked = RosConsole(), FakeLauncher((), ("x.launch.py",)), []
     options = Options(attach=True, read_only=read_only)
-    app = AttachedSession(console, FakeCommandLine(asked), options, launcher=launcher).app
+    console.attach_launcher(launcher)
+    app = AttachedSession(console, FakeCommandLine(asked), options).app
     assert bool(app.console_of_robot.gate.read_only) is read_only
-    assert app.launcher is not None and bool(app.launcher.files()) is not read_only
-    app.command_handler.runner._lines.run("ros2 param set /a b 1")
+    assert app.console_of_robot.launcher is not None
+    assert bool(app.console_of_robot.launcher.files()) is not read_only
+    app.controls.commands.runner._lines.run("ros2 param set /a b 1")
     assert bool(asked) is not read_only

@@ -1,0 +1,81 @@
+"""What acts on a system, made once that is reached: the command line, stopping, fault handling, quitting, suspending.
+
+The app imports this module only after its first frame: it imports the whole model, which would delay the frame by a
+third.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from bot_console.tui.arrangement.pane_maker import PaneMaker
+from bot_console.tui.arrangement.stage import Stage
+from bot_console.tui.commanding.command_handler import CommandHandler
+from bot_console.tui.commanding.recording import BagRecording
+from bot_console.tui.console.command_line import CommandLine
+from bot_console.tui.console.gated_lines import GatedLines
+from bot_console.tui.console.protocol import Console
+from bot_console.tui.faults import Faults
+from bot_console.tui.opening import Opening
+from bot_console.tui.safety.early_stop import EarlyStop
+from bot_console.tui.safety.quitting import Quitting
+from bot_console.tui.safety.safety_news import SafetyNews
+from bot_console.tui.safety.stopping import Stopping
+from bot_console.tui.screens.opener import ScreenOpener
+from bot_console.tui.terminal.suspension import Leaving
+from bot_console.tui.time_cursor import TimeCursor
+from bot_console.tui.widgets.status_bar import StatusBar
+from textual.app import App
+
+
+@dataclass(frozen=True)
+class Controls:
+    """One object for each thing that a person can do with a system, or must learn about it."""
+
+    quitting: Quitting
+    stopping: Stopping
+    leaving: Leaving
+    commands: CommandHandler
+    recording: BagRecording
+    screens: ScreenOpener
+    panes: PaneMaker
+    faults: Faults
+    safety_news: SafetyNews
+    status: StatusBar
+
+
+def controls_of(
+    app: App[None],
+    stage: Stage,
+    console: Console,
+    lines: CommandLine | None,
+    *,
+    early_stop: EarlyStop,
+    time_cursor: TimeCursor,
+    redraw: Callable[[], None],
+    open: Callable[[Opening], None],
+    changed: Callable[[], None],
+) -> Controls:
+    """Compose them for an app and a console.
+
+    `redraw` sends every cell again, `open` shows what was asked for, `changed` follows a replaced pane.
+    """
+    quitting = Quitting(app, console)
+    stopping = Stopping(app, console, quitting.keeps_held)
+    early_stop.attach(console.drive, stopping.pressed_early)
+    leaving = Leaving(app, console, redraw, holds=not console.gate.read_only)
+    gated = GatedLines(console.gate, lines)
+    panes = PaneMaker(console, time_cursor, stage.entries)
+    return Controls(
+        quitting=quitting,
+        stopping=stopping,
+        leaving=leaving,
+        commands=CommandHandler(app, stage, stopping, console, gated, open, leaving.run),
+        recording=BagRecording(console.bags),
+        screens=ScreenOpener(app, stage),
+        panes=panes,
+        faults=Faults(app, panes, changed),
+        safety_news=SafetyNews(console.parameters),
+        status=StatusBar(),
+    )
