@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import time
 from shlex import quote
 
 from bot_console.tui.console.model import ConsoleSnapshot, Kind, ParameterInfo, Range, Severity, Value
@@ -204,6 +205,4 @@ def command_of(parameter: ParameterInfo, value: Value) -> str:
 
 def clock_text(stamp: int) -> str:
     """Hours, minutes, seconds and milliseconds of a time since the epoch (ns), in local time."""
-    import time
-
     return time.strftime("%H:%M:%S", time.localtime(stamp // 10**9)) + f".{stamp // 10**6 % 1000:03d}"

@@ -21,6 +21,7 @@ from email.message import Message
 from pathlib import Path
 from typing import IO, Any
 
+import yaml
 from bot_console.runtime.files.user_folders import cache_folder
 
 SCHEME = "https://"
@@ -203,8 +204,6 @@ def _content(address: str, answer: Any) -> bytes:
 
 def _check_yaml(address: str, content: bytes) -> None:
     """Raise `RemoteError` for invalid YAML. Only its events are read: nothing is constructed from it."""
-    import yaml
-
     loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
         for _ in yaml.parse(content.decode("utf-8-sig"), Loader=loader):

@@ -11,6 +11,7 @@ from functools import cache
 from pathlib import Path
 
 from bot_console.runtime.files.user_folders import data_folder
+from bot_console.runtime.rosidl.sources import EXAMPLES
 
 UNVERIFIED = Path(__file__).resolve().parents[1] / "rosidl" / "unverified"
 """Definitions whose fields come from public sources and whose hashes were not compared with ROS 2."""
@@ -44,7 +45,6 @@ def add(folder: Path) -> dict[str, list[str]]:
 
     All definitions are read first, so that a mistake in one adds nothing.
     """
-    from bot_console.runtime.rosidl.sources import EXAMPLES
     from bot_console.runtime.rosidl.texts import standard_packages
 
     if not folder.is_dir():

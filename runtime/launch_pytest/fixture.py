@@ -8,6 +8,9 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import pytest
+from launch_pytest.running import Running
+
+from launch import LaunchDescription
 
 RUNNING: dict[str, Any] = {}
 """The running launches, by the names of their fixtures."""
@@ -31,10 +34,6 @@ def fixture(
     name = options.get("name") or decorated.__name__
 
     def described(*args: Any, **kwargs: Any) -> Iterator[Any]:
-        from launch_pytest.running import Running
-
-        from launch import LaunchDescription
-
         made = decorated(*args, **kwargs)
         description = made[0] if isinstance(made, Sequence) and made else made
         assert isinstance(description, LaunchDescription), (

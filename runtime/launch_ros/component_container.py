@@ -6,6 +6,12 @@ import importlib
 import re
 from typing import Any
 
+import rclpy
+from composition_interfaces.srv import ListNodes, LoadNode, UnloadNode
+from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.parameter import Parameter
+
 EXECUTABLES = ("component_container", "component_container_mt", "component_container_isolated")
 PACKAGE = "rclcpp_components"
 ENTRY_POINTS = "rclpy_components"
@@ -13,10 +19,6 @@ ENTRY_POINTS = "rclpy_components"
 
 def main(*, threads: int | None = 1) -> None:
     """Run a container until it is interrupted."""
-    import rclpy
-    from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor, SingleThreadedExecutor
-    from rclpy.node import Node
-
     rclpy.init()
     executor = SingleThreadedExecutor() if threads == 1 else MultiThreadedExecutor(threads)
     node = Node("ComponentManager")
@@ -36,8 +38,6 @@ class ComponentContainer:
     """The services of a container, and the nodes it has loaded."""
 
     def __init__(self, node: Any, executor: Any) -> None:
-        from composition_interfaces.srv import ListNodes, LoadNode, UnloadNode
-
         self._node = node
         self._executor = executor
         self._loaded: dict[int, Any] = {}
@@ -89,8 +89,6 @@ class ComponentContainer:
 
 def make_component(request: Any) -> Any:
     """Create the requested node; raises `LookupError` for a class that is not Python, and whatever the class raises."""
-    from rclpy.parameter import Parameter
-
     arguments = ["--ros-args"]
     if request.node_name:
         arguments += ["-r", f"__node:={request.node_name}"]

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
+import yaml
 from bot_console.runtime.process.scratch import scratch_file
 from bot_console.runtime.programs.hints import is_read
 from bot_console.runtime.rmw.parameter_places import FROM_LAUNCH
@@ -62,8 +63,6 @@ def own_parameter_arguments(
 
 
 def _rule(name: str, value: Any) -> str:
-    import yaml
-
     return f"{name}:={yaml.dump(value)}"
 
 
@@ -72,8 +71,6 @@ def write_parameters(parameters: Mapping[str, Any], node_name: str | None, origi
 
     Where a person reads hints, it begins with a comment that names the `origin` of the values in a launch file.
     """
-    import yaml
-
     content = {node_name or "/**": {"ros__parameters": dict(parameters)}}
     comment = f"{FROM_LAUNCH}{origin}\n" if origin and is_read() else ""
     return str(scratch_file(PREFIX, comment + yaml.dump(content, default_flow_style=False)))

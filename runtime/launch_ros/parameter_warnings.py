@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import launch.logging
+import yaml
 from bot_console.runtime.rmw.parameter_places import node_keys
 from bot_console.runtime.rmw.parameter_precedence import key_matches
 from bot_console.runtime.rmw.parameter_scalars import INT64_MAX, INT64_MIN, scalar_value
@@ -83,8 +84,6 @@ def changes_in_yaml(text: str, found: Any) -> bool:
 
 def changes_in_file(text: str) -> bool:
     """Whether a string written without quotes in YAML is no string to rcl."""
-    import yaml
-
     return not isinstance(scalar_value(text), str) and yaml.dump(text).splitlines()[0] == text
 
 

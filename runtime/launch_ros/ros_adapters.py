@@ -6,7 +6,9 @@ import os
 import threading
 from typing import TYPE_CHECKING, Any
 
+import rclpy
 from launch.event_handlers import OnShutdown
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -18,9 +20,6 @@ class ROSAdapter:
     """A node in its own context, spun in a separate thread while the launch runs."""
 
     def __init__(self, *, argv: list[str] | None = None) -> None:
-        import rclpy
-        from rclpy.executors import SingleThreadedExecutor
-
         self._context = rclpy.Context()
         rclpy.init(args=argv or [], context=self._context)
         self._node = rclpy.create_node(f"launch_ros_{os.getpid()}", context=self._context)
@@ -31,8 +30,6 @@ class ROSAdapter:
         self._thread.start()
 
     def _spin(self) -> None:
-        from rclpy.executors import ExternalShutdownException
-
         try:
             while self._running:
                 self._executor.spin_once(timeout_sec=1.0)
@@ -41,8 +38,6 @@ class ROSAdapter:
 
     def shutdown(self) -> None:
         """Leave the graph."""
-        import rclpy
-
         if not self._running:
             return
         self._running = False

@@ -5,12 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from launch.launch_description_sources import FrontendLaunchDescriptionSource
+from launch_xml.parser import Parser
 
 
 class XMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
     """Reads a launch file in XML."""
 
     def __init__(self, launch_file_path: Any) -> None:
-        from launch_xml.parser import Parser
-
         super().__init__(launch_file_path, parser=Parser, method="interpreted XML launch file")

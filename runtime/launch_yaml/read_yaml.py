@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import yaml
+
 
 class LineMap(dict[Any, Any]):
     """A map of a YAML file."""
@@ -13,7 +15,6 @@ class LineMap(dict[Any, Any]):
 
 def read_yaml(text: str) -> Any:
     """The tree of a YAML text, its maps with their lines; raises `yaml.YAMLError`."""
-    import yaml
 
     class Loader(yaml.SafeLoader):
         pass

@@ -5,12 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from launch.launch_description_sources import FrontendLaunchDescriptionSource
+from launch_yaml.parser import Parser
 
 
 class YAMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
     """Reads a launch file in YAML."""
 
     def __init__(self, launch_file_path: Any) -> None:
-        from launch_yaml.parser import Parser
-
         super().__init__(launch_file_path, parser=Parser, method="interpreted YAML launch file")

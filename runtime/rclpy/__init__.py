@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from bot_console.runtime.distribution import distribution
 from bot_console.runtime.process import ProcessLocal, explain_with
 from rclpy.context import Context as Context
+from rclpy.impl.reexports import submodule
 from rclpy.impl.unused_overrides import report_unused_overrides
 from rclpy.parameter import Parameter as Parameter
 from rclpy.signals import SignalHandlerOptions as SignalHandlerOptions
@@ -179,6 +180,4 @@ def spin_until_future_complete(
 
 
 def __getattr__(name: str) -> Any:
-    from rclpy.impl.reexports import submodule
-
     return submodule(name)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 import weakref
 from collections.abc import Callable, Sequence
@@ -49,8 +50,6 @@ class Context:
 
         `initialize_logging` affects only the log file: all contexts of a process share its logging.
         """
-        import sys
-
         from rclpy.impl.command_line import begin_log_file, parse_global
         from rclpy.impl.rcutils_logger import RcutilsLogger
 

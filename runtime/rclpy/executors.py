@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from _thread import allocate_lock
 from collections import deque
 from collections.abc import Callable, Coroutine, Generator
@@ -426,8 +427,6 @@ class MultiThreadedExecutor(Executor):
         if num_threads is None:
             num_threads = cpu_count()
         if num_threads == 1:
-            import warnings
-
             warnings.warn(
                 "MultiThreadedExecutor is used with a single thread.\nUse the SingleThreadedExecutor instead.",
                 stacklevel=2,

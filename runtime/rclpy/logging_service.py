@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from rcl_interfaces.msg import LoggerLevel, SetLoggerLevelsResult
+from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels
 from rclpy.impl.logging_severity import LoggingSeverity
 from rclpy.logging import get_logger_level, set_logger_level
 from rclpy.qos import qos_profile_services_default
@@ -13,22 +15,16 @@ class LoggingService:
     """Serves `~/get_logger_levels` and `~/set_logger_levels` of a node."""
 
     def __init__(self, node: Any) -> None:
-        from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels
-
         name = node.get_name()
         qos = qos_profile_services_default
         node.create_service(GetLoggerLevels, f"{name}/get_logger_levels", self._get, qos_profile=qos)
         node.create_service(SetLoggerLevels, f"{name}/set_logger_levels", self._set, qos_profile=qos)
 
     def _get(self, request: Any, response: Any) -> Any:
-        from rcl_interfaces.msg import LoggerLevel
-
         response.levels = [LoggerLevel(name=name, level=int(get_logger_level(name))) for name in request.names]
         return response
 
     def _set(self, request: Any, response: Any) -> Any:
-        from rcl_interfaces.msg import SetLoggerLevelsResult
-
         results: list[Any] = []
         for each in request.levels:
             try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import weakref
 from collections.abc import Collection, Iterator, Sequence
 from types import FunctionType, TracebackType
 from typing import TYPE_CHECKING, Any
@@ -12,6 +13,7 @@ from bot_console.runtime.programs.hints import at, key_of_another_node
 from bot_console.runtime.rmw import names, remapping
 from bot_console.runtime.rmw.parameter_places import place_of_key
 from bot_console.runtime.rmw.parameter_precedence import COMMAND_LINE, key_matches
+from rcl_interfaces.msg import ParameterEvent
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.clock import Clock, ROSClock
@@ -135,8 +137,6 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
     def _ros_make_parameters(
         self, arguments: list[Any], overrides: Sequence[Parameter] | None, undeclared: bool, automatic: bool
     ) -> None:
-        from rcl_interfaces.msg import ParameterEvent
-
         self._parameter_event_publisher = self.create_publisher(
             ParameterEvent, "/parameter_events", qos_profile_parameter_events
         )
@@ -162,8 +162,6 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
 
     @executor.setter
     def executor(self, new: Any) -> None:
-        import weakref
-
         before = self.executor
         if before is new:
             return

@@ -6,6 +6,8 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import current
+from rcl_interfaces import srv
+from rcl_interfaces.msg import ParameterEvent
 from rclpy.impl.reexports import reexporting
 from rclpy.parameter import Parameter, parameter_dict_from_yaml_file
 from rclpy.qos import QoSProfile, qos_profile_parameter_events, qos_profile_services_default
@@ -32,8 +34,6 @@ class AsyncParameterClient:
         qos_profile: QoSProfile = qos_profile_services_default,
         callback_group: Any = None,
     ) -> None:
-        from rcl_interfaces import srv
-
         self.node = node
         self.remote_node_name = remote_node_name
 
@@ -141,8 +141,6 @@ class AsyncParameterClient:
         raw: bool = False,
     ) -> Any:
         """Subscribe to the parameter events of all nodes; returns the subscription."""
-        from rcl_interfaces.msg import ParameterEvent
-
         return self.node.create_subscription(
             ParameterEvent,
             "/parameter_events",

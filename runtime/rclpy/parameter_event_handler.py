@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterator
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
+from rcl_interfaces.msg import ParameterEvent
 from rclpy.qos import QoSProfile, qos_profile_parameter_events
 
 if TYPE_CHECKING:
     from rcl_interfaces.msg import Parameter as ParameterMsg
-    from rcl_interfaces.msg import ParameterEvent
 
 TOPIC = "/parameter_events"
 UNKNOWN = "Callback doesn't exist"
@@ -44,8 +44,6 @@ class ParameterEventHandler:
         qos_overriding_options: Any = None,
         raw: bool = False,
     ) -> None:
-        from rcl_interfaces.msg import ParameterEvent
-
         self.node = node
         self.qos_profile = qos_profile
         self._parameter_callbacks: dict[tuple[str, str], list[ParameterCallbackHandle]] = {}

@@ -6,6 +6,7 @@ import weakref
 from contextlib import suppress
 from typing import Any
 
+from rcl_interfaces.msg import SetParametersResult
 from rclpy.exceptions import ParameterNotDeclaredException, ParameterUninitializedException
 from rclpy.parameter import Parameter
 from rclpy.qos import qos_profile_parameters
@@ -76,8 +77,6 @@ class ParameterService:
         return response
 
     def _set_all(self, messages: list[Any]) -> Any:
-        from rcl_interfaces.msg import SetParametersResult
-
         parameters = [Parameter.from_parameter_msg(message) for message in messages]
         try:
             return self._node().set_parameters_atomically(parameters)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any
 
+from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
 from rclpy.duration import Duration
 from rclpy.exceptions import ParameterAlreadyDeclaredException
 from rclpy.publisher import Publisher
@@ -85,8 +86,6 @@ def _declare_qos_parameters(  # pyright: ignore[reportUnusedFunction] -- node_pa
     """
     if not issubclass(entity_type, (Publisher, Subscription)):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
         raise TypeError("Argument `entity_type` should be a subclass of Publisher or Subscription")
-    from rcl_interfaces.msg import ParameterDescriptor
-
     kind = "publisher" if issubclass(entity_type, Publisher) else "subscription"
     suffix = "" if options.entity_id is None else f"_{options.entity_id}"
     about = f"for {kind} `{topic_name}` with id `{options.entity_id}`"
@@ -138,7 +137,5 @@ def _policy_value(policy: QoSPolicyKind, value: Any) -> Any:
 def __getattr__(name: str) -> Any:
     """Load `QosCallbackResult`, which is a message, on first access."""
     if name == "QosCallbackResult":
-        from rcl_interfaces.msg import SetParametersResult
-
         return SetParametersResult
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from builtin_interfaces.msg import Time as TimeMessage
 from rclpy.clock_type import ClockType, TimeClockType
 from rclpy.constants import S_TO_NS
 from rclpy.duration import Duration
@@ -115,16 +116,12 @@ class Time:
 
     def to_msg(self) -> Any:
         """A `builtin_interfaces/Time`."""
-        from builtin_interfaces.msg import Time as TimeMessage
-
         seconds, nanoseconds = self.seconds_nanoseconds()
         return TimeMessage(sec=seconds, nanosec=nanoseconds)
 
     @classmethod
     def from_msg(cls, msg: Any, clock_type: ClockType | TimeClockType = ClockType.ROS_TIME) -> Time:
         """The time in a `builtin_interfaces/Time`; raises `TypeError` for anything else."""
-        from builtin_interfaces.msg import Time as TimeMessage
-
         if not isinstance(msg, TimeMessage):
             raise TypeError("Must pass a builtin_interfaces.msg.Time object")
         return cls(seconds=msg.sec, nanoseconds=msg.nanosec, clock_type=clock_type)

@@ -12,6 +12,7 @@ from bot_console.runtime.rmw.endpoints import ServiceEndpoint
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.impl.entity import Entity
 from rclpy.parameter import Parameter
+from type_description_interfaces.srv import GetTypeDescription
 
 START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
 
@@ -32,8 +33,6 @@ class TypeDescriptionService:
             node.get_logger().error(f"Invalid type for parameter '{name}' {parameter.type_!r} should be bool")
         self._service: Any = None
         if self.enabled:
-            from type_description_interfaces.srv import GetTypeDescription
-
             self._service = node.create_service(GetTypeDescription, self.service_name, self._answer)
 
     def outlive_destroy(self) -> None:

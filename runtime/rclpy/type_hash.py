@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from bot_console.runtime.rosidl.type_hash import VERSION, digest
+
 SIZE = 32
 
 
@@ -50,8 +52,6 @@ class TypeHash:
 
 def type_hash_of(interface: Any) -> TypeHash:
     """The hash of a message, service or action class; computed when first asked for."""
-    from bot_console.runtime.rosidl.type_hash import VERSION, digest
-
     return TypeHash(VERSION, digest(interface))
 
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import sys
 import threading
 from collections.abc import Sequence
 from typing import Any
 
 from bot_console.runtime.process import ProcessLocal
+from bot_console.runtime.rmw.middleware import qos_rules
+from rclpy.context import Context
 from rclpy.impl.reexports import reexporting
 
 NANO = 1_000_000_000
@@ -19,8 +22,6 @@ _lock = threading.Lock()
 
 def get_default_context(*, shutting_down: bool = False) -> Any:
     """The context used by default; with `shutting_down` the next call creates a new one."""
-    from rclpy.context import Context
-
     with _lock:
         holder = _default_context.get()
         if not holder:
@@ -33,8 +34,6 @@ def remove_ros_args(args: Sequence[str] | None = None) -> list[str]:
 
     Raises `RCLInvalidROSArgsError` for invalid rules, `UnknownROSArgsError` for unknown ROS arguments.
     """
-    import sys
-
     from rclpy.impl.command_line import parse_local
 
     return parse_local(sys.argv if args is None else args).unparsed
@@ -57,8 +56,6 @@ def try_shutdown(*, context: Any = None) -> None:
 
 def get_rmw_implementation_identifier() -> str:
     """The name of the middleware."""
-    from bot_console.runtime.rmw.middleware import qos_rules
-
     return qos_rules().identifier
 
 

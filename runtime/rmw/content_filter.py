@@ -15,6 +15,7 @@ from importlib import import_module
 from typing import Any
 
 from bot_console.runtime.rmw.endpoints import Held, Message
+from bot_console.runtime.rosidl.cdr import CdrError, deserialize
 
 MAX_PARAMETERS = 100
 """The limit of rcl."""
@@ -62,8 +63,6 @@ class FilteredQueue(deque[Any]):
         if isinstance(message, Held):
             message = message.peek()
         elif isinstance(message, bytes):
-            from bot_console.runtime.rosidl.cdr import CdrError, deserialize
-
             try:
                 message = deserialize(message, self._class)
             except CdrError:  # the reader of the bytes finds out, as without a filter

@@ -6,6 +6,9 @@ import contextlib
 import os
 from collections.abc import Generator, Iterable, Sequence
 
+from bot_console.runtime.workspace.choices import launch_file_names
+from ros2cli.advice import launch_files
+
 
 class LaunchFileError(RuntimeError):
     """A launch file does not exist, or a launch argument is malformed."""
@@ -37,9 +40,6 @@ def find_launch_file(package: str, name: str | None) -> str:
 
 def _unnamed(package: str) -> str:
     """What a command line lacks that names a package alone; upstream looks for a file called None."""
-    from bot_console.runtime.workspace.choices import launch_file_names
-    from ros2cli.advice import launch_files
-
     names = launch_file_names(package)
     return f"name a launch file of package '{package}': {', '.join(names)}" if names else launch_files(package, ())
 

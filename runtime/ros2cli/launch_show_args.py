@@ -5,13 +5,13 @@ from __future__ import annotations
 import sys
 from typing import Any
 
+from launch.launch_description_sources import get_launch_description_from_any_launch_file
+
 HEADER = "Arguments (pass arguments as '<name>:=<value>'):"
 
 
 def show_args(path: str) -> int:
     """Print the arguments of a launch file with their defaults; returns 1 if the file cannot be read."""
-    from launch.launch_description_sources import get_launch_description_from_any_launch_file
-
     try:
         description = get_launch_description_from_any_launch_file(path)
     except Exception as error:  # a launch file is a program: its exceptions are reported without a traceback

@@ -7,6 +7,11 @@ import sys
 import types
 from pathlib import Path
 
+from bot_console.runtime.rosidl.emit import modules
+from bot_console.runtime.rosidl.emit_holder import package_module
+from bot_console.runtime.rosidl.names import module_name
+from bot_console.runtime.rosidl.standard import interfaces
+
 HERE = Path(__file__).resolve().parent
 PREFIX = "ament-prefix"
 """The folder of definition files, laid out as in installed packages; its name cannot be imported."""
@@ -15,11 +20,6 @@ PREFIX = "ament-prefix"
 def main() -> None:
     """Regenerate all modules."""
     _make_importable()
-    from bot_console.runtime.rosidl.emit import modules
-    from bot_console.runtime.rosidl.emit_holder import package_module
-    from bot_console.runtime.rosidl.names import module_name
-    from bot_console.runtime.rosidl.standard import interfaces
-
     target = HERE / "generated"
     fresh = HERE / "generated.new"
     shutil.rmtree(fresh, ignore_errors=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
@@ -26,7 +27,6 @@ def digest(cls: Any) -> bytes:
 
 def digest_of_description(description: Description) -> bytes:
     """Return the 32-byte hash of an interface known only by its description."""
-    import json
     from hashlib import sha256  # imported late, as it loads OpenSSL
 
     return sha256(json.dumps(description, separators=(", ", ": ")).encode()).digest()

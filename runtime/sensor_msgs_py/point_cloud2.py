@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from sensor_msgs.msg import PointCloud2, PointField
+from sensor_msgs_py.numpy_compat import structured_to_unstructured
 from std_msgs.msg import Header
 
 DUMMY_FIELD_PREFIX = "unnamed_field"
@@ -84,8 +85,6 @@ def read_points_numpy(
         "All fields need to have the same datatype. Use `read_points()` otherwise."
     )
     points = read_points(cloud, field_names, skip_nans, uvs, reshape_organized_cloud)
-    from sensor_msgs_py.numpy_compat import structured_to_unstructured
-
     return structured_to_unstructured(points)
 
 

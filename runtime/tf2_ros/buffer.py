@@ -14,6 +14,7 @@ from rclpy.logging import get_logger
 from rclpy.node import Node
 from rclpy.task import Future
 from rclpy.time import Time
+from tf2_msgs.srv import FrameGraph
 from tf2_py import BufferCore, LookupException, TransformException
 from tf2_ros.buffer_interface import NOW, BufferInterface
 
@@ -37,8 +38,6 @@ class Buffer(BufferCore, BufferInterface):
         self._callbacks_lock = threading.RLock()
         self._jump_handle: JumpHandle | None = None
         if node is not None:
-            from tf2_msgs.srv import FrameGraph
-
             self.follow_clock(node)
             self.srv = node.create_service(FrameGraph, "tf2_frames", self.__get_frames)
 

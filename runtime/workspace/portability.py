@@ -10,6 +10,8 @@ from collections.abc import Collection, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+from bot_console.runtime.importer import PACKAGES, generated_packages
+from bot_console.runtime.interfaces.further_interfaces import unverified_folders
 from bot_console.runtime.workspace.package import Package
 
 TESTS = frozenset({"test", "tests", "__pycache__"})
@@ -74,9 +76,6 @@ def _beside(path: Path, name: str) -> Path | None:
 
 def known_names() -> Collection[str]:
     """The names of ROS packages and of Python's library."""
-    from bot_console.runtime.importer import PACKAGES, generated_packages
-    from bot_console.runtime.interfaces.further_interfaces import unverified_folders
-
     return {*PACKAGES, *generated_packages(), *unverified_folders(), *sys.stdlib_module_names}
 
 

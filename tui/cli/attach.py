@@ -8,6 +8,9 @@ from collections.abc import Sequence
 from bot_console.tui.cli.attach_options import AttachOptions, parse
 from bot_console.tui.session.embedded.domain import others_take_part
 from bot_console.tui.session.machine.choice import choose
+from bot_console.tui.session.machine.console_needs import missing_messages, provide_missing
+from bot_console.tui.session.machine.ros import run_ros
+from bot_console.tui.session.network import run_network
 
 
 def run(words: Sequence[str]) -> int:
@@ -34,19 +37,13 @@ def _needs_terminal() -> int:
 
 
 def _network(options: AttachOptions) -> int:
-    from bot_console.tui.session.network import run_network
-
     return run_network(options)
 
 
 def _ros(options: AttachOptions, place: str) -> int:
-    from bot_console.tui.session.machine.console_needs import missing_messages, provide_missing
-
     missing = missing_messages()
     if missing:
         print(missing, file=sys.stderr)
         return 1
     provide_missing()
-    from bot_console.tui.session.machine.ros import run_ros
-
     return run_ros(options, place)

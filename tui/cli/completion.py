@@ -14,6 +14,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Protocol
 
+from bot_console.runtime.importer import install
 from bot_console.tui.session.embedded.named_profile import profile_names
 
 
@@ -50,8 +51,6 @@ def candidates(words: Sequence[str], names: Names | None = None) -> list[str]:
 
 
 def _offered(names: Names, before: list[str], begun: str) -> Iterable[str]:
-    from bot_console.runtime.importer import install
-
     install()
     from ros2cli.command_line import COMMANDS, load
 

@@ -6,6 +6,7 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from bot_console.runtime.workspace.not_found import no_package
 from bot_console.tui.cli.programs import program
 from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH
 
@@ -34,7 +35,6 @@ def _run(words: Sequence[str]) -> Wanted:
 
 def _launch(words: Sequence[str]) -> Wanted | None:
     from ament_index_python.packages import PackageNotFoundError
-    from bot_console.runtime.workspace.not_found import no_package
     from ros2cli.launch_file import LaunchFileError, find_launch_file, parse_launch_arguments
 
     if any(each.startswith("-") for each in words):

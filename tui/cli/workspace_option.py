@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
 
+from bot_console.tui.session.embedded.workspaces import choose
+
 OPTION = "--workspace"
 ANYWHERE = ("launch",)
 """Commands whose own words cannot be this option, wherever it stands; others may pass it on to a program."""
@@ -38,8 +40,6 @@ def without_workspace(words: Sequence[str], is_command: Callable[[str], object])
 
 def use_folders(folders: Collection[str]) -> None:
     """Make these folders the workspace of this run; raises `NoWorkspaceError`."""
-    from bot_console.tui.session.embedded.workspaces import choose
-
     for each in folders:
         if not Path(each).is_dir():
             raise NoWorkspaceError(f"{OPTION}: there is no folder {each}" if each else f"{OPTION}: name a folder")

@@ -23,6 +23,8 @@ from bot_console.runtime.process.session_end import end_session
 from bot_console.runtime.programs.hints import SHOW
 from bot_console.runtime.rmw.middleware import bus_of
 from bot_console.runtime.rmw.zenoh.domain.sockets import lives
+from bot_console.runtime.rosidl import type_hash
+from bot_console.runtime.rosidl.cdr import serialize
 from bot_console.tui.cli.interruptible_wait import wait_interruptibly
 from bot_console.tui.console.bags.port import RingSize
 from bot_console.tui.console.launch.process_output import Add
@@ -204,8 +206,6 @@ def close_on_signals(close: Callable[[], None]) -> None:
 
 def overhear(size: RingSize) -> SnapshotBuffer:
     """Keep what the nodes of this process publish and receive."""
-    from bot_console.runtime.rosidl import type_hash
-    from bot_console.runtime.rosidl.cdr import serialize
     from bot_console.tui.console.bags.snapshot_buffer import SnapshotBuffer
 
     buffer = SnapshotBuffer(size, serialize, type_hash.text)

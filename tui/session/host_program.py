@@ -11,6 +11,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from bot_console.tui.console.bags.port import RingSize
+from bot_console.tui.session.composition import host_launches
+from bot_console.tui.session.machine.hosting import host_launches as host_launches_of_machine
 
 
 def main(words: Sequence[str] | None = None) -> int:
@@ -18,12 +20,8 @@ def main(words: Sequence[str] | None = None) -> int:
     given = _parser().parse_args(words)
     owner = socket.socket(fileno=given.owner)
     if given.ros:
-        from bot_console.tui.session.machine.hosting import host_launches as host_launches_of_machine
-
         host_launches_of_machine(owner)
         return 0
-    from bot_console.tui.session.composition import host_launches
-
     kept = RingSize(given.keep_seconds, given.keep_bytes) if given.keep_bytes else None
     return host_launches(owner, [Path(each) for each in given.workspace], kept)
 

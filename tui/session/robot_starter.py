@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from bot_console.tui.cli.arguments import Options
+from bot_console.tui.console.model import ProcessState
 from bot_console.tui.console.robot.robot_needed import drives_stamped, endpoints, robot_wanted, visible_nodes
 
 if TYPE_CHECKING:
@@ -115,8 +116,6 @@ class RobotStarter:
 
 def processes(info: LaunchInfo) -> tuple[int, int]:
     """The number of running processes, and of delayed starts; for `System.processes`."""
-    from bot_console.tui.console.model import ProcessState
-
     return sum(each.state is ProcessState.RUNNING for each in info.processes), info.delayed
 
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+import select
 import sys
+import time
 from types import TracebackType
 from typing import Any
 
@@ -47,8 +49,6 @@ class Keyboard:
 
 
 def _from_terminal(file: int) -> str:
-    import select
-
     if not select.select([file], [], [], KEY_TIMEOUT_S)[0]:
         return ""
     byte = os.read(file, 1)
@@ -62,8 +62,6 @@ WINDOWS_ARROWS = {"H": "A", "P": "B", "M": "C", "K": "D"}
 
 
 def _from_windows() -> str:
-    import time
-
     keys: Any = __import__("msvcrt")  # its functions are unknown to a type checker on other systems
     if not keys.kbhit():
         time.sleep(KEY_TIMEOUT_S)

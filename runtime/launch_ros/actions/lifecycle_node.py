@@ -9,6 +9,7 @@ from launch.utilities.type_utils import normalize_typed_substitution, perform_ty
 from launch_ros.actions.lifecycle_transition import LifecycleTransition
 from launch_ros.actions.node import Node
 from launch_ros.utilities.lifecycle_event_manager import LifecycleEventManager
+from lifecycle_msgs.msg import Transition
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity
@@ -52,7 +53,5 @@ class LifecycleNode(Node):
 
 def make_active(node_name: str) -> LifecycleTransition:
     """Configures a lifecycle node, then activates it."""
-    from lifecycle_msgs.msg import Transition
-
     transitions = [Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_ACTIVATE]
     return LifecycleTransition(lifecycle_node_names=[node_name], transition_ids=transitions)

@@ -10,6 +10,8 @@ from launch.substitution import Substitution
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.utilities import make_namespace_absolute, prefix_namespace
+from rclpy.exceptions import InvalidNamespaceException
+from rclpy.validate_namespace import validate_namespace
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity
@@ -40,9 +42,6 @@ class PushROSNamespace(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Push the namespace; raises `SubstitutionFailure` if it is invalid."""
-        from rclpy.exceptions import InvalidNamespaceException
-        from rclpy.validate_namespace import validate_namespace
-
         pushed = perform_substitutions(context, self.__namespace)
         before = context.launch_configurations.get("ros_namespace")
         namespace = make_namespace_absolute(prefix_namespace(before, pushed)) or "/"

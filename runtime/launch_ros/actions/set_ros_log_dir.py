@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from launch.action import Action
 from launch.frontend import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from rclpy.logging import get_logging_directory
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity
@@ -37,7 +38,5 @@ class SetROSLogDir(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Set the folder."""
-        from rclpy.logging import get_logging_directory
-
         before = context.environment.get("ROS_LOG_DIR") or os.fspath(get_logging_directory())
         context.environment["ROS_LOG_DIR"] = os.path.join(before, perform_substitutions(context, self.__log_dir))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
+import yaml
 from launch.utilities import ensure_argument_type, perform_substitutions
 from launch.utilities.type_utils import is_normalized_substitution
 from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
@@ -57,8 +58,6 @@ def _evaluate(context: LaunchContext, name: str, value: Any) -> Any:
 
 def yaml_value(name: str, text: str) -> Any:
     """Parse a text as YAML; an empty one is returned unchanged."""
-    import yaml
-
     if not text:
         return text
     try:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import launch.logging
+
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
@@ -26,8 +28,6 @@ def get_node_name_count(context: LaunchContext, node_name: str) -> int:
 
 def warn_of_same_name(context: LaunchContext, node_name: str, origin: str) -> None:
     """Warn if a node will most likely have the same name as another, though its namespace is not given."""
-    import launch.logging
-
     names = context.names_without_namespace
     if node_name in names:
         launch.logging.get_logger("launch").warning(

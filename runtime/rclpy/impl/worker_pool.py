@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 import weakref
 from collections import deque
@@ -80,8 +81,6 @@ def _report_unfetched(futures: deque[Any]) -> None:
 
 def cpu_count() -> int:
     """The number of CPUs this process may use; 2 if the operating system does not tell."""
-    import os
-
     try:
         return len(os.sched_getaffinity(0))
     except AttributeError:

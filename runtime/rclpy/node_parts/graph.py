@@ -15,7 +15,7 @@ from rclpy._rclpy_pybind11 import NodeNameNonExistentError, RCLError
 from rclpy.duration import Duration, Infinite
 from rclpy.impl.graph_wait import require_valid, wait_until_there
 from rclpy.impl.qos_policies import QoSPolicyEnum
-from rclpy.node_parts.topic_names import expand_name, remapped
+from rclpy.node_parts.topic_names import expand_name, remapped, resolve
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
 
 if TYPE_CHECKING:
@@ -184,14 +184,10 @@ class NodeGraph:
 
     def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
         """Return a topic's full name, remapped unless `only_expand` is set; raises `RCLError`."""
-        from rclpy.node_parts.topic_names import resolve
-
         return resolve(self, topic, only_expand=only_expand)
 
     def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
         """Return a service's full name, remapped unless `only_expand` is set; raises `RCLError`."""
-        from rclpy.node_parts.topic_names import resolve
-
         return resolve(self, service, only_expand=only_expand, service=True)
 
     def _ros_use(self) -> None:

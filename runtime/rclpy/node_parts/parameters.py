@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING, Any, cast
 
 from bot_console.runtime.process.facts import anybody_listens, report_fact
 from bot_console.runtime.process.frames import line_outside
-from rcl_interfaces.msg import ParameterDescriptor
+from rcl_interfaces.msg import Parameter as ParameterMsg
+from rcl_interfaces.msg import ParameterDescriptor, ParameterValue
 from rclpy.exceptions import (
     InvalidParameterTypeException,
     InvalidParameterValueException,
@@ -27,7 +28,7 @@ from rclpy.parameter import PARAMETER_SEPARATOR_STRING, Parameter
 from rclpy.validate_parameter_name import validate_parameter_name
 
 if TYPE_CHECKING:
-    from rcl_interfaces.msg import ListParametersResult, ParameterValue
+    from rcl_interfaces.msg import ListParametersResult
 
 
 class NodeParameters(ParameterSetting):
@@ -251,8 +252,6 @@ def _check_names(names: Sequence[Any]) -> None:
 
 
 def _from_value(name: str, value: ParameterValue) -> Parameter:
-    from rcl_interfaces.msg import Parameter as ParameterMsg
-
     return Parameter.from_parameter_msg(ParameterMsg(name=name, value=value))
 
 
@@ -373,8 +372,6 @@ def _full_name(index: int, name: Any, namespace: str) -> str:
 
 
 def _descriptor(index: int, declaration: Sequence[Any]) -> Any:
-    from rcl_interfaces.msg import ParameterDescriptor
-
     if len(declaration) < 3:
         return ParameterDescriptor()
     descriptor = declaration[2]
@@ -394,8 +391,6 @@ def _set_type(name: str, wanted: Parameter.Type, descriptor: Any) -> None:
 
 def _infer_type(default: Any, descriptor: Any) -> None:
     """Set the descriptor's type to that of a default value, except with dynamic typing; raises `ValueError`."""
-    from rcl_interfaces.msg import ParameterValue
-
     if descriptor.dynamic_typing:
         return
     if isinstance(default, ParameterValue):

@@ -6,6 +6,7 @@ import argparse
 from collections.abc import Iterable
 from typing import Any
 
+from ament_index_python import get_resource, has_resource
 from composition_interfaces.srv import ListNodes, LoadNode, UnloadNode
 from rcl_interfaces.msg import Parameter
 from rclpy.node import Node
@@ -154,8 +155,6 @@ def _types(arguments: argparse.Namespace) -> Result:
 
 
 def _types_of(package: str) -> list[str]:
-    from ament_index_python import get_resource, has_resource
-
     lines = get_resource(RESOURCE, package)[0].splitlines() if has_resource(RESOURCE, package) else []
     return [each.partition(";")[0] for each in lines]
 

@@ -11,6 +11,9 @@ import threading
 from functools import partial
 from types import FrameType
 
+from bot_console.runtime.workspace.choices import launch_file_names, package_names
+from launch.actions import IncludeLaunchDescription
+from launch.launch_description_sources import AnyLaunchDescriptionSource
 from ros2cli.advice import advise, launch_files
 from ros2cli.command import Command, Result
 from ros2cli.launch_file import LaunchFileError, named_launch_file, of_package, parse_launch_arguments
@@ -97,15 +100,12 @@ def _launch(arguments: argparse.Namespace) -> Result:
 
 
 def _launch_files_of(package: str) -> str:
-    from bot_console.runtime.workspace.choices import launch_file_names, package_names
-
     return launch_files(package, launch_file_names(package)) if package in package_names() else ""
 
 
 def _list_launch_files(package: str) -> Result:
     """List the launch files for `--show-args`; raises `PackageNotFoundError` and `ValueError` for the package."""
     from ament_index_python.packages import get_package_share_directory
-    from bot_console.runtime.workspace.choices import launch_file_names
 
     share = get_package_share_directory(package)
     names = launch_file_names(package)
@@ -150,8 +150,6 @@ def launch(
     missing_allowed: bool = False,
 ) -> int:
     """Run a launch file to its end; returns 1 if the launch itself failed, regardless of its processes' exit codes."""
-    from launch.actions import IncludeLaunchDescription
-    from launch.launch_description_sources import AnyLaunchDescriptionSource
     from launch.undeclared_arguments import WarnOfUndeclaredArguments
 
     from launch import LaunchDescription, LaunchService

@@ -10,10 +10,14 @@ import subprocess
 import sys
 
 from ament_index_python.packages import PackageNotFoundError
+from bot_console.runtime.children.child_environment import child_environment
+from bot_console.runtime.process.node.main_thread import exit_code_of
 from bot_console.runtime.rmw.parameter_file import find_with
+from bot_console.runtime.workspace.entry_script import script_of
 from bot_console.runtime.workspace.executables import Executable, executables
 from bot_console.runtime.workspace.not_found import no_executable, no_package
 from bot_console.runtime.workspace.parameter_files import hint_for
+from bot_console.runtime.workspace.program import is_python, program
 from ros2cli.advice import advise
 from ros2cli.command import Command, Result
 
@@ -57,9 +61,6 @@ def _run(arguments: argparse.Namespace) -> Result:
 
 def run(executable: Executable, words: list[str], prefix: str | None = None) -> int:
     """Run an executable: in this process if it is Python and has no prefix, else in a child; returns its exit code."""
-    from bot_console.runtime.process.node.main_thread import exit_code_of
-    from bot_console.runtime.workspace.program import program
-
     runs = None if prefix else program(executable)
     if runs is None:
         code = _wait_for([*shlex.split(prefix or ""), *_command(executable, bool(prefix)), *words])
@@ -74,8 +75,6 @@ def run(executable: Executable, words: list[str], prefix: str | None = None) -> 
 
 
 def _wait_for(command: list[str]) -> int:
-    from bot_console.runtime.children.child_environment import child_environment
-
     process = subprocess.Popen(command, env={**child_environment(os.environ), "PYTHONUNBUFFERED": "1"})
     while True:
         try:
@@ -87,9 +86,6 @@ def _wait_for(command: list[str]) -> int:
 
 def _command(executable: Executable, prefixed: bool) -> list[str]:
     """The command of a child; behind a prefix, which may be Python itself, Python programs are scripts as on ROS 2."""
-    from bot_console.runtime.workspace.entry_script import script_of
-    from bot_console.runtime.workspace.program import is_python
-
     if prefixed:
         return [str(script_of(executable))]
     runner = [sys.executable, "-m", "bot_console.runtime.programs.run"]

@@ -9,7 +9,7 @@ from typing import cast
 import pytest
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.arrangement import arrival
-from bot_console.tui.arrangement.arrival import ORDERED, System
+from bot_console.tui.arrangement.arrival import ORDERED, Arrival, System
 from bot_console.tui.layout.named import BUILT_IN, OVERVIEW
 from bot_console.tui.layout.tree import panes
 from bot_console.tui.opening import Opening

@@ -11,6 +11,7 @@ from typing import Any, cast
 
 import yaml
 from bot_console.tui.cli.bags.play import report_repaired
+from bot_console.tui.cli.bags.record_arguments import wanted_topics
 from bot_console.tui.format import sanitize
 from bot_console.tui.text.yaml_faults import UNREADABLE
 
@@ -66,7 +67,6 @@ def _outputs(path: Path) -> list[dict[str, Any]]:
 
 
 def _write(bags: list[Any], output: Mapping[str, Any]) -> None:
-    from bot_console.tui.cli.bags.record_arguments import wanted_topics
     from bot_console.tui.console.bags.definitions import class_of, definition
     from bot_console.tui.console.bags.together import BagsTogether
     from bot_console.tui.console.bags.writer import BagWriter, Writing

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from bot_console.tui.cli.bags.common import make_node, report_unused, service_types, spin
 from bot_console.tui.cli.bags.keyboard import keys_read
 from bot_console.tui.cli.bags.play_arguments import NOT_NEEDED, bag_paths, chosen_topics, end_of, wrong_play
+from bot_console.tui.console.bags.damage import NoBag
 from bot_console.tui.format import sanitize
 
 if TYPE_CHECKING:
@@ -152,8 +153,6 @@ def _run(node: Node, work: Callable[[], None], stopped: threading.Event) -> str:
     problem: list[str] = []
 
     def guarded() -> None:
-        from bot_console.tui.console.bags.damage import NoBag
-
         try:
             work()
         except NoBag as error:

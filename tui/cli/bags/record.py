@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from bot_console.tui.cli.bags.common import make_node, new_folder, report_unused, service_types, spin
 from bot_console.tui.cli.bags.keyboard import keys_read
 from bot_console.tui.cli.bags.record_arguments import NOT_NEEDED, wanted_topics, wrong_record
+from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.format import sanitize
 
 if TYPE_CHECKING:
@@ -195,7 +196,6 @@ def _offer_snapshots(control: Node, prefix: str, ring: Ring, output: Path | None
 
 def _write_snapshot(ring: Ring, folder: Path) -> tuple[bool, str]:
     from bot_console.tui.console.bags.writer import BagWriter
-    from bot_console.tui.files.save_file import NotSaved
 
     try:
         writer = BagWriter(folder)

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from bot_console.runtime.importer import install
 from bot_console.runtime.rmw.zenoh.network.client import Way
+from bot_console.runtime.rmw.zenoh.session import SessionError
 from bot_console.tui import __version__
 from bot_console.tui.cli.attach_options import add_network_options, network_way
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level, as_json, exit_code
@@ -129,7 +130,6 @@ def _ros(seconds: float | None, report: Callable[[Sequence[DoctorFinding]], None
 def _zenoh(
     way: Way | None, seconds: float, capture: Path | None, report: Callable[[Sequence[DoctorFinding]], None]
 ) -> None:
-    from bot_console.runtime.rmw.zenoh.session import SessionError
     from bot_console.tui.session.embedded.domain import others_take_part
 
     if way is None and not others_take_part():

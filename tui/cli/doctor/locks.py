@@ -13,6 +13,7 @@ from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
 from bot_console.tui.console.graph.full_name import node_name_of
 from bot_console.tui.console.robot.stop_link import LATCHED, RELEASE, REQUEST, STATUS, is_lock
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from rcl_interfaces.srv import ListParameters
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -98,8 +99,6 @@ def _question(question: str) -> DiagnosticStatus:
 
 def _serves(node: Node, name: str, spin: Spin) -> bool:
     """Whether a node answers a service call; the thread that answers also handles stop requests."""
-    from rcl_interfaces.srv import ListParameters
-
     client: Any = node.create_client(ListParameters, f"{name}/list_parameters")
     try:
         spin(node, ANSWER_TIMEOUT_S, client.service_is_ready)

@@ -8,9 +8,14 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+import rclpy
+from bot_console.runtime.rosidl import type_hash
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
+from bot_console.tui.cli.doctor.locks import ask_locks, find_locks, lock_finding
 from bot_console.tui.console.graph.full_name import node_name_of
 from bot_console.tui.console.graph.pairs import hash_of, unheard
+from rcl_interfaces.srv import GetParameters, ListParameters
+from rclpy.parameter import parameter_value_to_python
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -35,8 +40,6 @@ def node_findings(
 
     With `alone_hint` the nodes are counted, and the hint is given if there are no others.
     """
-    import rclpy
-
     rclpy.init(args=[])
     node = rclpy.create_node("_bot_console_doctor", enable_rosout=False, start_parameter_services=False)
     try:
@@ -49,8 +52,6 @@ def node_findings(
 
 
 def _spin(node: Node, seconds: float, until: Callable[[], bool] = lambda: False) -> None:
-    import rclpy
-
     end = time.monotonic() + seconds
     while time.monotonic() < end and not until():
         rclpy.spin_once(node, timeout_sec=0.05)
@@ -118,18 +119,13 @@ def own_hash(type_name: str) -> str | None:
     except (ImportError, AttributeError):
         return None
     try:
-        from bot_console.runtime.rosidl.type_hash import text
-
-        return text(kind)
+        return type_hash.text(kind)
     except (AttributeError, TypeError, KeyError):  # A class of a real ROS 2, which checks that itself.
         return ""
 
 
 def base_finding(node: Node) -> DoctorFinding:
     """Whether the robot stops by itself when commands cease."""
-    # Imported late: it uses the rclpy that was chosen.
-    from bot_console.tui.cli.doctor.locks import ask_locks, find_locks, lock_finding
-
     bases = {
         node_name_of(each)
         for topic, types in node.get_topic_names_and_types()
@@ -152,9 +148,6 @@ def base_finding(node: Node) -> DoctorFinding:
 
 def time_outs(node: Node, base: str) -> dict[str, float]:
     """The numeric parameters of a node whose names suggest command time-outs."""
-    from rcl_interfaces.srv import GetParameters, ListParameters
-    from rclpy.parameter import parameter_value_to_python
-
     listed = _answer(node, ListParameters, f"{base}/list_parameters", ListParameters.Request())
     names = [each for each in listed.result.names if TIMEOUT.search(each)] if listed else []
     reported = (

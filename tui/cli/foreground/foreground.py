@@ -10,6 +10,7 @@ from bot_console.tui.cli.foreground.descriptors import Printed, captured_descrip
 from bot_console.tui.cli.foreground.ending_signals import ended_by_signals, hangup_as_signal
 from bot_console.tui.cli.foreground.hang_watch import HangWatch, hang_watch
 from bot_console.tui.cli.interpreter import eager_switching
+from bot_console.tui.console.model import Severity
 from bot_console.tui.files.folders import state_folder
 
 
@@ -55,6 +56,4 @@ class Foreground:
 
     def _hung(self, line: str) -> None:
         # Imported after the first frame, which must not wait for it.
-        from bot_console.tui.console.model import Severity
-
         self._printed(Severity.WARN, "bot-console", line)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+import time
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from bot_console.tui.cli.lint.launch_packages import unknown_packages
 from bot_console.tui.cli.lint.parameter_file import dead_values, is_meant, refused
 from bot_console.tui.cli.lint.python_file import Declared
 from bot_console.tui.cli.lint.python_file import lint as lint_python
+from bot_console.tui.console.parameters.lint import faults
 
 INDEX = "course.md"
 """The file that makes a folder a course."""
@@ -164,9 +166,6 @@ def _running() -> tuple[str, list[LintFinding]]:
     install()
     if unreachable := reach_system():
         return unreachable, []
-    import time
-
-    from bot_console.tui.console.parameters.lint import faults
     from bot_console.tui.console.ros_console import RosConsole
 
     console = RosConsole()

@@ -8,6 +8,7 @@ import sys
 from collections.abc import Sequence
 
 from bot_console.tui.child_command import child_command
+from bot_console.tui.cli.main import is_command
 
 EXPECTED = ("attach",)
 """Commands whose console can be served; without one it is the console with a robot of its own."""
@@ -86,7 +87,6 @@ def _console(parser: argparse.ArgumentParser, words: Sequence[str], *, control: 
     """The command of a console; exits with 2 for words that open none."""
     from bot_console.tui.cli.arguments import parse
     from bot_console.tui.cli.attach_options import parse as parse_attach
-    from bot_console.tui.cli.main import is_command
 
     if words and is_command(words[0]) and words[0] not in EXPECTED:
         parser.error(f"'{words[0]}' opens no console; a command to serve: {', '.join(EXPECTED)}")

@@ -17,10 +17,15 @@ from pathlib import Path
 
 from bot_console.runtime.process.session_end import end_session
 from bot_console.runtime.rmw.zenoh.domain.discovery_range import RANGE_VARIABLE
+from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
 from bot_console.runtime.stop_file import stop_file
 from bot_console.tui.child_command import child_command
+from bot_console.tui.cli.arguments import parse
+from bot_console.tui.cli.verbs import stop
+from bot_console.tui.cli.verbs.router import add_serving_options, serving_of, warning_of
 from bot_console.tui.files.folders import OVERRIDE, state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
+from bot_console.tui.format import sanitize
 from bot_console.tui.session.embedded.domain import (
     domain,
     frozen,
@@ -32,6 +37,7 @@ from bot_console.tui.session.embedded.domain import (
     why_no_robot,
 )
 from bot_console.tui.session.embedded.named_launch import with_launch_file
+from bot_console.tui.session.embedded.reaching import report_unused_router
 from bot_console.tui.session.embedded.start_lock import start_lock
 from bot_console.tui.session.launch_host.address import ADDRESS_SUFFIX
 from bot_console.tui.session.system_log import new_log
@@ -70,15 +76,11 @@ class Background:
 
 def up(words: Sequence[str]) -> int:
     """Start a system in the background and wait until its robot is ready."""
-    from bot_console.tui.cli.arguments import parse
-
     serving, words = _serving(words)
     options = parse(["--headless", *words])
     if options.fast:
         print("a system in the background runs in real time: leave --fast out", file=sys.stderr)
         return 2
-    from bot_console.tui.session.embedded.reaching import report_unused_router
-
     report_unused_router()
     alone = take_part() or _unreachable()
     options, problem = with_launch_file(options)
@@ -170,8 +172,6 @@ def _unreachable() -> str:
 
 def _serving(words: Sequence[str]) -> tuple[list[str], list[str]]:
     """The arguments for `bot-console router`, if other machines may connect, and the remaining ones."""
-    from bot_console.tui.cli.verbs.router import add_serving_options, serving_of, warning_of
-
     parser = argparse.ArgumentParser("bot-console up", add_help=False)
     parser.add_argument("--serve", action="append", metavar="ENDPOINT", default=[])
     add_serving_options(parser)
@@ -240,8 +240,6 @@ def down(words: Sequence[str]) -> int:
 
 def _bring_to_rest() -> None:
     """Hold the robot until its system has ended; one without an emergency stop ends with its nodes."""
-    from bot_console.tui.cli.verbs import stop
-
     stop.ask("stop", "its system is being ended", kept=False, answers_s=stop.HOLDER_TIMEOUT_S)
 
 
@@ -275,7 +273,6 @@ def status(words: Sequence[str]) -> int:
 
 def _print_holders() -> None:
     from bot_console.tui.cli.verbs.stop import holders
-    from bot_console.tui.format import sanitize
 
     found = holders()
     if found is None:
@@ -291,8 +288,6 @@ def _no_words(command: str, what: str, words: Sequence[str]) -> None:
 
 def _file() -> Path:
     """The file that describes the system in the background, next to the sockets of its domain."""
-    from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
-
     return Path(domain_folder(domain())) / "background.json"
 
 

@@ -11,6 +11,8 @@ from bot_console.tui.cli.bags import convert, info, play, record
 from bot_console.tui.cli.bags.common import join_domain, named_folder
 from bot_console.tui.cli.bags.play_arguments import add_burst_arguments, add_play_arguments
 from bot_console.tui.cli.bags.record_arguments import add_record_arguments
+from bot_console.tui.console.bags.damage import NoBag
+from bot_console.tui.console.bags.missing_packages import Missing
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.format import sanitize
 
@@ -18,9 +20,6 @@ from bot_console.tui.format import sanitize
 def run(words: Sequence[str]) -> int:
     """Run a `bag` command line; 0 done, 1 failed, 2 wrong usage."""
     install()
-    from bot_console.tui.console.bags.damage import NoBag
-    from bot_console.tui.console.bags.missing_packages import Missing
-
     given = parser().parse_args(words)
     try:
         return given.run(given)

@@ -10,6 +10,8 @@ import sys
 from collections.abc import Sequence
 
 from bot_console.tui.files.save_file import NotSaved, save_file
+from bot_console.tui.keymap import TABLE
+from bot_console.tui.keys.remapping import remap
 from bot_console.tui.settings.settings import TEMPLATE, read_settings, settings_file
 
 
@@ -68,9 +70,6 @@ def _edit() -> int:
 
 
 def _keys() -> int:
-    from bot_console.tui.keymap import TABLE
-    from bot_console.tui.keys.remapping import remap
-
     remap(read_settings().keys)
     for table in TABLE.values():
         for key in table:

@@ -8,9 +8,13 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from bot_console.runtime.importer import install
+from bot_console.runtime.workspace.editor_folder import root, version_folder, workspace_folder
+from bot_console.runtime.workspace.program import source_folders
 from bot_console.tui import __version__
 from bot_console.tui.files.jsonc import JsoncError, with_member, with_strings
 from bot_console.tui.files.save_file import NotSaved, save_file
+from bot_console.tui.session.embedded.workspaces import choose
 
 PYRIGHT, VSCODE = "pyrightconfig.json", ".vscode/settings.json"
 
@@ -48,11 +52,6 @@ def run(words: Sequence[str]) -> int:
 
 def _paths(folder: Path) -> tuple[list[str], Callable[[str], bool]]:
     """The folders in which an editor has to search, and which entries are those of an earlier run."""
-    from bot_console.runtime.importer import install
-    from bot_console.runtime.workspace.editor_folder import root, version_folder, workspace_folder
-    from bot_console.runtime.workspace.program import source_folders
-    from bot_console.tui.session.embedded.workspaces import choose
-
     install()
     choose([folder])
     ours = f"{root()}{os.sep}"

@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from bot_console.runtime.programs.exit_messages import place_fault
 from bot_console.tui.files.save_file import NotSaved, save_file, typed_path
 
 
@@ -15,7 +16,6 @@ def run(words: list[str]) -> int:
     parser = argparse.ArgumentParser("bot-console export", description="Write the robot's package for colcon.")
     parser.add_argument("folder", metavar="DIR", help="folder in which the package's folder is created")
     given = parser.parse_args(words)
-    from bot_console.runtime.programs.exit_messages import place_fault
     from bot_console.runtime.workspace.exporting import NAME, export
 
     try:

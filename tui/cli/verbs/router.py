@@ -9,10 +9,13 @@ import threading
 from collections.abc import Sequence
 from types import FrameType
 
+from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession
 from bot_console.runtime.rmw.zenoh.network.reachability import PORT, Tls, place_of
+from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.session import Session, SessionError
 from bot_console.runtime.rmw.zenoh.settings import Serving
 from bot_console.tui.cli.interruptible_wait import wait_interruptibly
+from bot_console.tui.session.embedded.domain import domain
 
 HERE = f"tcp/127.0.0.1:{PORT}"
 LOOPBACK = ("127.", "localhost", "::1")
@@ -85,14 +88,9 @@ def warning_of(serving: Serving) -> str:
 
 def _open(serving: Serving, config: str, *, mesh: bool) -> Session:
     if mesh:
-        from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession
-        from bot_console.tui.session.embedded.domain import domain
-
         session = MeshSession(domain(), serving)
         session.watch()
         return session
-    from bot_console.runtime.rmw.zenoh.network.router import Router
-
     return Router(serving, config)
 
 

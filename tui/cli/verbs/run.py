@@ -7,6 +7,7 @@ import sys
 
 from bot_console.tui.cli.arguments import SIMULATOR_HELP, Options
 from bot_console.tui.cli.programs import program
+from bot_console.tui.cli.verbs import ros2
 from bot_console.tui.session.embedded.reaching import report_unused_router
 from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH, report_workspace
 
@@ -52,7 +53,6 @@ def run(words: list[str]) -> int:
 
 def _prefixed(prefix: str, words: list[str]) -> int:
     """Run an executable behind a command prefix, in its own process."""
-    from bot_console.tui.cli.verbs import ros2
     from bot_console.tui.session.embedded.domain import take_part
 
     report_unused_router()

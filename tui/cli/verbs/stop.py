@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from bot_console.runtime.importer import install
 from bot_console.runtime.programs.exit_messages import ended_code
 from bot_console.tui.console.robot.robot_model import RobotStop
+from bot_console.tui.console.robot.stop_holders import with_gone
 from bot_console.tui.format import sanitize
 from bot_console.tui.session.embedded.reaching import reach_system
 from bot_console.tui.session.reached_stop import ReachedStop
@@ -106,8 +107,6 @@ def holders(to_find: float = 1.0, to_hear: float = HOLDER_TIMEOUT_S) -> list[str
 
 
 def _last_message(info: StopInfo) -> list[str]:
-    from bot_console.tui.console.robot.stop_holders import with_gone
-
     return [f"{each.who}: {each.reason}" for each in with_gone(info.stops)]
 
 

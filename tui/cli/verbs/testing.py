@@ -5,14 +5,16 @@ from __future__ import annotations
 import os
 import sys
 
+from bot_console.runtime.children.child_environment import child_environment
+from bot_console.runtime.importer import install
+from bot_console.runtime.shim_folder import shim_folder
+
 PLUGINS = ("-p", "launch_testing.pytest.plugin", "-p", "launch_pytest.plugin")
 NO_PYTEST = "bot-console test runs pytest, which is not installed: pip install 'bot-console[test]'"
 
 
 def launch_test(words: list[str]) -> int:
     """Run the tests of a launch description without pytest."""
-    from bot_console.runtime.importer import install
-
     install()
     from launch_testing.launch_test import main
 
@@ -21,10 +23,6 @@ def launch_test(words: list[str]) -> int:
 
 def test(words: list[str]) -> int:
     """Run pytest on the given arguments, with `rclpy`, `launch` and all messages importable."""
-    from bot_console.runtime.children.child_environment import child_environment
-    from bot_console.runtime.importer import install
-    from bot_console.runtime.shim_folder import shim_folder
-
     install()
     os.environ.update(child_environment(os.environ))
     sys.path.append(str(shim_folder()))  # where `-p bot_console_pytest` is found

@@ -6,28 +6,27 @@ from collections.abc import Callable, Generator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from bot_console.runtime.files.remote_parameters import local_copy
+from bot_console.runtime.interfaces.type_inquiry import inquiries
+from bot_console.runtime.process.virtual.install import reinstall_stdio
+from bot_console.runtime.rmw.middleware import bus_of
+
 
 class DomainTypes:
     """A `TypeSource`: makes interfaces from the definitions that nodes send, for types that the console lacks."""
 
     def inquiries(self, domain: int, type_name: str) -> Mapping[str, Generator[tuple[str, str], Any, str]]:
         """The queries to send for a type, by node of another process that can be asked."""
-        from bot_console.runtime.interfaces.type_inquiry import inquiries
-
         return inquiries(domain, type_name)
 
 
 def graph_events(domain: int, changed: Callable[[tuple[str, str]], None]) -> Callable[[], None]:
     """Call back after each change of a domain's graph, with name and namespace; returns a function that ends this."""
-    from bot_console.runtime.rmw.middleware import bus_of
-
     return bus_of(domain).on_graph_change(changed)
 
 
 def frozen_nodes(domain: int) -> Mapping[int, Sequence[str]]:
     """The stopped processes of a domain, by pid, with their nodes."""
-    from bot_console.runtime.rmw.middleware import bus_of
-
     return bus_of(domain).stopped()
 
 
@@ -41,13 +40,9 @@ def node_processes() -> Mapping[int, Sequence[str]]:
 
 def fetched(address: str) -> Path:
     """The local copy of a parameter file on a server."""
-    from bot_console.runtime.files.remote_parameters import local_copy
-
     return local_copy(address)
 
 
 def take_over_streams() -> None:
     """Give standard input and output back to the node processes, which Textual has replaced with its own."""
-    from bot_console.runtime.process.virtual.install import reinstall_stdio
-
     reinstall_stdio()
