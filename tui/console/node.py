@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import rclpy
 from bot_console.tui.console.calls import Calls
+from bot_console.tui.console.graph.lifecycle import LifecycleWatch
 from bot_console.tui.console.graph.warnings import GraphWarnings
 from bot_console.tui.console.graph.watch import FrozenNodes, GraphEvents, GraphWatch
 from bot_console.tui.console.logs.levels import LoggerLevels
@@ -66,7 +67,8 @@ class ConsoleNode:
         ports.parameters.attach(self.node, calls, ports.logs.add, history, active_profile)
         ports.topics.attach(self.node, calls)
         ports.sensors.attach(self.node)
-        ports.graph.attach(self._graph)
+        self._lifecycle = LifecycleWatch(self.node, calls, self._graph.lifecycle_is)
+        ports.graph.attach(self._graph, self._lifecycle)
         ports.bags.attach()
 
     def spin(self) -> None:
@@ -90,3 +92,4 @@ class ConsoleNode:
         self._world.follow(graph)
         self._ports.topics.follow(graph)
         self._ports.sensors.follow(graph)
+        self._lifecycle.follow(graph)

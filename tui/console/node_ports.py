@@ -55,7 +55,14 @@ class NodePorts:
         provenance = Provenance(self._profile_at)
         self.start_values = provenance.starts
         self.logs = NodeLogs(self.gate)
-        self.graph = NodeGraph(self.gate, launch_info, lambda: self.parameters.trees, processes)
+        self.graph = NodeGraph(
+            self.gate,
+            launch_info,
+            lambda: self.parameters.trees,
+            processes,
+            lambda: self.logs.state.end,
+            self.logs.complaint,
+        )
         self.topics = NodeTopics(self.gate, lambda: self.graph.info, types)
         self.drive = RobotDrive(
             self.gate,

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from concurrent.futures import Future
+
 from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.gate import done
 from bot_console.tui.console.sensors.frame_model import Frames
 from bot_console.tui.console.sensors.model import Diagnostics, Level, Picture, ReportedStatus, Status
 
@@ -18,6 +21,8 @@ class FakeSensors:
         self.watched = False
         self.watched_nodes: set[str] = set()
         self.written_launches: list[str] = []
+        self.transitions: list[tuple[str, str]] = []
+        self.transition_answer = Answer(True, "it is inactive now")
 
     def diagnostics(self) -> Diagnostics:
         return self.info
@@ -33,6 +38,10 @@ class FakeSensors:
 
     def watch_nodes(self, on: bool, requester: str) -> None:
         self.watched_nodes = self.watched_nodes - {requester} | ({requester} if on else set())
+
+    def change_state(self, node: str, transition: str) -> Future[Answer]:
+        self.transitions.append((node, transition))
+        return done(self.transition_answer)
 
     def write_launch(self, path: str) -> Answer:
         self.written_launches.append(path)

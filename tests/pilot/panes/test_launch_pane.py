@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import Endpoint, LaunchEvent, LaunchInfo, ProcessState
 from bot_console.tui.console.robot.robot_model import RobotStop
+from bot_console.tui.panes.graph.pane import GraphPane
 from bot_console.tui.panes.launch.pane import LaunchPane
 from bot_console.tui.panes.launch.rows import ProcessRows
 from bot_console.tui.screens.confirm import ConfirmScreen
@@ -161,6 +163,36 @@ def test_a_launch_file_for_what_runs_is_written(tmp_path) -> None:
         assert "2 programs" in session.text()
 
     run(live(), play, (100, 30))
+
+
+def test_a_lifecycle_node_shows_its_state_and_makes_transitions_here_and_in_the_graph() -> None:
+    name = "/sensor_handler"
+
+    async def play(session: Session) -> None:
+        graph = session.console.snapshot().graph
+        session.console.change(graph=replace(graph, lifecycle={name: "inactive"}))
+        await session.press("8")
+        session.pane(LaunchPane).go_to(name)
+        await session.settle()
+        assert "inactive" in next(each for each in session.lines() if "sensor_handler-" in each)
+        assert f"{name} (inactive, T changes it)" in session.text()
+        await session.press("T")
+        assert "activate /sensor_handler" in session.text() and "cleanup" in session.text()
+        await session.type("activ")
+        await session.press("enter")
+        assert session.console.graph.transitions == [(name, "activate")]
+        assert "it is inactive now" in session.text()
+        await session.press("3")
+        assert "sensor_handler (inactive)" in session.text()
+        session.pane(GraphPane).go_to(name)
+        session.console.graph.transition_answer = Answer(False, "refused: no cable")
+        await session.press("T", "enter")
+        assert session.console.graph.transitions[1:] == [(name, "activate")] and "no cable" in session.text()
+        session.pane(GraphPane).go_to("/simulator")
+        await session.press("T")
+        assert "no lifecycle node" in session.text()
+
+    run(live(), play, (120, 40))
 
 
 def test_argument_outside_its_choices_is_rejected() -> None:

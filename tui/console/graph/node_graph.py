@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import Future
+from functools import partial
 from typing import TYPE_CHECKING
 
 from bot_console.tui.console.answer import Answer
@@ -10,6 +12,7 @@ from bot_console.tui.console.gate import Gate
 from bot_console.tui.console.model import GraphInfo, LaunchInfo, ParameterTree
 
 if TYPE_CHECKING:
+    from bot_console.tui.console.graph.lifecycle import LifecycleWatch
     from bot_console.tui.console.graph.watch import GraphWatch
 
 NO_GRAPH = GraphInfo()
@@ -19,6 +22,8 @@ class NodeGraph:
     """What is known of the graph."""
 
     _watch: GraphWatch | None = None
+    _lifecycle: LifecycleWatch
+    """There from `attach` on."""
 
     def __init__(
         self,
@@ -26,15 +31,20 @@ class NodeGraph:
         launch: Callable[[], LaunchInfo],
         trees: Callable[[], Mapping[str, ParameterTree]],
         processes: Callable[[], Mapping[int, Sequence[str]]],
+        logged: Callable[[], int],
+        complaint: Callable[[str, int], str],
     ) -> None:
-        """`processes` returns the nodes of programs on this machine, by pid."""
+        """`processes` returns the nodes of programs on this machine, by pid; `logged` the number of the log's next
+        record, and `complaint` the last warning or error that a node has logged from such a number on.
+        """
+        self._logged, self._complaint = logged, complaint
         self._gate = gate
         self._launch, self._trees, self._processes = launch, trees, processes
         self._requesters: frozenset[str] = frozenset()
 
-    def attach(self, watch: GraphWatch) -> None:
+    def attach(self, watch: GraphWatch, lifecycle: LifecycleWatch) -> None:
         """The system has been reached."""
-        self._watch = watch
+        self._watch, self._lifecycle = watch, lifecycle
 
     @property
     def info(self) -> GraphInfo:
@@ -53,6 +63,16 @@ class NodeGraph:
             return Answer(True, write_launch(typed_path(path), system).text)
         except NotSaved as error:
             return Answer(False, f"not saved: {error}")
+
+    def change_state(self, node: str, transition: str) -> Future[Answer]:
+        """Request a transition of a lifecycle node."""
+        return self._gate.run(lambda: self._change_state(node, transition), partial(Answer, False))
+
+    async def _change_state(self, node: str, transition: str) -> Answer:
+        since = self._logged()
+        answer = await self._lifecycle.change(node, transition)
+        why = "" if answer.ok else self._complaint(node, since)
+        return Answer(answer.ok, f"{answer.text}: {why}" if why else answer.text)
 
     def watch_nodes(self, on: bool, requester: str) -> None:
         """Check which nodes respond while a requester wants it, as soon as the system is reached."""

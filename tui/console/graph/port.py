@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import Future
 from typing import Protocol
 
 from bot_console.tui.console.answer import Answer
@@ -12,6 +13,10 @@ class Graph(Protocol):
 
     def write_launch(self, path: str) -> Answer:
         """Write a launch file and a parameter file that start the running nodes again, as far as that can be known."""
+        ...
+
+    def change_state(self, node: str, transition: str) -> Future[Answer]:
+        """Request a transition of a lifecycle node by its label; answered with the new state, or why it failed."""
         ...
 
     def watch_nodes(self, on: bool, requester: str) -> None:

@@ -131,6 +131,7 @@ class GraphWatch:
             old.services if services is self._services else _endpoints(services, old.services),
             frozen=old.frozen,
             silent=old.silent,
+            lifecycle=old.lifecycle,
         )
         self._unheard.follow(self.info)
         self.info = replace(self.info, unheard=self._unheard.found, incompatible=self._unheard.incompatible)
@@ -142,6 +143,11 @@ class GraphWatch:
         """Start or stop checking which nodes do not respond, unless events of this machine's system report that."""
         if self._asks_nodes:
             self._silence.poll(on, self.info)
+
+    def lifecycle_is(self, states: Mapping[str, str]) -> None:
+        """Note the states of lifecycle nodes."""
+        self.info = replace(self.info, lifecycle=states)
+        self._changed(self.info)
 
     def _silent_are(self, nodes: tuple[str, ...]) -> None:
         self.info = replace(self.info, silent=nodes)

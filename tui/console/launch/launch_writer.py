@@ -14,6 +14,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, cast
 
+from bot_console.tui.console.graph.lifecycle_states import GET_STATE
 from bot_console.tui.console.launch.ros_arguments import read_ros_arguments
 from bot_console.tui.console.model import GraphInfo, LaunchInfo, NodeInfo, ParameterTree, ProcessState, Program
 from bot_console.tui.console.parameters.file.saving import save
@@ -31,7 +32,6 @@ CONTAINERS = (
 )
 LAUNCH = ("ros2", "launch")
 """How the command begins that runs another launch file."""
-GET_STATE = "lifecycle_msgs/srv/GetState"
 ALIVE = (ProcessState.STARTING, ProcessState.RUNNING)
 HEAD = '''\
 """Starts the nodes of a running system again, {mark}.

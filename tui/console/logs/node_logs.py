@@ -94,6 +94,15 @@ class NodeLogs:
         """The record with that number."""
         return self._store.record(seq) if self._store else None
 
+    def complaint(self, node: str, since: int) -> str:
+        """The last warning or error that a node has logged from the record with that number on; empty without one."""
+        logger = _logger_of(node)
+        for seq in range(self.state.end - 1, since - 1, -1):
+            record = self.record(seq)
+            if record is not None and record.severity >= Severity.WARN and _logger_of(record.node) == logger:
+                return record.text
+        return ""
+
     def matching(self, which: LogFilter, after: int, limit: int | None = None) -> Sequence[int]:
         """Numbers of the records that pass a filter."""
         if self._store is None:
@@ -129,3 +138,8 @@ class NodeLogs:
         """Stop searching."""
         if self._views is not None:
             self._views.close()
+
+
+def _logger_of(node: str) -> str:
+    """The name of a node's logger."""
+    return node.strip("/").replace("/", ".")

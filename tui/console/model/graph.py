@@ -51,7 +51,7 @@ class GraphInfo:
 
     `unheard`: why messages of different definitions do not get through; `incompatible`: by topic, the pairs whose QoS
     does not match; `frozen`: stopped nodes, with their pids; `silent`: nodes that do not
-    answer.
+    answer; `lifecycle`: the states of lifecycle nodes that have reported one.
     """
 
     nodes: tuple[NodeInfo, ...] = ()
@@ -63,3 +63,4 @@ class GraphInfo:
     incompatible: Mapping[str, tuple[IncompatiblePair, ...]] = field(
         default_factory=dict[str, tuple[IncompatiblePair, ...]]
     )
+    lifecycle: Mapping[str, str] = field(default_factory=dict[str, str])

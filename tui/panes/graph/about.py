@@ -30,7 +30,8 @@ def summary(info: GraphInfo, item: str) -> str:
     parts += [f"{counted(len(node.services), 'service')}", f"{counted(len(node.clients), 'client')}"]
     stopped = "".join(f" - frozen: process {pid} is stopped" for name, pid in info.frozen if name == item)
     stopped = stopped or (f" - {SILENT}" if item in info.silent else "")
-    return sanitize(f"{item}  {', '.join(parts)}{stopped}")
+    state = f"{info.lifecycle[item]} (T changes it), " if item in info.lifecycle else ""
+    return sanitize(f"{item}  {state}{', '.join(parts)}{stopped}")
 
 
 def server_types(info: GraphInfo, item: str) -> list[str]:

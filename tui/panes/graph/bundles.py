@@ -48,18 +48,19 @@ def bundled(
     members: Mapping[str, int],
     faults: frozenset[tuple[str, str, str]] = frozenset(),
     rates: Mapping[str, str] = MappingProxyType({}),
+    states: Mapping[str, str] = MappingProxyType({}),
 ) -> Bundles:
     """The chart of boxes and of edges between boxes and links (topics, services, actions).
 
     `members` is the number of nodes in each folded namespace, `faults` are triples of publisher, topic and subscriber
-    between which nothing arrives, and `rates` are texts by topic.
+    between which nothing arrives, `rates` are texts by topic, and `states` those of lifecycle nodes.
     """
     boxes = sorted(nodes)
     between = _between(edges)
     wrong: dict[Pair, set[str]] = {}
     for a, link, b in faults:
         wrong.setdefault((a, b), set()).add(link)
-    names = _Names(boxes, {link for links in between.values() for link in links}, members)
+    names = _Names(boxes, {link for links in between.values() for link in links}, members, states)
     words = {pair: names.words(pair, links, wrong.get(pair, set())) for pair, links in between.items()}
     groups = _alike(boxes, words)
     group_of = {each: group for group in groups for each in group}
@@ -127,7 +128,10 @@ def _alike(boxes: list[str], words: Mapping[Pair, tuple[str, ...]]) -> list[tupl
 class _Names:
     """Short names: the last part, unless two short names would be the same."""
 
-    def __init__(self, boxes: Iterable[str], links: Iterable[str], members: Mapping[str, int]) -> None:
+    def __init__(
+        self, boxes: Iterable[str], links: Iterable[str], members: Mapping[str, int], states: Mapping[str, str]
+    ) -> None:
+        self._states = states
         self._boxes = Counter(_last(each) for each in boxes)
         self._links = Counter(_last(each) for each in links)
         self._members = members
@@ -138,7 +142,9 @@ class _Names:
         # Beside folded namespaces, a node says which one it is in.
         unique = self._boxes[_last(name)] == 1 and (space or not self._members)
         text = cut_name(sanitize(_last(name) if unique else name), MAX_LENGTH)
-        return f"▸ {text}  {counted(self._members.get(box, 0), 'node')}" if space else text
+        if space:
+            return f"▸ {text}  {counted(self._members.get(box, 0), 'node')}"
+        return text + state_mark(self._states.get(box, ""))
 
     def words(
         self, pair: Pair, links: Iterable[str], faulty: Collection[str], rates: Mapping[str, str] = MappingProxyType({})
@@ -172,6 +178,11 @@ class _Names:
         text = KINDS[f"{kind}:"] + cut_name(sanitize(short), MAX_LENGTH)
         rate = rates.get(name) if kind == "topic" else None
         return f"{text} {rate:<{RATE_CELLS}}" if rate else text
+
+
+def state_mark(state: str) -> str:
+    """What stands behind the name of a lifecycle node."""
+    return f" ({sanitize(state)})" if state else ""
 
 
 def _within(name: str, pair: Pair) -> str:

@@ -37,6 +37,8 @@ def _node(snapshot: ConsoleSnapshot, name: str) -> Iterator[Option]:
     if node is None:
         yield Option("The node has left.")
         return
+    if name in snapshot.graph.lifecycle:
+        yield Option(f"lifecycle {snapshot.graph.lifecycle[name]}", "T in the graph changes it")
     for verb, kind, field in NODE_ENDS:
         ends: tuple[Endpoint, ...] = getattr(node, field)
         for each in ends:

@@ -46,6 +46,7 @@ from bot_console.tui.panes.graph.rates import Rates
 from bot_console.tui.panes.graph.view import GraphView, Mode, Shown, shown
 from bot_console.tui.panes.graph.view_state import STATE_NAME, ViewState, view_state_of
 from bot_console.tui.panes.pane import Pane
+from bot_console.tui.panes.transitions import ask_transition
 from bot_console.tui.widgets.diagram.chart.drawing import WIDE
 from bot_console.tui.widgets.diagram_view import LARGE, DiagramView
 from bot_console.tui.widgets.prompt.filtered import Narrowed
@@ -376,6 +377,10 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self._rates.wanted = not self._measures
         self.tick()
         self._draw()
+
+    def action_transition(self) -> None:
+        """Ask for a transition of the selected lifecycle node."""
+        ask_transition(self, self._info or GraphInfo(), (self._picture.selected,))
 
     def action_frames(self) -> None:
         """Show the frames of tf2 instead of nodes and topics, or go back."""

@@ -12,7 +12,7 @@ from bot_console.tui.console.graph.connections import TOOL_NAMES, connections, i
 from bot_console.tui.console.model import GraphInfo, NodeInfo
 from bot_console.tui.console.query import Query
 from bot_console.tui.format import counted, sanitize
-from bot_console.tui.panes.graph.bundles import Bundles, bundled
+from bot_console.tui.panes.graph.bundles import Bundles, bundled, state_mark
 from bot_console.tui.panes.graph.filtering import filtered
 from bot_console.tui.panes.graph.focus_history import Focus, around
 from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, SPACE, TOPIC, box_of, folded_edges, is_link
@@ -149,7 +149,7 @@ def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingPr
         for topic, pairs in info.incompatible.items()
         for a, b, _ in pairs
     )
-    bundles = bundled((each for each in ids if not is_link(each)), edges, label.members, triples, rates)
+    bundles = bundled((each for each in ids if not is_link(each)), edges, label.members, triples, rates, info.lifecycle)
     dead = sorted(dead_ends & ids)
     return replace(
         found,
@@ -194,6 +194,7 @@ class _Labels:
     def __init__(
         self, info: GraphInfo, view: GraphView, rates: Mapping[str, str], ids: Collection[str], faulty: Collection[str]
     ) -> None:
+        self._states = info.lifecycle
         self._rates = rates
         self._faulty = faulty
         self._short = view.short
@@ -206,7 +207,7 @@ class _Labels:
         if item.startswith(SPACE):
             return f"▸ {self._name(item.removeprefix(SPACE))}  {counted(self.members[item], 'node')}"
         if not is_link(item):
-            return self._name(item)
+            return self._name(item) + state_mark(self._states.get(item, ""))
         kind, _, name = item.partition(":")
         text = self._name(name) if kind == "topic" else f"{kind[:3]} {self._name(name)}"
         text = f"✗ {text}" if item in self._faulty else text

@@ -19,6 +19,7 @@ from bot_console.tui.format import clock_text, counted, cut, sanitize
 from bot_console.tui.panes.launch.rows import ProcessRows, matches, rows
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
+from bot_console.tui.panes.transitions import ask_transition
 from bot_console.tui.safety.stop_messages import stops_of_ending
 from bot_console.tui.screens.facts import FactsScreen
 from bot_console.tui.text.endings import ending_text
@@ -94,6 +95,9 @@ class LaunchPane(ListPane):
             "" if self.console.launcher else "this console was started without a launcher"
         )
         self._elsewhere = snapshot.capabilities.launched_elsewhere
+        if snapshot.graph.lifecycle != self._list.lifecycle:
+            self._list.lifecycle = snapshot.graph.lifecycle
+            self._list.refresh()
         state = (snapshot.launch, why_not, snapshot.problem)
         if state[0] is not self._info or state[1:] != (self._why_not, self._problem):
             self._info, self._why_not, self._problem = state
@@ -158,7 +162,9 @@ class LaunchPane(ListPane):
         name = process.nodes[0] if len(process.nodes) == 1 else process.label
         if ending:
             return f"{name} {ending}" + (f"  {process.problem}" if process.problem else "")
-        return process.problem or f"{process.label}  {' '.join(process.nodes)}"
+        states = self._list.lifecycle
+        nodes = (f"{each} ({states[each]}, T changes it)" if each in states else each for each in process.nodes)
+        return process.problem or f"{process.label}  {' '.join(nodes)}"
 
     def tick(self) -> None:
         """Say how long ago the process at the cursor has ended."""
@@ -253,6 +259,14 @@ class LaunchPane(ListPane):
         answer = answer_of(done)
         if not answer.ok:
             self.report(answer)
+
+    def action_transition(self) -> None:
+        """Ask for a transition of the lifecycle nodes at the cursor."""
+        row = self._list.current
+        info = self._info or LaunchInfo()
+        chosen = [each for each in info.processes if row and (each == row.process or not row.process)]
+        nodes = [node for each in chosen if row and _belongs(each, row.group) for node in each.nodes]
+        ask_transition(self, self.console.snapshot().graph, nodes)
 
     def action_write(self) -> None:
         """Ask for the launch file to write."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
@@ -87,6 +87,9 @@ def _inside(group: tuple[str, ...], folded: Collection[tuple[str, ...]]) -> bool
 class ProcessRows(ItemList[Row]):
     """The rows of the tree."""
 
+    lifecycle: Mapping[str, str] = {}
+    """The states of lifecycle nodes."""
+
     def key(self, item: Row) -> object:
         """The process or group of a row."""
         return item.process.key if item.process else item.group
@@ -119,6 +122,8 @@ class ProcessRows(ItemList[Row]):
         columns = [f"  {process.state.value:<10}", f"{process.pid or '':>8}"]
         columns.append(f"{f'↻{process.restarts}' if process.restarts else '':>5}")
         columns.append("" if process.exit_code is None else f"  exit {process.exit_code}")
+        states = [self.lifecycle[each] for each in process.nodes if each in self.lifecycle]
+        columns += [f"  {sanitize(each)}" for each in states if process.state is ProcessState.RUNNING]
         if process.cpu is not None and width >= 60:
             columns.append(f"  {process.cpu:.0%} CPU")
         if process.memory is not None and width >= 76:

@@ -1,0 +1,13 @@
+"""Which transitions a lifecycle node has in which state, by their labels; the same for all nodes of ROS 2."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+GET_STATE = "lifecycle_msgs/srv/GetState"
+"""The type of the service by which a lifecycle node is known."""
+TRANSITIONS: Mapping[str, tuple[str, ...]] = {
+    "unconfigured": ("configure", "shutdown"),
+    "inactive": ("activate", "cleanup", "shutdown"),
+    "active": ("deactivate", "shutdown"),
+}

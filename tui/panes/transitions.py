@@ -1,0 +1,45 @@
+"""Asks which transition a lifecycle node is to make."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from bot_console.tui.console.graph.lifecycle_states import TRANSITIONS
+from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.panes.pane import Pane
+from bot_console.tui.widgets.prompt.question import Choice, Option
+
+FINAL = ("shutdown",)
+"""Transitions from which there is no way back."""
+
+
+def ask_transition(pane: Pane, graph: GraphInfo, nodes: Sequence[str]) -> None:
+    """Ask for a transition of one of these nodes, and request it; says why if there is none."""
+    managed = [each for each in nodes if each in graph.lifecycle]
+    if not managed:
+        pane.notify("This is no lifecycle node.", severity="warning")
+        return
+    if not pane.may_change():
+        return
+    options = [
+        Option(f"{verb} {node}", about(graph.lifecycle[node], verb), f"{verb} {node}")
+        for node in managed
+        for verb in TRANSITIONS.get(graph.lifecycle[node], ())
+    ]
+    if not options:
+        pane.notify(f"{managed[0]} is {graph.lifecycle[managed[0]]}: no transition is possible.", severity="warning")
+        return
+
+    def chosen(answer: str) -> None:
+        verb, _, node = answer.partition(" ")
+        pane.report_later(pane.console.graph.change_state(node, verb))
+
+    def find(typed: str) -> Sequence[Option]:
+        return [each for each in options if typed.strip().lower() in each.title.lower()]
+
+    pane.ask(Choice("Transition", chosen, find=find, hint="type part of a name", empty="No such transition."))
+
+
+def about(state: str, verb: str) -> str:
+    """What stands behind a transition."""
+    return f"is {state}" + (", for good" if verb in FINAL else "")
