@@ -69,7 +69,7 @@ class Spawned:
 class Bench:
     """A launcher, a folder for its files, and the lines it has logged."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, **options: Any) -> None:
         self.folder = folder
         self.printed: list[tuple[int, str, str]] = []
         self.launch_output: list[str] = []
@@ -79,6 +79,7 @@ class Bench:
             files=lambda: tuple(str(each) for each in sorted(folder.glob("*.launch.*"))),
             spawn=lambda target, file: Spawned(target, self.launch_output),
             vitals=find_vitals,
+            **options,
         )
 
     def program(self, text: str, name: str = "program.py") -> str:

@@ -48,6 +48,7 @@ from bot_console.tui.session.launch_host.combined import CombinedLauncher, Other
 from bot_console.tui.session.launch_host.host import LaunchHost, Printed
 from bot_console.tui.session.launch_host.launch_lines import launch_variables, notifier
 from bot_console.tui.session.launch_host.proxy import HostedLauncher
+from bot_console.tui.settings.settings import read_settings
 
 if TYPE_CHECKING:
     from bot_console.tui.console.bags.snapshot_buffer import SnapshotBuffer
@@ -89,7 +90,12 @@ def launcher_here(
     def spawn(target: Callable[[], None], path: str) -> Launching:
         return Launching(target, printed, launch_environment(path))
 
-    return RosLauncher(record, printed, launch_files, spawn, find_vitals, heard, every)
+    settings = read_settings()
+    return RosLauncher(
+        *(record, printed, launch_files, spawn, find_vitals, heard, every),
+        policy=settings.restart_policy,
+        restarts=settings.restarts,
+    )
 
 
 def embedded(console: RosConsole) -> RosLauncher:

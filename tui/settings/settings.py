@@ -9,6 +9,7 @@ from typing import Any, cast
 
 from bot_console.tui.console.bags.port import RingSize
 from bot_console.tui.console.graph.connections import TOOL_NAMES
+from bot_console.tui.console.model import DEFAULT_RESTARTS, RestartPolicy
 from bot_console.tui.console.robot.stop_means.configured import ConfiguredMeans, configured_means
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.files.store_file import read_store
@@ -21,6 +22,8 @@ MAX_FILE_BYTES = 100_000
 
 KEEP_MINUTES = 2.0
 KEEP_MEGABYTES = 64.0
+
+RESTART_WORDS = ("leave-ended", "on-failure")
 
 TEMPLATE = f"""\
 # Settings of bot-console. Every line may be left out; `bot-console config` shows this file, `bot-console config --edit`
@@ -59,6 +62,13 @@ graph_hides: [{", ".join(TOOL_NAMES)}]
 # and `graph --check` reads it; empty: none, until E in the Topics pane names one.
 expected: ""
 
+# Launched processes that fail: leave-ended, or on-failure to restart them all until R in the Launch pane says otherwise
+# for one; at most so many times in a row, after a delay that doubles (s). What its launch file respawns is left to it.
+restart: leave-ended
+restart_attempts: {DEFAULT_RESTARTS.attempts}
+restart_delay: {DEFAULT_RESTARTS.delay:g}
+restart_max_delay: {DEFAULT_RESTARTS.max_delay:g}
+
 # Keys: the id of an action, as `bot-console config --keys` lists them, and the keys that do it from now on.
 keys: {{}}
 #  app.quit: ctrl+d
@@ -82,6 +92,9 @@ class Settings:
     """Patterns of the names of topics and nodes that the graph leaves out."""
     expected: str = ""
     """The file with the rates that topics should have; empty: none."""
+    restarts: bool = False
+    """Whether all processes that fail are restarted."""
+    restart_policy: RestartPolicy = DEFAULT_RESTARTS
 
     @property
     def kept(self) -> RingSize | None:
@@ -134,6 +147,16 @@ def _settings(data: object, path: str) -> Settings:
     theme = one("theme", "dark", lambda name: _one_of(name, THEME_NAMES))
     glyphs = one("glyphs", "auto", lambda name: _one_of(name, GLYPHS))
     layout = one("layout", "last", lambda _: "")
+    restart = one("restart", RESTART_WORDS[0], lambda word: _one_of(word, RESTART_WORDS))
+    attempts, delay, longest = (
+        _number(given.pop(f"restart_{name}", default), maximum, default, f"{path}: restart_{name}", wrong)
+        for name, default, maximum in (
+            ("attempts", DEFAULT_RESTARTS.attempts, 1000),
+            ("delay", DEFAULT_RESTARTS.delay, 3600.0),
+            ("max_delay", DEFAULT_RESTARTS.max_delay, 86400.0),
+        )
+    )
+    policy = RestartPolicy(int(attempts), delay, max(delay, longest))
     expected = one("expected", "", lambda _: "")
     keep = [
         _number(given.pop(name, default), maximum, default, f"{path}: {name}", wrong)
@@ -144,7 +167,20 @@ def _settings(data: object, path: str) -> Settings:
     keys = _keys(given.pop("keys", None), path, wrong)
     hides = _names(given.pop("graph_hides", list(TOOL_NAMES)), f"{path}: graph_hides", wrong)
     wrong += [f"{path}: '{str(name)[:40]}' is not a setting" for name in given]
-    return Settings(theme, glyphs, layout, keys, tuple(wrong), keep[0], keep[1], means, hides, expected)
+    return Settings(
+        theme,
+        glyphs,
+        layout,
+        keys,
+        tuple(wrong),
+        keep[0],
+        keep[1],
+        means,
+        hides,
+        expected,
+        restart == "on-failure",
+        policy,
+    )
 
 
 def _names(value: object, name: str, wrong: list[str]) -> tuple[str, ...]:

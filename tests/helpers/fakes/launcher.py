@@ -74,6 +74,12 @@ class FakeLauncher:
     def restart(self, key: str) -> Future[Answer]:
         return self._asked("restart", key)
 
+    def restart_on_failure(self, key: str) -> Future[Answer]:
+        return self._asked("restart_on_failure", key)
+
+    def leave_ended(self, key: str) -> Future[Answer]:
+        return self._asked("leave_ended", key)
+
     def _asked(self, verb: str, key: str) -> Future[Answer]:
         self.asked.append((verb, key))
         if self._console is None:

@@ -195,6 +195,28 @@ def test_a_lifecycle_node_shows_its_state_and_makes_transitions_here_and_in_the_
     run(live(), play, (120, 40))
 
 
+def test_restarts_on_failure_are_switched_for_a_process_and_for_a_group() -> None:
+    async def play(session: Session) -> None:
+        info = session.console.current.launch
+        first = next(each for each in info.processes if each.nodes == ("/sensor_handler",))
+        await session.press("8")
+        session.pane(LaunchPane).go_to("/sensor_handler")
+        await session.press("R")
+        assert session.launcher.asked == [("restart_on_failure", first.key)]
+        text = "on failure, up to 5 times, after 1 to 16 s"
+        processes = tuple(replace(each, restart_policy=text) for each in info.processes)
+        session.console.change(launch=replace(info, processes=processes))
+        await session.settle()
+        assert "↻0" in next(each for each in session.lines() if "sensor_handler-" in each)
+        await session.press("enter")
+        assert f"restarted {text}" in session.text()
+        await session.press("escape", "g", "R")
+        assert {verb for verb, _ in session.launcher.asked[1:]} == {"leave_ended"}
+        assert len(session.launcher.asked) > 2
+
+    run(live(), play, (100, 30))
+
+
 def test_argument_outside_its_choices_is_rejected() -> None:
     async def play(session: Session) -> None:
         session.launcher.declared = arguments()[:1]

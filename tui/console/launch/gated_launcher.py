@@ -50,3 +50,11 @@ class GatedLauncher:
     def restart(self, key: str) -> Future[Answer]:
         """Stop a process, then start it again."""
         return self._order(self._launcher.restart, key)
+
+    def restart_on_failure(self, key: str) -> Future[Answer]:
+        """Restart a process whenever it fails."""
+        return self._order(self._launcher.restart_on_failure, key)
+
+    def leave_ended(self, key: str) -> Future[Answer]:
+        """No longer restart a process that fails."""
+        return self._order(self._launcher.leave_ended, key)

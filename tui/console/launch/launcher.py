@@ -20,7 +20,14 @@ from bot_console.tui.console.launch.run import LaunchRun, Listener
 from bot_console.tui.console.launch.timeline import LaunchTimeline
 from bot_console.tui.console.launch.title import argument_line, title_of, unused
 from bot_console.tui.console.launch.vitals import HANGS, FindVitals, Usage, Vitals
-from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessState, Severity
+from bot_console.tui.console.model import (
+    DEFAULT_RESTARTS,
+    LaunchArgument,
+    LaunchInfo,
+    ProcessState,
+    RestartPolicy,
+    Severity,
+)
 
 if TYPE_CHECKING:
     from launch.events.process import ProcessExited, ProcessStarted
@@ -67,12 +74,16 @@ class RosLauncher(ProcessVerbs):
         vitals: FindVitals = lambda pid: None,
         heard: Callable[[str], bool] = lambda name: True,
         every: Add | None = None,
+        policy: RestartPolicy = DEFAULT_RESTARTS,
+        restarts: bool = False,
     ) -> None:
         """`spawn` starts the thread that launches a file, and keeps launch's own output off the screen.
 
         `heard` says whether `/rosout` has brought a line of the logger with that name; `every` receives all lines of
-        loggers, including those that `/rosout` brings.
+        loggers, including those that `/rosout` brings. `policy` is how processes are restarted that have failed, and
+        `restarts` whether all are, until a person decides otherwise.
         """
+        self._policy, self._restarts = policy, restarts
         self._record = record
         self._printed = printed
         self._files_of_workspace = files
@@ -116,6 +127,9 @@ class RosLauncher(ProcessVerbs):
             info = held.process.info
             if held.output is not None and held.process.alive:
                 held.output.settle()
+            if not self._closed and (order := held.process.due()) is not Order.NOTHING:
+                self._report(f"{info.label} is restarted after it has failed")
+                self._order(held, order)
             if held.usage is not None and held.process.alive:
                 self._inspect(held, held.usage, now)
             elif held.vitals is not None and info.exit_code == KILLED and info.state is not ProcessState.ABANDONED:
@@ -208,7 +222,7 @@ class RosLauncher(ProcessVerbs):
             before = held.process.info
             order, outcome = held.process.want(verb)
             if held.process.info is not before or order is not Order.NOTHING:
-                self._report(f"{verb} {before.label}")
+                self._report(f"{verb.replace('_', ' ')} {before.label}")
             self._order(held, order)
         return outcome
 
@@ -269,7 +283,9 @@ class RosLauncher(ProcessVerbs):
         key = f"{event.process_name}@{len(self._held)}"
         place = run.tree.place(event.action, context)
         made_from = recipe(event, context)
-        process = LaunchedProcess(key, event.process_name, place, made_from.program)
+        process = LaunchedProcess(
+            key, event.process_name, place, made_from.program, policy=self._policy, restarts=self._restarts
+        )
         held = _Held(process, run, event.action, made_from)
         self._held[key] = self._by_action[event.action] = held
         if self._closed or run.ending:
@@ -326,6 +342,9 @@ class RosLauncher(ProcessVerbs):
         with self._lock:
             if reason not in ("", "idle"):
                 self._report(f"{run.title} ends: {reason}")
+                for held in self._held.values():
+                    if held.run is run:
+                        held.process.forget_restart()
             for held in self._held.values():
                 if held.run is run and held.process.alive:
                     held.process.exit_requested()

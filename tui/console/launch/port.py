@@ -43,3 +43,11 @@ class Launcher(Protocol):
     def restart(self, key: str) -> Future[Answer]:
         """Stop a process, then start it again."""
         ...
+
+    def restart_on_failure(self, key: str) -> Future[Answer]:
+        """From now on restart a process whenever it fails, as the settings say: so many times, after growing delays."""
+        ...
+
+    def leave_ended(self, key: str) -> Future[Answer]:
+        """No longer restart a process that fails."""
+        ...

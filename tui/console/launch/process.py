@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import signal
 import time
+from collections.abc import Callable
 from concurrent.futures import Future
 from dataclasses import replace
 from enum import Enum
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.model import ProcessInfo, ProcessState, Program
+from bot_console.tui.console.model import DEFAULT_RESTARTS, ProcessInfo, ProcessState, Program, RestartPolicy
 
 INTERRUPTED = (0, -2, -15, 130)
 """Exit codes of a process that ended on request."""
@@ -18,6 +19,9 @@ MAX_PID = 1 << 22
 """The highest process id that Linux assigns; a node that shares its process with others has a placeholder above it."""
 
 STARTS = ("start", "restart")
+POLICIES = ("restart_on_failure", "leave_ended")
+STEADY_S = 60.0
+"""Seconds that a process must have run for its failed attempts to be forgotten."""
 ENDED = (ProcessState.EXITED, ProcessState.CRASHED, ProcessState.ABANDONED, ProcessState.MISSING)
 
 
@@ -34,8 +38,28 @@ class Order(Enum):
 class LaunchedProcess:
     """The displayed state of a process, and the requests waiting for its next change."""
 
-    def __init__(self, key: str, label: str, group: tuple[str, ...] = (), program: Program | None = None) -> None:
+    def __init__(
+        self,
+        key: str,
+        label: str,
+        group: tuple[str, ...] = (),
+        program: Program | None = None,
+        *,
+        policy: RestartPolicy = DEFAULT_RESTARTS,
+        restarts: bool = False,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """`restarts`: whether `policy` applies from the beginning; `clock` returns seconds."""
+        self._policy = policy
+        self._clock = clock
+        self._attempts = 0
+        """How often it was restarted in a row because it had failed."""
+        self._began = 0.0
+        self._due: float | None = None
+        """When it is to be restarted."""
         self.info = ProcessInfo(key, label, ProcessState.STARTING, group=group, program=program)
+        if restarts and not self._respawns:
+            self.info = replace(self.info, restart_policy=policy.text)
         self._starts = 0
         self._alive = False
         self._ran = False
@@ -45,19 +69,55 @@ class LaunchedProcess:
         self._waiting: list[tuple[str, Future[Answer]]] = []
 
     @property
+    def _respawns(self) -> bool:
+        """Whether launch respawns it by itself."""
+        return self.info.program is not None and self.info.program.respawn
+
+    def due(self) -> Order:
+        """What to do at this time: start it if its delay after a failure is over."""
+        if self._due is None or self._clock() < self._due:
+            return Order.NOTHING
+        return self._start()
+
+    def forget_restart(self) -> None:
+        """Do not restart it after its failure: its launch has ended."""
+        if self._due is not None:
+            self._due = None
+            code = self.info.exit_code
+            self.info = replace(self.info, problem=self._why(code or 0))
+
+    @property
     def alive(self) -> bool:
         """Whether it was started and has not ended."""
         return self._alive
 
     def want(self, verb: str) -> tuple[Order, Future[Answer]]:
-        """Request `start`, `stop`, `kill` or `restart`; answered when that is done."""
+        """Request `start`, `stop`, `kill` or `restart`, answered when that is done, or one of `POLICIES`."""
         outcome: Future[Answer] = Future()
+        if verb in POLICIES or (verb not in STARTS and self._due is not None):
+            outcome.set_result(self._set_policy(verb) if verb in POLICIES else self._given_up())
+            return Order.NOTHING, outcome
         refusal = self._refusal(verb)
         if refusal:
             outcome.set_result(Answer(False, refusal))
             return Order.NOTHING, outcome
         self._waiting.append((verb, outcome))
         return (self._want_running(verb) if verb in STARTS else self._want_ended(verb)), outcome
+
+    def _set_policy(self, verb: str) -> Answer:
+        label = self.info.label
+        if self._respawns:
+            return Answer(False, f"{label}: its launch file says when it is started again (respawn)")
+        wanted = verb == "restart_on_failure"
+        if not wanted:
+            self.forget_restart()
+        self._attempts = 0
+        self.info = replace(self.info, restart_policy=self._policy.text if wanted else "")
+        return Answer(True, f"{label} is restarted {self.info.restart_policy}" if wanted else f"{label} stays ended")
+
+    def _given_up(self) -> Answer:
+        self.forget_restart()
+        return Answer(True, f"{self.info.label} is not restarted")
 
     def _refusal(self, verb: str) -> str:
         state, label = self.info.state, self.info.label
@@ -89,6 +149,7 @@ class LaunchedProcess:
 
     def _start(self) -> Order:
         self._again = self._reported = self._ran = False
+        self._due = None
         self.info = replace(self.info, state=ProcessState.STARTING, problem="")
         return Order.START
 
@@ -111,6 +172,7 @@ class LaunchedProcess:
         own = pid if pid <= MAX_PID else None
         restarts, self._starts, self._alive = self._starts, self._starts + 1, True
         self._ran, self._stands = True, ""
+        self._began = self._clock()
         state = ProcessState.STOPPING if self._reported else ProcessState.RUNNING
         nodes = nodes or self.info.nodes
         self.info = replace(
@@ -164,12 +226,28 @@ class LaunchedProcess:
             fine = code is None or (code in INTERRUPTED if self._reported else code == 0)
             state = ProcessState.EXITED if fine else ProcessState.CRASHED
             self.info = replace(self.info, state=state, problem="" if fine else self._why(code or 0))
+            if not fine and self._ran and not self._reported and not self._again and self.info.restart_policy:
+                self._schedule_restart()
         ended = "" if code is None else f", exit code {code}"
         self._settle(("stop", "kill"), Answer(True, f"{self.info.label} has ended{ended}"))
         if self._again:
             return self._start()
         self._settle(STARTS, Answer(False, f"{self.info.label} has ended{ended}"))
         return Order.NOTHING
+
+    def _schedule_restart(self) -> None:
+        if self._clock() - self._began >= STEADY_S:
+            self._attempts = 0
+        if self._attempts >= self._policy.attempts:
+            often = "once" if self._attempts == 1 else f"{self._attempts} times"
+            text = f"given up after it was restarted {often}: {self.info.problem}"
+        else:
+            self._attempts += 1
+            delay = self._policy.delay_before(self._attempts)
+            self._due = self._clock() + delay
+            count = f"{self._attempts} of {self._policy.attempts}"
+            text = f"restarts after {delay:g} s ({count}): {self.info.problem}"
+        self.info = replace(self.info, problem=text)
 
     def _why(self, code: int) -> str:
         """Why it has ended, with the exception it printed, if any."""

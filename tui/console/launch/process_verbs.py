@@ -9,7 +9,7 @@ from bot_console.tui.console.answer import Answer
 
 
 class ProcessVerbs(ABC):
-    """The four methods of `Launcher` that control one process, all implemented by `_want`."""
+    """The methods of `Launcher` that control one process, all implemented by `_want`."""
 
     def start(self, key: str) -> Future[Answer]:
         """Start a process that has ended; answered when it runs."""
@@ -26,6 +26,14 @@ class ProcessVerbs(ABC):
     def restart(self, key: str) -> Future[Answer]:
         """Stop, then start; answered when it runs again."""
         return self._want("restart", key)
+
+    def restart_on_failure(self, key: str) -> Future[Answer]:
+        """Restart a process whenever it fails, as the settings say."""
+        return self._want("restart_on_failure", key)
+
+    def leave_ended(self, key: str) -> Future[Answer]:
+        """Do not restart a process that has ended by itself."""
+        return self._want("leave_ended", key)
 
     @abstractmethod
     def _want(self, verb: str, key: str, /) -> Future[Answer]:

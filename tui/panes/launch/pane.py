@@ -260,6 +260,19 @@ class LaunchPane(ListPane):
         if not answer.ok:
             self.report(answer)
 
+    def action_policy(self) -> None:
+        """Restart what is at the cursor whenever it fails; if all of that is so already, no longer."""
+        row = self._list.current
+        if row is None or self.launcher is None or not self.may_change():
+            return
+        info = self._info or LaunchInfo()
+        chosen = [row.process] if row.process else [each for each in info.processes if _belongs(each, row.group)]
+        own = [each for each in chosen if not (each.program and each.program.respawn)] or chosen
+        stays = all(each.restart_policy for each in own)
+        for each in own:
+            change = self.launcher.leave_ended if stays else self.launcher.restart_on_failure
+            self.report_later(change(each.key))
+
     def action_transition(self) -> None:
         """Ask for a transition of the lifecycle nodes at the cursor."""
         row = self._list.current
@@ -362,6 +375,7 @@ def facts(process: ProcessInfo, info: LaunchInfo) -> list[tuple[str, list[str]]]
     no_pid = "in the launch host" if process.state in ALIVE else "none"
     state = process.state.value + ("" if process.exit_code is None else f", last exit code {process.exit_code}")
     known = [f"state     {state}", f"pid       {process.pid or no_pid}", f"restarts  {process.restarts}"]
+    known += [f"restarted {restart_text(process)}"]
     known += [f"CPU       {process.cpu:.1%}"] if process.cpu is not None else []
     known += [f"memory    {process.memory} MB"] if process.memory is not None else []
     events = [event_text(each) for each in info.timeline if process.label in each.text]
@@ -372,3 +386,10 @@ def facts(process: ProcessInfo, info: LaunchInfo) -> list[tuple[str, list[str]]]
         ("Nodes", list(process.nodes)),
         ("Events", events[-12:]),
     ]
+
+
+def restart_text(process: ProcessInfo) -> str:
+    """When a process is started again by itself."""
+    if process.program is not None and process.program.respawn:
+        return "whenever it ends (respawn in its launch file)"
+    return process.restart_policy or "never"

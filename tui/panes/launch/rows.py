@@ -120,7 +120,7 @@ class ProcessRows(ItemList[Row]):
         head, names = f"{indent}{glyph}", self._names(width)
         name = cut(f"{head} {sanitize(process.label)}", names, pad=True)
         columns = [f"  {process.state.value:<10}", f"{process.pid or '':>8}"]
-        columns.append(f"{f'↻{process.restarts}' if process.restarts else '':>5}")
+        columns.append(f"{f'↻{process.restarts}' if process.restarts or process.restart_policy else '':>5}")
         columns.append("" if process.exit_code is None else f"  exit {process.exit_code}")
         states = [self.lifecycle[each] for each in process.nodes if each in self.lifecycle]
         columns += [f"  {sanitize(each)}" for each in states if process.state is ProcessState.RUNNING]

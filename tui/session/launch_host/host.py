@@ -25,6 +25,8 @@ MAX_LINES = 1000
 MAX_FACTS = 10_000
 """Past facts, one per declared parameter, that are sent to such a console."""
 
+VERBS = ("launch", "start", "stop", "kill", "restart", "restart_on_failure", "leave_ended")
+
 Printed = Callable[[int, str, str], None]
 
 
@@ -132,7 +134,7 @@ class LaunchHost:
     def _received(self, console: _Console, message: Message) -> None:
         number, verb, words = message.get("id"), message.get("do"), message.get("with", [])
         reply = partial(self._reply, console, number)
-        if verb in ("launch", "start", "stop", "kill", "restart") or (verb == "keep" and self._buffer is not None):
+        if verb in VERBS or (verb == "keep" and self._buffer is not None):
             outcome: Future[Answer] = getattr(self._buffer if verb == "keep" else self._service, verb)(*words)
             outcome.add_done_callback(lambda done: reply(answer=[done.result().ok, done.result().text]))
         elif verb == "arguments":

@@ -13,6 +13,7 @@ from bot_console.tui.session.embedded.vitals import SystemVitals
 from bot_console.tui.session.launch_host.host import LaunchHost, Printed
 from bot_console.tui.session.machine.console_needs import provide_missing
 from bot_console.tui.session.machine.launch_files import launch_files
+from bot_console.tui.settings.settings import read_settings
 
 
 class Turn:
@@ -58,7 +59,12 @@ def host_launches(owner: socket.socket) -> None:
     main_thread = MainThread()
 
     def make(record: Add, printed: Printed) -> RosLauncher:
-        return RosLauncher(record, printed, launch_files, main_thread.spawn, SystemVitals)
+        settings = read_settings()
+        return RosLauncher(
+            *(record, printed, launch_files, main_thread.spawn, SystemVitals),
+            policy=settings.restart_policy,
+            restarts=settings.restarts,
+        )
 
     host = LaunchHost(make)
 

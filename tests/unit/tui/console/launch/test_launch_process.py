@@ -1,13 +1,23 @@
 """The state machine of one launched process, without launch."""
 
 import pytest
-from bot_console.tui.console.launch.process import ENDED, LaunchedProcess, Order
-from bot_console.tui.console.model import ProcessState
+from bot_console.tui.console.launch.process import ENDED, STEADY_S, LaunchedProcess, Order
+from bot_console.tui.console.model import ProcessState, Program, RestartPolicy
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
 VERBS = ("start", "stop", "kill", "restart")
+
+
+class Clock:
+    """Seconds, stepped by the test."""
+
+    def __init__(self) -> None:
+        self.now = 0.0
+
+    def __call__(self) -> float:
+        return self.now
 
 
 def running():
@@ -163,3 +173,94 @@ def test_the_placeholder_of_a_node_without_a_process_of_its_own_is_no_process_id
     assert process.info.pid is None and process.info.state is ProcessState.RUNNING
     process.started("node-1", 1 << 22)
     assert process.info.pid == 1 << 22
+
+
+def supervised(clock, *, attempts=3, delay=1.0, max_delay=3.0, program=None):
+    """A running process that is restarted on failure."""
+    policy = RestartPolicy(attempts, delay, max_delay)
+    process = LaunchedProcess("key", "node-1", program=program, policy=policy, clock=clock)
+    process.started("node-1", 7)
+    assert process.want("restart_on_failure")[1].result().ok
+    return process
+
+
+def fail(process):
+    """Start it if that is necessary, and let it end with an error."""
+    if not process.alive:
+        process.started("node-1", 8)
+    assert process.exited(1, respawns=False) is Order.NOTHING
+
+
+def test_a_failed_process_is_restarted_after_growing_delays_until_the_attempts_are_used_up():
+    clock = Clock()
+    process = supervised(clock)
+    assert process.info.restart_policy == "on failure, up to 3 times, after 1 to 3 s"
+    for number, delay in enumerate((1.0, 2.0, 3.0), 1):
+        fail(process)
+        assert process.info.state is ProcessState.CRASHED
+        assert process.info.problem.startswith(f"restarts after {delay:g} s ({number} of 3): ended with exit code 1")
+        clock.now += delay - 0.01
+        assert process.due() is Order.NOTHING
+        clock.now += 0.02
+        assert process.due() is Order.START and process.info.state is ProcessState.STARTING
+        assert process.due() is Order.NOTHING, "once"
+    fail(process)
+    clock.now += 100
+    assert process.due() is Order.NOTHING and "given up after it was restarted 3 times" in process.info.problem
+
+
+def test_a_process_that_ran_long_enough_has_all_attempts_again():
+    clock = Clock()
+    process = supervised(clock, attempts=1)
+    fail(process)
+    clock.now += 1
+    assert process.due() is Order.START
+    process.started("node-1", 8)
+    clock.now += STEADY_S
+    fail(process)
+    clock.now += 1
+    assert process.due() is Order.START
+
+
+@pytest.mark.parametrize("code", [0, -2])
+def test_only_failures_are_followed_by_a_restart(code):
+    clock = Clock()
+    process = supervised(clock)
+    if code:
+        process.want("stop")
+    process.exited(code, respawns=False)
+    clock.now += 100
+    assert process.due() is Order.NOTHING and process.info.state is ProcessState.EXITED
+
+
+@pytest.mark.parametrize("verb", ["stop", "kill", "leave_ended"])
+def test_a_pending_restart_can_be_called_off(verb):
+    clock = Clock()
+    process = supervised(clock)
+    fail(process)
+    order, answer = process.want(verb)
+    assert order is Order.NOTHING and answer.result().ok
+    clock.now += 100
+    assert process.due() is Order.NOTHING and "restarts" not in process.info.problem
+    assert bool(process.info.restart_policy) is (verb != "leave_ended")
+
+
+def test_a_start_by_hand_replaces_the_pending_one():
+    clock = Clock()
+    process = supervised(clock)
+    fail(process)
+    assert process.want("start")[0] is Order.START
+    clock.now += 100
+    assert process.due() is Order.NOTHING
+
+
+def test_what_a_launch_file_respawns_is_left_to_it():
+    process = LaunchedProcess("key", "node-1", program=Program(("x",), respawn=True), restarts=True)
+    answer = process.want("restart_on_failure")[1].result()
+    assert not answer.ok and "respawn" in answer.text and not process.info.restart_policy
+
+
+def test_the_policy_of_the_settings_applies_from_the_beginning():
+    process = LaunchedProcess("key", "node-1", restarts=True)
+    assert process.info.restart_policy == RestartPolicy().text
+    assert RestartPolicy(2000, 1.0, 5.0).delay_before(2000) == 5.0

@@ -4,7 +4,7 @@ import itertools
 import re
 
 import pytest
-from bot_console.tui.console.model import LaunchArgument, ProcessState, Severity
+from bot_console.tui.console.model import LaunchArgument, ProcessState, RestartPolicy, Severity
 from launcher_bench import DEAF, ENDS, FAILS, TIMEOUT_S, WAITS, Bench
 
 _domains = itertools.count(4000)
@@ -15,6 +15,16 @@ def bench(tmp_path, monkeypatch):
     monkeypatch.setenv("ROS_DOMAIN_ID", str(next(_domains)))
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
     made = Bench(tmp_path)
+    yield made
+    made.launcher.close()
+
+
+@pytest.fixture
+def supervising(tmp_path, monkeypatch):
+    """A bench whose settings restart what fails, twice and at once."""
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(next(_domains)))
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
+    made = Bench(tmp_path, policy=RestartPolicy(2, 0.0, 0.0), restarts=True)
     yield made
     made.launcher.close()
 
@@ -392,3 +402,28 @@ def test_a_missing_package_is_shown_as_missing_and_the_launch_goes_on(bench):
 def test_a_missing_package_ends_the_launch_by_default(bench):
     outcome = bench.run("[Node(package='nowhere_cpp', executable='driver', name='d')]")
     assert not outcome.ok and "nowhere_cpp" in outcome.text
+
+
+def test_a_process_that_fails_is_restarted_as_the_settings_say_until_that_is_given_up(supervising):
+    path = supervising.program(FAILS)
+    supervising.run(f"[Node(executable={path!r})]")
+    supervising.until(lambda: "given up" in supervising.process().problem, "the end of the attempts")
+    assert supervising.process().restarts == 2 and supervising.process().state is ProcessState.CRASHED
+    assert "the fault" in supervising.process().problem
+
+
+def test_a_process_whose_failure_ends_its_launch_is_not_restarted(supervising):
+    path = supervising.program(FAILS)
+    supervising.run(f"[Node(executable={path!r}, on_exit=Shutdown(reason='over'))]")
+    supervising.until(lambda: any("has ended" in each for each in supervising.texts()), "the end")
+    assert supervising.process().restarts == 0 and "restarts" not in supervising.process().problem
+
+
+def test_a_person_decides_for_one_process(bench):
+    path = bench.program(WAITS, "waits.py")
+    bench.run(f"[Node(executable={path!r})]")
+    bench.until(lambda: any(text == "up" for _, _, text in bench.printed), "its first line")
+    assert not bench.process().restart_policy
+    assert bench.do("restart_on_failure", bench.process()).ok
+    assert bench.process().restart_policy.startswith("on failure")
+    assert bench.do("leave_ended", bench.process()).ok and not bench.process().restart_policy
