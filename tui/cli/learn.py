@@ -9,6 +9,7 @@ import sys
 from dataclasses import replace
 from pathlib import Path
 
+from bot_console.runtime.importer import install
 from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError
 from bot_console.tui.arrangement.plugin_pane import PluginEntry
 from bot_console.tui.cli.arguments import Options
@@ -40,6 +41,7 @@ def run(words: list[str]) -> int:
     if not workspace.is_dir():
         print(f"there is no folder {given.workspace}: make it (`mkdir -p {given.workspace}/src`)", file=sys.stderr)
         return 1
+    install()  # Launch files are judged by the packages that there are.
     try:
         course = read_course(find_course(given.course))
     except CourseError as error:

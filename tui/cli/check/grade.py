@@ -7,6 +7,7 @@ import json
 import sys
 from pathlib import Path
 
+from bot_console.runtime.importer import install
 from bot_console.tui.format import sanitize
 from bot_console.tui.learn.course import CourseError, find_course, read_course
 from bot_console.tui.learn.grading import as_json, as_junit, grade, table
@@ -19,6 +20,7 @@ def run_grading(given: argparse.Namespace) -> int:
     if not workspace.is_dir():
         print(f"there is no folder {given.script}: name the workspace that is to be graded", file=sys.stderr)
         return 2
+    install()  # Launch files are judged by the packages that there are.
     try:
         course = read_course(find_course(given.course))
     except CourseError as error:

@@ -96,7 +96,7 @@ class LessonPane(Pane):
             self._layouts_before = layouts
         driving = snapshot.drive.armed and snapshot.drive.asked not in (None, (0.0, 0.0))
         return OnScreen(
-            pane.id or "" if pane is not None else "",
+            pane.id or "" if pane is not None and not self.display else "",  # Tab leads through those beside it.
             frozenset(str(each.path) for each in curves),
             layouts - self._layouts_before,
             driving,
@@ -163,6 +163,6 @@ def lines_of(view: LessonView) -> Text:
     text = Text()
     text.append(f"{view.number}/{view.total} {sanitize(view.title)}", "bold")
     text.append(f"  {sanitize(waiting)}\n")
-    path, body = next((each for each in view.snippets if not each[0]), next(iter(view.snippets), ("", "")))
-    text.append(sanitize(path or body.partition("\n")[0]) or "enter shows the whole step", "dim")
+    parts = [path or body.partition("\n")[0] for path, body in view.snippets]
+    text.append(sanitize(" · ".join(parts)) or "enter shows the whole step", "dim")
     return text
