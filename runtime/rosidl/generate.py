@@ -7,11 +7,6 @@ import sys
 import types
 from pathlib import Path
 
-from bot_console.runtime.rosidl.emit import modules
-from bot_console.runtime.rosidl.emit_holder import package_module
-from bot_console.runtime.rosidl.names import module_name
-from bot_console.runtime.rosidl.standard import interfaces
-
 HERE = Path(__file__).resolve().parent
 PREFIX = "ament-prefix"
 """The folder of definition files, laid out as in installed packages; its name cannot be imported."""
@@ -19,7 +14,12 @@ PREFIX = "ament-prefix"
 
 def main() -> None:
     """Regenerate all modules."""
-    _make_importable()
+    _make_importable()  # A build runs this in a clone where nothing is installed, so these imports cannot come first.
+    from bot_console.runtime.rosidl.emit import modules
+    from bot_console.runtime.rosidl.emit_holder import package_module
+    from bot_console.runtime.rosidl.names import module_name
+    from bot_console.runtime.rosidl.standard import interfaces
+
     target = HERE / "generated"
     fresh = HERE / "generated.new"
     shutil.rmtree(fresh, ignore_errors=True)

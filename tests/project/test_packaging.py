@@ -1,5 +1,6 @@
 """What is installed: one package, with everything that a run needs."""
 
+import ast
 import shutil
 import subprocess
 import sys
@@ -60,3 +61,10 @@ def test_wheel_contains_generated_messages(wheel):
 
 def test_no_module_shadows_an_outside_name(wheel):
     assert not any(name.startswith(("rclpy/", "launch/", "tests/")) for name in wheel)
+
+
+def test_generator_of_messages_runs_where_nothing_is_installed_yet():
+    program = ast.parse((ROOT / "runtime" / "rosidl" / "generate.py").read_text("utf-8"))
+    imported = [each.module or "" for each in program.body if isinstance(each, ast.ImportFrom)]
+    assert imported
+    assert [each for each in imported if each.startswith("bot_console")] == []
