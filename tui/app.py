@@ -97,7 +97,7 @@ class BotConsoleApp(GuardedApp):
         self._keyboard = Keyboard(self, self._deal, self.stage.typing)
         self.key_watch = self.early_stop = EarlyStop(
             lambda: self.input_is_handled and self._keyboard.is_idle, self.stage.typing,
-            lambda: self._reached and self._snapshot.drive.stopped_here,
+            lambda: self._snapshot.drive.own_stops if self._reached else frozenset(),
         )  # fmt: skip
         self._reach, self._reached = reach, False
         self.tuner: Tuner | None = None

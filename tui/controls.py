@@ -63,7 +63,7 @@ def controls_of(
     """
     quitting = Quitting(app, console)
     stopping = Stopping(app, console, quitting.keeps_held)
-    early_stop.attach(console.drive, stopping.pressed_early)
+    early_stop.attach(console.drive, stopping.pressed_early, lambda: console.snapshot().drive.own_stops)
     leaving = Leaving(app, console, redraw, holds=not console.gate.read_only)
     gated = GatedLines(console.gate, lines)
     panes = PaneMaker(console, time_cursor, stage.entries)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Set
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -37,8 +37,8 @@ class Press:
     event: events.Key
     due: float
     """When the robot is held for it."""
-    releases: bool
-    """Whether the person saw the robot held by this console, and so meant to release it."""
+    seen: Set[str]
+    """The ids of this console's stops that the screen showed: those that the person may have meant to release."""
     is_held: bool = False
 
 
@@ -52,26 +52,31 @@ class EarlyStop:
         self,
         idle: Callable[[], bool],
         typing: Callable[[], bool],
-        held: Callable[[], bool],
+        shown: Callable[[], Set[str]],
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        """`idle`: whether all earlier input is handled. `typing`: whether a text field has the focus. `held`:
-        whether the screen shows the robot as held.
+        """`idle`: whether all earlier input is handled. `typing`: whether a text field has the focus. `shown`: the ids
+        of this console's stops that the screen shows.
         """
         self._idle = idle
         self._typing = typing
-        self._held = held
+        self._shown = shown
         self._clock = clock
         self._holder: Holder | None = None
         self._stop: Callable[[], None] = lambda: None
+        self._own_stops: Callable[[], Set[str]] = frozenset
         self._presses: list[Press] = []
         self._count = 0
         self._lock = threading.Lock()
 
-    def attach(self, holder: Holder, stop: Callable[[], None]) -> None:
-        """Act on a robot from now on, also for keys pressed before; `stop` is the action of the stop key."""
+    def attach(self, holder: Holder, stop: Callable[[], None], own_stops: Callable[[], Set[str]]) -> None:
+        """Act on a robot from now on, also for keys pressed before.
+
+        `stop` is the action of the stop key; `own_stops` returns the ids of this console's present stops, which may be
+        ahead of the screen.
+        """
         with self._lock:
-            self._holder, self._stop = holder, stop
+            self._holder, self._stop, self._own_stops = holder, stop, own_stops
             for each in self._presses:
                 if each.is_held:
                     holder.hold_early(each.id)
@@ -91,7 +96,8 @@ class EarlyStop:
         with self._lock:
             is_next = alone and not self._presses and self._idle()
             self._count += 1
-            press = Press(str(self._count), event, self._clock(), releases=self._held() and not self._presses)
+            seen = frozenset[str]() if self._presses else self._shown()
+            press = Press(str(self._count), event, self._clock(), seen)
             self._presses.append(press)
             if is_next:
                 press.due += TURN_TIMEOUT_S
@@ -117,7 +123,8 @@ class EarlyStop:
     def has_acted(self, event: events.Key) -> bool:
         """Whether the stop key already took effect before its turn; if not, it is handled like any other key.
 
-        It releases only a stop that was on the screen when it was pressed.
+        It releases only a stop that was on the screen when it was pressed. If that has been released since, the key
+        stops the robot: the person may have seen it move before the screen said so.
         """
         with self._lock:
             press = next((each for each in self._presses if _is_of(event, each)), None)
@@ -125,7 +132,7 @@ class EarlyStop:
                 return False
             self._presses.remove(press)
         is_text = not stops(event.key) or (event.is_printable and self._typing())
-        releases = press.releases and self._held()
+        releases = bool(press.seen & self._own_stops())
         if press.is_held and self._holder is not None:
             self._holder.settle_early(press.id, keep=not is_text)
         if not (is_text or releases):

@@ -347,11 +347,14 @@ class FakeConsole(FakeProfiles, FakeSeries):
     def hold(self, stops: Sequence[RobotStop]) -> None:
         """Set the stops that the robot reports."""
         first = stops[0] if stops else RobotStop("")
+        requested = any(each.here and not each.key.startswith(EARLY) for each in stops)
+        before = self.current.drive.own_stops
         self.change(
             drive=replace(
                 self.current.drive, stopped=bool(stops), stop_confirmed=bool(stops), stop_holder=first.holder,
                 stop_reason=first.reason, lockable=True, stops=tuple(stops),
                 stopped_here=any(each.here for each in stops),
+                own_stops=(before or frozenset([f"stop {len(self.asked)}"])) if requested else frozenset(),
             )
         )  # fmt: skip
 

@@ -91,9 +91,10 @@ def held_through(way: Way, robot: LiveRobot) -> float:
 
 
 def _stop_and_release(robot: LiveRobot, person: Terminal) -> None:
-    """Press the stop key twice, as a person does who sees that the robot stands before it is released."""
+    """Press the stop key twice, as a person does who sees the robot stand, and the screen say that it is held."""
     person.type("!")
     _until_rests(robot, person)
+    person.read_until(lambda: b"held" in person.output, "the acknowledged stop")
     person.type("!")
     began = time.monotonic()
     robot.until(lambda: _drained(person) and any(speed > MOVING for _, speed in robot.speeds(began)), "driving robot")

@@ -65,6 +65,22 @@ def test_press_releases_a_stop_that_was_shown() -> None:
     run(live(), play)
 
 
+def test_press_at_a_robot_that_moves_again_stops_it_even_if_the_screen_still_says_held() -> None:
+    async def play(session: Session) -> None:
+        await session.press(STOP)
+        shown = session.app._snapshot
+        await session.press(STOP)
+        assert not held(session)
+        await behind(session, "3")
+        session.app._snapshot = shown  # as on a machine that is too busy to draw
+        await behind(session, STOP)
+        assert held(session)
+        await their_turn(session)
+        assert held(session), "the robot was let go again"
+
+    run(live(), play)
+
+
 def test_stop_key_typed_into_a_new_text_field_is_withdrawn_and_inserted() -> None:
     async def play(session: Session) -> None:
         await session.press("2")

@@ -381,6 +381,7 @@ class DriveLink:
             stop_holder="this console" if stop.holder == self._stop.holder else stop.holder,
             stop_reason=stop.reason,
             stopped_here=stop.here or self._zeros,
+            own_stops=stop.own,
             stops=with_gone(stop.stops),
             lockable=stop.locks > 0,
             unlocked=tuple(each.robot for each in self._unlocked),

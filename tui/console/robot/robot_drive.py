@@ -25,14 +25,20 @@ LAST_ZERO_TIMEOUT_S = 0.15
 CONFIRMATION_POLL_S = 0.1
 RECONNECT_PAUSE_S = 1.0
 NO_WORLD = WorldInfo()
+UNSENT = frozenset(["unsent"])
+"""Stands for the id of a stop that will get one when it is sent."""
 IDLE = DriveInfo()
 NOT_YET = DriveInfo(
     stopped=True,
     stopped_here=True,
+    own_stops=UNSENT,
     unsent="the console is still connecting; the stop is sent as soon as it is connected",
 )
 NOT_CONNECTED = DriveInfo(
-    stopped=True, stopped_here=True, unsent="this console is not connected; run bot-console stop in another terminal"
+    stopped=True,
+    stopped_here=True,
+    own_stops=UNSENT,
+    unsent="this console is not connected; run bot-console stop in another terminal",
 )
 
 
@@ -100,7 +106,8 @@ class RobotDrive:
         if not self._network().silent_s:
             self._zero_again()
         if self._is_unsent:
-            return NOT_YET if self._gate.unreached == STARTING else NOT_CONNECTED
+            unsent = NOT_YET if self._gate.unreached == STARTING else NOT_CONNECTED
+            return unsent if self._request else replace(unsent, own_stops=frozenset())
         known = self._link.info(world) if self._link else IDLE
         if not self._gate.read_only:
             return known

@@ -139,6 +139,8 @@ class DriveInfo:
     stop_reason: str = ""
     stopped_here: bool = False
     """Whether one of the stops is this console's."""
+    own_stops: frozenset[str] = frozenset()
+    """The ids of the stops that this console has requested, except those for key presses that are not handled yet."""
     stops: tuple[RobotStop, ...] = ()
     """Everybody's stops that the robot has acknowledged, the oldest first."""
     lockable: bool = False

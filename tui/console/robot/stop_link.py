@@ -54,6 +54,8 @@ class StopInfo:
     locks: int = 0
     here: bool = False
     """Whether one of the stops is our own."""
+    own: frozenset[str] = frozenset()
+    """The ids of our own stops, except those made by `add_stop`."""
     stops: tuple[RobotStop, ...] = ()
     """Everybody's stops, the oldest first."""
 
@@ -187,6 +189,7 @@ class StopLink:
             steered_by=next((each.steered_by for each in states if each.steered_by), ""),
             locks=len(states),
             here=own is not None or any(each.here for each in stops),
+            own=frozenset(id for id, each in self._requested.items() if not each.alone),
             stops=stops,
         )
 
@@ -225,6 +228,7 @@ class StopLink:
         with self._changed:
             if id in self._requested:
                 self._requested[id] = replace(self._requested[id], alone=False)
+        self._update()
 
     def _request(self, id: str, stop: RequestedStop) -> str:
         with self._changed:

@@ -66,6 +66,18 @@ def test_press_locks_and_is_shown_as_the_stop_of_this_console(rig: Rig) -> None:
     assert [each.here for each in info.stops] == [True]
 
 
+def test_stop_for_a_press_is_one_of_the_consoles_own_once_it_is_kept_and_each_new_stop_has_another_id(rig: Rig) -> None:
+    rig.link.hold_early("1")
+    assert rig.settle().own_stops == frozenset()
+    rig.link.settle_early("1", keep=True)
+    first = rig.link.info(WorldInfo()).own_stops
+    assert len(first) == 1
+    rig.link.stop(False, "")
+    assert rig.link.info(WorldInfo()).own_stops == frozenset()
+    rig.link.stop(True, "ALL STOP")
+    assert len(rig.settle().own_stops) == 1 and not first & rig.link.info(WorldInfo()).own_stops
+
+
 def test_press_that_was_text_is_withdrawn_and_no_other_stop_is(rig: Rig) -> None:
     rig.link.hold_early("1")
     rig.settle()

@@ -15,14 +15,20 @@ class Rig:
     """An early stop, and a robot that notes what is asked of it."""
 
     def __init__(self, *, attached: bool = True) -> None:
-        self.idle, self.typing, self.held, self.now = True, False, False, 0.0
+        self.idle, self.typing, self.now = True, False, 0.0
+        self.shown = self.own = frozenset[str]()
         self.asked: list[Any] = []
-        self.early = EarlyStop(lambda: self.idle, lambda: self.typing, lambda: self.held, lambda: self.now)
+        self.early = EarlyStop(lambda: self.idle, lambda: self.typing, lambda: self.shown, lambda: self.now)
         if attached:
             self.attach()
 
     def attach(self) -> None:
-        self.early.attach(self, lambda: self.asked.append("stop"))
+        self.early.attach(self, lambda: self.asked.append("stop"), lambda: self.own)
+
+    def held_by(self, *ids: str, shown: bool = True) -> None:
+        """The console's stops have changed, and unless `shown` is false the screen says so."""
+        self.own = frozenset(ids)
+        self.shown = self.own if shown else self.shown
 
     def hold_early(self, press: str) -> None:
         self.asked.append(("hold", press))
@@ -96,22 +102,50 @@ def test_stop_that_nobody_has_seen_yet_is_not_released_by_pressing_again() -> No
     rig = Rig()
     first, second = rig.press(alone=False), rig.press(alone=False)
     assert rig.early.has_acted(first)
-    rig.held = True
+    rig.held_by("a")
     assert rig.early.has_acted(second) and rig.asked.count("stop") == 2
 
 
 def test_key_that_was_to_release_what_the_screen_showed_still_does() -> None:
     rig = Rig()
-    rig.held = True
+    rig.held_by("a")
     event = rig.press(alone=False)
     assert not rig.early.has_acted(event) and rig.asked == [("hold", "1"), ("keep", "1")]
 
 
 def test_key_that_was_to_release_holds_if_somebody_else_has_released_before_its_turn() -> None:
     rig = Rig()
-    rig.held = True
+    rig.held_by("a")
     event = rig.press(alone=False)
-    rig.held = False
+    rig.held_by()
+    assert rig.early.has_acted(event) and "stop" in rig.asked
+
+
+@pytest.mark.parametrize("alone", [False, True])
+def test_key_pressed_after_a_release_that_the_screen_does_not_show_yet_stops(alone: bool) -> None:
+    rig = Rig()
+    rig.held_by("a")
+    assert not rig.early.has_acted(rig.press()), "the first press releases"
+    rig.held_by(shown=False)
+    event = rig.press(alone=alone)
+    rig.wait() if alone else None
+    assert rig.early.has_acted(event) and rig.asked == [("hold", "2"), ("keep", "2"), "stop"]
+
+
+def test_key_pressed_while_another_one_is_about_to_release_stops() -> None:
+    rig = Rig()
+    rig.held_by("a")
+    assert not rig.early.has_acted(rig.press()), "the first press is going to release"
+    event = rig.press(alone=False)
+    rig.held_by()
+    assert rig.early.has_acted(event) and "stop" in rig.asked
+
+
+def test_key_does_not_release_a_stop_that_is_newer_than_what_the_screen_showed() -> None:
+    rig = Rig()
+    rig.held_by("a")
+    event = rig.press(alone=False)
+    rig.held_by("b", shown=False)
     assert rig.early.has_acted(event) and "stop" in rig.asked
 
 
@@ -125,7 +159,7 @@ def test_key_pressed_before_there_is_a_robot_holds_it_as_soon_as_there_is_one() 
 def test_key_stops_in_its_turn_if_the_early_stop_fails() -> None:
     rig = Rig()
     event = rig.press()
-    rig.early.attach(object(), lambda: None)  # type: ignore[arg-type] # any failure
+    rig.early.attach(object(), lambda: None, frozenset)  # type: ignore[arg-type] # any failure
     rig.wait()
     rig.attach()
     assert rig.early.has_acted(event) and rig.asked == ["stop"]
