@@ -134,7 +134,8 @@ class EarlyStop:
         is_text = not stops(event.key) or (event.is_printable and self._typing())
         releases = bool(press.seen & self._own_stops())
         if press.is_held and self._holder is not None:
-            self._holder.settle_early(press.id, keep=not is_text)
+            # One that is to release would otherwise only find a stop that is not acknowledged yet, its own.
+            self._holder.settle_early(press.id, keep=not (is_text or releases))
         if not (is_text or releases):
             self._stop()
         return not (is_text or releases)

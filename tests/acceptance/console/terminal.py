@@ -19,7 +19,7 @@ from pathlib import Path
 from bot_console.tui.cli.foreground.hang_watch import FILE
 from bot_console.tui.files.folders import state_folder
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 120.0
 """Seconds after which a test gives up; nothing is measured by it."""
 STACKS = 5.0
 """Seconds that a console may take to write the stacks of its threads."""
@@ -50,8 +50,9 @@ class Terminal:
         while not condition():
             if time.monotonic() >= deadline:
                 raise AssertionError(f"no {what}; the screen ended with {self.output[-800:]!r}\n{self.stacks()}")
-            assert self.process.poll() is None or "end" in what, f"ended before {what}: {self.output[-1500:]!r}"
+            ended = self.process.poll()
             self._read(0.05)
+            assert ended is None or "end" in what, f"ended ({ended}) before {what}: {self.output[-1500:]!r}"
 
     def _read(self, seconds: float) -> None:
         if select.select([self.master], [], [], seconds)[0]:

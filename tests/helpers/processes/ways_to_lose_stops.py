@@ -159,14 +159,12 @@ def another_world(robot: LiveRobot, person: Terminal) -> None:
     before = _world(robot, person)
     name = "outdoor" if "warehouse" in before else "warehouse"
     with console(robot, [*CONSOLE, "--pane", "profiles"]) as other:
-        wait(other, 2.0)
-        other.type(f"/{name}\r")
-        wait(other, 1.0)
-        other.type("w")
         deadline = time.monotonic() + TIMEOUT_S
         while name not in _world(robot, other):
             assert time.monotonic() < deadline, f"no other world: {other.output[-800:]!r}"
-            other.type("y")  # to the question whether limits may be raised, once it is there
+            for keys in (ESCAPE, f"/{name}\r", "w", "y"):  # yes to the question whether limits may be raised
+                other.type(keys)
+                wait(other, 1.0)
 
 
 def _world(robot: LiveRobot, meanwhile: Terminal) -> str:
@@ -243,6 +241,7 @@ def recording(robot: LiveRobot) -> Iterator[None]:
     bag = robot.folder / "stops"
     shutil.rmtree(bag, ignore_errors=True)
     recorder = robot.console("bag", "record", "--output", str(bag), *RECORDED)
+    robot.until((bag / "metadata.yaml").exists, "recording")
     wait(None, WATCHED)
     yield
     wait(None, 1.0)
@@ -270,7 +269,7 @@ class Clocks:
         self._file, before = robot.folder / "clock", dict(robot.environment)
         self._set("+0")
         robot.environment |= {
-            "LD_PRELOAD": str(FAKETIME), "FAKETIME_TIMESTAMP_FILE": str(self._file), "FAKETIME_NO_CACHE": "1",
+            "LD_PRELOAD": str(FAKETIME), "FAKETIME_TIMESTAMP_FILE": str(self._file), "FAKETIME_CACHE_DURATION": "1",
             "FAKETIME_DONT_FAKE_MONOTONIC": "1",
         }  # fmt: skip
         try:
@@ -291,7 +290,7 @@ class Clocks:
             line = [sys.executable, "-c", "import time; print(time.time())"]
             shown = float(subprocess.run(line, env=robot.environment, capture_output=True, check=True).stdout)
             assert each == "+0" or abs(shown - time.time()) > 6 * 3600, "the clock does not jump"
-            wait(person, 1.0)
+            wait(person, WATCHED)  # longer than libfaketime uses the last offset
             both_restarted(robot, person)
             wait(person, 1.0)
 

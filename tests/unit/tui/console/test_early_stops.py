@@ -78,6 +78,15 @@ def test_stop_for_a_press_is_one_of_the_consoles_own_once_it_is_kept_and_each_ne
     assert len(rig.settle().own_stops) == 1 and not first & rig.link.info(WorldInfo()).own_stops
 
 
+def test_withdrawn_press_leaves_the_acknowledged_stop_confirmed(rig: Rig) -> None:
+    rig.link.stop(True, "ALL STOP")
+    assert rig.settle().stop_confirmed
+    rig.link.hold_early("1")
+    assert not rig.link.info(WorldInfo()).stop_confirmed, "no lock has acknowledged it yet"
+    rig.link.settle_early("1", keep=False)
+    assert rig.link.info(WorldInfo()).stop_confirmed and rig.settle().stop_confirmed and rig.locked
+
+
 def test_press_that_was_text_is_withdrawn_and_no_other_stop_is(rig: Rig) -> None:
     rig.link.hold_early("1")
     rig.settle()

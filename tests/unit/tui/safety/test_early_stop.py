@@ -110,7 +110,7 @@ def test_key_that_was_to_release_what_the_screen_showed_still_does() -> None:
     rig = Rig()
     rig.held_by("a")
     event = rig.press(alone=False)
-    assert not rig.early.has_acted(event) and rig.asked == [("hold", "1"), ("keep", "1")]
+    assert not rig.early.has_acted(event) and rig.asked == [("hold", "1"), ("withdraw", "1")]
 
 
 def test_key_that_was_to_release_holds_if_somebody_else_has_released_before_its_turn() -> None:
