@@ -49,7 +49,9 @@ class Asking:
         open_to_it = can_be_asked(snapshot.graph)
         self.concerned, self.unasked = len(wanted), frozenset(wanted) - open_to_it
         # If the descriptor refuses a value, the node need not be asked, and its rules do not expect such values.
-        now = {node: wanted[node] for node in wanted if node in open_to_it and node not in refused}
+        # A node may be known to the graph but not yet, or no longer, by its parameters.
+        asked = open_to_it & snapshot.parameters.keys() - refused
+        now = {node: values for node, values in wanted.items() if node in asked}
         for node in [each for each in self._asked if each not in now]:
             del self._asked[node], self.answers[node]
         for node, values in now.items():
@@ -60,7 +62,7 @@ class Asking:
 
     def _put(self, node: str, tree: ParameterTree, values: Mapping[str, Value]) -> None:
         kinds = {each.name: each.kind for each in tree.parameters}
-        asked = question({name: (kinds[name], value) for name, value in values.items()})
+        asked = question({name: (kinds[name], value) for name, value in values.items() if name in kinds})
         done = self.console.topics.call_service(f"{node}/{SERVICE}", TYPE, asked)
         done.add_done_callback(partial(self._answered, node, self._asked[node]))
 
