@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Protocol, cast
 
 LAST_FILE = "parameter-file"
 """The name of the parameter file that was saved or opened last; its path is kept whole."""
@@ -18,6 +18,12 @@ class StateStore(Protocol):
     def put(self, name: str, data: object) -> str:
         """Store data; returns why that failed, and an empty text when it did not."""
         ...
+
+
+def texts_in(data: object) -> list[str]:
+    """The texts of a stored list, without anything else in it; none if it is no list."""
+    found = cast("list[object]", data) if isinstance(data, list) else list[object]()
+    return [each for each in found if isinstance(each, str)]
 
 
 class MemoryStore:

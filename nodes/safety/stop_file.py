@@ -17,6 +17,8 @@ from bot_console_robot.safety.stop_messages import releases_of, releases_text, s
 VERSION = 1
 MAX_FILE_BYTES = 4_000_000
 """Larger than any file that a lock writes."""
+MAX_TURN = 2**63
+"""More changes than any lock goes through."""
 TURN_TIMEOUT_S = 1.0
 """Seconds to wait for another lock that uses the file."""
 TURN_POLL_S = 0.01
@@ -126,6 +128,8 @@ def _lock_of(section: Any) -> Lock:
         turn, stops, released = section["turn"], section["stops"], section["released"]
         if not (isinstance(turn, int) and isinstance(stops, list) and isinstance(released, list)):
             raise TypeError
+        if not 0 <= turn <= MAX_TURN:  # The other lock would read a longer number as 0.
+            raise ValueError(f"its turn is not between 0 and {MAX_TURN}")
     except (TypeError, KeyError):
         raise ValueError("it contains no stops") from None
     lock = Lock(stops_of(json.dumps(stops)), turn, releases_of(json.dumps(released)))

@@ -88,7 +88,7 @@ class _Kept:
             about: Any = json.loads(self._about.read_bytes())
             fits = about["digest"] == _digest(self.path.read_bytes()) and about["address"] == self._address
             return str(about["tag"]) if fits else ""
-        except (OSError, ValueError, KeyError, TypeError):
+        except (OSError, ValueError, KeyError, TypeError, RecursionError):
             return ""
 
     def keep(self, content: bytes, tag: str) -> None:

@@ -30,6 +30,7 @@ def run(inputs: int, seed: int, only: Sequence[str] = ()) -> dict[str, Any]:
     from bot_console.runtime.importer import install
 
     install()
+    os.environ["BOT_CONSOLE_USER_DIR"] = str(FOLDER / "user")
     logging.disable(logging.CRITICAL)
 
     def hang(number: int, frame: FrameType | None) -> None:
@@ -41,10 +42,11 @@ def run(inputs: int, seed: int, only: Sequence[str] = ()) -> dict[str, Any]:
     chosen = [each for each in targets() if not only or any(word in each.name for word in only)]
     findings: dict[str, dict[str, Any]] = {}
     report: dict[str, dict[str, float]] = {}
-    share, more = divmod(inputs, len(chosen))
+    shares = [each.share for each in chosen]
     try:
         for index, target in enumerate(chosen):
-            count = share + (index < more)
+            before_it, with_it = (round(inputs * sum(shares[:end]) / sum(shares)) for end in (index, index + 1))
+            count = with_it - before_it
             seconds = feed(target, count, seed, findings)
             report[target.name] = {"inputs": count, "CPU s": round(seconds, 1)}
             print(f"{target.name}: {count} inputs, {seconds:.1f} s, {len(findings)} findings", file=sys.stderr)

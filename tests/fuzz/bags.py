@@ -6,11 +6,16 @@ import argparse
 import io
 import shutil
 import sqlite3
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import closing, redirect_stdout, suppress
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 from files import FOLDER, file
+
+RECORDED_ID = "a1b2c3"
+"""The id of the stop in the bags with control topics."""
 
 
 def bag(suffix: str) -> Callable[[str], None]:
@@ -35,6 +40,97 @@ def bag(suffix: str) -> Callable[[str], None]:
         console.close()
 
     return run
+
+
+@cache
+def node() -> Any:
+    import rclpy
+
+    rclpy.init()
+    return rclpy.create_node("fuzz")
+
+
+def control_bag(suffix: str) -> Callable[[str], None]:
+    """Nothing in a recording is played that controls a robot, and nothing in it releases a stop."""
+
+    def run(text: str) -> None:
+        from bot_console.tui.console.bags.definitions import class_of
+        from bot_console.tui.console.bags.playing.control_topics import controls, left_out_warning
+        from bot_console.tui.console.bags.playing.player import Player, Playing
+        from bot_console.tui.console.bags.reader import Bag
+
+        path = FOLDER / f"control{suffix}"
+        path.write_bytes(text.encode("latin-1", "replace"))
+        bag = Bag(path)
+        player = Player(node(), bag, Playing(), class_of)
+        played = {each for each in bag.topics if each not in player.left_out and each not in player.unknown}
+        for each in player._publishers.values():
+            node().destroy_publisher(each)
+        assert not [each for each in played if "emergency_stop" in each.split("/")[:-1] or each == "/cmd_vel"]
+        assert not [each for each in played if controls(each, bag.topics[each].type)]
+        left_out_warning(player.left_out).encode()
+        held_through(entry.data for entry in bag.messages())
+
+    return run
+
+
+def held_through(recorded: Iterable[bytes]) -> None:
+    """Feed a held lock what was recorded, as requests and as states of the other lock."""
+    from bot_console_robot.safety.latch import STOP, Latch, Request
+    from bot_console_robot.safety.stop_messages import request_of, state_of
+    from diagnostic_msgs.msg import DiagnosticStatus
+    from rclpy.serialization import deserialize_message
+
+    asked, followed = Latch(), Latch()
+    asked.request(Request(STOP, "anna", "why", "k", RECORDED_ID), 0)
+    followed.request(Request(STOP, "anna", "why", "k", "never recorded"), 0)
+    for data in recorded:
+        try:
+            message = deserialize_message(data, DiagnosticStatus)
+        except RuntimeError:
+            continue
+        asked.request(request_of(message), 1)
+        followed.follow(state_of(message).lock)
+    assert RECORDED_ID in asked.lock.ids, "a recorded request has released the stop"
+    assert "never recorded" in followed.lock.ids, "a recorded state has released the stop"
+
+
+def control_seeds(storage: str) -> Callable[[], Sequence[str]]:
+    """Bags of a stop, its release and the states of the locks, beside commands and a topic that is played."""
+
+    def seeds() -> Sequence[str]:
+        from bot_console.tui.console.bags.writer import BagWriter, Writing
+        from bot_console_robot.safety.latch import RELEASE, STOP, Latch, Request
+        from bot_console_robot.safety.stop_messages import State, request_message, state_message
+        from geometry_msgs.msg import Twist
+        from rclpy.serialization import serialize_message
+        from std_msgs.msg import Bool, String
+
+        latch = Latch()
+        stop = Request(STOP, "anna", "why", "k", RECORDED_ID)
+        latch.request(stop, 0)
+        held = state_message(State(latch.lock, "1", latch.challenge), "safety_monitor")
+        release = Request(RELEASE, "anna", "", "k", ids=(RECORDED_ID,), challenges=(latch.challenge,), of=("k",))
+        latch.request(release, 0)
+        free = state_message(State(latch.lock, "1", latch.challenge), "safety_monitor")
+        recorded: list[tuple[str, Any]] = [
+            ("/emergency_stop/request", request_message(stop)),
+            ("/emergency_stop/arbiter", held),
+            ("/robot2/emergency_stop/request", request_message(release)),
+            ("/emergency_stop/base", free),
+            ("/cmd_vel", Twist()),
+            ("/e_stop", Bool(data=True)),
+            ("/chatter", String(data="a")),
+        ]
+        folder = FOLDER / f"control-seed-{storage}"
+        writer = BagWriter(folder, Writing(storage=storage))
+        for number, (topic, message) in enumerate(recorded):
+            writer.topic(topic, type(message), [{"depth": 10, "durability": "transient_local"}])
+            writer.write(topic, serialize_message(message), 10**9 + number, 10**9 + number)
+        writer.close()
+        return [next(each for each in folder.iterdir() if each.suffix != ".yaml").read_bytes().decode("latin-1")]
+
+    return seeds
 
 
 def metadata(text: str) -> None:

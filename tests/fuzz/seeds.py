@@ -133,3 +133,45 @@ PACKAGE = """<?xml version="1.0"?>
 PERSPECTIVE = """{"keys": {}, "groups": {"pluginmanager": {"keys": {"running-plugins": {"type": "repr",
 "repr": "{'rqt_graph/RosGraph': [1], 'rqt_plot/Plot': [1, 2]}"}}, "groups": {}}}}
 """
+STATES = (
+    '{"mode": "FLOW", "folds": ["/a"], "rates": true, "debug": true}',
+    '{"filter": "speed !node:/arm", "changed": true, "closed": ["/a"], "at": ["/n", "a.b", "c"]}',
+    "- name: fast\n  condition: /odom/twist.twist.linear.x > 1\n  bell: true\n",
+)
+STORED_LINES = (
+    "hide speed !node:/arm\noff red re:a.b\n# words\n",
+    "ros2 topic list\nplot /odom/x\n",
+    '{"words": ["topic", "list"], "code": 0, "pid": 12, "at": 1.5, "errors": ""}\n',
+    '{"trial": "a 1", "report": {"time": 1.5}}\n{"trial": "a 2", "report": {}}\n',
+)
+PROGRESS = '{"version": 1, "at": "1.2", "held": {"1.1": ["a b", "c"]}, "names": {"node": "talker"}}'
+CURVES = """{"curves": [{"curve": "/a/b", "right": true, "thresholds": "1 2"}], "window": 30.0, "limits": "0 1",
+"against": ""}"""
+BACKGROUND = '{"pid": 4194304, "words": ["indoor", "--seed", "1"], "log": "/tmp/a.log", "way_in": 0}'
+WORDS = tuple(
+    each.replace(" ", "\x1f")
+    for each in (
+        "stop \xfftoo-close",
+        "release --all",
+        "status",
+        "bag info caf\xe9",
+        "param set /n p:=\xff",
+        "lint a.py",
+        "interface show std_msgs/msg/String",
+        "run caf\xe9/node.py --ros-args -p a:=1",
+        "launch \xc3.launch.py x:=1",
+    )
+)
+VARIABLES = tuple(
+    each.replace(" ", "\x1f")
+    for each in (
+        "LOGNAME=\xff USER=\xe9 stop",
+        "ROS_DOMAIN_ID=7 ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST ROS_STATIC_PEERS=127.0.0.1;a status",
+        "BOT_CONSOLE_CONNECT=tcp/127.0.0.1:1 BOT_CONSOLE_DISTRO=jazzy status",
+        "ZENOH_SESSION_CONFIG_URI=/a.json5 ZENOH_CONFIG_OVERRIDE=a/b=1;c=[2] BOT_CONSOLE_CONNECT=tcp/127.0.0.1:1 stop",
+        "BOT_CONSOLE_STOP_FILE=/\xff RCUTILS_CONSOLE_OUTPUT_FORMAT={name}:{message} RCUTILS_COLORIZED_OUTPUT=1 node",
+        "XDG_STATE_HOME=/\xff HOME=/\xe9 BOT_CONSOLE_USER_DIR=/dev/null/a ROS_HOME=a COLUMNS=80 LINES=x param",
+        "AMENT_PREFIX_PATH=/a:b PYTHONPATH=\xff PATH=/x:\xff TERM=\xff LC_ALL=C NO_COLOR=1 interface",
+        "RMW_IMPLEMENTATION=rmw_zenoh_cpp ROS_DISTRO=jazzy ROS_LOG_DIR=/dev/null/x TMPDIR=/y run",
+    )
+)

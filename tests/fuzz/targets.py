@@ -10,7 +10,9 @@ from dataclasses import dataclass
 import bags
 import files
 import messages
+import programs
 import seeds
+import stores
 import typed
 import yaml
 from mutation import mutated
@@ -24,6 +26,8 @@ class Target:
     seeds: Callable[[], Sequence[str]]
     run: Callable[[str], object]
     refusals: tuple[type[BaseException], ...] = ()
+    share: float = 1.0
+    """How many of the inputs it gets, compared with the others; less for one that takes long."""
 
 
 def targets() -> list[Target]:
@@ -35,9 +39,11 @@ def targets() -> list[Target]:
     from bot_console.runtime.rosidl.parse import DefinitionError
     from bot_console.tui.console.bags.damage import NoBag
     from bot_console.tui.console.plot.arrays import NotPlottable
+    from bot_console.tui.files.plot_presets import NoPreset
     from bot_console.tui.files.save_file import NotSaved
     from bot_console.tui.layout.form import NoLayout
     from bot_console_robot.preset_files import PresetError
+    from bot_console_robot.safety.stop_file import StopFileError
     from bot_console_robot.simulation.world import WorldError
 
     arguments = (
@@ -164,6 +170,20 @@ def targets() -> list[Target]:
             messages.key_expressions,
             (FormatError,),
         ),
+        Target("stop file", stores.stop_file_seeds, stores.stop_file, (StopFileError,)),
+        Target("row of the history", seeds.texts("\n".join(stores.ROW)), stores.history_row),
+        Target("file of the history", stores.history_file_seeds, stores.history_file, share=0.2),
+        Target("states of panes", seeds.texts(*seeds.STATES), stores.pane_states),
+        Target("lines of stores", seeds.texts(*seeds.STORED_LINES), stores.lines_of_stores),
+        Target("progress in a course", seeds.texts(seeds.PROGRESS), stores.progress),
+        Target("preset of curves", seeds.texts(seeds.CURVES), stores.preset_of_curves, (NoPreset,)),
+        Target("system in the background", seeds.texts(seeds.BACKGROUND), stores.background),
+        Target("control topics in MCAP", bags.control_seeds("mcap"), bags.control_bag(".mcap"), (NoBag,), share=0.5),
+        Target(
+            "control topics in SQLite", bags.control_seeds("sqlite3"), bags.control_bag(".db3"), (NoBag,), share=0.5
+        ),
+        Target("bytes of a command line", seeds.texts(*seeds.WORDS), programs.command_line, share=0.02),
+        Target("bytes of the environment", seeds.texts(*seeds.VARIABLES), programs.environment, share=0.02),
     ]
 
 

@@ -68,7 +68,7 @@ def read_preset(name: str) -> Preset:
         return Preset(curves, float(data["window"]), _text(data, "limits"), _text(data, "against"))
     except OSError as error:
         raise NoPreset(f"{path}: {error.strerror or error}") from None
-    except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+    except (ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError) as error:
         raise NoPreset(f"{path}: holds no curves ({error})") from None
 
 

@@ -152,9 +152,9 @@ def read_log(path: str, now: float = float("inf")) -> list[Command]:
     for number, line in enumerate(lines):
         try:
             row = json.loads(line)
-            words, code, pid = tuple(str(each) for each in row["words"]), row["code"], row["pid"]
+            words, code, pid = tuple(str(each) for each in row["words"]), row["code"], int(row["pid"])
             settled, errors = now - float(row["at"]) >= SETTLING_S, str(row["errors"])
-        except (ValueError, TypeError, KeyError):
+        except (ValueError, TypeError, KeyError, OverflowError, RecursionError):
             continue
         command = Command(words, code if isinstance(code, int) else None, settled, errors)
         started = found.get((pid, words))

@@ -47,7 +47,7 @@ def read_progress(workspace: Path, course: str) -> Progress:
         progress.at = str(found["at"])
     except FileNotFoundError:
         pass
-    except (OSError, ValueError, TypeError, KeyError, AttributeError) as error:
+    except (OSError, ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
         progress.problem = f"{path} cannot be read ({error}): the course starts again beside it"
         progress.path = path.with_name(f"{course}-2.json")
     return progress

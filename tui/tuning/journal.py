@@ -37,11 +37,13 @@ class TuningJournal:
         for line in self.path.read_bytes().splitlines(keepends=True):
             try:
                 entry: Any = json.loads(line) if line.endswith(b"\n") else None
-            except ValueError:
+            except (ValueError, RecursionError):
                 break
-            if not isinstance(entry, dict) or not {"trial", "report"} <= set(cast("dict[str, Any]", entry)):
+            given = cast("dict[str, Any]", entry) if isinstance(entry, dict) else dict[str, Any]()
+            trial, report = given.get("trial"), given.get("report")
+            if not (isinstance(trial, str) and isinstance(report, dict)):
                 break
-            self._reports[entry["trial"]] = entry["report"]
+            self._reports[trial] = cast("dict[str, Any]", report)
             whole += len(line)
         return whole
 

@@ -56,6 +56,16 @@ def test_only_owner_may_read_the_file(tmp_path: Path) -> None:
     assert {stat.S_IMODE(each.stat().st_mode) for each in folder.iterdir()} == {0o600}
 
 
+@pytest.mark.parametrize("turn", [-1, 2**63 + 1, 10**300])
+def test_turn_that_the_other_lock_would_read_as_another_number_makes_the_file_unreadable(
+    tmp_path: Path, turn: int
+) -> None:
+    path = tmp_path / "stops.json"
+    path.write_text(json.dumps({"version": 1, "robots": {"/": {"turn": turn, "stops": [], "released": []}}}))
+    with pytest.raises(UnreadableStopFileError, match="turn"):
+        StopFile(str(path), "/").merge(Lock())
+
+
 VALID = {"version": 1, "robots": {"/": {"turn": 1, "stops": [["a", "anna", "now", 1, "a1", True]], "released": []}}}
 
 

@@ -202,7 +202,7 @@ def _is_program(pid: int, word: bytes) -> bool:
     try:
         return word in Path(f"/proc/{pid}/cmdline").read_bytes()
     except OSError:
-        with contextlib.suppress(OSError):
+        with contextlib.suppress(OSError, OverflowError):
             os.kill(pid, 0)
             return not Path("/proc/self").exists()
         return False
@@ -326,6 +326,7 @@ def _known() -> Background | None:
 def _written(file: Path) -> Background | None:
     try:
         found = json.loads(file.read_text(encoding="utf-8"))
-        return Background(int(found["pid"]), tuple(found["words"]), str(found["log"]), int(found.get("way_in", 0)))
-    except (OSError, ValueError, KeyError, TypeError):
+        words = tuple(str(each) for each in found["words"])
+        return Background(int(found["pid"]), words, str(found["log"]), int(found.get("way_in", 0)))
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError):
         return None

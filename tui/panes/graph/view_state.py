@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
 from bot_console.tui.panes.graph.view import GraphView, Mode
+from bot_console.tui.state_store import texts_in
 
 STATE_NAME = "graph"
 SWITCHES = ("debug", "dead_sinks", "leaves", "services")
@@ -37,5 +38,5 @@ def view_state_of(data: object) -> ViewState:
     switches = {each: given[each] for each in SWITCHES if isinstance(given.get(each), bool)}
     mode = next((each for each in Mode if each.name == given.get("mode")), Mode.FLOW)
     folds, rates = given.get("folds"), given.get("rates")
-    known = frozenset(map(str, cast("list[object]", folds))) if isinstance(folds, list) else None
+    known = frozenset(texts_in(cast("object", folds))) if isinstance(folds, list) else None
     return ViewState(replace(GraphView(), mode=mode, **switches), known, rates if isinstance(rates, bool) else None)

@@ -8,6 +8,7 @@ from typing import Any, cast
 
 from bot_console.tui.console.query import parse
 from bot_console.tui.panes.parameters.rows import View
+from bot_console.tui.state_store import texts_in
 
 At = tuple[str, str, str]
 """A row: its node, its name in the tree, its parameter."""
@@ -38,10 +39,11 @@ def left_of(data: object) -> Left | None:
     given = cast("Mapping[str, Any]", data)
     words, closed, at = given.get("filter", ""), given.get("closed", []), given.get("at", [])
     try:
-        query = parse(words if isinstance(words, str) else "")
+        words = words if isinstance(words, str) else ""
+        query = parse(words)
     except ValueError:
         return None
-    folds = [str(each) for each in cast("list[object]", closed)] if isinstance(closed, list) else list[str]()
+    folds = texts_in(closed)
     view = View(query, given.get("changed") is True, given.get("built_in") is True, frozenset(folds))
-    row = [str(each) for each in cast("list[object]", at)] if isinstance(at, list) else list[str]()
-    return Left(str(words), view, (row[0], row[1], row[2]) if len(row) == 3 else None)
+    row = texts_in(at)
+    return Left(words, view, (row[0], row[1], row[2]) if len(row) == 3 else None)
