@@ -146,6 +146,13 @@ class Bus(Protocol):
         """The other processes of this machine in the domain, by pid, with their nodes, as far as known."""
         ...
 
+    def debugged(self) -> Mapping[str, str]:
+        """The nodes whose processes are stopped in a debugger, with the line, as far as known.
+
+        The line is `/path/file.py:12, in function`, or empty if it is unknown.
+        """
+        ...
+
     def overhear(self, hear: Hear | None) -> None:
         """Pass on each message that this process publishes or receives; None ends that.
 

@@ -239,6 +239,10 @@ class LocalBus:
         """Nothing: a frozen process cannot ask."""
         return {}
 
+    def debugged(self) -> Mapping[str, str]:
+        """Nothing: no other process is known."""
+        return {}
+
     def changed(self, owner: Owner) -> None:
         """Notify the graph's watchers of the node whose entries have changed."""
         # Without the lock: watchers query the bus for what has changed.

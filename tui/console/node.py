@@ -9,7 +9,7 @@ import rclpy
 from bot_console.tui.console.calls import Calls
 from bot_console.tui.console.graph.lifecycle import LifecycleWatch
 from bot_console.tui.console.graph.warnings import GraphWarnings
-from bot_console.tui.console.graph.watch import FrozenNodes, GraphEvents, GraphWatch
+from bot_console.tui.console.graph.watch import GraphEvents, GraphWatch, HaltedNodes
 from bot_console.tui.console.logs.levels import LoggerLevels
 from bot_console.tui.console.logs.rosout import RosoutWatch
 from bot_console.tui.console.model import GraphInfo
@@ -37,7 +37,7 @@ class ConsoleNode:
         *,
         active_profile: str = "",
         foreign: bool = False,
-        frozen: FrozenNodes | None = None,
+        halted: HaltedNodes | None = None,
     ) -> None:
         """`robot` stops the robot, and exists before anything here that may fail.
 
@@ -60,7 +60,7 @@ class ConsoleNode:
         self.loggers = self._rosout.loggers
         """Names of the loggers whose lines `/rosout` has brought."""
         self._world = WorldWatch(self.node)
-        self._graph = GraphWatch(self.node, self._graph_changed, graph_events, frozen, foreign=foreign)
+        self._graph = GraphWatch(self.node, self._graph_changed, graph_events, halted, foreign=foreign)
         ports.logs.attach(LoggerLevels(calls, self.loggers))
         ports.plots.attach(PlotWatch(self.node))
         ports.drive.attach(self._world)

@@ -20,7 +20,7 @@ from bot_console.tui.console.node_ports import LABEL, NodePorts
 if TYPE_CHECKING:
     from bot_console.tui.console.bags.port import Keeper
     from bot_console.tui.console.graph.type_discovery import TypeSource
-    from bot_console.tui.console.graph.watch import FrozenNodes, GraphEvents
+    from bot_console.tui.console.graph.watch import GraphEvents, HaltedNodes
     from bot_console.tui.console.node import ConsoleNode
     from bot_console.tui.console.parameters.history import History
     from bot_console.tui.console.parameters.profile_store import ProfileStore
@@ -54,7 +54,7 @@ class RosConsole(NodePorts):
         foreign: bool = False,
         fetch: Callable[[str], Path] | None = None,
         buffer: Keeper | None = None,
-        frozen: FrozenNodes | None = None,
+        halted: HaltedNodes | None = None,
         types: TypeSource | None = None,
         stop_means: Sequence[ConfiguredMeans] = (),
         expected: str = "",
@@ -66,7 +66,7 @@ class RosConsole(NodePorts):
         `history` is the file that keeps parameter changes for later runs; None: they are not kept. `fetch` returns the
         local copy of a remote parameter file, or raises `OSError`; it may run in any thread.
 
-        `link` returns the state of the network; `foreign`: see `ConsoleNode`; `buffer` keeps the last minutes; `frozen`
+        `link` returns the state of the network; `foreign`: see `ConsoleNode`; `buffer` keeps the last minutes; `halted`
         returns nodes of stopped processes; `types` builds missing message types; `stop_means` stop robots without lock;
         `expected` is the path of a file with the rates that topics should have; `processes` returns the nodes of
         programs on this machine, by pid.
@@ -82,7 +82,7 @@ class RosConsole(NodePorts):
         )
         self._profile_store_of = profile_folders, own_profiles, workspace_profiles, fetch
         self._active_profile = active_profile
-        self._graph_events, self._frozen, self._stop_means = graph_events, frozen, stop_means
+        self._graph_events, self._halted, self._stop_means = graph_events, halted, stop_means
         self._history_file, self._expected_file = history, expected
         self._foreign = foreign
         self._faults: set[str] = set()
@@ -148,7 +148,7 @@ class RosConsole(NodePorts):
             *(robot, self, self._graph_events, history),
             active_profile=active,
             foreign=self._foreign,
-            frozen=self._frozen,
+            halted=self._halted,
         )
         node.node.create_timer(PROFILE_STORE_POLL_S, store.reload_if_changed)
         if self.parameters.journal.problem:

@@ -20,8 +20,8 @@ from bot_console.tui.session.embedded.domain import nodes_there
 from bot_console.tui.session.embedded.hooks import (
     DomainTypes,
     fetched,
-    frozen_nodes,
     graph_events,
+    halted_nodes,
     node_processes,
     take_over_streams,
 )
@@ -65,7 +65,7 @@ class Connected:
             profile_folders=[ROOT / "profiles", *options.profile_folders],
             active_profile="" if options.launch or options.attach else options.profile_file or options.profile,
             graph_events=graph_events,
-            frozen=frozen_nodes,
+            halted=halted_nodes,
             history=state_folder() / HISTORY,
             own_profiles=config_folder() / "profiles",
             workspace_profiles=config_folders,

@@ -11,7 +11,7 @@ from bot_console.tui.files.folders import config_folder
 from bot_console.tui.session.attached import AttachedSession
 from bot_console.tui.session.embedded.connecting import connect
 from bot_console.tui.session.embedded.domain import domain
-from bot_console.tui.session.embedded.hooks import DomainTypes, frozen_nodes, graph_events, take_over_streams
+from bot_console.tui.session.embedded.hooks import DomainTypes, graph_events, halted_nodes, take_over_streams
 from bot_console.tui.session.embedded.link import LinkWords
 from bot_console.tui.session.embedded.process_reports import log_process_reports
 from bot_console.tui.session.embedded.ros2_command_line import Ros2CommandLine
@@ -45,7 +45,7 @@ def run_network(options: AttachOptions) -> int:
         graph_events=graph_events,
         link=LinkWords(buses).info,
         foreign=True,
-        frozen=frozen_nodes,
+        halted=halted_nodes,
         types=DomainTypes(),
         stop_means=settings.stop_means,
         expected=settings.expected,

@@ -267,6 +267,14 @@ class ZenohBus:
         nodes = self._graph().nodes_of(pids)
         return {pid: nodes.get(session, ()) for session, pid in pids.items()}
 
+    def debugged(self) -> Mapping[str, str]:
+        """The nodes of the mesh's processes that are stopped in a debugger, with the line."""
+        lines = self._session.debugged()
+        if not lines:
+            return {}
+        nodes = self._graph().nodes_of(lines)
+        return {node: lines[session] for session, names in nodes.items() for node in names}
+
     def on_graph_change(self, callback: GraphChanged) -> Callable[[], None]:
         """Call back on each graph change that this process observes; returns a function that ends this."""
         return self._local.on_graph_change(callback)

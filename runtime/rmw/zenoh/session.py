@@ -112,6 +112,10 @@ class Session(Lifetime):
         """The processes of the mesh on this machine: the first 8 digits of their session ids, mapped to their pids."""
         return {}
 
+    def debugged(self) -> Mapping[str, str]:
+        """The processes that are stopped in a debugger: the first 8 digits of their session ids, with the line."""
+        return {}
+
     def stopped_afar(self) -> Sequence[int]:
         """The pids of frozen processes behind a router, as far as it reports them; empty without a router."""
         return ()

@@ -159,6 +159,24 @@ def test_frozen_node_is_shown_as_such_until_it_continues(system: System) -> None
     assert system.launcher.kill(process.key).result(TIMEOUT_S).ok
 
 
+def test_node_at_a_breakpoint_is_shown_with_the_line_until_it_continues(system: System) -> None:
+    typed_keys = system.folder / "typed"
+    os.mkfifo(typed_keys)
+    system.start(
+        {
+            "debugged": HEAD
+            + f"import pdb\npdb.Pdb(stdin=open({str(typed_keys)!r}), stdout=sys.stdout).set_trace()\nrclpy.spin(node)\n"
+        }
+    )
+    with typed_keys.open("w") as keys:
+        system.until(lambda: "stopped in debugger at" in system.named("debugged").problem, "that it is in a debugger")
+        assert "debugged.py:" in system.named("debugged").problem
+        assert system.named("debugged").state is ProcessState.RUNNING
+        keys.write("c\n")
+    system.until(lambda: not system.named("debugged").problem, "that it goes on")
+    system.kill(["debugged"])
+
+
 BUSY = {"loops": "while True:\n    pass\n", "computes": "sum(iter(int, 1))\n"}
 """Nodes that compute without ever waiting: in Python, and in C while holding the interpreter lock."""
 ENDLESS = {

@@ -34,8 +34,15 @@ def findings(info: GraphInfo) -> tuple[GraphFinding, ...]:
     otherwise = (GraphFinding(each.partition(": ")[0], each, True) for each in info.unheard)
     frozen = (GraphFinding(node, f"{node} is frozen: {finding_hint(pid)}", True) for node, pid in info.frozen)
     silent = (GraphFinding(node, f"{node} {SILENT}", True) for node in info.silent)
-    found = [*_same_named(nodes), *_topics(visible), *_services(nodes), *_alone(nodes), *otherwise, *frozen, *silent]
+    debugged = (GraphFinding(node, f"{node} is {debugger_text(line)}") for node, line in info.debugged)
+    found = [*_same_named(nodes), *_topics(visible), *_services(nodes), *_alone(nodes)]
+    found += [*otherwise, *frozen, *silent, *debugged]
     return tuple(sorted(found, key=lambda each: (not each.fault, each.subject)))
+
+
+def debugger_text(line: str) -> str:
+    """That something is stopped in a debugger, and at which line if that is known."""
+    return f"stopped in debugger at {line}" if line else "stopped in debugger"
 
 
 def finding_hint(pid: int) -> str:

@@ -43,8 +43,10 @@ The callback receives the node that has changed, in any thread. rclpy has no suc
 is queried again and again.
 """
 
-FrozenNodes = Callable[[int], Mapping[int, Sequence[str]]]
-"""Returns the stopped processes of a ROS domain: their nodes by pid. rclpy does not know them."""
+HaltedNodes = Callable[[int], tuple[Mapping[int, Sequence[str]], Mapping[str, str]]]
+"""Returns the frozen processes of a ROS domain, their nodes by pid; and the nodes in a debugger, with the line. rclpy
+does not know them.
+"""
 
 
 class GraphWatch:
@@ -59,13 +61,13 @@ class GraphWatch:
         node: Node,
         changed: Callable[[GraphInfo], None],
         events: GraphEvents | None = None,
-        frozen: FrozenNodes | None = None,
+        halted: HaltedNodes | None = None,
         *,
         foreign: bool = False,
     ) -> None:
         """In a `foreign` system events report which nodes come and go, but not which of them hang."""
         self.info = GraphInfo()
-        self._frozen = frozen
+        self._halted = halted
         self._node = node
         self._observer = Observer(node)
         self._changed = changed
@@ -91,16 +93,17 @@ class GraphWatch:
             took = thread_time() - began
             if took > LONG:
                 self._rests_until = monotonic() + took * (1 / SHARE - 1)
-        self._check_for_frozen()
+        self._check_for_halted()
 
-    def _check_for_frozen(self) -> None:
-        """Look for stopped processes, whose nodes stay in the graph for long and seem alive."""
-        if self._frozen is None:
+    def _check_for_halted(self) -> None:
+        """Look for frozen processes, whose nodes stay in the graph for long and seem alive, and those in a debugger."""
+        if self._halted is None:
             return
-        stopped = self._frozen(self._node.context.get_domain_id())
+        stopped, lines = self._halted(self._node.context.get_domain_id())
         frozen = tuple(sorted((node, pid) for pid, nodes in stopped.items() for node in nodes))
-        if frozen != self.info.frozen:
-            self.info = replace(self.info, frozen=frozen)
+        debugged = tuple(sorted(lines.items()))
+        if (frozen, debugged) != (self.info.frozen, self.info.debugged):
+            self.info = replace(self.info, frozen=frozen, debugged=debugged)
             self._changed(self.info)
 
     def close(self) -> None:
@@ -130,6 +133,7 @@ class GraphWatch:
             old.topics if topics is self._topics else _endpoints(topics, old.topics),
             old.services if services is self._services else _endpoints(services, old.services),
             frozen=old.frozen,
+            debugged=old.debugged,
             silent=old.silent,
             lifecycle=old.lifecycle,
         )

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol, TypeAlias
 
+from bot_console.tui.console.graph.findings import debugger_text
+
 CPU_POLL_S = 1.0
 """Seconds over which CPU usage is measured."""
 
@@ -29,7 +31,11 @@ class Vitals(Protocol):
         ...
 
     def is_stopped(self) -> bool:
-        """Whether it is frozen (SIGSTOP, a debugger, a suspended job)."""
+        """Whether it is frozen (SIGSTOP, a suspended job, gdb)."""
+        ...
+
+    def line_in_debugger(self) -> str | None:
+        """The line at which a Python debugger has stopped it, empty if unknown; None if none has."""
         ...
 
     def holds_lock_in(self) -> str:
@@ -86,6 +92,9 @@ class Usage:
     def _why_it_stands(self) -> str:
         if self._vitals.is_stopped():
             return FROZEN
+        line = self._vitals.line_in_debugger()
+        if line is not None:
+            return debugger_text(line)
         held = self._vitals.holds_lock_in()
         return (
             f"{HANGS} {held}, which holds the interpreter lock: no other Python code of this process runs"

@@ -50,8 +50,8 @@ class GraphInfo:
     """The ROS graph.
 
     `unheard`: why messages of different definitions do not get through; `incompatible`: by topic, the pairs whose QoS
-    does not match; `frozen`: stopped nodes, with their pids; `silent`: nodes that do not
-    answer; `lifecycle`: the states of lifecycle nodes that have reported one.
+    does not match; `frozen`: stopped nodes, with their pids; `debugged`: nodes stopped in a debugger, with the line
+    if it is known; `silent`: nodes that do not answer; `lifecycle`: the states of lifecycle nodes that have reported one.
     """
 
     nodes: tuple[NodeInfo, ...] = ()
@@ -59,6 +59,7 @@ class GraphInfo:
     services: tuple[Endpoint, ...] = ()
     unheard: tuple[str, ...] = ()
     frozen: tuple[tuple[str, int], ...] = ()
+    debugged: tuple[tuple[str, str], ...] = ()
     silent: tuple[str, ...] = ()
     incompatible: Mapping[str, tuple[IncompatiblePair, ...]] = field(
         default_factory=dict[str, tuple[IncompatiblePair, ...]]

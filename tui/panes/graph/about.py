@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.graph.findings import SILENT
+from bot_console.tui.console.graph.findings import SILENT, debugger_text
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.format import counted, sanitize
 from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, SPACE, TOPIC
@@ -29,6 +29,7 @@ def summary(info: GraphInfo, item: str) -> str:
     parts = [f"publishes {len(node.publishers)}", f"subscribes {len(node.subscriptions)}"]
     parts += [f"{counted(len(node.services), 'service')}", f"{counted(len(node.clients), 'client')}"]
     stopped = "".join(f" - frozen: process {pid} is stopped" for name, pid in info.frozen if name == item)
+    stopped = stopped or "".join(f" - {debugger_text(line)}" for name, line in info.debugged if name == item)
     stopped = stopped or (f" - {SILENT}" if item in info.silent else "")
     state = f"{info.lifecycle[item]} (T changes it), " if item in info.lifecycle else ""
     return sanitize(f"{item}  {state}{', '.join(parts)}{stopped}")

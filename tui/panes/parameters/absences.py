@@ -49,9 +49,14 @@ class Absences:
         """Which nodes have left lately, and which do not answer; empty if none."""
         trees, graph = snapshot.parameters, snapshot.graph
         self._left = {name: at for name, at in self._left.items() if now - at < LEFT_SHOWN_S and name not in trees}
-        silent = trees.keys() & {*graph.silent, *(name for name, _ in graph.frozen)}
+        debugged = trees.keys() & {name for name, _ in graph.debugged}
+        silent = trees.keys() & {*graph.silent, *(name for name, _ in graph.frozen)} - debugged
         left = self._left.keys() - self._endings.keys()  # the others have a row that says how they ended
-        parts = ((left, "has left", "have left"), (silent, "does not answer", "do not answer"))
+        parts = (
+            (left, "has left", "have left"),
+            (silent, "does not answer", "do not answer"),
+            (debugged, "is stopped in debugger", "are stopped in debugger"),
+        )
         return "  ".join(
             f"⚠ {min(names)} {one}" if len(names) == 1 else f"⚠ {len(names)} nodes {many}"
             for names, one, many in parts

@@ -119,6 +119,14 @@ def frozen() -> list[int]:
     return sorted({each.pid for each in found if each.is_stopped()})
 
 
+def line_in_debugger(pid: int) -> str | None:
+    """The line at which a process of this user in the domain is stopped in a debugger; None if it is not."""
+    from bot_console.runtime.rmw.zenoh.domain.debugger_note import debugger_line
+    from bot_console.runtime.rmw.zenoh.domain.folder import base_folder
+
+    return debugger_line(os.path.join(base_folder(), str(domain())), pid)
+
+
 def robot_there() -> list[str]:
     """The nodes of other processes that form a robot: they obey velocities, or publish scans or odometry.
 

@@ -25,9 +25,10 @@ def graph_events(domain: int, changed: Callable[[tuple[str, str]], None]) -> Cal
     return bus_of(domain).on_graph_change(changed)
 
 
-def frozen_nodes(domain: int) -> Mapping[int, Sequence[str]]:
-    """The stopped processes of a domain, by pid, with their nodes."""
-    return bus_of(domain).stopped()
+def halted_nodes(domain: int) -> tuple[Mapping[int, Sequence[str]], Mapping[str, str]]:
+    """The frozen processes of a domain, by pid, with their nodes; and the nodes in a debugger, with the line."""
+    bus = bus_of(domain)
+    return bus.stopped(), bus.debugged()
 
 
 def node_processes() -> Mapping[int, Sequence[str]]:

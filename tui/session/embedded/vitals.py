@@ -11,6 +11,7 @@ from bot_console.runtime.process.node.running import running_process
 from bot_console.runtime.process.watch.gil_holder import GilHolder
 from bot_console.runtime.process.watch.processor_time import wanted_seconds
 from bot_console.tui.console.launch.vitals import Vitals
+from bot_console.tui.session.embedded.domain import line_in_debugger
 
 if TYPE_CHECKING:
     from bot_console.runtime.process.roles import RunningProcess
@@ -51,6 +52,10 @@ class SystemVitals:
         except (OSError, IndexError):
             return False
 
+    def line_in_debugger(self) -> str | None:
+        """The line at which its nodes have stopped in a debugger, if it is in this process's domain."""
+        return line_in_debugger(self._pid)
+
     def holds_lock_in(self) -> str:
         """The line of code that holds its interpreter lock."""
         return self._lock.held_in()
@@ -81,6 +86,9 @@ class NodeVitals:
     def is_stopped(self) -> bool:
         """Always false: no signal freezes a single thread."""
         return False
+
+    def line_in_debugger(self) -> None:
+        """Always None: a debugger would stop this whole process."""
 
     def holds_lock_in(self) -> str:
         """Always empty: while the lock is held, nobody in this process can ask."""

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.rmw.qos_matching import DDS, RMW_ZENOH, QosRules
 from bot_console.runtime.rmw.zenoh.domain import loopback
+from bot_console.runtime.rmw.zenoh.domain.debugger_note import debugger_lines
 from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
 from bot_console.runtime.rmw.zenoh.domain.joining import folder_lock, remove_dead
 from bot_console.runtime.rmw.zenoh.domain.roll_call import await_answers
@@ -151,6 +152,12 @@ class MeshSession(Session):
     def processes(self) -> Mapping[str, int]:
         """All processes of the mesh, including this one."""
         return {each.zid: each.pid for each in sockets(os.path.dirname(self.socket.path))}
+
+    def debugged(self) -> Mapping[str, str]:
+        """The processes of the mesh that are stopped in a debugger, by session, with the line."""
+        folder = os.path.dirname(self.socket.path)
+        lines = debugger_lines(folder)
+        return {each.zid: lines[each.pid] for each in sockets(folder) if each.pid in lines} if lines else {}
 
     def pid_of(self, zid: str) -> int | None:
         """The process of another session of the mesh."""

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 from bot_console.runtime.process.real import getpid
 from bot_console.runtime.rmw.zenoh.domain import loopback
+from bot_console.runtime.rmw.zenoh.domain.debugger_note import remove_note
 from bot_console.runtime.rmw.zenoh.domain.file_lock import open_lock, try_lock
 from bot_console.runtime.rmw.zenoh.settings import SCHEME
 
@@ -53,10 +54,14 @@ class Socket(NamedTuple):
         return is_stopped(self.pid)
 
     def remove(self) -> None:
-        """Remove the socket and its lock file; what cannot be removed, as a folder of such a name, harms nobody."""
+        """Remove the socket, its lock file and its note of a debugger.
+
+        What cannot be removed, as a folder of such a name, harms nobody.
+        """
         for path in (self.path, self.lock):
             with contextlib.suppress(OSError):
                 os.unlink(path)
+        remove_note(os.path.dirname(self.path), self.pid)
 
 
 def own_socket(folder: str, zid: str) -> Socket:

@@ -1,4 +1,4 @@
-"""Watches a session's place in the mesh and reopens the session if it has lost it.
+"""Watches a session's place in the mesh and reopens the session if it has lost it; notes if a debugger stops it.
 
 Three things can go wrong after a process has joined: its socket is removed from the folder (by a cleaner of temporary
 files, or by hand), so that later processes do not see it; a process that joined without the lock has no link to it; or
@@ -16,6 +16,7 @@ import time
 from collections.abc import Callable
 from typing import Protocol
 
+from bot_console.runtime.rmw.zenoh.domain.debugger_note import update_note
 from bot_console.runtime.rmw.zenoh.domain.sockets import Socket, is_stopped, live_sockets, sockets
 
 SOCKET_POLL_S = 1.0
@@ -100,7 +101,9 @@ class Watch:
 
     def begin(self) -> None:
         """Start watching."""
-        threading.Thread(target=self._run, name="zenoh-watch", daemon=True).start()
+        thread = threading.Thread(target=self._run, name="zenoh-watch", daemon=True)
+        thread.pydev_do_not_trace = True  # pyright: ignore[reportAttributeAccessIssue] -- debugpy must not stop it, too
+        thread.start()
 
     def end(self) -> None:
         """Stop watching."""
@@ -114,6 +117,7 @@ class Watch:
     def _run(self) -> None:
         while not self._ended.wait(SOCKET_POLL_S):
             with contextlib.suppress(OSError, RuntimeError):  # for example if the folder is refused for now: retried
+                update_note(os.path.dirname(self._session.socket.path))
                 if self.has_lost_its_place():
                     self._session.rejoin(self._still_lost)
 

@@ -17,6 +17,7 @@ class Reported:
         self.wanted: float | None = None
         self.stopped = False
         self.held = ""
+        self.line: str | None = None
         self.bytes: int | None = 20_400_000
 
     def cpu_seconds(self) -> float | None:
@@ -30,6 +31,9 @@ class Reported:
 
     def is_stopped(self) -> bool:
         return self.stopped
+
+    def line_in_debugger(self) -> str | None:
+        return self.line
 
     def holds_lock_in(self) -> str:
         return self.held
@@ -79,6 +83,20 @@ def test_a_frozen_process_is_noticed_within_half_a_second() -> None:
     usage.poll(0.5)
     assert usage.stands == FROZEN
     reported.stopped = False
+    usage.poll(1.0)
+    assert not usage.stands
+
+
+@pytest.mark.parametrize(
+    ("line", "shown"), [("n.py:7, in tick", "stopped in debugger at n.py:7, in tick"), ("", "stopped in debugger")]
+)
+def test_a_process_at_a_breakpoint_is_shown_as_stopped_in_debugger(line: str, shown: str) -> None:
+    reported = Reported()
+    usage = Usage(reported, 0.0)
+    reported.line = line
+    usage.poll(0.5)
+    assert usage.stands == shown
+    reported.line = None
     usage.poll(1.0)
     assert not usage.stands
 

@@ -151,7 +151,7 @@ def test_runtime_events_trigger_a_poll(context, node):
 
 def test_nodes_of_a_stopped_process_are_reported_until_it_continues(context, node):
     stopped, seen = {}, []
-    watch = GraphWatch(node, seen.append, graph_events, lambda domain: stopped)
+    watch = GraphWatch(node, seen.append, graph_events, lambda domain: (stopped, {}))
     watch._tick()
     stopped[42] = ["/b", "/a"]
     watch._tick()
@@ -164,6 +164,18 @@ def test_nodes_of_a_stopped_process_are_reported_until_it_continues(context, nod
     watch._tick()
     assert seen[-1].frozen == ()
     other.destroy_node()
+    watch.close()
+
+
+def test_nodes_in_a_debugger_are_reported_with_the_line_until_they_continue(context, node):
+    lines, seen = {"/b": "b.py:7, in tick", "/a": ""}, []
+    watch = GraphWatch(node, seen.append, graph_events, lambda domain: ({}, lines.copy()))
+    watch._tick()
+    watch._tick()
+    assert seen[-1].debugged == (("/a", ""), ("/b", "b.py:7, in tick")) and len(seen) == 2
+    del lines["/a"]
+    watch._tick()
+    assert seen[-1].debugged == (("/b", "b.py:7, in tick"),)
     watch.close()
 
 

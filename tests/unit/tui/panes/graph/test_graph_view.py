@@ -81,6 +81,16 @@ def test_a_node_of_a_stopped_process_is_marked_in_the_line_below():
     assert text.startswith("/b is frozen") and "kill -CONT 42" in text
 
 
+def test_a_node_in_a_debugger_is_no_fault_and_is_not_drawn_as_dead() -> None:
+    info = GraphInfo((NodeInfo("/a"), NodeInfo("/b")), debugged=(("/b", "/ws/b.py:12, in tick"),))
+    assert summary(info, "/b").endswith("- stopped in debugger at /ws/b.py:12, in tick")
+    assert "debugger" not in summary(info, "/a")
+    assert "/b is stopped in debugger at /ws/b.py:12, in tick" in [
+        each.text for each in findings(info) if not each.fault
+    ]
+    assert not shown(info, GraphView()).silent
+
+
 @pytest.mark.parametrize("mode", [Mode.ALL, Mode.NODES])
 def test_nodes_that_do_not_answer_are_distinguished(mode: Mode) -> None:
     info = GraphInfo((NodeInfo("/arm"), NodeInfo("/base")), silent=("/arm",), frozen=(("/base", 7),))
