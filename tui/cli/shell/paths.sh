@@ -1,6 +1,9 @@
 export BOT_CONSOLE_COMMAND=@COMMAND@
-if [ -z "${ROS_DISTRO+x}" ]; then
-  export ROS_DISTRO=jazzy ROS_VERSION=2 ROS_PYTHON_VERSION=3 BOT_CONSOLE_SET_ROS_DISTRO=1
+if [ -z "${ROS_DISTRO+x}" ] || [ "$ROS_DISTRO" = "${BOT_CONSOLE_SET_ROS_DISTRO-}" ]; then
+  export ROS_DISTRO=@DISTRO@ ROS_VERSION=2 ROS_PYTHON_VERSION=3 BOT_CONSOLE_SET_ROS_DISTRO=@DISTRO@
+fi
+if [ -n @CHOSEN@ ] && [ "${BOT_CONSOLE_DISTRO-}" != @CHOSEN@ ]; then
+  export BOT_CONSOLE_DISTRO=@CHOSEN@ BOT_CONSOLE_SET_DISTRO=@CHOSEN@
 fi
 case ":$PATH:" in *:@RQT@:*) ;; *) export PATH=@RQT@:"$PATH" ;; esac
 command -v ros2 >/dev/null 2>&1 || export PATH="$PATH":@ROS2@

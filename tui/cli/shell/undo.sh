@@ -4,10 +4,11 @@ if [ -n "${BOT_CONSOLE_SHIMS-}" ]; then
   _bot_console_remove PATH @RQT@
   _bot_console_remove PATH @ROS2@
   _bot_console_remove PATH @OWN@
-  if [ -n "${BOT_CONSOLE_SET_ROS_DISTRO-}" ] && [ "$ROS_DISTRO" = jazzy ] && [ -z "${AMENT_PREFIX_PATH-}" ]; then
+  if [ "${ROS_DISTRO-}" = "${BOT_CONSOLE_SET_ROS_DISTRO--}" ] && [ -z "${AMENT_PREFIX_PATH-}" ]; then
     unset ROS_DISTRO ROS_VERSION ROS_PYTHON_VERSION
   fi
-  unset BOT_CONSOLE_COMMAND BOT_CONSOLE_SHIMS BOT_CONSOLE_SET_ROS_DISTRO BOT_CONSOLE_WORKSPACE
+  [ "${BOT_CONSOLE_DISTRO-}" != "${BOT_CONSOLE_SET_DISTRO-}" ] || unset BOT_CONSOLE_DISTRO
+  unset BOT_CONSOLE_COMMAND BOT_CONSOLE_SHIMS BOT_CONSOLE_SET_ROS_DISTRO BOT_CONSOLE_SET_DISTRO BOT_CONSOLE_WORKSPACE
   if [ -n "${ZSH_VERSION-}" ]; then
     compdef -d bot-console ros2 2>/dev/null
   else

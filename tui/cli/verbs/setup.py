@@ -10,7 +10,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from bot_console.runtime.commands import BIN, command
+from bot_console.runtime.distribution import VARIABLE, distribution
 from bot_console.runtime.shim_folder import kept_shim_folder
+from bot_console.tui.cli.distro_option import OPTION
 from bot_console.tui.cli.shell_python import python_of_shell
 
 HINT = "# To have this in every new shell, add this line to {}: {}"
@@ -60,7 +62,8 @@ def code(shell: str) -> str:
 
 def evaluation(shell: str) -> str:
     """Return the line that evaluates the code in a shell; its path is absolute, so that it works in any shell."""
-    program = shlex.quote(command())
+    chosen = os.environ.get(VARIABLE, "")
+    program = shlex.quote(command()) + (f" {OPTION} {chosen}" if chosen else "")
     return f"{program} setup fish | source" if shell == "fish" else f'eval "$({program} setup {shell})"'
 
 
@@ -72,6 +75,8 @@ def _filled(*names: str) -> str:
         "RQT": str(BIN / "rqt"),
         "ROS2": str(BIN / "ros2"),
         "OWN": str(BIN / "bot_console"),
+        "DISTRO": distribution().name,
+        "CHOSEN": os.environ.get(VARIABLE, ""),
     }
     for place, path in places.items():
         text = text.replace(f"@{place}@", shlex.quote(path))
