@@ -131,9 +131,19 @@ class Prompt:
         return self._shown().split("\n", 1)[1]
 
     def interrupt(self) -> str:
-        """What it prints for Ctrl-C."""
+        """What it prints for Ctrl-C.
+
+        Python prints the prompt before it waits for a key, and a signal in between is seen only with the next key.
+        """
+        while self._state() != "S":
+            pass
         self.process.send_signal(2)
         return self._shown()
+
+    def _state(self) -> str:
+        """The state of its main thread: `S` while it waits; also without `/proc`."""
+        stat = Path(f"/proc/{self.process.pid}/stat")
+        return stat.read_text().rpartition(")")[2].split()[0] if stat.exists() else "S"
 
 
 @pytest.fixture

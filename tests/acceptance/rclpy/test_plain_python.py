@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import pytest
+from helpers.recorded.programs import names, outcome
 from helpers.shells import PYTHON, environment, make_home, set_up
 
 if os.name != "posix":
@@ -39,7 +40,15 @@ future = client.set_parameters([Parameter("speed", value=2.5)])
 rclpy.spin_until_future_complete(node, future)
 print(future.result().results[0].successful)
 """
-QOS = "reliable transient_local"
+HEARS_SPEED = """
+import rclpy
+from rclpy.wait_for_message import wait_for_message
+from std_msgs.msg import Float64
+
+rclpy.init()
+heard, message = wait_for_message(Float64, rclpy.create_node("hears_speed"), "robot_speed")
+print(heard, 1.0 <= message.data <= 3.0)
+"""
 OTHERS_END = "others end"
 
 
@@ -76,12 +85,24 @@ CASTS = [
     [Line("sim_clock 10.0", OTHERS_END), Line("talker --ros-args -p use_sim_time:=true", "Publishing")],
     [Line("tunable", OTHERS_END), Line("parameter_watcher", "remote parameter"), Line(f"-c {SETS_SPEED!r}")],
     [Line("callback_groups one", "b ends")],
+    [Line("callback_groups two", "b ends")],
+    [Line("callback_groups reentrant", "b ends")],
+    [Line("single_goal_server", OTHERS_END), Line("fibonacci_client 3 0")],
     [Line("composed", "I heard")],
     [Line("guarded")],
     [Line("rates")],
     [Line("spins_in_threads")],
 ]
-COURSE_NODES = ["simple_robot_step1", "simple_robot_step2", "simple_robot_step3", "configurable_robot"]
+COURSE_NODES = [
+    [Line("simple_robot_step1.py", r"\[INFO\]")],
+    [Line("simple_robot_step2.py", r"\[INFO\]")],
+    [Line("simple_robot_step3.py", r"\[INFO\]")],
+    [Line("configurable_robot.py", r"\[INFO\]")],
+    [Line("dynamic_robot.py", "Running in")],
+    [Line("data_publisher.py", OTHERS_END), Line(f"-c {HEARS_SPEED!r}")],
+    [Line("parameter_client.py")],
+    [Line("intelligent_robot/robot_node.py", r"SAFE.*Speed")],
+]
 DEMOS = [
     [Line(demo("talker", "main_py"), "Publishing"), Line(demo("listener", "main"), "heard")],
     [Line(demo("talker", "main_minimal"), "Publishing"), Line(demo("listener", "main_minimal"), "heard")],
@@ -122,11 +143,13 @@ class Running:
             each.join()
 
     def shown(self) -> dict[str, object]:
-        """What a person sees, without numbers and the frames of tracebacks, and each line once: how often it comes, and
-        where the program is interrupted, is a matter of time.
+        """What a person sees, without numbers and the frames of tracebacks, and each line once.
+
+        How often a line comes, where the program is interrupted, and whether an action's first feedback arrives before
+        or after its response, is a matter of time.
         """
         lines = {name: re.sub(r"\d+", "#", text).splitlines() for name, text in self.output.items()}
-        shown = {name: [*dict.fromkeys(each for each in lines[name] if each[:2] != "  ")] for name in lines}
+        shown = {name: sorted({each for each in lines[name] if each[:2] != "  "}) for name in lines}
         return {**shown, "exit": self.exit_code if self.exit_code >= 0 else 128 - self.exit_code}
 
 
@@ -136,7 +159,8 @@ def play(cast: Sequence[Line], start: Sequence[str], env: Mapping[str, str], cwd
     try:
         for each in cast:
             words = shlex.split(each.words)
-            file = [str(PROGRAMS / f"{words[0]}.py")] if (PROGRAMS / f"{words[0]}.py").exists() else [words[0]]
+            files = [path for path in (PROGRAMS / f"{words[0]}.py", COURSE / words[0]) if path.is_file()]
+            file = [str(files[0])] if files else [words[0]]
             running.append(Running([*start, *file, *words[1:]], env, cwd, each.until or OTHERS_END))
         for program, each in zip(running, cast, strict=True):
             if each.until not in ("", OTHERS_END):
@@ -173,9 +197,11 @@ def compare(cast: Sequence[Line], home: Path, tmp_path: Path) -> None:
     (tmp_path / "b").mkdir(mode=0o700)
     ours = {**environment(home), "BOT_CONSOLE_SOCKET_DIR": str(tmp_path / "a"), "ROS_DOMAIN_ID": "0"}
     plain = {**set_up(home), "BOT_CONSOLE_SOCKET_DIR": str(tmp_path / "b"), "ROS_DOMAIN_ID": "0"}
+    # Else Python keeps what is printed to a pipe until the program ends, and nobody sees when to interrupt it.
+    ours["PYTHONUNBUFFERED"] = plain["PYTHONUNBUFFERED"] = "1"
     shown = play(cast, ["env", "bot-console", "run"], ours, tmp_path)
     assert play(cast, [str(PYTHON)], plain, tmp_path) == shown
-    assert any(each["stdout"] or each["stderr"] for each in shown)
+    assert any(each["stdout"] or each["stderr"] for each in shown) or not any(each.until for each in cast)
 
 
 @pytest.mark.parametrize(
@@ -188,12 +214,24 @@ def test_programs_print_the_same_under_plain_python(cast: list[Line], home: Path
 
 
 @pytest.mark.skipif(not COURSE.is_dir(), reason="BOT_CONSOLE_COURSE names no course")
-@pytest.mark.parametrize("name", some(COURSE_NODES, 1))
-def test_listings_of_the_course_print_the_same_under_plain_python(name: str, home: Path, tmp_path: Path) -> None:
-    compare([Line(str(COURSE / f"{name}.py"), r"\[INFO\]")], home, tmp_path)
+@pytest.mark.parametrize("cast", some(COURSE_NODES, 1), ids=lambda cast: cast[0].words)
+def test_listings_of_the_course_print_the_same_under_plain_python(cast: list[Line], home: Path, tmp_path: Path) -> None:
+    compare(cast, home, tmp_path)
 
 
 @pytest.mark.soak
 @pytest.mark.parametrize("cast", DEMOS, ids=["demo_nodes", "minimal", "services"])
 def test_demo_nodes_print_the_same_under_plain_python(cast: list[Line], home: Path, tmp_path: Path) -> None:
     compare(cast, home, tmp_path)
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("name", names())
+def test_public_programs_print_the_same_under_plain_python(
+    name: str, home: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", str(tmp_path))
+    plain = ["env", f"PYTHONPATH={set_up(home)['PYTHONPATH']}", str(PYTHON)]
+    assert outcome(plain, name, 0) == outcome(
+        ["env", f"PATH={home / 'bin'}:{os.defpath}", "bot-console", "run"], name, 1
+    )
