@@ -51,7 +51,8 @@ class GraphInfo:
 
     `unheard`: why messages of different definitions do not get through; `incompatible`: by topic, the pairs whose QoS
     does not match; `frozen`: stopped nodes, with their pids; `debugged`: nodes stopped in a debugger, with the line
-    if it is known; `silent`: nodes that do not answer; `lifecycle`: the states of lifecycle nodes that have reported one.
+    if it is known; `silent`: nodes that do not answer; `lifecycle`: the states of lifecycle nodes that have reported
+    one.
     """
 
     nodes: tuple[NodeInfo, ...] = ()
