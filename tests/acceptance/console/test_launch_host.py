@@ -122,6 +122,7 @@ bytearray(100_000_000)
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
+@pytest.mark.soak  # test_faulty_nodes has the same nodes beside a robot
 def test_busy_process_is_named_and_others_go_on(hosted: Hosted) -> None:
     assert hosted.launch(waiter=WAITS, fills=FILLS, full=FULL).ok
     waiter = hosted.up("waiter")

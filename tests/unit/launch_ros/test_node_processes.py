@@ -298,7 +298,8 @@ def test_two_hundred_nodes_start_and_stop(run: Launch, script: Any) -> None:
         up.append(event.process_name)
         return Shutdown() if len(up) == 200 else None
 
-    nodes = [Node(executable=path, name=f"n{number}") for number in range(200)]
+    patient = {"sigterm_timeout": "120"}  # no second signal, however busy the machine is
+    nodes = [Node(executable=path, name=f"n{number}", **patient) for number in range(200)]
     text = run([RegisterEventHandler(OnProcessIO(on_stdout=counted)), *nodes]).text
     assert text.count("process has finished cleanly") == 200
     assert threading.active_count() <= before + 1

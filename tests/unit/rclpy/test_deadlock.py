@@ -120,7 +120,7 @@ def test_rate_sleep_in_a_callback_of_a_single_threaded_executor_is_reported(
 ) -> None:
     monkeypatch.setattr(timer, "WARNING_DELAY_NS", 1)
     system = System(ros, SingleThreadedExecutor(context=ros.init()))
-    rate = system.node.create_rate(1000)
+    rate = system.node.create_rate(0.001)  # no tick comes before the sleep, however busy the machine is
     forget = on_notice(lambda process, text: rate.destroy())
     system.run(rate.sleep)
     forget()

@@ -32,6 +32,12 @@ def show(session: Any, count: int) -> list[Any]:
     return [session.declare_token(each) for each in names]
 
 
+def patient(session: MeshSession) -> MeshSession:
+    """The session, which waits for answers however busy the machine is."""
+    session.timeout_s = 60.0
+    return session
+
+
 def publishers(graph: WholeGraph) -> int:
     return len(graph.tables.publishers.all())
 
@@ -42,7 +48,7 @@ def test_snapshot_is_complete_at_once_and_leaves_with_its_process(socket_folder,
     holder = open_session(0)
     for _ in range(ROUNDS):
         shown = show(holder, MANY)
-        watcher = open_session(0)
+        watcher = patient(open_session(0))
         assert eventually(lambda watcher=watcher: watcher.linked() == {holder.zid})
         watches = Watches(watcher)
         if known:  # it was reported earlier, to watches of these topics
@@ -64,7 +70,7 @@ def test_clients_behind_a_router_of_the_mesh_appear_and_leave(socket_folder):
     place = f"tcp/127.0.0.1:{free_port()}"
     router, client = MeshSession(0, Serving((place,))), open_network_session(0, Way((place,)))
     show(client, MANY)
-    watcher = open_session(0)
+    watcher = patient(open_session(0))
     assert eventually(lambda: router.zid in watcher.linked())
     assert not watcher.links_directly() and not router.links_directly() and not client.links_directly()
     graph = WholeGraph(watcher, lambda owner: None)
