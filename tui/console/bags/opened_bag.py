@@ -24,6 +24,7 @@ from bot_console.tui.console.model import (
     Endpoint,
     GraphInfo,
     JournalState,
+    LaunchInfo,
     LinkInfo,
 )
 from bot_console.tui.console.parameters.node_parameters import NodeParameters
@@ -149,7 +150,7 @@ class OpenedBag:
         self.plots = BagPlots(contents)
         self.drive: Drive = BagDrive(contents)
         self.topics = BagTopics(self.gate, contents, graph)
-        self.graph = NodeGraph(self.gate)
+        self.graph = NodeGraph(self.gate, LaunchInfo, lambda: contents.trees, dict, int, lambda node, since: "")
         self.sensors = NodeSensors(self.gate, lambda: graph)
         self.bags = NodeBags(self.gate)
         self.launcher: Launcher | None = None
