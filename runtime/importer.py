@@ -55,6 +55,8 @@ OWN_PACKAGE = "bot_console_robot"
 """The ROS package in the folder `nodes/`."""
 OWN_PACKAGES = (OWN_PACKAGE, "intelligent_robot")
 """Its two names; the second applies if the workspace has no package of that name."""
+OWN_FILE = os.path.join(os.path.dirname(RUNTIME), "nodes", "__init__.py")
+"""The file of our package, whatever a workspace contains."""
 DEMOS = "bot_console_demos"
 """The import name of `nodes/demos/`: the nodes of the tutorials."""
 
@@ -102,6 +104,17 @@ def _own_package(name: str) -> ModuleSpec | None:
     return _package_in(name, place)
 
 
+def _is_shared(name: str) -> bool:
+    """Whether a top-level name refers to a part of the embedded runtime or to our own nodes, wherever it is imported."""
+    if is_embedded(name) or name == DEMOS:
+        return True
+    if name != OWN_PACKAGE:
+        return False
+    ours = _own_package(name)
+    imported = sys.modules.get(name)
+    return ours is not None and ours.origin == OWN_FILE and getattr(imported, "__file__", OWN_FILE) == OWN_FILE
+
+
 def _package_in(name: str, folder: str) -> ModuleSpec | None:
     from importlib.util import spec_from_file_location
 
@@ -141,15 +154,16 @@ def generated_packages() -> tuple[str, ...]:
 
 
 def node_modules(folders: Sequence[str | os.PathLike[str]] = ()) -> FreshModules:
-    """Return the modules for one start of a node: those in `folders` and our own nodes are fresh, the runtime is
-    shared.
+    """Return the modules for one start of a node: those in `folders` are fresh, the runtime and our nodes are shared.
+
+    Our nodes are composed in one process, as ROS 2 composes nodes; a package of a workspace with our name is fresh.
 
     Each folder corresponds to an entry of `sys.path`: that of a node file, or the one that contains a Python
     package.
     """
     from bot_console.runtime.process.virtual.fresh_import import FreshModules
 
-    return FreshModules([os.fspath(folder) for folder in folders], packages=(*OWN_PACKAGES, DEMOS), shared=is_embedded)
+    return FreshModules([os.fspath(folder) for folder in folders], packages=(*OWN_PACKAGES, DEMOS), shared=_is_shared)
 
 
 _finder = RosFinder()

@@ -121,7 +121,8 @@ class _EntryPoint:
 
     def _look_up(self, modules: FreshModules | None) -> Callable[[], Any]:
         try:
-            module: Any = importlib.import_module(self._module) if modules is None else modules.load(self._module)
+            own = modules is not None and modules.owns(self._module)
+            module: Any = modules.load(self._module) if own else importlib.import_module(self._module)
         except ModuleNotFoundError as error:
             if error.name and f"{self._module}.".startswith(f"{error.name}."):  # else a module that this one imports
                 setattr(error, HINT, NO_ENTRY.format(f"the module {self._module}", ""))

@@ -1,4 +1,6 @@
-"""ROS module names resolve to the embedded runtime; each start of a node imports its own modules again."""
+"""ROS module names resolve to the embedded runtime; each start of a node imports its own modules again.
+
+Our nodes are composed: they share their modules."""
 
 from __future__ import annotations
 
@@ -20,12 +22,12 @@ def test_ros_modules_are_embedded():
     assert not is_embedded(OWN_PACKAGE)
 
 
-def test_own_nodes_are_imported_again_for_each_start():
-    shared = importlib.import_module(OWN_PACKAGE)
-    first, second = node_modules().load(OWN_PACKAGE), node_modules().load(OWN_PACKAGE)
-    assert first is not second
-    assert shared is not first
-    assert first.__file__ == shared.__file__
+def test_composed_nodes_share_their_modules(tmp_path):
+    (tmp_path / "one.py").write_text(f"import {OWN_PACKAGE}.trip as a, sys; sys.exit(id(a) % 251)")
+    process = NodeProcess("node")
+    process.start(file_program(str(tmp_path / "one.py"), node_modules([tmp_path])))
+    assert process.wait(20.0) == id(importlib.import_module(f"{OWN_PACKAGE}.trip")) % 251
+    assert not node_modules().owns(OWN_PACKAGE)
 
 
 @pytest.fixture

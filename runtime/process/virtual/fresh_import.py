@@ -89,7 +89,9 @@ class FreshModules:
         top, _, rest = name.partition(".")
         stands_for = getattr(getattr(self._top_spec(top), "loader", None), "stands_for", None)
         if stands_for is not None:  # an alias of a package: the same modules
-            module = self._modules[name] = self.load(f"{stands_for}.{rest}" if rest else stands_for)
+            full_name = f"{stands_for}.{rest}" if rest else stands_for
+            module = self.load(full_name) if self.owns(full_name) else _import_module(full_name)
+            self._modules[name] = module
             return module
         parent_name, _, child = name.rpartition(".")
         parent: ModuleType | None = None

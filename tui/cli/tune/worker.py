@@ -14,6 +14,7 @@ from typing import Any
 LAUNCHED = ("robot_node", "sensor_node", "safety_node", "controller_node", "telemetry_node", "simulator_node")
 MODULES = (
     "bot_console.tui.cli.headless.launches",
+    "bot_console.tui.cli.headless.run",
     "bot_console.tui.cli.headless.probe",
     "launch.actions",
     "bot_console.tui.console.plot.watch",
@@ -26,8 +27,17 @@ MODULES = (
     "rosgraph_msgs.msg",
     "geometry_msgs.msg",
     "pymunk",
+    "bot_console.runtime.process.node.main_thread",
+    "bot_console.runtime.process.stepping.stepped_time",
+    "bot_console.runtime.rmw.lockstep.coordination",
     "bot_console.runtime.rmw.parameter_file",
+    "rcl_interfaces.srv._get_logger_levels",
+    "rcl_interfaces.srv._set_logger_levels",
     "rclpy.logging_service",
+    "rclpy.validate_node_name",
+    "service_msgs.msg._service_event_info",
+    "std_srvs.srv._set_bool__parts",
+    "std_srvs.srv._trigger__parts",
     "numpy.random",
     *(f"bot_console_robot.{each}" for each in LAUNCHED),
 )
@@ -81,6 +91,7 @@ def _run(
     from bot_console.tui.cli.headless.run import simulated
 
     install()
+    gc.disable()  # Until the nodes are up: what they make stays.
     options = Options(
         profile=profile,
         launch_arguments={**arguments, "config_file": parameters},
