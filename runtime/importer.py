@@ -105,7 +105,7 @@ def _own_package(name: str) -> ModuleSpec | None:
 
 
 def _is_shared(name: str) -> bool:
-    """Whether a top-level name refers to a part of the embedded runtime or to our own nodes, wherever it is imported."""
+    """Whether a top-level name refers to a part of the embedded runtime or to our own nodes."""
     if is_embedded(name) or name == DEMOS:
         return True
     if name != OWN_PACKAGE:
