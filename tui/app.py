@@ -9,19 +9,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, cast
 
 from bot_console.tui import keymap
-from bot_console.tui.appearance import Appearance
 from bot_console.tui.arrangement.arrival import COMING_STATUS, ORDERED, Arrival, System
+from bot_console.tui.arrangement.opening import Opening
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.files.crash import keep, reason
 from bot_console.tui.keys.keyboard import MAX_PASTE_CHARACTERS, Keyboard
 from bot_console.tui.layout.named import OVERVIEW
-from bot_console.tui.opening import Opening
 from bot_console.tui.pane_table import PANES, PaneEntry
+from bot_console.tui.panes.time_cursor import TimeCursor
 from bot_console.tui.safety.early_stop import EarlyStop
+from bot_console.tui.settings.appearance import Appearance
 from bot_console.tui.terminal.exception_guard import GuardedApp
 from bot_console.tui.text.sanitize import brief, counted, sanitize
 from bot_console.tui.theme import THEMES
-from bot_console.tui.time_cursor import TimeCursor
 from bot_console.tui.widgets.key_bar import KeyBar
 from bot_console.tui.widgets.pane_area import PaneArea, PanePlaceholder
 from bot_console.tui.widgets.tabs import Tabs

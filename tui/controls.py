@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from bot_console.tui.arrangement.faults import Faults
+from bot_console.tui.arrangement.opening import Opening
 from bot_console.tui.arrangement.pane_maker import PaneMaker
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.commanding.command_handler import CommandHandler
@@ -16,15 +18,13 @@ from bot_console.tui.commanding.recording import BagRecording
 from bot_console.tui.console.command_line import CommandLine
 from bot_console.tui.console.gated_lines import GatedLines
 from bot_console.tui.console.protocol import Console
-from bot_console.tui.faults import Faults
-from bot_console.tui.opening import Opening
+from bot_console.tui.panes.time_cursor import TimeCursor
 from bot_console.tui.safety.early_stop import EarlyStop
 from bot_console.tui.safety.quitting import Quitting
 from bot_console.tui.safety.safety_news import SafetyNews
 from bot_console.tui.safety.stopping import Stopping
 from bot_console.tui.screens.opener import ScreenOpener
 from bot_console.tui.terminal.suspension import Leaving
-from bot_console.tui.time_cursor import TimeCursor
 from bot_console.tui.widgets.status_bar import StatusBar
 from textual.app import App
 

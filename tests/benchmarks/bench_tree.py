@@ -25,8 +25,8 @@ install()
 sys.path[:0] = [str(Path(__file__).parents[1] / "helpers")]
 
 from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.arrangement.opening import Opening
 from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Range
-from bot_console.tui.opening import Opening
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
 from fakes.console import FakeConsole

@@ -24,6 +24,7 @@ import numpy as np
 from bench_logs import filled
 from bench_simulation import WORLDS
 from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.arrangement.opening import Opening
 from bot_console.tui.console.logs.search import matching
 from bot_console.tui.console.model import (
     Endpoint,
@@ -35,7 +36,6 @@ from bot_console.tui.console.model import (
     ParameterTree,
     Severity,
 )
-from bot_console.tui.opening import Opening
 from bot_console.tui.panes.plot.curves import Curve
 from bot_console.tui.panes.plot.view import Axes, framed
 from bot_console.tui.panes.topics.rows import Kind as Listed

@@ -62,7 +62,7 @@ def console_line(words: Sequence[str]) -> None:
 
 
 def line(text: str) -> None:
-    from bot_console.tui.opening import is_rqt, rqt_opening
+    from bot_console.tui.arrangement.opening import is_rqt, rqt_opening
 
     if is_rqt(text.split()):
         rqt_opening(text.split())

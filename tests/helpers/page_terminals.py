@@ -15,9 +15,9 @@ from bot_console.runtime.process import RealTime
 from bot_console.runtime.process.virtual.install import reinstall_stdio, uninstall_virtual_process
 from bot_console.runtime.workspace import discover
 from bot_console.tui.app import BotConsoleApp
-from bot_console.tui.appearance import Appearance
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.pane_table import PaneEntry
+from bot_console.tui.settings.appearance import Appearance
 from course.page import make_workspace
 from fakes.launcher import FakeLauncher
 from piloting import Session

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from bot_console.tui.app import BotConsoleApp
-from bot_console.tui.appearance import Appearance
 from bot_console.tui.panes.alarms.pane import AlarmsPane
 from bot_console.tui.panes.diagnostics.pane import DiagnosticsPane
 from bot_console.tui.panes.images.pane import ImagesPane
 from bot_console.tui.panes.steering.pane import SteeringPane
+from bot_console.tui.settings.appearance import Appearance
 from fakes.command_line import FakeCommandLine
 from fakes.console import FakeConsole
 from fakes.launcher import FakeLauncher

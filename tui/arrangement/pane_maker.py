@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.pane_table import PaneEntry
 from bot_console.tui.panes.pane import Pane
-from bot_console.tui.time_cursor import TimeCursor
+from bot_console.tui.panes.time_cursor import TimeCursor
 
 P = TypeVar("P", bound=Pane)
 

@@ -6,7 +6,6 @@ import locale
 import sys
 from pathlib import Path
 
-from bot_console.tui.appearance import Appearance
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from bot_console.tui.keys.remapping import remap
@@ -16,6 +15,7 @@ from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.learn.layout import NAME as LESSON_LAYOUT
 from bot_console.tui.learn.layout import WithLesson
 from bot_console.tui.pane_table import PANES
+from bot_console.tui.settings.appearance import Appearance
 from bot_console.tui.settings.layouts import FileLayouts
 from bot_console.tui.settings.settings import Settings, read_settings
 from bot_console.tui.settings.state_files import StateFiles

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from bot_console.tui import __version__
-from bot_console.tui.opening import Opening, is_rqt, rqt_opening
+from bot_console.tui.arrangement.opening import Opening, is_rqt, rqt_opening
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.session.embedded.named_profile import (
     NamedProfile,

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from bot_console.runtime.importer import install
 from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError
+from bot_console.tui.arrangement.opening import Opening
 from bot_console.tui.arrangement.plugin_pane import PluginEntry
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.learn.command_log import open_log
@@ -18,7 +19,6 @@ from bot_console.tui.learn.course import CourseError, find_course, names, read_c
 from bot_console.tui.learn.layout import NAME
 from bot_console.tui.learn.lesson import CourseLesson
 from bot_console.tui.learn.skeleton import write_skeleton
-from bot_console.tui.opening import Opening
 
 DEFAULT = "week6"
 

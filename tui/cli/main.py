@@ -77,7 +77,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 2
     if words and words[0] in ros2.VERBS:  # The fastest path first.
         return ros2.taking_part(words)
-    from bot_console.tui.opening import is_rqt, names_system
+    from bot_console.tui.arrangement.opening import is_rqt, names_system
 
     if is_rqt(words):
         if others_take_part() or not names_system(words):

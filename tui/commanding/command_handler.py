@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
+from bot_console.tui.arrangement.opening import Opening
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.child_command import child_command
 from bot_console.tui.commanding.completing import Completion
@@ -14,7 +15,6 @@ from bot_console.tui.commanding.runner import LineRunner
 from bot_console.tui.console.command_line import CommandLine, Stream
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.layout.named import OVERVIEW
-from bot_console.tui.opening import Opening
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.safety.line_risk import risk_of
 from bot_console.tui.safety.stopping import Stopping

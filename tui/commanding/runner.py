@@ -9,13 +9,13 @@ from concurrent.futures import Future
 from difflib import get_close_matches
 from typing import Any, Protocol
 
+from bot_console.tui.arrangement.opening import RQT_PANES, Opening, is_rqt, rqt_opening
 from bot_console.tui.commanding.verbs import VERBS, curves_of, places, setting_of, wrong_bag, wrong_use
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.command_line import CommandLine, Stream
 from bot_console.tui.console.model import ChangeSource, SetOutcome
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.format import sanitize, value_text
-from bot_console.tui.opening import RQT_PANES, Opening, is_rqt, rqt_opening
 from bot_console.tui.safety.line_risk import risk_of
 from bot_console.tui.screens.output import OutputScreen
 from bot_console.tui.text.refusals import of_one

@@ -8,6 +8,7 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any, cast
 
+from bot_console.tui.arrangement.opening import RQT_PANES
 from bot_console.tui.files.folders import config_folder, state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
 from bot_console.tui.files.store_file import read_store
@@ -15,7 +16,6 @@ from bot_console.tui.layout.form import NoLayout, data_of, tree_of
 from bot_console.tui.layout.named import OVERVIEW, Layout
 from bot_console.tui.layout.perspective import perspective_tree
 from bot_console.tui.layout.tree import Tree
-from bot_console.tui.opening import RQT_PANES
 from bot_console.tui.settings.plain_file import NotPlainData, read, written
 
 HEAD = """\

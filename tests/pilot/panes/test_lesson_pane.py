@@ -9,7 +9,6 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.app import BotConsoleApp
-from bot_console.tui.appearance import Appearance
 from bot_console.tui.arrangement.plugin_pane import PluginEntry
 from bot_console.tui.console.model import Change, ChangeSource
 from bot_console.tui.layout.arrangement import Arrangement, Forgetful
@@ -17,6 +16,7 @@ from bot_console.tui.learn.course import read_course
 from bot_console.tui.learn.layout import NAME, WithLesson
 from bot_console.tui.learn.lesson import CourseLesson
 from bot_console.tui.panes.lesson.pane import LessonPane
+from bot_console.tui.settings.appearance import Appearance
 from fakes.command_line import FakeCommandLine
 from piloting import Session
 from rest import at_rest

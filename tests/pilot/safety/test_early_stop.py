@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from bot_console.tui.appearance import Appearance
 from bot_console.tui.keymap import TABLE
 from bot_console.tui.keys.remapping import remap
+from bot_console.tui.settings.appearance import Appearance
 from piloting import Session, run
 from samples import live
 from textual import events

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.app import BotConsoleApp
-from bot_console.tui.appearance import Appearance
 from bot_console.tui.keymap import TABLE
 from bot_console.tui.keys.remapping import remap
+from bot_console.tui.settings.appearance import Appearance
 from bot_console.tui.terminal.ascii import plain_text
 from bot_console.tui.theme import THEMES
 from bot_console.tui.widgets.key_bar import KeyBar

@@ -10,9 +10,9 @@ import pytest
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.arrangement import arrival
 from bot_console.tui.arrangement.arrival import ORDERED, Arrival, System
+from bot_console.tui.arrangement.opening import Opening
 from bot_console.tui.layout.named import BUILT_IN, OVERVIEW
 from bot_console.tui.layout.tree import panes
-from bot_console.tui.opening import Opening
 from bot_console.tui.pane_table import PaneEntry
 from bot_console.tui.panes.broken_pane import BrokenPane
 from bot_console.tui.panes.plot.pane import PlotPane

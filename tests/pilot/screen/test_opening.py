@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from bot_console.tui.arrangement.opening import Opening
 from bot_console.tui.console.model import Endpoint, GraphInfo
-from bot_console.tui.opening import Opening
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.panes.plot.pane import PlotPane

@@ -7,10 +7,10 @@ from pathlib import Path
 from types import MappingProxyType
 
 import pytest
-from bot_console.tui.appearance import Appearance
 from bot_console.tui.console.model import ParameterTree
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.panes.plot.pane import PlotPane
+from bot_console.tui.settings.appearance import Appearance
 from fakes.console import FakeConsole
 from piloting import Session, run
 from samples import live

@@ -6,9 +6,9 @@ from collections.abc import Collection, Sequence
 from typing import Any, ClassVar
 
 from bot_console.tui import keymap
+from bot_console.tui.arrangement.opening import matching
 from bot_console.tui.console.model import ConsoleSnapshot, JournalState
 from bot_console.tui.format import clock_text
-from bot_console.tui.opening import matching
 from bot_console.tui.panes.plot.parts import DEFAULTS, WINDOWS, Timeline
 from bot_console.tui.panes.plot.questions import PlotQuestions
 from bot_console.tui.panes.plot.responses import Responses, wrong_formula

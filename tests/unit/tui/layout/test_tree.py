@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from bot_console.tui.arrangement.opening import RQT_PANES
 from bot_console.tui.layout.form import NoLayout, data_of, tree_of
 from bot_console.tui.layout.perspective import perspective_tree
 from bot_console.tui.layout.placing import Box, borders, boxes, neighbour
@@ -21,7 +22,6 @@ from bot_console.tui.layout.tree import (
     split,
     turn,
 )
-from bot_console.tui.opening import RQT_PANES
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from bot_console.tui.arrangement.opening import RQT_PANES, Opening, is_rqt, matching, rqt_opening
 from bot_console.tui.cli.arguments import parse
-from bot_console.tui.opening import RQT_PANES, Opening, is_rqt, matching, rqt_opening
 
 
 def opening(line: str) -> Opening:

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from bot_console.tui.console.graph.connections import TOOL_NAMES
+from bot_console.tui.files.state_store import MemoryStore, StateStore
 from bot_console.tui.layout.arrangement import Arrangement
-from bot_console.tui.state_store import MemoryStore, StateStore
 
 
 @dataclass(frozen=True)
