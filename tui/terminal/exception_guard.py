@@ -9,6 +9,7 @@ from __future__ import annotations
 from bot_console.tui.terminal.output import SUPPORTED, HoldingScreen, SparingApp
 from bot_console.tui.terminal.styling import StyledOnceApp, StyledOnceScreen
 from bot_console.tui.terminal.visible_screen import VisibleScreen
+from rich.text import Text
 from textual._context import active_message_pump
 from textual.dom import DOMNode
 from textual.message import Message
@@ -46,8 +47,6 @@ class GuardedApp(SparingApp, StyledOnceApp):
             super()._handle_exception(error)
 
     def _fatal_error(self) -> None:
-        from rich.text import Text
-
         self._exit_renderables[:] = [Text(self.last_words(self._exception or RuntimeError("unknown")))]
         self._close_messages_no_wait()
 

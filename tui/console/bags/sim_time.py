@@ -9,6 +9,7 @@ from bot_console.tui.console.offered_qos import OfferedSubscription
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message
+from rosgraph_msgs.msg import Clock
 
 MAX_SAMPLES = 5000
 """Messages of /clock that are remembered; older moments are not asked for."""
@@ -18,8 +19,6 @@ class SimTime:
     """Remembers when each message of /clock came."""
 
     def __init__(self, node: Node) -> None:
-        from rosgraph_msgs.msg import Clock
-
         self._kind = Clock
         best = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE)
         self._subscription = OfferedSubscription(node, Clock, "/clock", lambda _: None, best, raw=True)

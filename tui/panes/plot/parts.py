@@ -10,10 +10,10 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import Change
 from bot_console.tui.console.plot.port import Plots
 from bot_console.tui.format import value_text
+from bot_console.tui.panes.plot.curves import Curve
 from bot_console.tui.panes.plot.thresholds import first_crossed
 
 if TYPE_CHECKING:
-    from bot_console.tui.panes.plot.curves import Curve
     from bot_console.tui.panes.plot.formulas.formula import Formula
     from bot_console.tui.panes.plot.view import Axes, Mark
 
@@ -89,8 +89,6 @@ class Timeline:
         return Answer(True, text)
 
     def _source(self, path: str) -> Curve:
-        from bot_console.tui.panes.plot.curves import Curve
-
         found = self._sources.get(path)
         if found is None:
             found = self._sources[path] = Curve(path, by_header=self.by_header)

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 from bot_console.tui.console.model import Change
 from bot_console.tui.console.plot.port import Plots
 from bot_console.tui.format import sanitize
+from bot_console.tui.panes.plot.curves import Curve
+from bot_console.tui.panes.plot.step_response import Figures, figures, figures_text, moments, response, score
 from bot_console.tui.widgets.picture import Line
 
 if TYPE_CHECKING:
-    from bot_console.tui.panes.plot.curves import Curve
     from bot_console.tui.panes.plot.step_response import Response
 
 HOW = "No responses yet: mark values in the Parameters pane (m), then A there sends set B, and again set A."
@@ -31,14 +32,10 @@ class Responses:
 
     def read(self, changes: Sequence[Change]) -> None:
         """Learn when the sets were sent."""
-        from bot_console.tui.panes.plot.step_response import moments
-
         self._moments = moments(changes)
 
     def of(self, curve: Curve, window: float) -> list[Response]:
         """The responses of a curve, each as long as the window (s), or until the other set was sent."""
-        from bot_console.tui.panes.plot.step_response import response
-
         starts = {name: self.plots.time(stamp) for name, stamp in self._moments.items()}
         found: list[Response] = []
         for name, start in sorted(starts.items()):
@@ -51,8 +48,6 @@ class Responses:
 
     def draw(self, curves: Sequence[Curve], chosen: int, window: float, size: tuple[int, int]) -> list[Line]:
         """The picture: both responses from the moment of their change on, and a line of figures for each."""
-        from bot_console.tui.panes.plot.curves import Curve
-        from bot_console.tui.panes.plot.step_response import figures, figures_text
         from bot_console.tui.panes.plot.view import Axes, framed
 
         width, height = size
@@ -84,8 +79,6 @@ class Responses:
 
 def wrong_formula(text: str) -> str:
     """What is wrong with a score's formula; empty when nothing is."""
-    from bot_console.tui.panes.plot.step_response import Figures, score
-
     try:
         if text.strip():
             score(text, Figures(1.0, 1.0, 1.0, 1.0))

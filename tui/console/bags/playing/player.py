@@ -16,6 +16,7 @@ from bot_console.tui.console.bags.reader import Entry
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
+from rosgraph_msgs.msg import Clock as Message
 
 CLOCK = "/clock"
 STOP_POLL_S = 0.1
@@ -270,8 +271,6 @@ class Clock:
     """Publishes the bag's time on /clock."""
 
     def __init__(self, node: Node, rate: float) -> None:
-        from rosgraph_msgs.msg import Clock as Message
-
         self._message = Message
         self._publisher = node.create_publisher(Message, CLOCK, 10)
         self.period = 1.0 / rate if rate else float("inf")

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 from xml.sax.saxutils import escape
 
+import numpy as np
 from bot_console.tui.files.save_file import NotSaved, save_file
 from bot_console.tui.panes.plot.pictures.vector_drawing import VectorDrawing
 
@@ -37,8 +38,6 @@ def write_png(path: Path, page: VectorDrawing) -> None:
         import cv2  # pyright: ignore[reportMissingImports] -- an extra
     except ImportError:
         raise NotSaved(f"a PNG needs OpenCV ({INSTALL}); .svg, .html and .txt need nothing") from None
-    import numpy as np
-
     kit: Any = cv2
     image = np.full((page.height * 2, page.width * 2, 3), 255, np.uint8)
     for each in page.strokes:
