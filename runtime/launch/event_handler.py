@@ -38,7 +38,7 @@ class BaseEventHandler:
         """A description of the matching events."""
         return "{}"
 
-    def matches(self, event: Any) -> bool:
+    def matches(self, event: object) -> bool:
         """Whether the handler handles the event."""
         return self.__matcher(event)
 
@@ -47,7 +47,7 @@ class BaseEventHandler:
         what = f"matcher='{self.matcher_description}', handler='{self.handler_description}'"
         return f"{type(self).__name__}({what}, handle_once={self.handle_once})", []
 
-    def handle(self, event: Any, context: LaunchContext) -> SomeEntitiesType | None:
+    def handle(self, event: object, context: LaunchContext) -> SomeEntitiesType | None:
         """Handle the event and return entities to visit."""
         context.extend_locals({"event": event})
         if self.handle_once:
@@ -73,7 +73,7 @@ class EventHandler(BaseEventHandler):
         """A text and the entities."""
         return super().describe()[0], check_entities(self.__entities)
 
-    def handle(self, event: Any, context: LaunchContext) -> SomeEntitiesType | None:
+    def handle(self, event: object, context: LaunchContext) -> SomeEntitiesType | None:
         """Return the entities to visit."""
         super().handle(event, context)
         return self.__entities

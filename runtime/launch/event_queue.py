@@ -14,7 +14,7 @@ class EventQueue:
         self._events: deque[Any] = deque()
         self.on_event: Callable[[], None] = lambda: None
 
-    def put_nowait(self, event: Any) -> None:
+    def put_nowait(self, event: object) -> None:
         """Add an event."""
         self._events.append(event)
         self.on_event()

@@ -27,13 +27,13 @@ class HandlerRegistry:
     def __contains__(self, handler: object) -> bool:
         return id(handler) in self._ranks
 
-    def add(self, handler: Any, *, append: bool = False) -> None:
+    def add(self, handler: object, *, append: bool = False) -> None:
         """Add a handler before all others, or after them."""
         rank = next(self._after if append else self._before)
         self._ranks[id(handler)] = (rank, handler)
         self._buckets.setdefault(_key(handler), {})[id(handler)] = handler
 
-    def remove(self, handler: Any) -> None:
+    def remove(self, handler: object) -> None:
         """Remove a handler; raises `ValueError` if it is not registered."""
         if id(handler) not in self._ranks:
             raise ValueError(f"{handler!r} is not registered")
@@ -43,7 +43,7 @@ class HandlerRegistry:
         if not bucket:
             del self._buckets[_key(handler)]
 
-    def matching(self, event: Any) -> list[Any]:
+    def matching(self, event: object) -> list[Any]:
         """Return the matching handlers, in order."""
         actions = {0, id(getattr(event, "action", None))}
         kinds = (None, *(event.__mro__ if isinstance(event, type) else type(event).__mro__))
@@ -54,7 +54,7 @@ class HandlerRegistry:
         return found
 
 
-def _key(handler: Any) -> Key:
+def _key(handler: object) -> Key:
     target = getattr(handler, "target_of_events", None)
     return getattr(handler, "kind_of_events", None), 0 if target is None else id(target)
 

@@ -36,12 +36,12 @@ class Includes:
         """End the innermost include."""
         self._open.pop()
 
-    def default_set(self, name: str, value: Any) -> None:
+    def default_set(self, name: str, value: object) -> None:
         """Note that a declaration of the innermost include has set its default."""
         if self._open:
             self._set[name] = (self._open[-1], value)
 
-    def check(self, name: str, value: Any, default: Callable[[], str | None]) -> None:
+    def check(self, name: str, value: object, default: Callable[[], str | None]) -> None:
         """Warn of an argument declared in the innermost include whose value is that of an include beside it."""
         setter, set_value = self._set.get(name, (None, None))
         if not self._open or setter is None or set_value != value:

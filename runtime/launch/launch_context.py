@@ -119,15 +119,15 @@ class LaunchContext:
     def _reset_environment(self) -> None:
         _replace_environment(self.__environment_reset)
 
-    def register_event_handler(self, event_handler: Any, append: bool = False) -> None:
+    def register_event_handler(self, event_handler: object, append: bool = False) -> None:
         """Register a handler, before the existing ones or, with `append`, after them."""
         self._event_handlers.add(event_handler, append=append)
 
-    def unregister_event_handler(self, event_handler: Any) -> None:
+    def unregister_event_handler(self, event_handler: object) -> None:
         """Unregister a handler; raises `ValueError` if it is not registered."""
         self._event_handlers.remove(event_handler)
 
-    def would_handle_event(self, event: Any) -> bool:
+    def would_handle_event(self, event: object) -> bool:
         """Whether any handler matches."""
         return bool(self._event_handlers.matching(event))
 
@@ -159,7 +159,7 @@ class _Locals:
             raise AttributeError(f"context.locals does not contain attribute '{name}', it contains: [{known}]")
         return values[name]
 
-    def __setattr__(self, name: str, value: Any) -> None:
+    def __setattr__(self, name: str, value: object) -> None:
         raise AttributeError(f"context.locals.{name} cannot be set: context.extend_locals() adds to them")
 
 

@@ -14,7 +14,10 @@ class LaunchDescriptionSource:
     """A launch description that is given, or read from a file when it is first needed."""
 
     def __init__(
-        self, launch_description: Any = None, location: Any = "", method: str = "unspecified mechanism from a script"
+        self,
+        launch_description: object = None,
+        location: object = "",
+        method: str = "unspecified mechanism from a script",
     ) -> None:
         self.__launch_description = launch_description
         self.__expanded_location: str | None = None

@@ -29,7 +29,7 @@ def _tree(entities: Sequence[Any]) -> list[str]:
     return lines
 
 
-def _lines(entity: Any) -> list[str]:
+def _lines(entity: object) -> list[str]:
     if isinstance(entity, LogInfo):
         return [f"LogInfo({_described(entity.msg)})"]
     if isinstance(entity, EmitEvent):

@@ -19,13 +19,13 @@ class LaunchPlace(NamedTuple):
     """The entity being visited; None while reading a file."""
 
 
-def report_place(error: BaseException, file: str, line: int | None = None, entity: Any = None) -> None:
+def report_place(error: BaseException, file: str, line: int | None = None, entity: object = None) -> None:
     """Attach to an exception where it was raised; a place attached earlier, nearer to its origin, is kept."""
     # not setattr: a user's exception may be a frozen dataclass
     error.__dict__.setdefault(ATTRIBUTE, LaunchPlace(file, line, entity))
 
 
-def report_visited(error: BaseException, entity: Any) -> None:
+def report_visited(error: BaseException, entity: object) -> None:
     """Attach to an exception the entity whose visit raised it, and the entity's origin if known."""
     origin = str(getattr(entity, "origin", ""))
     file, _, line = origin.rpartition(":")

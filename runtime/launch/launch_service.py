@@ -75,11 +75,11 @@ class LaunchService:
         """The entities that were started and are not done, including processes and timers (not upstream)."""
         return self.__pending.entities
 
-    def include_launch_description(self, launch_description: Any) -> None:
+    def include_launch_description(self, launch_description: object) -> None:
         """Include a description, before the service runs or while it does."""
         self.emit_event(IncludeLaunchDescription(launch_description))
 
-    def emit_event(self, event: Any) -> None:
+    def emit_event(self, event: object) -> None:
         """Queue an event; while the service runs, block until its loop has taken it.
 
         Raises `RuntimeError` in the thread of that loop, where upstream blocks for ever.
@@ -183,7 +183,7 @@ class LaunchService:
         futures[:] = [each for each in futures if not each.done()]
         return not self.__pending and not futures and self.__context._event_queue.empty()
 
-    def __handle(self, event: Any) -> None:
+    def __handle(self, event: object) -> None:
         self.__logger.debug("processing event: '%s'", event)
         for handler in self.__context._event_handlers.matching(event):
             if handler not in self.__context._event_handlers:
@@ -194,7 +194,7 @@ class LaunchService:
             finally:
                 self.__context._pop_locals()
 
-    def __visit(self, entities: Any) -> None:
+    def __visit(self, entities: object) -> None:
         if entities is None:
             return
         given = cast("Iterable[Any]", entities if isinstance(entities, Iterable) else (entities,))
@@ -206,7 +206,7 @@ class LaunchService:
             for visited, future in visit_all_entities_and_collect_futures(entity, self.__context):
                 self.__pending.add(future, visited)
 
-    def __on_shutdown(self, event: Any, context: LaunchContext) -> None:
+    def __on_shutdown(self, event: object, context: LaunchContext) -> None:
         self.__shutting_down = True
         context._set_is_shutdown(True)
 
@@ -250,7 +250,7 @@ class _Done(Coroutine[Any, Any, None]):
         return
         yield
 
-    def send(self, value: Any) -> Any:
+    def send(self, value: object) -> Any:
         """End."""
         raise StopIteration
 

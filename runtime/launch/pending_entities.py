@@ -26,7 +26,7 @@ class PendingEntities:
         """The entities that are not done; may be read in any thread."""
         return list(self._futures.values())
 
-    def add(self, future: asyncio.Future[Any], entity: Any) -> None:
+    def add(self, future: asyncio.Future[Any], entity: object) -> None:
         """Add the future of an entity."""
         if future not in self._futures:
             self._futures[future] = entity
@@ -53,7 +53,7 @@ class PendingEntities:
                 self._waiter = None
         self._woken = False
 
-    def _done(self, future: asyncio.Future[Any], entity: Any) -> None:
+    def _done(self, future: asyncio.Future[Any], entity: object) -> None:
         self._futures.pop(future, None)
         if not future.cancelled():
             error = future.exception()

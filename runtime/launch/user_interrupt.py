@@ -30,6 +30,6 @@ class UserInterrupt:
         if self._active and signal.getsignal(signal.SIGINT) == self._caught:
             signal.signal(signal.SIGINT, self._before)
 
-    def _caught(self, _signum: int, _frame: Any) -> None:
+    def _caught(self, _signum: int, _frame: object) -> None:
         self._count += 1
         self._loop.call_soon_threadsafe(self._callback, self._count > 1)

@@ -55,7 +55,7 @@ def fixture(
     return made
 
 
-def options_of(made: Any) -> tuple[str, str]:
+def options_of(made: object) -> tuple[str, str]:
     """Return name and scope of such a fixture; raises `TypeError` for anything else."""
     if not hasattr(made, _OPTIONS):
         raise TypeError("pytest.mark.launch takes fixture=..., which has to be made with @launch_pytest.fixture")

@@ -24,7 +24,7 @@ class LaunchTestWarning(pytest.PytestWarning):
     """A mark lacks an argument."""
 
 
-def _is_generator(function: Any) -> bool:
+def _is_generator(function: object) -> bool:
     return inspect.isgeneratorfunction(function) or inspect.isasyncgenfunction(function)
 
 
@@ -118,7 +118,7 @@ async def _next(generator: Any) -> None:
     await anext(generator)
 
 
-def _finish(running: Any, generator: Any) -> None:
+def _finish(running: object, generator: object) -> None:
     if generator is None:
         pytest.skip("the part before the shutdown has failed")
     try:
@@ -137,7 +137,7 @@ def _part(request: Any) -> Any:
 
 
 @pytest.fixture
-def launch_service(request: Any) -> Any:
+def launch_service(request: object) -> Any:
     """The launch service of the running launch."""
     return _part(request).service
 
@@ -149,7 +149,7 @@ def launch_context(launch_service: Any) -> Any:
 
 
 @pytest.fixture
-def event_loop(request: Any) -> Any:
+def event_loop(request: object) -> Any:
     """The loop of the running launch."""
     return _part(request).loop
 

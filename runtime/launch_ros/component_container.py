@@ -107,7 +107,7 @@ def _with_options(component: type[Any], options: dict[str, Any]) -> type[Any]:
     base: Any = next((each for each in component.__mro__ if each.__module__.split(".")[0] == "rclpy"), object)
 
     class Configured(base):
-        def __init__(self, *args: Any, **kwargs: Any) -> None:
+        def __init__(self, *args: object, **kwargs: object) -> None:
             super().__init__(*args, **{**kwargs, **options})  # pyright: ignore[reportUnknownMemberType] -- any component
 
     return type(component.__name__, (component, Configured), {"__module__": component.__module__})

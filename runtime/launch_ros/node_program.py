@@ -8,7 +8,6 @@ import sys
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 from bot_console.runtime.programs.plain_file import examine
@@ -45,7 +44,7 @@ def program_of(package: str | None, path: str) -> PythonProgram | None:
     return _program(python_file, is_ours, path, [*folders, *source_folders()], calls_main)
 
 
-def _program(kind: Callable[..., Program], is_ours: bool, *arguments: Any) -> PythonProgram:
+def _program(kind: Callable[..., Program], is_ours: bool, *arguments: object) -> PythonProgram:
     workspace_folders = [str(each) for each in workspace().folders]
     return PythonProgram(f"{kind.__module__}:{kind.__name__}", (workspace_folders, *arguments), is_ours)
 

@@ -62,7 +62,7 @@ def own_parameter_arguments(
     return found
 
 
-def _rule(name: str, value: Any) -> str:
+def _rule(name: str, value: object) -> str:
     return f"{name}:={yaml.dump(value)}"
 
 

@@ -35,7 +35,7 @@ def _sources(context: LaunchContext, entry: Any, origin: str) -> Iterator[tuple[
         yield text, f"launch argument{words} {', '.join(names)}" if names else f"launch file {origin}".rstrip()
 
 
-def _arguments(context: LaunchContext, value: Any) -> Iterator[str]:
+def _arguments(context: LaunchContext, value: object) -> Iterator[str]:
     """Return the launch configurations that a value is composed of, at any depth."""
     if isinstance(value, LaunchConfiguration):
         yield perform_substitutions(context, value.variable_name)

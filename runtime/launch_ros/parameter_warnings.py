@@ -49,7 +49,7 @@ def warn_of_values(context: LaunchContext, given: Mapping[Any, Any], evaluated: 
         _warn_of_scalar(name, found, origin)
 
 
-def _warn_of_scalar(name: str, value: Any, origin: str) -> None:
+def _warn_of_scalar(name: str, value: object, origin: str) -> None:
     if isinstance(value, bytes):
         _warn(origin, f"{name}: bytes arrive as their base64 text")
     elif isinstance(value, int) and not INT64_MIN <= value <= INT64_MAX:
@@ -63,7 +63,7 @@ def _warn_of_scalar(name: str, value: Any, origin: str) -> None:
         )
 
 
-def warn_of_argument(name: str, value: Any, origin: str) -> None:
+def warn_of_argument(name: str, value: object, origin: str) -> None:
     """Warn of a value for all nodes, which is passed as plain text."""
     if isinstance(value, (list, tuple)):
         _warn(origin, f"{name}: a list set for all nodes arrives as the string '{value}'")
@@ -72,7 +72,7 @@ def warn_of_argument(name: str, value: Any, origin: str) -> None:
         _warn(origin, f"{name}: the string '{value}' arrives as the {word_of(arrives)} {arrives!r}")
 
 
-def changes_in_yaml(text: str, found: Any) -> bool:
+def changes_in_yaml(text: str, found: object) -> bool:
     """Whether YAML reads a text differently from a human reader."""
     plain = text.strip()
     if isinstance(found, bool):

@@ -91,7 +91,7 @@ class _Resolver:
         for each in entities or ():
             yield from self.lines(each, depth)
 
-    def _own(self, entity: Any) -> Iterator[str]:
+    def _own(self, entity: object) -> Iterator[str]:
         context = self._context
         if isinstance(entity, DeclareLaunchArgument):
             how = "given" if entity.name in self._given else "default or set before"
@@ -133,5 +133,5 @@ def _node(node: Node) -> Iterator[str]:
         yield f"{STEP}parameter {each.name} = {each.value!r}  ({each.type_name}, {each.source})"
 
 
-def _kind(entity: Any) -> str:
+def _kind(entity: object) -> str:
     return type(entity).__name__

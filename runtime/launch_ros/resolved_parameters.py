@@ -63,7 +63,7 @@ def _source(argument: str, is_file: bool) -> str:
     return "launch file" if Path(argument).name.startswith(PREFIX) else argument
 
 
-def _source_of(given: list[tuple[str, Any]], value: Any) -> str:
+def _source_of(given: list[tuple[str, Any]], value: object) -> str:
     """Return the last source of the effective value."""
     return next((source for source, each in reversed(given) if each == value), given[-1][0])
 

@@ -70,7 +70,7 @@ def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
         context.extend_globals({KEY: found})
         made = found
 
-        def launch_ends(event: Any, context: LaunchContext) -> None:
+        def launch_ends(event: object, context: LaunchContext) -> None:
             made.shutdown()
 
         context.register_event_handler(OnShutdown(on_shutdown=launch_ends), append=True)

@@ -60,7 +60,7 @@ class ActiveIoHandler(IoHandler):
         with self._changed:
             super().track(process_name)
 
-    def append(self, process_io: Any) -> None:
+    def append(self, process_io: object) -> None:
         """Add a chunk, and notify those who wait."""
         with self._changed:
             super().append(process_io)
@@ -68,9 +68,9 @@ class ActiveIoHandler(IoHandler):
 
     def waitFor(
         self,
-        expected_output: Any,
-        process: Any = None,
-        cmd_args: Any = None,
+        expected_output: object,
+        process: object = None,
+        cmd_args: object = None,
         *,
         strict_proc_matching: bool = True,
         output_filter: Callable[[str], str] | None = None,
@@ -100,7 +100,7 @@ class ActiveIoHandler(IoHandler):
                 resolveProcesses(self, process=process, cmd_args=cmd_args, strict_proc_matching=False)
         return so
 
-    def assertWaitFor(self, expected_output: Any, *args: Any, timeout: float = 10, **kwargs: Any) -> None:
+    def assertWaitFor(self, expected_output: object, *args: object, timeout: float = 10, **kwargs: object) -> None:
         """Assert `waitFor`."""
         assert self.waitFor(expected_output, *args, timeout=timeout, **kwargs), (
             f"Waiting for output timed out: {expected_output!r} was not found within {timeout} s"

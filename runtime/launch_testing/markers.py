@@ -10,7 +10,7 @@ from typing import Any
 KEEP_ALIVE = "__launch_testing_keep_alive"
 
 
-def keep_alive(test_description: Any) -> Any:
+def keep_alive(test_description: object) -> Any:
     """Mark a description without `ReadyToTest` or processes: the tests begin at once, and the launch keeps running."""
     setattr(test_description, KEEP_ALIVE, True)
     return test_description
@@ -25,7 +25,7 @@ def retry_on_failure(
 
     def decorate(function: Callable[..., Any]) -> Callable[..., Any]:
         @functools.wraps(function)
-        def again(*args: Any, **kwargs: Any) -> Any:
+        def again(*args: object, **kwargs: object) -> Any:
             deadline = None if timeout is None else time.monotonic() + timeout
             left = times
             while True:

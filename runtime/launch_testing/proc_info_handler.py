@@ -31,7 +31,7 @@ class ProcInfoHandler:
         """Their names."""
         return [each.process_details["name"] for each in list(self._events)]
 
-    def __getitem__(self, process: Any) -> Any:
+    def __getitem__(self, process: object) -> Any:
         """Return the event of a process, by its action or a part of its name; raises `KeyError` for an unknown one."""
         if not isinstance(process, str):
             return self._events[process]
@@ -53,23 +53,23 @@ class ActiveProcInfoHandler(ProcInfoHandler):
         """Notified of each start and exit."""
         return self._changed
 
-    def append(self, process_info: Any) -> None:
+    def append(self, process_info: object) -> None:
         """Add a start or exit, and notify those who wait."""
         with self._changed:
             super().append(process_info)
             self._changed.notify_all()
 
-    def assertWaitForStartup(self, process: Any, cmd_args: Any = None, *, timeout: float = 10) -> None:
+    def assertWaitForStartup(self, process: object, cmd_args: object = None, *, timeout: float = 10) -> None:
         """Assert that a process starts within this many seconds."""
         so = self._wait(process, cmd_args, timeout, lambda event: True)
         assert so, f"Timed out waiting for process '{_shown(process)}' to start"
 
-    def assertWaitForShutdown(self, process: Any, cmd_args: Any = None, *, timeout: float = 10) -> None:
+    def assertWaitForShutdown(self, process: object, cmd_args: object = None, *, timeout: float = 10) -> None:
         """Assert that a process ends within this many seconds."""
         so = self._wait(process, cmd_args, timeout, lambda event: isinstance(event, ProcessExited))
         assert so, f"Timed out waiting for process '{_shown(process)}' to finish"
 
-    def _wait(self, process: Any, cmd_args: Any, timeout: float, fits: Callable[[Any], bool]) -> bool:
+    def _wait(self, process: object, cmd_args: object, timeout: float, fits: Callable[[Any], bool]) -> bool:
         def so() -> bool:
             try:
                 return fits(self._events[resolveProcesses(self, process=process, cmd_args=cmd_args)[0]])
@@ -80,5 +80,5 @@ class ActiveProcInfoHandler(ProcInfoHandler):
             return self._changed.wait_for(so, timeout)
 
 
-def _shown(process: Any) -> str | None:
+def _shown(process: object) -> str | None:
     return process if isinstance(process, str) or process is None else described(process)

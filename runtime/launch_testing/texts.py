@@ -88,7 +88,7 @@ def _in_order(matches: list[TextMatch], strict: bool) -> TextMatch:
     if not matches:
         raise ValueError("nothing is expected: give at least one text")
 
-    def match(actual: Any, start: int = 0) -> Span | None:
+    def match(actual: object, start: int = 0) -> Span | None:
         begin: int | None = None
         end = start
         for each in matches:

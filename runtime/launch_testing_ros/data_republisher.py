@@ -19,7 +19,7 @@ class DataRepublisher:
         self.__publisher = node.create_publisher(msg_type, publish_topic, 10)
         self.__subscription = node.create_subscription(msg_type, listen_topic, self.__take, 10)
 
-    def __take(self, message: Any) -> None:
+    def __take(self, message: object) -> None:
         self.__received += 1
         changed = self.__transform(message)
         if changed:

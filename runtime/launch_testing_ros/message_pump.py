@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-from typing import Any
 
 from rclpy.executors import SingleThreadedExecutor
 
@@ -11,7 +10,7 @@ from rclpy.executors import SingleThreadedExecutor
 class MessagePump:
     """Spins a node in a separate thread, between `start` and `stop`; also as a context manager."""
 
-    def __init__(self, node: Any, context: Any = None) -> None:
+    def __init__(self, node: object, context: object = None) -> None:
         self._node = node
         self._context = context
         self._running = False

@@ -25,7 +25,7 @@ class WaitForTopics:
         timeout: float = 5.0,
         messages_received_buffer_length: int = 10,
         callback: Callable[..., object] | None = None,
-        callback_arguments: Any = None,
+        callback_arguments: object = None,
         node_namespace: str | None = None,
     ) -> None:
         self.topic_tuples = list(topic_tuples)
@@ -52,7 +52,7 @@ class WaitForTopics:
         with contextlib.suppress(ExternalShutdownException):
             self._executor.spin()
 
-    def _take(self, name: str, message: Any) -> None:
+    def _take(self, name: str, message: object) -> None:
         kept = self._messages.setdefault(name, [])
         kept.append(message)
         del kept[: -self._length]

@@ -53,7 +53,7 @@ class Entity(BaseEntity):
         if children:
             raise ValueError(f"Unexpected nested tag(s) found in `{self.type_name}`: {children}")
 
-    def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
+    def get_attr(self, name: str, *, data_type: object = str, optional: bool = False, can_be_str: bool = True) -> Any:
         """An attribute of a type, or the elements of a tag; raises `AttributeError` and `TypeError`."""
         if wants_entities(data_type):
             found = [Entity(each, parent=self, lines=self.__lines) for each in self.__element if each.tag == name]
@@ -69,11 +69,11 @@ class Entity(BaseEntity):
             text = text.split(self.__element.attrib[separator])
         return self.__typed(name, text, data_type, can_be_str)
 
-    def __missing(self, name: str, data_type: Any, optional: bool) -> None:
+    def __missing(self, name: str, data_type: object, optional: bool) -> None:
         if not optional:
             raise AttributeError(f"Attribute '{name}' of type '{data_type}' not found in Entity '{self.type_name}'")
 
-    def __typed(self, name: str, text: Any, data_type: Any, can_be_str: bool) -> Any:
+    def __typed(self, name: str, text: object, data_type: object, can_be_str: bool) -> Any:
         try:
             return get_typed_value(text, data_type, can_be_str=can_be_str)
         except ValueError as error:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from launch.launch_description_sources import FrontendLaunchDescriptionSource
 from launch_xml.parser import Parser
 
@@ -11,5 +9,5 @@ from launch_xml.parser import Parser
 class XMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
     """Reads a launch file in XML."""
 
-    def __init__(self, launch_file_path: Any) -> None:
+    def __init__(self, launch_file_path: object) -> None:
         super().__init__(launch_file_path, parser=Parser, method="interpreted XML launch file")

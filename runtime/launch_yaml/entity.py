@@ -12,7 +12,7 @@ from launch.utilities.type_utils import is_instance_of
 class Entity(BaseEntity):
     """A map or list with the name of its kind; it remembers what of it was read."""
 
-    def __init__(self, element: Any, type_name: str | None = None, *, parent: Entity | None = None) -> None:
+    def __init__(self, element: object, type_name: str | None = None, *, parent: Entity | None = None) -> None:
         self.__element: Any = element
         self.__type_name = type_name or ""
         self.__parent = parent
@@ -67,7 +67,7 @@ class Entity(BaseEntity):
         if unread:
             raise ValueError(f"Unexpected key(s) found in `{self.type_name}`: {unread}")
 
-    def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
+    def get_attr(self, name: str, *, data_type: object = str, optional: bool = False, can_be_str: bool = True) -> Any:
         """A value of a type, or the elements of a key; raises `AttributeError` and `TypeError`."""
         element = self.__element
         if not _is_map(self.__element) or name not in element:
@@ -88,9 +88,9 @@ class Entity(BaseEntity):
         return data
 
 
-def _is_map(value: Any) -> bool:
+def _is_map(value: object) -> bool:
     return isinstance(value, dict)
 
 
-def _is_list(value: Any) -> bool:
+def _is_list(value: object) -> bool:
     return isinstance(value, list)

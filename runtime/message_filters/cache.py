@@ -13,7 +13,7 @@ from rclpy.time import Time
 class Cache(SimpleFilter):
     """Keeps the last `cache_size` messages of a filter in the order of their times, and passes them on."""
 
-    def __init__(self, f: Any = None, cache_size: int = 1, allow_headerless: bool = False) -> None:
+    def __init__(self, f: object = None, cache_size: int = 1, allow_headerless: bool = False) -> None:
         super().__init__()
         if f is not None:
             self.connectInput(f)
@@ -26,7 +26,7 @@ class Cache(SimpleFilter):
         """Connect to the output of a filter."""
         self.incoming_connection = f.registerCallback(self.add)
 
-    def add(self, msg: Any) -> None:
+    def add(self, msg: object) -> None:
         """Add a message; the oldest one is dropped if there are too many."""
         stamp = stamp_of(msg, self.allow_headerless, "cache")
         if stamp is None:

@@ -15,13 +15,13 @@ class SimpleFilter:
     def __init__(self) -> None:
         self.callbacks: dict[int, tuple[Callable[..., Any], tuple[Any, ...]]] = {}
 
-    def registerCallback(self, cb: Callable[..., Any], *args: Any) -> int:
+    def registerCallback(self, cb: Callable[..., Any], *args: object) -> int:
         """Call `cb(message..., *args)` with each output; returns a number for the callback."""
         number = len(self.callbacks)
         self.callbacks[number] = (cb, args)
         return number
 
-    def signalMessage(self, *msg: Any) -> None:
+    def signalMessage(self, *msg: object) -> None:
         """Pass an output on."""
         for callback, args in list(self.callbacks.values()):
             callback(*msg, *args)
@@ -38,7 +38,7 @@ class Subscriber(SimpleFilter):
             kwargs.setdefault("qos_profile", QoSProfile(depth=10))
         self.sub = node.create_subscription(msg_type, topic, self.callback, *args, **kwargs)
 
-    def callback(self, msg: Any) -> None:
+    def callback(self, msg: object) -> None:
         """Receive a message."""
         self.signalMessage(msg)
 
@@ -56,7 +56,7 @@ class Subscriber(SimpleFilter):
 class Chain(SimpleFilter):
     """A sequence of filters: each message passes through all of them."""
 
-    def __init__(self, *filters: Any) -> None:
+    def __init__(self, *filters: object) -> None:
         super().__init__()
         self.filters: list[Any] = []
         for each in filters:
@@ -71,7 +71,7 @@ class Chain(SimpleFilter):
         new_filter.registerCallback(lambda *msg: self._out(place, *msg))
         return place - 1
 
-    def _out(self, place: int, *msg: Any) -> None:
+    def _out(self, place: int, *msg: object) -> None:
         """Pass on the output of the filter that is now the last one."""
         if place == len(self.filters):
             self.signalMessage(*msg)
@@ -84,7 +84,7 @@ class Chain(SimpleFilter):
         """Connect to the output of another filter."""
         input_filter.registerCallback(self.add)
 
-    def add(self, *msg: Any) -> None:
+    def add(self, *msg: object) -> None:
         """Add a message."""
         if self.filters:
             self.filters[0].add(*msg)

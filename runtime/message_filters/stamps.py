@@ -22,7 +22,7 @@ def header_stamp(message: Any) -> Time:
     return stamp if isinstance(stamp, Time) else Time.from_msg(stamp)
 
 
-def stamp_of(message: Any, allow_headerless: bool, kind: str) -> Time | None:
+def stamp_of(message: object, allow_headerless: bool, kind: str) -> Time | None:
     """Return the time of a message's header; without a header, the present time if allowed, else None with a
     warning.
     """

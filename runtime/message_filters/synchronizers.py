@@ -31,13 +31,13 @@ class TimeSynchronizer(SimpleFilter):
             for index, (each, queue) in enumerate(zip(fs, self.queues, strict=True))
         ]
 
-    def _keep(self, stamp: int, msg: Any, queue: Queue) -> None:
+    def _keep(self, stamp: int, msg: object, queue: Queue) -> None:
         """Add a message; the oldest ones are dropped if there are too many."""
         queue[stamp] = msg
         while len(queue) > self.queue_size:
             del queue[min(queue)]
 
-    def add(self, msg: Any, my_queue: Queue, my_queue_index: int | None = None) -> None:
+    def add(self, msg: object, my_queue: Queue, my_queue_index: int | None = None) -> None:
         """Add a message of one filter; raises `AttributeError` for one without a header."""
         stamp = header_stamp(msg).nanoseconds
         with self.lock:
@@ -69,7 +69,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
         self.allow_headerless = allow_headerless
         self.sync_arrival_time = sync_arrival_time
 
-    def add(self, msg: Any, my_queue: Queue, my_queue_index: int | None = None) -> None:
+    def add(self, msg: object, my_queue: Queue, my_queue_index: int | None = None) -> None:
         """Add a message of one filter."""
         by_arrival = self.sync_arrival_time
         stamp = stamp_of(None if by_arrival else msg, self.allow_headerless or by_arrival, "approx")

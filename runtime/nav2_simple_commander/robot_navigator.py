@@ -141,7 +141,7 @@ class BasicNavigator(Node):
         refusal = "Assisted Teleop request was rejected!"
         return self._start("assisted_teleop", refusal, time_allowance=Duration(sec=time_allowance))
 
-    def followPath(self, path: Any, controller_id: str = "", goal_checker_id: str = "") -> bool:
+    def followPath(self, path: object, controller_id: str = "", goal_checker_id: str = "") -> bool:
         """Follow a path; returns False if that is rejected."""
         self.info("Executing path...")
         fields = {"path": path, "controller_id": controller_id, "goal_checker_id": goal_checker_id}
@@ -181,14 +181,14 @@ class BasicNavigator(Node):
         return self._path("compute_path_through_poses", "Getting path", **fields)
 
     def smoothPath(
-        self, path: Any, smoother_id: str = "", max_duration: float = 2.0, check_for_collision: bool = False
+        self, path: object, smoother_id: str = "", max_duration: float = 2.0, check_for_collision: bool = False
     ) -> Any:
         """Return a smoother path; None if there is none."""
         limit = RclpyDuration(seconds=max_duration).to_msg()
         fields = {"path": path, "smoother_id": smoother_id, "max_smoothing_duration": limit}
         return self._path("smooth_path", "Smoothing path", check_for_collisions=check_for_collision, **fields)
 
-    def _path(self, name: str, what: str, **fields: Any) -> Any:
+    def _path(self, name: str, what: str, **fields: object) -> Any:
         self.info(f"{what}...")
         if not self._start(name, f"{what} was rejected!", **fields):
             return None
@@ -200,7 +200,7 @@ class BasicNavigator(Node):
             return None
         return answer.result.path
 
-    def _start(self, action: str, refusal: str, **fields: Any) -> bool:
+    def _start(self, action: str, refusal: str, **fields: object) -> bool:
         """Send a goal and wait until it is accepted."""
         kind = ACTIONS[action]()
         client = self._clients_of_actions.get(action)
@@ -312,7 +312,7 @@ class BasicNavigator(Node):
                 self.info(f"{what} {name}")
                 self._ask(name, "ManageLifecycleNodes", name, command=command)
 
-    def _ask(self, service: str, kind: str, shown: str, **fields: Any) -> Any:
+    def _ask(self, service: str, kind: str, shown: str, **fields: object) -> Any:
         made = SERVICES[kind]()
         client = self.create_client(made, service)
         self._wait_for(client, shown)

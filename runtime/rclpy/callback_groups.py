@@ -19,7 +19,7 @@ class CallbackGroup:
     added.
     """
 
-    def __init_subclass__(cls, **kwargs: Any) -> None:
+    def __init_subclass__(cls, **kwargs: object) -> None:
         super().__init_subclass__(**kwargs)
         cls.own_rules = cls.__module__ != __name__
 
@@ -43,7 +43,7 @@ class CallbackGroup:
         for entity in blocked or ():
             entity.notify()
 
-    def add_entity(self, entity: Any) -> None:
+    def add_entity(self, entity: object) -> None:
         """Add an entity to the group."""
         if len(self.entities) >= self._full:
             # Dead references go here, not when they die: else the set could change while a program iterates over it.
@@ -52,19 +52,19 @@ class CallbackGroup:
             self._full = 2 * max(len(self.entities), CallbackGroup._full)
         self.entities.add(weakref.ref(entity))
 
-    def has_entity(self, entity: Any) -> bool:
+    def has_entity(self, entity: object) -> bool:
         """Whether an entity belongs to the group."""
         return weakref.ref(entity) in self.entities
 
-    def can_execute(self, entity: Any) -> bool:
+    def can_execute(self, entity: object) -> bool:
         """Whether the entity's callback may run now."""
         raise NotImplementedError
 
-    def beginning_execution(self, entity: Any) -> bool:
+    def beginning_execution(self, entity: object) -> bool:
         """Mark the entity's callback as running, if that is allowed; returns whether it was."""
         raise NotImplementedError
 
-    def ending_execution(self, entity: Any) -> None:
+    def ending_execution(self, entity: object) -> None:
         """Mark the entity's callback as ended."""
         raise NotImplementedError
 
@@ -72,15 +72,15 @@ class CallbackGroup:
 class ReentrantCallbackGroup(CallbackGroup):
     """Every callback may run at any time."""
 
-    def can_execute(self, entity: Any) -> bool:
+    def can_execute(self, entity: object) -> bool:
         """Whether the entity's callback may run now: always."""
         return True
 
-    def beginning_execution(self, entity: Any) -> bool:
+    def beginning_execution(self, entity: object) -> bool:
         """Mark the entity's callback as running, which is always allowed."""
         return True
 
-    def ending_execution(self, entity: Any) -> None:
+    def ending_execution(self, entity: object) -> None:
         """Mark the entity's callback as ended."""
 
 
@@ -92,18 +92,18 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
         self._active_entity: Any = None
         self._busy = allocate_lock()
 
-    def can_execute(self, entity: Any) -> bool:
+    def can_execute(self, entity: object) -> bool:
         """Whether no callback of the group is running."""
         return not self._busy.locked()
 
-    def beginning_execution(self, entity: Any) -> bool:
+    def beginning_execution(self, entity: object) -> bool:
         """Mark the entity's callback as running, unless another callback of the group is."""
         if self._busy.acquire(False):
             self._active_entity = entity
             return True
         return False
 
-    def ending_execution(self, entity: Any) -> None:
+    def ending_execution(self, entity: object) -> None:
         """Mark the entity's callback as ended."""
         if self._active_entity is entity:
             self._active_entity = None

@@ -106,7 +106,7 @@ class Client(Entity):
                     del self._pending_requests[number]
                     return
 
-    def awaits(self, future: Any) -> bool:
+    def awaits(self, future: object) -> bool:
         """Whether a future is that of a request that was not answered yet."""
         return future in tuple(self._pending_requests.values())
 
@@ -153,7 +153,7 @@ class Client(Entity):
     def __enter__(self) -> Client:
         return self
 
-    def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
+    def __exit__(self, kind: object, error: object, trace: object) -> None:
         self.destroy()
 
 

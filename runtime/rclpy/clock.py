@@ -156,10 +156,10 @@ class Clock(AnyClock):
         until = when - self._source.system_ns()
         return self._source.steady_ns() + until
 
-    def _add_timer(self, timer: Any) -> None:
+    def _add_timer(self, timer: object) -> None:
         self._timers.add(timer)
 
-    def _remove_timer(self, timer: Any) -> None:
+    def _remove_timer(self, timer: object) -> None:
         self._timers.discard(timer)
 
     def create_jump_callback(
@@ -202,7 +202,7 @@ class Clock(AnyClock):
         forget()
         return bool(context.ok()) and not changed
 
-    def sleep_for(self, rel_time: Duration, context: Any = None) -> bool:
+    def sleep_for(self, rel_time: Duration, context: object = None) -> bool:
         """Block for a duration of this clock."""
         return self.sleep_until(self.now() + rel_time, context)
 

@@ -178,7 +178,7 @@ class Context:
                 pass
         return lambda: callback
 
-    def _forget(self, held: Any) -> None:
+    def _forget(self, held: object) -> None:
         with self._lock:
             self._callbacks = [each for each in self._callbacks if each is not held]
             self._wakes = [each for each in self._wakes if each is not held]
@@ -193,7 +193,7 @@ class Context:
         """The nodes in this context."""
         return list(self._nodes)
 
-    def untrack_node(self, node: Any) -> None:
+    def untrack_node(self, node: object) -> None:
         """Unregister a destroyed node."""
         self._nodes.discard(node)
 

@@ -38,37 +38,37 @@ class Duration:
             return self._nanoseconds == other._nanoseconds
         return NotImplemented
 
-    def __lt__(self, other: Any) -> bool:
+    def __lt__(self, other: object) -> bool:
         if isinstance(other, Duration):
             return self._nanoseconds < other._nanoseconds
         return NotImplemented
 
-    def __le__(self, other: Any) -> bool:
+    def __le__(self, other: object) -> bool:
         if isinstance(other, Duration):
             return self._nanoseconds <= other._nanoseconds
         return NotImplemented
 
-    def __gt__(self, other: Any) -> bool:
+    def __gt__(self, other: object) -> bool:
         if isinstance(other, Duration):
             return self._nanoseconds > other._nanoseconds
         return NotImplemented
 
-    def __ge__(self, other: Any) -> bool:
+    def __ge__(self, other: object) -> bool:
         if isinstance(other, Duration):
             return self._nanoseconds >= other._nanoseconds
         return NotImplemented
 
-    def __add__(self, other: Any) -> Duration:
+    def __add__(self, other: object) -> Duration:
         if isinstance(other, Duration) and distribution().durations_add_up:
             return Duration(nanoseconds=self._nanoseconds + other._nanoseconds)
         return NotImplemented
 
-    def __sub__(self, other: Any) -> Duration:
+    def __sub__(self, other: object) -> Duration:
         if isinstance(other, Duration) and distribution().durations_add_up:
             return Duration(nanoseconds=self._nanoseconds - other._nanoseconds)
         return NotImplemented
 
-    def __mul__(self, other: Any) -> Duration:
+    def __mul__(self, other: object) -> Duration:
         if isinstance(other, (int, float)) and distribution().durations_add_up:
             return Duration(nanoseconds=int(self._nanoseconds * other))
         return NotImplemented
@@ -81,7 +81,7 @@ class Duration:
         return DurationMessage(sec=seconds, nanosec=nanoseconds)
 
     @classmethod
-    def from_msg(cls, msg: Any) -> Duration:
+    def from_msg(cls, msg: object) -> Duration:
         """The duration in a `builtin_interfaces/Duration`; raises `TypeError` for anything else."""
         from builtin_interfaces.msg import Duration as DurationMessage
 

@@ -136,7 +136,7 @@ class _EventCallbacks:
         self.use_default_callbacks = use_default_callbacks
 
     def create_event_handlers(
-        self, callback_group: Any, logger: Callable[[], Any], topic: str, qos: QoSProfile
+        self, callback_group: object, logger: Callable[[], Any], topic: str, qos: QoSProfile
     ) -> list[EventHandler]:
         """The handlers of a publisher or subscription of a topic."""
         handlers: list[EventHandler] = []
@@ -158,7 +158,7 @@ class _EventCallbacks:
 
         return warn
 
-    def _liveliness(self, callback: Callback, group: Any, qos: QoSProfile) -> list[EventHandler]:
+    def _liveliness(self, callback: Callback, group: object, qos: QoSProfile) -> list[EventHandler]:
         raise NotImplementedError
 
 
@@ -178,7 +178,7 @@ class SubscriptionEventCallbacks(_EventCallbacks):
         self.message_lost = message_lost
 
     def create_event_handlers(
-        self, callback_group: Any, logger: Callable[[], Any], topic: str, qos: QoSProfile
+        self, callback_group: object, logger: Callable[[], Any], topic: str, qos: QoSProfile
     ) -> list[EventHandler]:
         """The handlers of a subscription of a topic."""
         handlers = super().create_event_handlers(callback_group, logger, topic, qos)
@@ -186,7 +186,7 @@ class SubscriptionEventCallbacks(_EventCallbacks):
             handlers.append(LostHandler(QoSMessageLostInfo, self.message_lost, callback_group))
         return handlers
 
-    def _liveliness(self, callback: Callback, group: Any, qos: QoSProfile) -> list[EventHandler]:
+    def _liveliness(self, callback: Callback, group: object, qos: QoSProfile) -> list[EventHandler]:
         return [LivelinessHandler(QoSLivelinessChangedInfo, callback, group)]
 
 
@@ -201,7 +201,7 @@ class PublisherEventCallbacks(_EventCallbacks):
     _MATCHED = QoSPublisherMatchedInfo
     _DEADLINE = QoSOfferedDeadlineMissedInfo
 
-    def _liveliness(self, callback: Callback, group: Any, qos: QoSProfile) -> list[EventHandler]:
+    def _liveliness(self, callback: Callback, group: object, qos: QoSProfile) -> list[EventHandler]:
         lease = limit(qos.liveliness_lease_duration)
         if lease is None or qos.liveliness is not LivelinessPolicy.MANUAL_BY_TOPIC:
             return []  # a publisher whose process lives is alive

@@ -42,7 +42,7 @@ class TaskQueue:
     _ended: Callable[[Any], None]
 
     def create_task(
-        self, callback: Callable[..., Any] | Coroutine[Any, Any, Any], *args: Any, **kwargs: Any
+        self, callback: Callable[..., Any] | Coroutine[Any, Any, Any], *args: object, **kwargs: object
     ) -> Task[Any]:
         """Schedule a function or coroutine in this executor; thread-safe."""
         if self._is_shutdown and not distribution().closed_executor_takes_work:
@@ -51,7 +51,7 @@ class TaskQueue:
         self._enter(task, None)
         return task
 
-    def _enter(self, task: Task[Any], entity: Any) -> None:
+    def _enter(self, task: Task[Any], entity: object) -> None:
         with self._lock:
             self._tasks[task] = entity
             self._ready_tasks.append(task)
@@ -187,13 +187,13 @@ class Executor(TaskQueue, ReadyCallbacks):
     ) -> None:
         self.shutdown()
 
-    def arm(self, timer: Any, deadline: int) -> None:
+    def arm(self, timer: object, deadline: int) -> None:
         """Set the steady time (ns) at which a timer is due; thread-safe."""
         self._timers.push(deadline, timer)
         if self._waiting:
             self._wakeup.set()
 
-    def ask_again(self, entity: Any) -> None:
+    def ask_again(self, entity: object) -> None:
         """Retry an entity that may not begin now at the next wake."""
         self._held.append(entity)
 
@@ -422,7 +422,7 @@ class SingleThreadedExecutor(Executor):
 class MultiThreadedExecutor(Executor):
     """Runs callbacks in a pool of threads; an exception of one is raised at a later `spin_once`."""
 
-    def __init__(self, num_threads: int | None = None, *, context: Any = None) -> None:
+    def __init__(self, num_threads: int | None = None, *, context: object = None) -> None:
         super().__init__(context=context)
         if num_threads is None:
             num_threads = cpu_count()

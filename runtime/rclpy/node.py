@@ -54,7 +54,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         self,
         node_name: str,
         *,
-        context: Any = None,
+        context: object = None,
         cli_args: Sequence[str] | None = None,
         namespace: str | None = None,
         use_global_arguments: bool = True,

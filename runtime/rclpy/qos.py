@@ -40,7 +40,7 @@ LivelinessLeaseDurationeBestAvailable = Duration(nanoseconds=BEST_AVAILABLE_NS)
 class InvalidQoSProfileException(Exception):
     """A profile lacks history or depth."""
 
-    def __init__(self, *args: Any) -> None:
+    def __init__(self, *args: object) -> None:
         Exception.__init__(self, *distribution().invalid_qos_prefix, *args)
 
 
@@ -88,7 +88,7 @@ class QoSProfile:
         return self._history
 
     @history.setter
-    def history(self, value: Any) -> None:
+    def history(self, value: object) -> None:
         assert isinstance(value, (HistoryPolicy, int))
         self._history = HistoryPolicy(value)
 
@@ -110,7 +110,7 @@ class QoSProfile:
         return self._reliability
 
     @reliability.setter
-    def reliability(self, value: Any) -> None:
+    def reliability(self, value: object) -> None:
         assert isinstance(value, (ReliabilityPolicy, int))
         self._reliability = ReliabilityPolicy(value)
 
@@ -120,7 +120,7 @@ class QoSProfile:
         return self._durability
 
     @durability.setter
-    def durability(self, value: Any) -> None:
+    def durability(self, value: object) -> None:
         assert isinstance(value, (DurabilityPolicy, int))
         self._durability = DurabilityPolicy(value)
 
@@ -150,7 +150,7 @@ class QoSProfile:
         return self._liveliness
 
     @liveliness.setter
-    def liveliness(self, value: Any) -> None:
+    def liveliness(self, value: object) -> None:
         assert isinstance(value, (LivelinessPolicy, int))
         self._liveliness = LivelinessPolicy(value)
 
@@ -199,7 +199,7 @@ class QoSProfile:
         return self
 
 
-def _shown(value: Any) -> Any:
+def _shown(value: object) -> Any:
     return int(value) if isinstance(value, QoSPolicyEnum) else value
 
 

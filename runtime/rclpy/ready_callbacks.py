@@ -16,7 +16,7 @@ class TimeoutObject:
         self.timeout = timeout
 
 
-async def await_or_execute(callback: Callable[..., Any], *args: Any) -> Any:
+async def await_or_execute(callback: Callable[..., Any], *args: object) -> Any:
     """Await a coroutine function, or call a plain one; returns its result."""
     if is_coroutine_function(callback):
         return await callback(*args)
@@ -66,7 +66,7 @@ class ReadyCallbacks:
         """Whether the entity's callback group allows its callback to begin now."""
         return entity.callback_group.can_execute(entity)
 
-    def _origin(self, item: Any) -> tuple[Any, Any]:
+    def _origin(self, item: object) -> tuple[Any, Any]:
         """The entity and node that a callback belongs to; the entity is None for a task created by `create_task`."""
         task: Any = item
         entity = self._tasks.get(task) if isinstance(item, Task) else item

@@ -9,7 +9,7 @@ from rclpy._rclpy_pybind11 import RMWError
 from rclpy.type_support import check_is_valid_msg_type
 
 
-def serialize_message(message: Any) -> bytes:
+def serialize_message(message: object) -> bytes:
     """Serialize a message as a middleware does: CDR version 1, little endian.
 
     Raises `TypeError` if a field holds a value that cannot be serialized.
@@ -18,7 +18,7 @@ def serialize_message(message: Any) -> bytes:
     return cdr.serialize(message)
 
 
-def deserialize_message(serialized_message: bytes, message_type: Any) -> Any:
+def deserialize_message(serialized_message: bytes, message_type: object) -> Any:
     """Deserialize a message of a class; raises `RMWError` (a `RuntimeError`) for bytes that are not one."""
     check_is_valid_msg_type(message_type)
     try:

@@ -63,7 +63,7 @@ def get_current_signal_handlers_options() -> SignalHandlerOptions:
     return _state.get().option
 
 
-def remember_context(context: Any) -> None:
+def remember_context(context: object) -> None:
     """Register a context of this process, to be shut down on a signal."""
     _state.get().contexts.add(context)
 

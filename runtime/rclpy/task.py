@@ -20,7 +20,7 @@ _running = threading.local()
 class Future(Generic[T]):
     """A result that arrives later. Done callbacks run as tasks of the executor if there is one, else at once."""
 
-    def __init__(self, *, executor: Any = None) -> None:
+    def __init__(self, *, executor: object = None) -> None:
         self._done = False
         self._cancelled = False
         self._result: T | None = None
@@ -116,7 +116,7 @@ class Future(Generic[T]):
             self._callbacks.remove(callback)
             return True
 
-    def _set_executor(self, executor: Any) -> None:
+    def _set_executor(self, executor: object) -> None:
         self._executor = None if executor is None else weakref.ref(executor)
 
     def _when_settled(self, wake: Callable[[], object]) -> None:

@@ -64,7 +64,7 @@ class Time:
     def __repr__(self) -> str:
         return f"Time(nanoseconds={self._nanoseconds}, clock_type={self._clock_type.name})"
 
-    def __add__(self, other: Any) -> Time:
+    def __add__(self, other: object) -> Time:
         if isinstance(other, Duration):
             total = self._nanoseconds + other.nanoseconds
             if not 0 <= total < MAX_NS:
@@ -72,10 +72,10 @@ class Time:
             return Time._of(total, self._clock_type)
         return NotImplemented
 
-    def __radd__(self, other: Any) -> Time:
+    def __radd__(self, other: object) -> Time:
         return self.__add__(other)
 
-    def __sub__(self, other: Any) -> Any:
+    def __sub__(self, other: object) -> Any:
         if isinstance(other, Time):
             if self._clock_type != other._clock_type:
                 raise TypeError("Can't subtract times with different clock types")
@@ -120,7 +120,7 @@ class Time:
         return TimeMessage(sec=seconds, nanosec=nanoseconds)
 
     @classmethod
-    def from_msg(cls, msg: Any, clock_type: ClockType | TimeClockType = ClockType.ROS_TIME) -> Time:
+    def from_msg(cls, msg: object, clock_type: ClockType | TimeClockType = ClockType.ROS_TIME) -> Time:
         """The time in a `builtin_interfaces/Time`; raises `TypeError` for anything else."""
         if not isinstance(msg, TimeMessage):
             raise TypeError("Must pass a builtin_interfaces.msg.Time object")

@@ -23,7 +23,7 @@ WRONG_TYPE = "use_sim_time parameter set to something besides a bool"
 class TimeSource:
     """The time source of a node."""
 
-    def __init__(self, *, node: Any = None) -> None:
+    def __init__(self, *, node: object = None) -> None:
         self._node_ref: Any = None
         self._clocks: list[ROSClock] = []
         self._subscription: Any = None
@@ -87,7 +87,7 @@ class TimeSource:
         self._subscription = None
         self._node_ref = None
 
-    def attach_clock(self, clock: Any) -> None:
+    def attach_clock(self, clock: object) -> None:
         """Drive another clock; raises `ValueError` unless its type is ROS_TIME."""
         if not isinstance(clock, ROSClock):
             raise ValueError("Only clocks with type ROS_TIME can be attached.")

@@ -80,7 +80,7 @@ class TopicEndpointInfo:
         return self._topic_type_hash
 
     @topic_type_hash.setter
-    def topic_type_hash(self, value: Any) -> None:
+    def topic_type_hash(self, value: object) -> None:
         self._topic_type_hash = value
 
     @property

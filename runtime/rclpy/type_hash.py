@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from bot_console.runtime.rosidl.type_hash import VERSION, digest
 
 SIZE = 32
@@ -50,7 +48,7 @@ class TypeHash:
         return f"RIHS{self.version:02}_{self.value.hex()}"
 
 
-def type_hash_of(interface: Any) -> TypeHash:
+def type_hash_of(interface: object) -> TypeHash:
     """The hash of a message, service or action class; computed when first asked for."""
     return TypeHash(VERSION, digest(interface))
 

@@ -18,7 +18,7 @@ def wait_for_message(
     """
     future: Future[Any] = Future()
 
-    def take(message: Any) -> None:
+    def take(message: object) -> None:
         if not future.done():
             future.set_result(message)
 

@@ -45,13 +45,13 @@ class Waitable:
     def __enter__(self) -> None:
         return None
 
-    def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
+    def __exit__(self, kind: object, error: object, trace: object) -> None:
         return None
 
-    def add_future(self, future: Any) -> None:
+    def add_future(self, future: object) -> None:
         """Add a future to the waitable."""
         self._futures.append(future)
 
-    def remove_future(self, future: Any) -> None:
+    def remove_future(self, future: object) -> None:
         """Remove a future from the waitable."""
         self._futures.remove(future)

@@ -50,7 +50,7 @@ class ContentFilterError(ValueError):
 class FilteredQueue(deque[Any]):
     """The queue of a subscription with a filter: what the filter does not accept takes no place in it."""
 
-    def __init__(self, entries: Iterable[Any], maxlen: int | None, accepts: Accepts, message_class: Any) -> None:
+    def __init__(self, entries: Iterable[Any], maxlen: int | None, accepts: Accepts, message_class: object) -> None:
         self._accepts = accepts
         self._class = message_class
         super().__init__((), maxlen)
@@ -72,7 +72,7 @@ class FilteredQueue(deque[Any]):
             super().append(entry)
 
 
-def compiled(expression: str, parameters: Sequence[str], message_class: Any) -> Accepts:
+def compiled(expression: str, parameters: Sequence[str], message_class: object) -> Accepts:
     """The predicate for messages of a class; raises `ContentFilterError`. An empty expression accepts all."""
     if not expression:
         return lambda message: True
@@ -85,7 +85,7 @@ def compiled(expression: str, parameters: Sequence[str], message_class: Any) -> 
 class _Parser:
     """A recursive descent over the tokens of one expression."""
 
-    def __init__(self, expression: str, parameters: Sequence[str], message_class: Any) -> None:
+    def __init__(self, expression: str, parameters: Sequence[str], message_class: object) -> None:
         self._class = message_class
         self._parameters = parameters
         self._tokens = [*_tokens(expression), _END]
@@ -236,7 +236,7 @@ def _element(kind: str) -> tuple[str, bool]:
     return name, bool(bracket)
 
 
-def _nested(kind: str, value: Any) -> Any:
+def _nested(kind: str, value: object) -> Any:
     if "/" not in kind or hasattr(value, "get_fields_and_field_types"):
         return value
     package, name = kind.split("/")
@@ -256,11 +256,11 @@ def _reader(steps: Sequence[tuple[str, int | None]]) -> Read:
     return read
 
 
-def _holds(compare: Callable[[Any, Any], bool], left: Any, right: Any) -> bool:
+def _holds(compare: Callable[[Any, Any], bool], left: object, right: object) -> bool:
     return left is not None and right is not None and bool(compare(left, right))
 
 
-def _compared(name: str, read: Read, is_text: bool, sign: str, value: Any) -> Accepts:
+def _compared(name: str, read: Read, is_text: bool, sign: str, value: object) -> Accepts:
     if isinstance(value, str) is not is_text:
         needed = "a text in single quotes" if is_text else "a number"
         raise ContentFilterError(f"'{name}' needs {needed}")
@@ -268,7 +268,7 @@ def _compared(name: str, read: Read, is_text: bool, sign: str, value: Any) -> Ac
     return lambda message: _holds(compare, read(message), value)
 
 
-def _matching(name: str, read: Read, is_text: bool, word: str, value: Any) -> Accepts:
+def _matching(name: str, read: Read, is_text: bool, word: str, value: object) -> Accepts:
     if not is_text or not isinstance(value, str):
         raise ContentFilterError(f"{word} compares texts; '{name}' {'needs one' if is_text else 'is not a text'}")
     if word == "LIKE":

@@ -184,7 +184,7 @@ class _Reader:
         self._index = node.find(above)
         node.names[self._index] = f"{above}.{name}"
 
-    def sequence_start(self, event: Any) -> None:
+    def sequence_start(self, event: object) -> None:
         if self._is_key:
             raise ParameterYamlError(f"Sequences cannot be key at line {self.line}")
         if not self._in_parameters:
@@ -193,17 +193,17 @@ class _Reader:
             )
         self._writer.start_list()
 
-    def sequence_end(self, event: Any) -> None:
+    def sequence_end(self, event: object) -> None:
         self._writer.end_list()
         self._is_key = True
 
-    def mapping_start(self, event: Any) -> None:
+    def mapping_start(self, event: object) -> None:
         self._depth += 1
         self._is_key = True
         # The map right below the keyword belongs to no parameter.
         self._new_map = not (self._in_parameters and self._depth - (self._node_levels.count + 1) == 2)
 
-    def mapping_end(self, event: Any) -> None:
+    def mapping_end(self, event: object) -> None:
         if not self._in_parameters:
             if self._depth == self._node_levels.count + 1:
                 self._node_levels.remove()
@@ -213,7 +213,7 @@ class _Reader:
             self._in_parameters = False
         self._depth -= 1
 
-    def alias(self, event: Any) -> None:
+    def alias(self, event: object) -> None:
         raise ParameterYamlError(f"Will not support aliasing at line {self.line}\n")
 
 

@@ -62,13 +62,13 @@ def _names(text: str) -> Iterator[tuple[str, str, int]]:
         yield from ((key, *each) for each in _flat(values, ""))
 
 
-def _flat(mapping: Any, prefix: str) -> Iterator[tuple[str, int]]:
+def _flat(mapping: object, prefix: str) -> Iterator[tuple[str, int]]:
     for name, value in _pairs(mapping):
         yield f"{prefix}{name.value}", name.start_mark.line + 1
         yield from _flat(value, f"{prefix}{name.value}.")
 
 
-def _sections(mapping: Any, key: str, line: int) -> Iterator[tuple[str, int, Any]]:
+def _sections(mapping: object, key: str, line: int) -> Iterator[tuple[str, int, Any]]:
     """What is below the keyword, each with its node's key and the line of that."""
     for name, value in _pairs(mapping):
         if name.value == KEYWORD:

@@ -81,7 +81,7 @@ def read_parameter_value(text: str, slots: Slots) -> None:
         raise ParameterYamlError("Error parsing an event") from None
 
 
-def _take(event: Any, writer: ValueWriter, slots: Slots) -> None:
+def _take(event: object, writer: ValueWriter, slots: Slots) -> None:
     import yaml
 
     if isinstance(event, yaml.ScalarEvent):

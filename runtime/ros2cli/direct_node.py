@@ -185,7 +185,9 @@ class NoAnswer(RuntimeError):
     """A request will not be answered; the message names the node or service and the reason."""
 
 
-def call(node: Node, kind: Any, service: str, request: Any, timeout: float | None = None, missing: str = "") -> Any:
+def call(
+    node: Node, kind: object, service: str, request: object, timeout: float | None = None, missing: str = ""
+) -> Any:
     """Call a service and wait for the answer, as `answer` does.
 
     Raises `RuntimeError(missing)` if the service is not ready within `timeout` (s); without one, waits for it.

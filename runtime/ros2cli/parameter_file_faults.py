@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import yaml
 from yaml.parser import ParserError
 from yaml.scanner import ScannerError
@@ -38,7 +36,7 @@ def fault_of(path: str, error: Exception) -> str:
     return f"{path}: it is not a parameter file: 'NODE:', below it 'ros__parameters:', below that 'name: value'"
 
 
-def _not_yaml(path: str, error: Any) -> str:
+def _not_yaml(path: str, error: object) -> str:
     mark = getattr(error, "problem_mark", None)
     problem = getattr(error, "problem", None) or getattr(error, "reason", None) or "it cannot be read"
     if path not in (getattr(mark, "name", None), getattr(error, "name", None)):

@@ -38,7 +38,7 @@ def report_yaml_errors() -> Generator[None]:
     raise RuntimeError(f"The passed value is not valid YAML: {why}")
 
 
-def _refuse_endless(value: Any, seen: set[int]) -> None:
+def _refuse_endless(value: object, seen: set[int]) -> None:
     """Raise `OverflowError` for integers too long to print; an alias is visited once, as it may contain itself."""
     if isinstance(value, int):
         if value.bit_length() > MAX_BITS:

@@ -54,7 +54,7 @@ def element_reader(cls: Any, order: str) -> Callable[[bytes, memoryview, int, in
 class _Reading:
     """A reader being generated; `_codes` and `_targets` are the pending row of numbers."""
 
-    def __init__(self, cls: Any, order: str, *, outermost: bool) -> None:
+    def __init__(self, cls: object, order: str, *, outermost: bool) -> None:
         helpers = (fixed, flags, missing, octets, texts, too_many, wide)
         names = {"array": array, "new": object.__new__, **{each.__name__: each for each in helpers}}
         begin = (START.behind(HEADER_SIZE), HEADER_SIZE) if outermost else (ANYWHERE, None)
@@ -73,7 +73,7 @@ class _Reading:
             self._part(part)
         self._end_row()
 
-    def _messages_made(self, cls: Any) -> None:
+    def _messages_made(self, cls: object) -> None:
         line = self.source.line
         line(f"m = new({self.source.name('C', cls)})")
         line("m._check_fields = False")

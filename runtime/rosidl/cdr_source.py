@@ -28,7 +28,7 @@ class Source:
         self._locals = 0
         self._holders: dict[Sequence[str], str] = {(): "m"}
 
-    def name(self, character: str, value: Any) -> str:
+    def name(self, character: str, value: object) -> str:
         """Return a name by which the function refers to a value."""
         found = f"{character}{len(self.names)}"
         self.names[found] = value
@@ -39,7 +39,7 @@ class Source:
         self._locals += 1
         return f"{character}{self._locals}"
 
-    def nested(self, cls: Any) -> Iterator[tuple[str, str, Any]]:
+    def nested(self, cls: object) -> Iterator[tuple[str, str, Any]]:
         """Yield the single nested messages, outer ones first: a local name, the expression it replaces, and the
         class.
         """

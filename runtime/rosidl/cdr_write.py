@@ -59,7 +59,7 @@ def element_writer(cls: Any) -> Callable[[Any, Put, int], int]:
 class _Writing:
     """A writer being generated; `_codes` and `_values` are the pending row of numbers."""
 
-    def __init__(self, cls: Any, *, outermost: bool) -> None:
+    def __init__(self, cls: object, *, outermost: bool) -> None:
         helpers = (array, is_octets, texts, wide)
         names = {"Inexact": InexactError, "join": b"".join, "ZEROS": ZEROS, **{each.__name__: each for each in helpers}}
         self.source = Source(names, "<", *((START, START.rest) if outermost else (ANYWHERE, None)))

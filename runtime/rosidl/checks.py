@@ -29,13 +29,13 @@ def check(owner: Any, field: str, value: Any) -> bool:
     return False
 
 
-def _class(kind: Type, owner: Any) -> Any:
+def _class(kind: Type, owner: object) -> Any:
     if not kind.primitive:
         return nested_class(owner, kind.item)
     return PYTHON.get(kind.item, int)
 
 
-def _one(kind: Type, owner: Any, field: str, value: Any) -> None:
+def _one(kind: Type, owner: object, field: str, value: object) -> None:
     cls = _class(kind, owner)
     if not kind.primitive:
         assert isinstance(value, cls), f"The '{field}' field must be a sub message of type '{cls.__name__}'"
@@ -81,7 +81,7 @@ def _is_kept(kind: Type, field: str, value: Any) -> bool:
     return False
 
 
-def _many(kind: Type, owner: Any, field: str, value: Any) -> None:
+def _many(kind: Type, owner: object, field: str, value: object) -> None:
     cls = _class(kind, owner)
     in_range, words = _range(kind, "{:f}")
     fits = (

@@ -34,15 +34,15 @@ def type_name(cls: type) -> str:
     return f"{package}/{kind}/{cls.__name__}"
 
 
-def _refuse(message: Any, field: str, wanted: str, value: object) -> FieldTypeError:
+def _refuse(message: object, field: str, wanted: str, value: object) -> FieldTypeError:
     return FieldTypeError(type_name(type(message)), field, wanted, value)
 
 
-def _below(message: Any, field: str, error: FieldTypeError) -> FieldTypeError:
+def _below(message: object, field: str, error: FieldTypeError) -> FieldTypeError:
     return FieldTypeError(type_name(type(message)), f"{field}.{error.field}", error.wanted, error.value)
 
 
-def to_float(message: Any, field: str) -> float:
+def to_float(message: object, field: str) -> float:
     """Return a float, or a subclass such as `numpy.float64`, as a float."""
     value = getattr(message, "_" + field)
     if isinstance(value, float):
@@ -50,7 +50,7 @@ def to_float(message: Any, field: str) -> float:
     raise _refuse(message, field, "a float", value)
 
 
-def to_int(message: Any, field: str, low: int, high: int) -> int:
+def to_int(message: object, field: str, low: int, high: int) -> int:
     """Return an integer (a bool counts as one) within the field's limits."""
     value = getattr(message, "_" + field)
     if hasattr(value, "__index__"):
@@ -61,7 +61,7 @@ def to_int(message: Any, field: str, low: int, high: int) -> int:
     raise _refuse(message, field, "an integer", value)
 
 
-def to_bool(message: Any, field: str) -> bool:
+def to_bool(message: object, field: str) -> bool:
     """Return a bool, also from NumPy's."""
     value = getattr(message, "_" + field)
     if type(value).__name__ in ("bool_", "bool"):
@@ -69,7 +69,7 @@ def to_bool(message: Any, field: str) -> bool:
     raise _refuse(message, field, "a bool", value)
 
 
-def to_str(message: Any, field: str, limit: int = 0) -> str:
+def to_str(message: object, field: str, limit: int = 0) -> str:
     """Return a string of at most `limit` characters (0: any length), cut at a NUL, which ends a string on the wire."""
     value = getattr(message, "_" + field)
     if not isinstance(value, str):
@@ -79,7 +79,7 @@ def to_str(message: Any, field: str, limit: int = 0) -> str:
     return str(value.partition("\0")[0])
 
 
-def to_octet(message: Any, field: str) -> bytes:
+def to_octet(message: object, field: str) -> bytes:
     """Return one byte."""
     value = getattr(message, "_" + field)
     if isinstance(value, (bytes, bytearray)) and len(value) == 1:
@@ -98,13 +98,13 @@ def to_message(message: Any, field: str, cls: Any) -> Any:
         raise _below(message, field, error) from None
 
 
-def too_long(message: Any, field: str, bound: int) -> None:
+def too_long(message: object, field: str, bound: int) -> None:
     """Raise an error for a sequence beyond its bound."""
     value = getattr(message, "_" + field)
     raise _refuse(message, field, f"a sequence of at most {bound}", value)
 
 
-def _sized(message: Any, field: str, size: int, bound: int) -> Any:
+def _sized(message: object, field: str, size: int, bound: int) -> Any:
     value = getattr(message, "_" + field)
     try:
         length = len(value)
@@ -121,7 +121,7 @@ _own_arrays: dict[str, tuple[Any, Any]] = {}
 """NumPy's array class and its dtype by name, once an array was created: NumPy is imported only if used."""
 
 
-def to_fixed(message: Any, field: str, dtype: str, size: int) -> Any:
+def to_fixed(message: object, field: str, dtype: str, size: int) -> Any:
     """Return a NumPy array of the field's dtype and size."""
     value = getattr(message, "_" + field)
     kind, own = _own_arrays.get(dtype) or (None, None)
@@ -137,7 +137,7 @@ def to_fixed(message: Any, field: str, dtype: str, size: int) -> Any:
         raise _refuse(message, field, f"numbers of type {dtype}", value) from None
 
 
-def to_list(message: Any, field: str, kind: type, size: int, bound: int, limit: int) -> list[Any]:
+def to_list(message: object, field: str, kind: type, size: int, bound: int, limit: int) -> list[Any]:
     """Return a list of strings, bools or single bytes."""
     values = getattr(message, "_" + field)
     if values.__class__ is list and not values and not size:
@@ -169,7 +169,7 @@ def to_messages(message: Any, field: str, cls: Any, size: int, bound: int) -> li
     return copies
 
 
-def to_ndarray(dtype: str, value: Any) -> Any:
+def to_ndarray(dtype: str, value: object) -> Any:
     """Return the array that a setter stores for a fixed-size field of numbers."""
     import numpy
 

@@ -43,7 +43,7 @@ def read_checks_again() -> None:
 class MessageType(type):
     """The class of message classes: as upstream, their constants cannot be set."""
 
-    def __setattr__(cls, name: str, value: Any) -> None:
+    def __setattr__(cls, name: str, value: object) -> None:
         if name.isupper() and isinstance(cls.__dict__.get(name), (bool, int, float, str, bytes)):
             raise AttributeError(f"property '{name}' of 'Metaclass_{cls.__name__}' object has no setter")
         super().__setattr__(name, value)
@@ -70,7 +70,7 @@ class Message(metaclass=MessageType):
         """Field names with their types, such as `sequence<double>`."""
         return dict(cls._fields_and_field_types)
 
-    def _check(self, field: str, value: Any) -> bool:
+    def _check(self, field: str, value: object) -> bool:
         """Reject a value by `AssertionError` as rclpy does with checks on; return whether it may be kept as it is."""
         from bot_console.runtime.rosidl.checks import check
 
@@ -96,7 +96,7 @@ class Message(metaclass=MessageType):
         return all(_equal(getattr(self, name), getattr(other, name)) for name in self._fields_and_field_types)
 
 
-def _shown(value: Any) -> str:
+def _shown(value: object) -> str:
     return repr(value.tolist()) if isinstance(value, array) else repr(value)
 
 
@@ -127,7 +127,7 @@ class ServiceType(type):
         """Include the parts that are not yet imported."""
         return sorted({*super().__dir__(), *cls._later})
 
-    def __call__(cls, *args: Any, **kwargs: Any) -> Any:
+    def __call__(cls, *args: object, **kwargs: object) -> Any:
         """Refuse instantiation, as upstream does."""
         kind = "Action" if hasattr(cls, "Goal") else "Service"
         raise NotImplementedError(f"{kind} classes can not be instantiated")

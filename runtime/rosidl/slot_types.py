@@ -31,7 +31,7 @@ class SlotTypes:
         return self._made[owner]
 
 
-def _parser_type(kind: Type, owner: Any) -> Any:
+def _parser_type(kind: Type, owner: object) -> Any:
     from rosidl_parser.definition import Array, BoundedSequence, UnboundedSequence
 
     item = _item(kind, owner)
@@ -42,7 +42,7 @@ def _parser_type(kind: Type, owner: Any) -> Any:
     return item
 
 
-def _item(kind: Type, owner: Any) -> Any:
+def _item(kind: Type, owner: object) -> Any:
     from rosidl_parser import definition
 
     if not kind.primitive:

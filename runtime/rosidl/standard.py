@@ -40,7 +40,7 @@ def _from_store() -> Iterator[Interface]:
         yield Interface(package, "msg", name, [Definition(name, rows, [_constant(*each) for each in constants])])
 
 
-def _constant(name: str, kind: str, value: Any) -> Constant:
+def _constant(name: str, kind: str, value: object) -> Constant:
     literal = repr(bytes([value]) if kind == "byte" and isinstance(value, int) else value)
     return Constant(name, literal, kind)
 

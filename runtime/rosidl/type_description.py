@@ -65,7 +65,7 @@ def _collect(cls: Any, found: dict[str, Description]) -> None:
             _collect(inner, found)
 
 
-def _fields(cls: Any) -> Iterator[tuple[str, Type, Any]]:
+def _fields(cls: object) -> Iterator[tuple[str, Type, Any]]:
     """Yield names and types of the fields, with the class of nested ones; services and actions count as structures."""
     for name, inner in _members(cls):
         yield name, Type("/"), inner

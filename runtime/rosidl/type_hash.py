@@ -32,7 +32,7 @@ def digest_of_description(description: Description) -> bytes:
     return sha256(json.dumps(description, separators=(", ", ": ")).encode()).digest()
 
 
-def text(cls: Any) -> str:
+def text(cls: object) -> str:
     """Return the hash in ROS 2's notation: `RIHS01_` and 64 digits."""
     return _text(digest(cls))
 

@@ -45,7 +45,7 @@ def _type(kind: Type, package: str) -> str:
     return f"{item}[{kind.size}]" if kind.size else item
 
 
-def _value(value: Any) -> str:
+def _value(value: object) -> str:
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, bytes):

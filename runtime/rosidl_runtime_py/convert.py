@@ -26,7 +26,7 @@ class Shortening(NamedTuple):
 
 
 def message_to_yaml(
-    msg: Any,
+    msg: object,
     *,
     truncate_length: int | None = None,
     no_arr: bool = False,
@@ -63,7 +63,9 @@ def _dumper() -> Any:
     return Dumper
 
 
-def message_to_csv(msg: Any, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False) -> str:
+def message_to_csv(
+    msg: object, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
+) -> str:
     """Return the values of a message separated by commas."""
     return _csv(msg, Shortening(truncate_length, no_arr, no_str))
 
@@ -100,7 +102,7 @@ def _csv_value(value: Any, kind: Any, short: Shortening) -> str:
 
 
 def message_to_ordereddict(
-    msg: Any, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
+    msg: object, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
 ) -> OrderedDict[str, Any]:
     """Return the fields of a message in their order, nested ones as dictionaries, too."""
     return _ordered(msg, Shortening(truncate_length, no_arr, no_str))
@@ -137,11 +139,11 @@ def _plain_array(value: Any, kind: Any, short: Shortening) -> Any:
     return tuple(items) if isinstance(value, tuple) else items
 
 
-def _is_array(value: Any) -> bool:
+def _is_array(value: object) -> bool:
     return isinstance(value, (list, tuple, array)) or type(value).__name__ == "ndarray"
 
 
-def _is_numpy_number(value: Any) -> bool:
+def _is_numpy_number(value: object) -> bool:
     return type(value).__module__ == "numpy" and hasattr(value, "item")
 
 

@@ -16,7 +16,7 @@ Setter = Callable[[Any], None]
 
 
 def set_message_fields(
-    msg: Any, values: dict[str, Any], expand_header_auto: bool = False, expand_time_now: bool = False
+    msg: object, values: dict[str, Any], expand_header_auto: bool = False, expand_time_now: bool = False
 ) -> list[Setter]:
     """Set fields by name; return functions that set the times given as `auto` or `now`.
 
@@ -42,7 +42,7 @@ class _Filling:
             if not self._is_time(msg, name, field, value):
                 self._set(msg, name, field, value)
 
-    def _is_time(self, msg: Any, name: str, field: Any, value: Any) -> bool:
+    def _is_time(self, msg: object, name: str, field: object, value: object) -> bool:
         """Whether the value means the current time; then it is set later."""
         kind = f"{type(field).__module__}.{type(field).__name__}"
         if self._auto and value == "auto" and kind == "std_msgs.msg._header.Header":

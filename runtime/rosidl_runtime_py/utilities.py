@@ -64,16 +64,16 @@ def _namespaced(identifier: str, kind: str = "") -> NamespacedType:
     return NamespacedType(namespaces, name)
 
 
-def is_message(interface: Any) -> bool:
+def is_message(interface: object) -> bool:
     """Whether an object is a message class or a message."""
     return hasattr(interface, "SLOT_TYPES")
 
 
-def is_service(interface: Any) -> bool:
+def is_service(interface: object) -> bool:
     """Whether an object is a service class."""
     return hasattr(interface, "Request") and hasattr(interface, "Response")
 
 
-def is_action(interface: Any) -> bool:
+def is_action(interface: object) -> bool:
     """Whether an object is an action class."""
     return all(hasattr(interface, part) for part in ("Goal", "Result", "Feedback"))

@@ -124,7 +124,7 @@ def dtype_from_fields(fields: Iterable[PointField], point_step: int | None = Non
 def create_cloud(
     header: Header,
     fields: Iterable[PointField],
-    points: Any,
+    points: object,
     step: int | None = None,
     point_step: int | None = None,
 ) -> PointCloud2:
@@ -166,7 +166,7 @@ def _structured(points: Any, dtype: np.dtype) -> np.ndarray:
 
 
 def create_cloud_xyz32(
-    header: Header, points: Any, step: int | None = None, point_step: int | None = None
+    header: Header, points: object, step: int | None = None, point_step: int | None = None
 ) -> PointCloud2:
     """Return a cloud of points with x, y and z (m) in single precision."""
     fields = [

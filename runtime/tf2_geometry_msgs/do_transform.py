@@ -35,7 +35,7 @@ def _moved(place: Rigid, point: Any) -> tuple[float, float, float]:
     return compose(place, (point.x, point.y, point.z, *UPRIGHT))[:3]
 
 
-def _turned(place: Rigid, vector: Any) -> tuple[float, float, float]:
+def _turned(place: Rigid, vector: object) -> tuple[float, float, float]:
     return _moved((*ORIGIN, *place[3:]), vector)  # type: ignore[arg-type] -- numpy numbers count as numbers
 
 

@@ -135,6 +135,6 @@ def _settled(future: Future[Any], deadline: int) -> Any:
     return future.result()
 
 
-def _stamp(time: Any) -> Any:
+def _stamp(time: object) -> Any:
     """Return a time as a message; it may be one already."""
     return time.to_msg() if isinstance(time, Time) else time

@@ -96,7 +96,7 @@ def _registered(known: Any, key: Any) -> Any:
     return known[key]
 
 
-def convert(a: Any, b_type: type) -> Any:
+def convert(a: object, b_type: type) -> Any:
     """Convert data to another type, directly or via its message; raises `TypeException`."""
     conversions = ConvertRegistration()
     try:

@@ -14,12 +14,12 @@ from sensor_msgs_py.point_cloud2 import create_cloud, read_points
 XYZ = ["x", "y", "z"]
 
 
-def to_msg_msg(msg: Any) -> Any:
+def to_msg_msg(msg: object) -> Any:
     """Return the cloud unchanged."""
     return msg
 
 
-def from_msg_msg(msg: Any) -> Any:
+def from_msg_msg(msg: object) -> Any:
     """Return the cloud unchanged."""
     return msg
 

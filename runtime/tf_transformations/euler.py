@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from tf_transformations.quaternions import quaternion_about_axis, quaternion_matrix, quaternion_multiply
@@ -63,12 +62,12 @@ def euler_matrix(ai: float, aj: float, ak: float, axes: str = "sxyz") -> np.ndar
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
 
-def euler_from_quaternion(quaternion: Any, axes: str = "sxyz") -> tuple[float, float, float]:
+def euler_from_quaternion(quaternion: object, axes: str = "sxyz") -> tuple[float, float, float]:
     """Return a quaternion as three angles (rad)."""
     return euler_from_matrix(quaternion_matrix(quaternion), axes)
 
 
-def euler_from_matrix(matrix: Any, axes: str = "sxyz") -> tuple[float, float, float]:
+def euler_from_matrix(matrix: object, axes: str = "sxyz") -> tuple[float, float, float]:
     """Return a rotation as three angles (rad); in gimbal lock the last angle of static axes is 0."""
     order, turning = axes_of(axes)
     i, j, k = order[::-1] if turning else order

@@ -23,7 +23,7 @@ def translation_matrix(direction: Any) -> np.ndarray:
     return matrix
 
 
-def translation_from_matrix(matrix: Any) -> np.ndarray:
+def translation_from_matrix(matrix: object) -> np.ndarray:
     """Return the vector by which a matrix translates."""
     return np.array(matrix)[:3, 3].copy()
 
@@ -36,12 +36,12 @@ def _about(matrix: np.ndarray, point: Any) -> np.ndarray:
     return matrix
 
 
-def rotation_matrix(angle: float, direction: Any, point: Any = None) -> np.ndarray:
+def rotation_matrix(angle: float, direction: object, point: object = None) -> np.ndarray:
     """Return the rotation by an angle (rad) about an axis, through a point if one is given."""
     return _about(quaternion_matrix(quaternion_about_axis(angle, direction)), point)
 
 
-def rotation_from_matrix(matrix: Any) -> tuple[float, np.ndarray, np.ndarray]:
+def rotation_from_matrix(matrix: object) -> tuple[float, np.ndarray, np.ndarray]:
     """Return angle (rad), axis, and a point on it (homogeneous); raises `ValueError` if it is not a rotation."""
     m = np.asarray(matrix, dtype=np.float64)
     direction = _fixed_vector(m[:3, :3].T)[:3]
@@ -73,7 +73,7 @@ def reflection_matrix(point: Any, normal: Any) -> np.ndarray:
     return _about(matrix, point)
 
 
-def reflection_from_matrix(matrix: Any) -> tuple[np.ndarray, np.ndarray]:
+def reflection_from_matrix(matrix: object) -> tuple[np.ndarray, np.ndarray]:
     """Return a point (homogeneous) and the normal of the mirror plane; raises `ValueError` if it is not a
     reflection.
     """
@@ -98,7 +98,7 @@ def scale_matrix(factor: float, origin: Any = None, direction: Any = None) -> np
     return _about(matrix, origin)
 
 
-def scale_from_matrix(matrix: Any) -> tuple[float, np.ndarray, np.ndarray | None]:
+def scale_from_matrix(matrix: object) -> tuple[float, np.ndarray, np.ndarray | None]:
     """Return factor, fixed point (homogeneous), and direction, None for all."""
     m = np.asarray(matrix, dtype=np.float64)
     factor = float(np.trace(m[:3, :3])) - 2.0
@@ -149,7 +149,7 @@ def shear_matrix(angle: float, direction: Any, point: Any, normal: Any) -> np.nd
     return _about(matrix, point)
 
 
-def superimposition_matrix(v0: Any, v1: Any, scaling: bool = False, usesvd: bool = True) -> np.ndarray:
+def superimposition_matrix(v0: object, v1: object, scaling: bool = False, usesvd: bool = True) -> np.ndarray:
     """Return the transform that maps points (one per column) to other points with the least squared error."""
     first, second = (np.asarray(each, dtype=np.float64)[:3] for each in (v0, v1))
     if first.shape != second.shape or first.shape[1] < 3:
@@ -177,7 +177,7 @@ def concatenate_matrices(*matrices: Any) -> np.ndarray:
     return reduce(np.dot, matrices, np.identity(4))
 
 
-def is_same_transform(matrix0: Any, matrix1: Any) -> bool:
+def is_same_transform(matrix0: object, matrix1: object) -> bool:
     """Return whether two matrices are equal, except for a common factor."""
     first, second = (np.array(each, dtype=np.float64) for each in (matrix0, matrix1))
     return bool(np.allclose(first / first[3, 3], second / second[3, 3]))

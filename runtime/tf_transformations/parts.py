@@ -32,7 +32,7 @@ def compose_matrix(
     return matrix / matrix[3, 3]
 
 
-def decompose_matrix(matrix: Any) -> tuple[np.ndarray, list[float], list[float], np.ndarray, np.ndarray]:
+def decompose_matrix(matrix: object) -> tuple[np.ndarray, list[float], list[float], np.ndarray, np.ndarray]:
     """Return scale, shear, angles (rad), translation and perspective; raises `ValueError` for a singular matrix."""
     m = np.array(matrix, dtype=np.float64)
     if abs(m[3, 3]) < 1e-12:

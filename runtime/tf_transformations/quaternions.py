@@ -60,7 +60,7 @@ def quaternion_matrix(quaternion: Any) -> np.ndarray:
     return matrix
 
 
-def quaternion_from_matrix(matrix: Any) -> np.ndarray:
+def quaternion_from_matrix(matrix: object) -> np.ndarray:
     """Return the rotation of a matrix, w not negative; for a matrix that is not quite a rotation the nearest
     (Bar-Itzhack).
     """
@@ -110,6 +110,6 @@ def random_quaternion(rand: Any = None) -> np.ndarray:
     )
 
 
-def random_rotation_matrix(rand: Any = None) -> np.ndarray:
+def random_rotation_matrix(rand: object = None) -> np.ndarray:
     """Return the same as a 4x4 matrix."""
     return quaternion_matrix(random_quaternion(rand))

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 
-def vector_norm(data: Any, axis: int | None = None, out: np.ndarray | None = None) -> Any:
+def vector_norm(data: object, axis: int | None = None, out: np.ndarray | None = None) -> Any:
     """Return the length, along an axis if one is given; into `out` if that is given."""
     norm = np.sqrt(np.sum(np.square(np.asarray(data, dtype=np.float64)), axis=axis))
     if out is None:
@@ -16,7 +16,7 @@ def vector_norm(data: Any, axis: int | None = None, out: np.ndarray | None = Non
     return None
 
 
-def unit_vector(data: Any, axis: int | None = None, out: np.ndarray | None = None) -> Any:
+def unit_vector(data: object, axis: int | None = None, out: np.ndarray | None = None) -> Any:
     """Return the vector divided by its length, along an axis if one is given; into `out` if that is given."""
     values = np.array(data, dtype=np.float64)
     length = np.sqrt(np.sum(np.square(values), axis=axis, keepdims=axis is not None))

@@ -135,7 +135,7 @@ class _Reader:
                 return
             self._values.names[holder.id] += new if called(call) == "extend" else [new]
 
-    def _keyword(self, name: str, default: Any) -> Any:
+    def _keyword(self, name: str, default: object) -> Any:
         if name not in self._keywords:
             return default
         try:

@@ -103,25 +103,15 @@ class StyledByPart(Widget):
 
 
 class StyledOnceApp(App[None]):
-    """An app that reparses its style sheets only for other colours."""
-
-    _colours: dict[str, str] | None = None
+    """An app whose style sheets are parsed in the colours of its theme from the start."""
 
     def __init__(self) -> None:
         super().__init__()
         self.stylesheet = PartwiseStylesheet(variables=self.get_css_variables())
 
-    def refresh_css(self, animate: bool = True) -> None:
-        """Parse and apply the style sheets for the theme's colours, unless those are in use already."""
-        colours = self.get_css_variables()
-        if colours != self._colours:
-            super().refresh_css(animate)
-        self._colours = colours
-
     def use_colours(self) -> None:
         """Make the first parsing of the style sheets use the colours of the chosen theme."""
-        self._colours = self.get_css_variables()
-        self.stylesheet.set_variables(self._colours)
+        self.stylesheet.set_variables(self.get_css_variables())
 
 
 class StyledOnceScreen(Screen[Any]):

@@ -21,7 +21,9 @@ if TYPE_CHECKING:
 class AppendEnvironmentVariable(NamedValue):
     """Appends to an environment variable, or prepends to it."""
 
-    def __init__(self, name: Any, value: Any, prepend: Any = False, separator: Any = os.pathsep, **kwargs: Any) -> None:
+    def __init__(
+        self, name: object, value: object, prepend: object = False, separator: object = os.pathsep, **kwargs: object
+    ) -> None:
         super().__init__(name, value, **kwargs)
         self.__prepend = normalize_typed_substitution(prepend, bool)
         self.__separator = normalize_to_list_of_substitutions(separator)

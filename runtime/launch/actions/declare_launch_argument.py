@@ -59,7 +59,7 @@ class DeclareLaunchArgument(Action, DeclaresArgument):
                 each.assert_entity_completely_parsed()
         return cls, kwargs
 
-    def __check_choices(self, default_value: Any) -> None:
+    def __check_choices(self, default_value: object) -> None:
         problem = ""
         if not self.__choices:
             problem = "Provided choices arg is empty. Use None to ignore the choice list."

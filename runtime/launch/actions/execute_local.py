@@ -233,7 +233,7 @@ class ExecuteLocal(Action):
             self.__when(ProcessExited, self.__flush),
         ]
 
-    def __when(self, kind: type[Any], what: Any) -> OnActionEventBase:
+    def __when(self, kind: type[Any], what: object) -> OnActionEventBase:
         """Return a handler like `OnProcessExit`, which cannot be imported here as it depends on this class."""
         return OnActionEventBase(action_matcher=self, on_event=what, target_event_cls=kind, target_action_cls=Action)
 
@@ -253,11 +253,11 @@ class ExecuteLocal(Action):
         if self.__child is not None:
             self.__child.write(event.text)
 
-    def __flush(self, event: Any, context: LaunchContext) -> None:
+    def __flush(self, event: object, context: LaunchContext) -> None:
         for lines in self.__lines.values():
             lines.flush()
 
-    def __on_data(self, event: Any, context: LaunchContext) -> None:
+    def __on_data(self, event: object, context: LaunchContext) -> None:
         self.__exits_to_report -= 1
         self.__retire(context)
 
@@ -385,11 +385,11 @@ class ExecuteLocal(Action):
         return evaluate_condition_expression(context, expression)
 
 
-def _kill_by_name(signal_number: Any) -> Any:
+def _kill_by_name(signal_number: object) -> Any:
     """Convert SIGKILL given by name; other names fail in the system call, as upstream."""
     return 9 if signal_number == "SIGKILL" else signal_number
 
 
-def _by_stream(output: Any) -> bool:
+def _by_stream(output: object) -> bool:
     """Whether the output setting is per stream (a dict) and not a text."""
     return isinstance(output, dict)

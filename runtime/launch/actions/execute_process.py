@@ -42,7 +42,7 @@ class ExecuteProcess(ExecuteLocal):
         return cls, parse_process(entity, parser, kwargs, frozenset(ignore or ()))
 
     @classmethod
-    def _parse_cmdline(cls, cmd: str, parser: Any) -> list[list[Substitution]]:
+    def _parse_cmdline(cls, cmd: str, parser: object) -> list[list[Substitution]]:
         """Split a command line into words, for third-party subclasses that need it."""
         from launch.frontend.process_attributes import parse_command_line
 

@@ -34,7 +34,7 @@ class ForEach(Action):
         kwargs["input_values"] = parser.parse_substitution(entity.get_attr("values"))
         iteration = _children_function(entity, parser)
 
-        def function(**values: Any) -> Any:
+        def function(**values: object) -> Any:
             return iteration(values)
 
         kwargs["function"] = function
@@ -89,7 +89,7 @@ class ForLoop(Action):
         kwargs["name"] = name
         iteration = _children_function(entity, parser)
 
-        def function(i: Any) -> Any:
+        def function(i: object) -> Any:
             return iteration({name: i})
 
         kwargs["function"] = function

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import launch.logging
 from launch.actions.log_info import LogInfo, Message
@@ -22,7 +22,7 @@ __all__ = ["Log", "LogDebug", "LogError", "LogInfo", "LogWarning"]
 class Log(Message):
     """Logs a message at a level, such as `debug` or `WARNING`."""
 
-    def __init__(self, *, msg: Any, level: Any, **kwargs: Any) -> None:
+    def __init__(self, *, msg: object, level: object, **kwargs: object) -> None:
         super().__init__(msg=msg, **kwargs)
         self.__level = normalize_to_list_of_substitutions(level)
 
@@ -44,7 +44,7 @@ class Log(Message):
 class LogDebug(Log):
     """Logs a message shown only with `--debug`."""
 
-    def __init__(self, *, msg: Any, **kwargs: Any) -> None:
+    def __init__(self, *, msg: object, **kwargs: object) -> None:
         super().__init__(msg=msg, level="DEBUG", **kwargs)
 
 
@@ -52,7 +52,7 @@ class LogDebug(Log):
 class LogWarning(Log):
     """Logs a warning."""
 
-    def __init__(self, *, msg: Any, **kwargs: Any) -> None:
+    def __init__(self, *, msg: object, **kwargs: object) -> None:
         super().__init__(msg=msg, level="WARNING", **kwargs)
 
 
@@ -60,5 +60,5 @@ class LogWarning(Log):
 class LogError(Log):
     """Logs an error."""
 
-    def __init__(self, *, msg: Any, **kwargs: Any) -> None:
+    def __init__(self, *, msg: object, **kwargs: object) -> None:
         super().__init__(msg=msg, level="ERROR", **kwargs)

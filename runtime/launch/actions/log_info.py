@@ -41,7 +41,7 @@ class Message(Action):
 class LogInfo(Message):
     """Logs a message."""
 
-    def __init__(self, *, msg: Any, **kwargs: Any) -> None:
+    def __init__(self, *, msg: object, **kwargs: object) -> None:
         super().__init__(msg=msg, **kwargs)
         self.__logger = launch.logging.get_logger("launch.user")
 

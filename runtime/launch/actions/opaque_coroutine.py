@@ -44,6 +44,6 @@ class OpaqueCoroutine(Action):
         self.__future = context.asyncio_loop.create_task(self.__coroutine(*args, **self.__kwargs))
         context.register_event_handler(OnShutdown(on_shutdown=self.__cancel))
 
-    def __cancel(self, event: Any, context: LaunchContext) -> None:
+    def __cancel(self, event: object, context: LaunchContext) -> None:
         if self.__future is not None:
             self.__future.cancel()

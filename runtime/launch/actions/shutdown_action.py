@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 class Shutdown(EmitEvent):
     """Shuts the launch down; as the handler of a process exit, it reports that the process was required."""
 
-    def __init__(self, *, reason: Any = "reason not given", **kwargs: Any) -> None:
+    def __init__(self, *, reason: object = "reason not given", **kwargs: object) -> None:
         super().__init__(event=ShutdownEvent(reason=reason if isinstance(reason, str) else ""), **kwargs)
         self.__reason = normalize_to_list_of_substitutions(reason)
 

@@ -106,7 +106,7 @@ class TimerAction(Action):
             context.register_event_handler(OnShutdown(on_shutdown=self._launch_ends))
         self._wait(context, max(0.0, period))
 
-    def _launch_ends(self, event: Any, context: LaunchContext) -> None:
+    def _launch_ends(self, event: object, context: LaunchContext) -> None:
         self.cancel()
 
     def _wait(self, context: LaunchContext, period: float) -> None:
@@ -114,7 +114,7 @@ class TimerAction(Action):
         event = TimerEvent(timer_action=self)
         self._handle = context.asyncio_loop.call_later(period, context.emit_event_sync, event)
 
-    def _handle_fired(self, event: Any, context: LaunchContext) -> list[Any]:
+    def _handle_fired(self, event: object, context: LaunchContext) -> list[Any]:
         if self._completed_future is None or self._completed_future.done():
             return []
         context.unregister_event_handler(self._handler)

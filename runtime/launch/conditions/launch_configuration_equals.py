@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.condition import Condition
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 class LaunchConfigurationEquals(Condition):
     """True when a launch configuration has a value; an unset one equals None."""
 
-    def __init__(self, launch_configuration_name: str, expected_value: Any) -> None:
+    def __init__(self, launch_configuration_name: str, expected_value: object) -> None:
         name = type(self).__name__
         substitution = name.replace("LaunchConfiguration", "") + "Substitution"
         warnings.warn(

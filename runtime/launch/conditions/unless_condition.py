@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.condition import Condition
 from launch.conditions.evaluate_condition_expression_impl import evaluate_condition_expression
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 class UnlessCondition(Condition):
     """True when an expression evaluates to false."""
 
-    def __init__(self, predicate_expression: Any) -> None:
+    def __init__(self, predicate_expression: object) -> None:
         self.__expression = normalize_to_list_of_substitutions(predicate_expression)
         super().__init__(predicate=self._predicate_func)
 

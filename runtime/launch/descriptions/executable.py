@@ -27,9 +27,9 @@ class Executable:
         self,
         *,
         cmd: Iterable[Any],
-        prefix: Any = None,
-        name: Any = None,
-        cwd: Any = None,
+        prefix: object = None,
+        name: object = None,
+        cwd: object = None,
         env: Mapping[Any, Any] | None = None,
         additional_env: Mapping[Any, Any] | None = None,
         arguments: Iterable[Any] | None = None,
@@ -108,7 +108,7 @@ class Executable:
         """The words of the prefix at the start of the final command."""
         return self.__words_of_prefix
 
-    def prepare(self, context: LaunchContext, action: Any) -> None:
+    def prepare(self, context: LaunchContext, action: object) -> None:
         """Evaluate all substitutions, and take the next number for the label."""
         cmd = [perform_substitutions(context, each) for each in self.__cmd]
         self.__words_of_prefix = self._prefix_for(context, cmd)

@@ -22,7 +22,7 @@ class OnShutdown(BaseEventHandler):
         super().__init__(matcher=lambda event: is_a_subclass(event, Shutdown), **kwargs)
         self.__on_shutdown = on_shutdown
 
-    def handle(self, event: Any, context: LaunchContext) -> Any:
+    def handle(self, event: object, context: LaunchContext) -> Any:
         """Return the entities to visit."""
         super().handle(event, context)
         if callable(self.__on_shutdown) and not isinstance(self.__on_shutdown, LaunchDescriptionEntity):

@@ -15,12 +15,12 @@ if TYPE_CHECKING:
 class OnTargetedProcess(BaseEventHandler):
     """Calls back if an event's own predicate selects the action."""
 
-    def __init__(self, kind: type[ProcessTargetedEvent], action: Any, callback: Callable[[Any, Any], Any]) -> None:
+    def __init__(self, kind: type[ProcessTargetedEvent], action: object, callback: Callable[[Any, Any], Any]) -> None:
         self.kind_of_events = kind
         self._callback = callback
         super().__init__(matcher=lambda event: isinstance(event, kind) and event.process_matcher(action))
 
-    def handle(self, event: Any, context: LaunchContext) -> Any:
+    def handle(self, event: object, context: LaunchContext) -> Any:
         """Return the callback's result."""
         super().handle(event, context)
         return self._callback(event, context)

@@ -12,7 +12,7 @@ class ExecutionComplete(Event):
 
     name = "launch.events.ExecutionComplete"
 
-    def __init__(self, *, action: Any) -> None:
+    def __init__(self, *, action: object) -> None:
         self.__action = action
 
     @property

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from launch.event import Event
 
 
@@ -12,5 +10,5 @@ class IncludeLaunchDescription(Event):
 
     name = "launch.events.IncludeLaunchDescription"
 
-    def __init__(self, launch_description: Any) -> None:
+    def __init__(self, launch_description: object) -> None:
         self.launch_description = launch_description

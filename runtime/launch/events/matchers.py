@@ -6,10 +6,10 @@ from collections.abc import Callable
 from typing import Any
 
 
-def matches_action(target_action: Any) -> Callable[[Any], bool]:
+def matches_action(target_action: object) -> Callable[[Any], bool]:
     """Return a predicate: whether an action is this one."""
 
-    def matches(action: Any) -> bool:
+    def matches(action: object) -> bool:
         return action is target_action
 
     return matches

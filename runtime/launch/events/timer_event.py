@@ -12,7 +12,7 @@ class TimerEvent(Event):
 
     name = "launch.events.TimerEvent"
 
-    def __init__(self, *, timer_action: Any) -> None:
+    def __init__(self, *, timer_action: object) -> None:
         self.__timer_action = timer_action
 
     @property

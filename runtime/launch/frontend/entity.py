@@ -32,12 +32,12 @@ class Entity:
         """Raise `ValueError` if an attribute or child was not read."""
         raise NotImplementedError
 
-    def get_attr(self, name: str, *, data_type: Any = str, optional: bool = False, can_be_str: bool = True) -> Any:
+    def get_attr(self, name: str, *, data_type: object = str, optional: bool = False, can_be_str: bool = True) -> Any:
         """Return an attribute as the given type, or elements of a kind; raises `AttributeError` and `TypeError`."""
         raise NotImplementedError
 
 
-def wants_entities(data_type: Any) -> bool:
+def wants_entities(data_type: object) -> bool:
     """Whether a type stands for elements: `list`, or a list of `Entity`."""
     arguments = get_args(data_type)
     return data_type is list or bool(arguments and isinstance(arguments[0], type) and issubclass(arguments[0], Entity))

@@ -41,7 +41,7 @@ def _exposer(name: str, methods: dict[str, Callable[..., Any]], kind: str) -> Ca
     return expose
 
 
-def _parse_method(exposed: Any) -> Callable[..., Any] | None:
+def _parse_method(exposed: object) -> Callable[..., Any] | None:
     if not inspect.isclass(exposed):
         return exposed if callable(exposed) else None
     parse = getattr(exposed, "parse", None)

@@ -48,7 +48,7 @@ def parse_substitution(string_value: str) -> list[Any]:
         raise ValueError(f"{string_value[:40]!r}... has too many substitutions in one another") from None
 
 
-def parse_if_substitutions(value: Any) -> Any:
+def parse_if_substitutions(value: object) -> Any:
     """Parse a text, or each text of a list, that contains substitutions; other texts and values are returned as they
     are.
 
@@ -64,7 +64,7 @@ def parse_if_substitutions(value: Any) -> Any:
     return found
 
 
-def _parsed_if_needed(value: Any) -> Any:
+def _parsed_if_needed(value: object) -> Any:
     from launch.substitutions.text_substitution import TextSubstitution
 
     if not isinstance(value, str):

@@ -115,7 +115,7 @@ class Parser:
         """Parse a text into substitutions."""
         return parse_substitution(value)
 
-    def parse_if_substitutions(self, value: Any) -> Any:
+    def parse_if_substitutions(self, value: object) -> Any:
         """Parse a text, or texts in a list, into substitutions; other values are returned as they are."""
         return parse_if_substitutions(value)
 
@@ -148,7 +148,7 @@ class Parser:
         return replace_escaped_characters(value)
 
 
-def _line_of_parse_error(error: Any) -> int | None:
+def _line_of_parse_error(error: object) -> int | None:
     """The line where the XML or YAML library stopped."""
     mark = getattr(error, "problem_mark", None)
     if mark is not None:

@@ -11,7 +11,7 @@ from launch.launch_description_sources.any_launch_file_utilities import get_laun
 class AnyLaunchDescriptionSource(LaunchDescriptionSource):
     """Reads a launch file; its extension determines which format is tried first."""
 
-    def __init__(self, launch_file_path: Any) -> None:
+    def __init__(self, launch_file_path: object) -> None:
         super().__init__(None, launch_file_path, "interpreted launch file")
 
     def _get_launch_description(self, location: str) -> Any:

@@ -23,7 +23,7 @@ def get_launch_description_from_frontend_launch_file(launch_file_path: str, *, p
         raise
 
 
-def get_launch_description_from_any_launch_file(launch_file_path: str, *, parser: Any = None) -> Any:
+def get_launch_description_from_any_launch_file(launch_file_path: str, *, parser: object = None) -> Any:
     """Return the description in a launch file; raises `InvalidLaunchFileError` with the error of each reader."""
     from launch.launch_description_sources.python_launch_file_utilities import (
         get_launch_description_from_python_launch_file,

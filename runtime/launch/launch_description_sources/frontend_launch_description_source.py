@@ -14,7 +14,7 @@ class FrontendLaunchDescriptionSource(LaunchDescriptionSource):
     """Reads an XML or YAML launch file."""
 
     def __init__(
-        self, launch_file_path: Any, *, parser: Any = None, method: str = "interpreted frontend launch file"
+        self, launch_file_path: object, *, parser: object = None, method: str = "interpreted frontend launch file"
     ) -> None:
         super().__init__(None, launch_file_path, method)
         self.__parser = parser

@@ -13,7 +13,7 @@ from launch.launch_description_sources.python_launch_file_utilities import (
 class PythonLaunchDescriptionSource(LaunchDescriptionSource):
     """Runs a Python launch file."""
 
-    def __init__(self, launch_file_path: Any) -> None:
+    def __init__(self, launch_file_path: object) -> None:
         super().__init__(None, launch_file_path, "interpreted python launch file")
 
     def _get_launch_description(self, location: str) -> Any:

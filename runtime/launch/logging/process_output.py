@@ -27,7 +27,7 @@ WORDS: Mapping[str, Mapping[str, frozenset[str]]] = {
 
 
 def get_output_loggers(
-    process_name: str, output_config: Any, main_log_file_name: str = "launch.log"
+    process_name: str, output_config: object, main_log_file_name: str = "launch.log"
 ) -> tuple[Any, Any]:
     """Return the loggers for a process's stdout and stderr; raises `ValueError` for invalid settings."""
     places = _normalized(os.environ.get(OVERRIDE) or output_config)
@@ -77,7 +77,7 @@ def _own(file_name: str) -> logging.Handler:
     return handler
 
 
-def _normalized(config: Any) -> Mapping[str, frozenset[str]]:
+def _normalized(config: object) -> Mapping[str, frozenset[str]]:
     if isinstance(config, str):
         if config not in WORDS:
             raise ValueError(f'{config} is not a valid standard output config i.e. "screen", "log" or "both"')

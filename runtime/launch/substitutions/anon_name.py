@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 class AnonName(Substitution):
     """A unique name; always the same one for the same prefix."""
 
-    def __init__(self, name: Any) -> None:
+    def __init__(self, name: object) -> None:
         super().__init__()
         self.__name = normalize_to_list_of_substitutions(name)
 

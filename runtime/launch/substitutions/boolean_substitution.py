@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 class NotSubstitution(Substitution):
     """The negation of a truth value."""
 
-    def __init__(self, value: Any) -> None:
+    def __init__(self, value: object) -> None:
         super().__init__()
         self.__value = normalize_to_list_of_substitutions(value)
 
@@ -47,7 +47,7 @@ class _TwoSided(Substitution):
 
     _name = ""
 
-    def __init__(self, left: Any, right: Any) -> None:
+    def __init__(self, left: object, right: object) -> None:
         super().__init__()
         self.__left = normalize_to_list_of_substitutions(left)
         self.__right = normalize_to_list_of_substitutions(right)
@@ -101,7 +101,7 @@ class OrSubstitution(_TwoSided):
 
 
 class _ManySided(Substitution):
-    def __init__(self, *args: Any) -> None:
+    def __init__(self, *args: object) -> None:
         super().__init__()
         self.__args = [normalize_to_list_of_substitutions(each) for each in args]
 

@@ -24,7 +24,7 @@ WORDS = ("fail", "ignore", "warn", "capture")
 class Command(Substitution):
     """The standard output of a command, run without a shell."""
 
-    def __init__(self, command: Any, *, on_stderr: Any = "fail") -> None:
+    def __init__(self, command: object, *, on_stderr: object = "fail") -> None:
         super().__init__()
         self.__command = normalize_to_list_of_substitutions(command)
         self.__on_stderr = normalize_to_list_of_substitutions(on_stderr)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class EnvironmentVariable(Substitution):
     """The value of an environment variable, or a default."""
 
-    def __init__(self, name: Any, *, default_value: Any = None) -> None:
+    def __init__(self, name: object, *, default_value: object = None) -> None:
         super().__init__()
         self.__name = normalize_to_list_of_substitutions(name)
         self.__default = None if default_value is None else normalize_to_list_of_substitutions(default_value)

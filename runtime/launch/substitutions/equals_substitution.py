@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 TRUTH = {"true": True, "1": True, "false": False, "0": False}
 
 
-def _pieces(value: Any) -> list[Substitution]:
+def _pieces(value: object) -> list[Substitution]:
     """Normalize any value to substitutions; None becomes the empty text."""
     if value is None:
         return normalize_to_list_of_substitutions("")
@@ -48,7 +48,7 @@ class EqualsSubstitution(Substitution):
 
     _name = "equals"
 
-    def __init__(self, left: Any, right: Any) -> None:
+    def __init__(self, left: object, right: object) -> None:
         super().__init__()
         self.__left = _pieces(left)
         self.__right = _pieces(right)

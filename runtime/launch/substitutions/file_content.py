@@ -21,7 +21,7 @@ class FileContent(Substitution):
 
     name = "FileContent"
 
-    def __init__(self, path: Any) -> None:
+    def __init__(self, path: object) -> None:
         super().__init__()
         self.__path = normalize_to_list_of_substitutions(path)
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 class FindExecutable(Substitution):
     """The absolute path of a program on the PATH."""
 
-    def __init__(self, *, name: Any) -> None:
+    def __init__(self, *, name: object) -> None:
         super().__init__()
         self.__name = normalize_to_list_of_substitutions(name)
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class ForEachVar(Substitution):
     """A named value of the current iteration of a `ForEach`."""
 
-    def __init__(self, name: Any, *, default_value: Any = None) -> None:
+    def __init__(self, name: object, *, default_value: object = None) -> None:
         super().__init__()
         self._name = normalize_to_list_of_substitutions(name)
         self._default = None if default_value is None else normalize_to_list_of_substitutions(default_value)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 class IfElseSubstitution(Substitution):
     """One of two values, by a condition; raises `RuntimeError` when both are empty."""
 
-    def __init__(self, condition: Any, if_value: Any = "", else_value: Any = "") -> None:
+    def __init__(self, condition: object, if_value: object = "", else_value: object = "") -> None:
         super().__init__()
         if if_value == else_value == "":
             raise RuntimeError("One of if_value and else_value must be specified")

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class LaunchConfiguration(Substitution):
     """The value of a launch configuration, or a default."""
 
-    def __init__(self, variable_name: Any, *, default: Any = None) -> None:
+    def __init__(self, variable_name: object, *, default: object = None) -> None:
         super().__init__()
         self.__variable_name = normalize_to_list_of_substitutions(variable_name)
         self.__default = None if default is None else _pieces(default)
@@ -50,7 +50,7 @@ class LaunchConfiguration(Substitution):
         return _joined(context, self.__default)
 
 
-def _pieces(default: Any) -> list[Substitution]:
+def _pieces(default: object) -> list[Substitution]:
     if isinstance(default, (str, Substitution)):
         return normalize_to_list_of_substitutions(default)
     if isinstance(default, Iterable):

@@ -25,7 +25,7 @@ class LaunchLogDir(Substitution):
             raise TypeError("launch_log_dir/log_dir substitution doesn't expect arguments")
         return cls, {}
 
-    def __truediv__(self, additional_path: Any) -> PathJoinSubstitution:
+    def __truediv__(self, additional_path: object) -> PathJoinSubstitution:
         """Return a path below."""
         return PathJoinSubstitution([self, additional_path])
 

@@ -34,7 +34,7 @@ class PathJoinSubstitution(Substitution):
         """The pieces, each a substitution or a list of them."""
         return [each[0] if len(each) == 1 else each for each in self.__pieces]
 
-    def __truediv__(self, additional_path: Any) -> PathJoinSubstitution:
+    def __truediv__(self, additional_path: object) -> PathJoinSubstitution:
         """Return a path below."""
         return PathJoinSubstitution([*self.__pieces, additional_path])
 
@@ -53,5 +53,5 @@ class PathJoinSubstitution(Substitution):
 class PathSubstitution(PathJoinSubstitution):
     """A path that can be extended with `/`."""
 
-    def __init__(self, path: Any) -> None:
+    def __init__(self, path: object) -> None:
         super().__init__([path])

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 class PythonExpression(Substitution):
     """The value of a Python expression as text; names of the modules can be used with and without the module's name."""
 
-    def __init__(self, expression: Any, python_modules: Any = ("math",)) -> None:
+    def __init__(self, expression: object, python_modules: object = ("math",)) -> None:
         super().__init__()
         self.__expression = normalize_to_list_of_substitutions(expression)
         self.__modules = [normalize_to_list_of_substitutions(each) for each in _each(python_modules)]

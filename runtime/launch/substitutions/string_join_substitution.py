@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class StringJoinSubstitution(Substitution):
     """Texts joined with a delimiter."""
 
-    def __init__(self, substitutions: Iterable[Any], delimiter: Any = "") -> None:
+    def __init__(self, substitutions: Iterable[Any], delimiter: object = "") -> None:
         self.__parts = [normalize_to_list_of_substitutions(each) for each in substitutions]
         self.__delimiter = normalize_to_list_of_substitutions(delimiter)
 

@@ -23,7 +23,7 @@ class ThisLaunchFileDir(Substitution):
             raise TypeError("dirname substitution doesn't expect arguments")
         return cls, {}
 
-    def __truediv__(self, additional_path: Any) -> Any:
+    def __truediv__(self, additional_path: object) -> Any:
         """Return a path below."""
         from launch.substitutions.path_join_substitution import PathJoinSubstitution
 

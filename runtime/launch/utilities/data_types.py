@@ -7,12 +7,12 @@ from typing import Any, cast, get_args, get_origin
 SCALARS: tuple[type, ...] = (int, float, bool, str)
 
 
-def is_typing_list(data_type: Any) -> bool:
+def is_typing_list(data_type: object) -> bool:
     """Whether a type is `List` or `List[...]`."""
     return data_type is list or get_origin(data_type) is list
 
 
-def extract_type(data_type: Any) -> tuple[Any, bool]:
+def extract_type(data_type: object) -> tuple[Any, bool]:
     """Return the scalar type and whether it is a list of them; raises `ValueError` for other types."""
     scalar, is_list = data_type, False
     arguments = get_args(data_type) if is_typing_list(data_type) else ()
@@ -23,7 +23,7 @@ def extract_type(data_type: Any) -> tuple[Any, bool]:
     return scalar, is_list
 
 
-def is_instance_of_valid_type(value: Any, can_be_str: bool = False) -> bool:
+def is_instance_of_valid_type(value: object, can_be_str: bool = False) -> bool:
     """Whether a value is a scalar or a list of one type, with `can_be_str` also mixed with strings."""
     if not isinstance(value, list):
         return isinstance(value, SCALARS)
@@ -34,7 +34,7 @@ def is_instance_of_valid_type(value: Any, can_be_str: bool = False) -> bool:
     return kind in SCALARS and all(isinstance(each, allowed) for each in items)
 
 
-def is_instance_of(value: Any, data_type: Any, can_be_str: bool = False) -> bool:
+def is_instance_of(value: object, data_type: object, can_be_str: bool = False) -> bool:
     """Whether a value has a type; an int is no float, but a bool is an int. Raises `ValueError` for other types."""
     if data_type is None:
         return is_instance_of_valid_type(value, can_be_str=can_be_str)

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import Any
 
 
-def ensure_argument_type(argument: Any, types: Any, argument_name: str, caller: str | None = None) -> None:
+def ensure_argument_type(argument: object, types: object, argument_name: str, caller: str | None = None) -> None:
     """Raise `TypeError` unless an argument has one of the types."""
     expected: list[Any] = [*types] if isinstance(types, Iterable) else [types]
     if not all(isinstance(each, type) for each in expected):

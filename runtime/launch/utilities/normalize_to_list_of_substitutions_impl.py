@@ -12,7 +12,7 @@ def normalize_to_list_of_substitutions(subs: Any) -> list[Substitution]:
     """Return a list of substitutions; raises `TypeError` for anything but texts and substitutions."""
     from launch.substitutions.text_substitution import TextSubstitution
 
-    def one(item: Any) -> Substitution:
+    def one(item: object) -> Substitution:
         if isinstance(item, Substitution):
             return item
         if isinstance(item, (str, Path)):

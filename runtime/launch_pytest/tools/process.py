@@ -53,22 +53,22 @@ async def _wait(condition: Callable[[], bool], timeout: float | None) -> bool:
     return True
 
 
-def wait_for_start_sync(context: Any, action: Any, timeout: float | None = None) -> bool:
+def wait_for_start_sync(context: object, action: object, timeout: float | None = None) -> bool:
     """Return whether the process starts in time."""
     return _wait_sync(lambda: _started(action), timeout)
 
 
-async def wait_for_start(context: Any, action: Any, timeout: float | None = None) -> bool:
+async def wait_for_start(context: object, action: object, timeout: float | None = None) -> bool:
     """Return whether the process starts in time."""
     return await _wait(lambda: _started(action), timeout)
 
 
-def wait_for_exit_sync(context: Any, action: Any, timeout: float | None = None) -> bool:
+def wait_for_exit_sync(context: object, action: object, timeout: float | None = None) -> bool:
     """Return whether the process ends in time."""
     return _wait_sync(lambda: _ended(action), timeout)
 
 
-async def wait_for_exit(context: Any, action: Any, timeout: float | None = None) -> bool:
+async def wait_for_exit(context: object, action: object, timeout: float | None = None) -> bool:
     """Return whether the process ends in time."""
     return await _wait(lambda: _ended(action), timeout)
 
@@ -95,21 +95,21 @@ async def wait_for_stderr(context: Any, action: Any, validate: _Check, timeout: 
     return fits or _accepts(validate, action.get_stderr())
 
 
-def assert_output_sync(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> None:
+def assert_output_sync(context: object, action: object, validate: _Check, timeout: float | None = None) -> None:
     """Assert `wait_for_output_sync`."""
     assert wait_for_output_sync(context, action, validate, timeout), "waiting for output timed out"
 
 
-async def assert_output(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> None:
+async def assert_output(context: object, action: object, validate: _Check, timeout: float | None = None) -> None:
     """Assert `wait_for_output`."""
     assert await wait_for_output(context, action, validate, timeout), "waiting for output timed out"
 
 
-def assert_stderr_sync(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> None:
+def assert_stderr_sync(context: object, action: object, validate: _Check, timeout: float | None = None) -> None:
     """Assert `wait_for_stderr_sync`."""
     assert wait_for_stderr_sync(context, action, validate, timeout), "waiting for stderr timed out"
 
 
-async def assert_stderr(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> None:
+async def assert_stderr(context: object, action: object, validate: _Check, timeout: float | None = None) -> None:
     """Assert `wait_for_stderr`."""
     assert await wait_for_stderr(context, action, validate, timeout), "waiting for stderr timed out"

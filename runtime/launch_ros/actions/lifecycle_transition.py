@@ -61,7 +61,7 @@ class LifecycleTransition(Action):
         return [*handlers, change(numbers[0])]
 
 
-def _number(context: LaunchContext, transition: Any) -> int:
+def _number(context: LaunchContext, transition: object) -> int:
     if isinstance(transition, int):
         return transition
     return int(perform_substitutions(context, normalize_to_list_of_substitutions(transition)))

@@ -101,7 +101,7 @@ class LoadComposableNodes(Action):
             return self.__target.node_name
         return perform_substitutions(context, normalize_to_list_of_substitutions(self.__target))
 
-    def _load(self, requests: list[Any], client: Any, target: str, context: LaunchContext) -> None:
+    def _load(self, requests: list[Any], client: object, target: str, context: LaunchContext) -> None:
         try:
             for request in requests:
                 self._load_one(request, client, target, context)
@@ -142,7 +142,7 @@ class LoadComposableNodes(Action):
             self.__done.set_result(None)
 
 
-def _set_answered(answered: threading.Event, future: Any) -> None:
+def _set_answered(answered: threading.Event, future: object) -> None:
     answered.set()
 
 

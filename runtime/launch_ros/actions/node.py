@@ -100,7 +100,7 @@ class Node(ExecuteProcess):
         return cls, parse_node(entity, parser, kwargs)
 
     @staticmethod
-    def parse_nested_parameters(params: Any, parser: Any) -> list[Any]:
+    def parse_nested_parameters(params: object, parser: object) -> list[Any]:
         """Parse `param` elements as a node's `parameters`, for third-party subclasses that need it."""
         from launch_ros.actions.parse_parameters import parse_nested_parameters
 
@@ -255,7 +255,7 @@ class Node(ExecuteProcess):
         return os_command(self.__package_text, command, prefix) if program is None else command[prefix:]
 
 
-def _performed(context: LaunchContext, text: Any) -> str:
+def _performed(context: LaunchContext, text: object) -> str:
     return perform_substitutions(context, normalize_to_list_of_substitutions(text))
 
 

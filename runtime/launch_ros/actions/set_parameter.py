@@ -79,7 +79,7 @@ class SetParametersFromFile(Action):
         context.launch_configurations[KEY].append(perform_substitutions(context, self.__file))
 
 
-def _key(name: Any) -> Any:
+def _key(name: object) -> Any:
     if not isinstance(name, list):
         return name
     pieces = cast("list[Any]", name)

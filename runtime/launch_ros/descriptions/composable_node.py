@@ -14,14 +14,14 @@ class ComposableNode:
     def __init__(
         self,
         *,
-        package: Any,
-        plugin: Any,
-        name: Any = None,
-        namespace: Any = None,
-        parameters: Any = None,
+        package: object,
+        plugin: object,
+        name: object = None,
+        namespace: object = None,
+        parameters: object = None,
         remappings: Iterable[Any] | None = None,
-        extra_arguments: Any = None,
-        condition: Any = None,
+        extra_arguments: object = None,
+        condition: object = None,
     ) -> None:
         from launch_ros.utilities import normalize_parameters, normalize_remap_rules
 

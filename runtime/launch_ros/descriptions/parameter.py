@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 class Parameter:
     """A parameter, passed as `-p name:=value`."""
 
-    def __init__(self, name: Any, value: Any, *, value_type: Any = None) -> None:
+    def __init__(self, name: object, value: object, *, value_type: object = None) -> None:
         self.__name = normalize_to_list_of_substitutions(name)
         self.__value = ParameterValue(value, value_type=value_type)
         self.__evaluated_name: str | None = None

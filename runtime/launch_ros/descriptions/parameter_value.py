@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 class ParameterValue:
     """A parameter's value, or substitutions whose text is converted to the type; None: by YAML's rules."""
 
-    def __init__(self, value: Any, *, value_type: Any = None) -> None:
+    def __init__(self, value: object, *, value_type: object = None) -> None:
         self.__value = normalize_typed_substitution(value, value_type)
         self.__value_type = value_type
         self.__evaluated: Any = None

@@ -32,7 +32,7 @@ class OnStateTransition(EventHandler):
         self.__target = target_lifecycle_node
         super().__init__(matcher=self._matches, entities=entities, **kwargs)
 
-    def _matches(self, event: Any) -> bool:
+    def _matches(self, event: object) -> bool:
         if not isinstance(event, StateTransition):
             return False
         if self.__target is not None and event.action is not self.__target:

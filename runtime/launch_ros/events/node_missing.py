@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from launch.event import Event
 
 
@@ -12,7 +10,7 @@ class NodeMissing(Event):
 
     name = "launch_ros.events.NodeMissing"
 
-    def __init__(self, *, action: Any, package: str, executable: str, reason: str) -> None:
+    def __init__(self, *, action: object, package: str, executable: str, reason: str) -> None:
         self.action = action
         self.package = package
         self.executable = executable

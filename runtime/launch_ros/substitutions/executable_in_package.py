@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 class ExecutableInPackage(Substitution):
     """The path of a package's executable; if it was never built, where its build would install it."""
 
-    def __init__(self, executable: Any, package: Any) -> None:
+    def __init__(self, executable: object, package: object) -> None:
         super().__init__()
         self.__executable = normalize_to_list_of_substitutions(executable)
         self.__package = normalize_to_list_of_substitutions(package)

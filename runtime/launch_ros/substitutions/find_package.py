@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 class FindPackage(Substitution):
     """A folder of a package; `/` appends a path."""
 
-    def __init__(self, package: Any) -> None:
+    def __init__(self, package: object) -> None:
         super().__init__()
         self.__package = normalize_to_list_of_substitutions(package)
 
@@ -35,7 +35,7 @@ class FindPackage(Substitution):
         """The package's name."""
         return self.__package
 
-    def __truediv__(self, additional_path: Any) -> PathJoinSubstitution:
+    def __truediv__(self, additional_path: object) -> PathJoinSubstitution:
         """Return a path below."""
         return PathJoinSubstitution([self, additional_path])
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class Parameter(Substitution):
     """The value set by `SetParameter`, or a default."""
 
-    def __init__(self, name: Any, *, default: Any = None) -> None:
+    def __init__(self, name: object, *, default: object = None) -> None:
         super().__init__()
         self.__name = normalize_to_list_of_substitutions(name)
         self.__default = None if default is None else normalize_to_list_of_substitutions(default)

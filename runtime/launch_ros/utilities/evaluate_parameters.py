@@ -69,7 +69,7 @@ def yaml_value(name: str, text: str) -> Any:
         ) from error
 
 
-def check_value(name: str, value: Any) -> Any:
+def check_value(name: str, value: object) -> Any:
     """Return the value, lists as tuples; raises `TypeError` if no ROS parameter can have it."""
     if isinstance(value, SCALARS):
         return value
@@ -89,5 +89,5 @@ def check_value(name: str, value: Any) -> Any:
     )
 
 
-def _is_list(value: Any) -> bool:
+def _is_list(value: object) -> bool:
     return isinstance(value, list)

@@ -16,7 +16,7 @@ Key = tuple[Substitution, ...]
 SCALARS = (bool, int, float, str, bytes)
 
 
-def normalize_parameters(parameters: Any) -> list[Any]:
+def normalize_parameters(parameters: object) -> list[Any]:
     """Return each entry as a normalized dict, a `ParameterFile`, or a `Parameter`; raises `TypeError`."""
     if isinstance(parameters, str) or not isinstance(parameters, Sequence):
         raise TypeError("Expecting list of parameters, got {parameters}")
@@ -24,7 +24,7 @@ def normalize_parameters(parameters: Any) -> list[Any]:
     return [_entry(each) for each in given]
 
 
-def _entry(entry: Any) -> Any:
+def _entry(entry: object) -> Any:
     if isinstance(entry, Mapping):
         values = cast("Mapping[Any, Any]", entry)
         return normalize_parameter_dict(values)
@@ -49,12 +49,12 @@ def normalize_parameter_dict(parameters: Mapping[Any, Any], *, _prefix: Any = No
     return found
 
 
-def _key(name: Any, prefix: Key | None) -> Key:
+def _key(name: object, prefix: Key | None) -> Key:
     pieces = normalize_to_list_of_substitutions(name)
     return tuple(pieces) if prefix is None else (*prefix, TextSubstitution(text="."), *pieces)
 
 
-def normalize_value(value: Any) -> Any:
+def normalize_value(value: object) -> Any:
     """A scalar or tuple of scalars as it is; substitutions as a list; a tuple of lists of them; a `ParameterValue`."""
     if isinstance(value, (ParameterValue, *SCALARS)):
         return value
@@ -80,7 +80,7 @@ def _normalize_sequence(values: Sequence[Any]) -> Any:
     return tuple(values)
 
 
-def _kind(value: Any) -> type:
+def _kind(value: object) -> type:
     if isinstance(value, Substitution):
         return Substitution
     return type(value) if isinstance(value, (bool, int, float, str)) else list

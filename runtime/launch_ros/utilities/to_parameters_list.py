@@ -41,7 +41,7 @@ def _values_of(context: LaunchContext, entry: Any) -> Mapping[Any, Any]:
     return dict([entry.evaluate(context)])
 
 
-def _as_list(value: Any) -> Any:
+def _as_list(value: object) -> Any:
     if not isinstance(value, tuple):
         return value
     items = cast("tuple[Any, ...]", value)

@@ -37,7 +37,7 @@ class Test(ExecuteProcess):
 class GTest(Test):
     """A GTest program."""
 
-    def __init__(self, *, path: Any, **kwargs: Any) -> None:
+    def __init__(self, *, path: object, **kwargs: object) -> None:
         super().__init__(cmd=[path], **kwargs)
         self.__path = path
 
@@ -50,7 +50,7 @@ class GTest(Test):
 class PyTest(Test):
     """A file of tests for pytest."""
 
-    def __init__(self, *, path: Any, **kwargs: Any) -> None:
+    def __init__(self, *, path: object, **kwargs: object) -> None:
         super().__init__(cmd=[FindExecutable(name="python3"), "-m", "pytest", path], **kwargs)
         self.__path = path
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 from launch.action import Action
 
@@ -18,7 +17,7 @@ class ReadyToTest(Action):
     def _add_callback(self, callback: Callable[[], None]) -> None:
         self.__callbacks.append(callback)
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: object) -> None:
         """Notify those who wait."""
         for callback in self.__callbacks:
             callback()

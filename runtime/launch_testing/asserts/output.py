@@ -45,7 +45,7 @@ def assertInStream(
 
 
 def assertInStdout(
-    proc_output: Any, expected_output: Any, process: Any, cmd_args: Any = None, *,
+    proc_output: object, expected_output: object, process: object, cmd_args: object = None, *,
     output_filter: Callable[[str], str] | None = None, strict_proc_matching: bool = True,
     strip_ansi_escape_sequences: bool = True,
 ) -> None:  # fmt: skip
@@ -58,7 +58,7 @@ def assertInStdout(
 
 
 def assertInStderr(
-    proc_output: Any, expected_output: Any, process: Any, cmd_args: Any = None, *,
+    proc_output: object, expected_output: object, process: object, cmd_args: object = None, *,
     output_filter: Callable[[str], str] | None = None, strict_proc_matching: bool = True,
     strip_ansi_escape_sequences: bool = True,
 ) -> None:  # fmt: skip

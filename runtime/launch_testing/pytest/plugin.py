@@ -54,7 +54,7 @@ class LaunchTestModule(pytest.Module):
         yield LaunchTestItem.from_parent(self, name=self.path.stem, module=self.obj)
 
 
-def pytest_pycollect_makemodule(module_path: Path, parent: Any) -> Any:
+def pytest_pycollect_makemodule(module_path: Path, parent: object) -> Any:
     """Take modules with a marked description; leave all others to pytest."""
     if DESCRIPTION not in module_path.read_text(encoding="utf-8", errors="replace"):
         return None

@@ -48,8 +48,8 @@ def expect_output(
     text: str | None = None,
     *,
     lines: Sequence[str] | None = None,
-    expected_text: Any = None,
-    expected_lines: Any = None,
+    expected_text: object = None,
+    expected_lines: object = None,
     strip_ansi_escape_sequences: bool = True,
     strict: bool = False,
 ) -> bool:

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from launch.action import Action
 
 
 class EnableRmwIsolation(Action):
     """Does nothing here: a test's launch runs in the domain of its process, which is isolated by default."""
 
-    def execute(self, context: Any) -> None:
+    def execute(self, context: object) -> None:
         """Do nothing."""

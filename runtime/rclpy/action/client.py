@@ -95,7 +95,7 @@ class ActionClient(ActionEntity):
         if callback is not None:
             await call(callback, message)
 
-    def _goal_handle(self, number: int, response: Any) -> ClientGoalHandle | None:
+    def _goal_handle(self, number: int, response: object) -> ClientGoalHandle | None:
         """The handle of a goal that was answered; None for a response that nothing waits for."""
         goal_id = self._goals.subject(number)
         if goal_id is None:
@@ -111,7 +111,7 @@ class ActionClient(ActionEntity):
             self._feedback_callbacks.pop(key, None)
         return handle
 
-    def _settle(self, requests: PendingRequests, kind: str, number: int, response: Any) -> None:
+    def _settle(self, requests: PendingRequests, kind: str, number: int, response: object) -> None:
         if not requests.settle(number, response, self.sink):
             self._unexpected(kind)
 
@@ -157,7 +157,7 @@ class ActionClient(ActionEntity):
             self._feedback_callbacks[bytes(request.goal_id.uuid)] = feedback_callback
         return self._goals.send(self._endpoints.goal, request, request.goal_id)
 
-    def _cancel_goal(self, goal_handle: Any) -> Any:
+    def _cancel_goal(self, goal_handle: object) -> Any:
         return self._wait(self._cancel_goal_async(goal_handle))
 
     def _cancel_goal_async(self, goal_handle: Any) -> Future[Any]:
@@ -166,7 +166,7 @@ class ActionClient(ActionEntity):
         request.goal_info.goal_id = goal_handle.goal_id
         return self._cancels.send(self._endpoints.cancel, request, goal_handle.goal_id)
 
-    def _get_result(self, goal_handle: Any) -> Any:
+    def _get_result(self, goal_handle: object) -> Any:
         return self._wait(self._get_result_async(goal_handle))
 
     def _get_result_async(self, goal_handle: Any) -> Future[Any]:
@@ -178,7 +178,7 @@ class ActionClient(ActionEntity):
         future.add_done_callback(lambda _: self._feedback_callbacks.pop(key, None))
         return future
 
-    def _check_handle(self, goal_handle: Any) -> None:
+    def _check_handle(self, goal_handle: object) -> None:
         if not isinstance(goal_handle, ClientGoalHandle):
             raise TypeError(f"Expected type ClientGoalHandle but received {type(goal_handle)}")
         self.use()

@@ -35,7 +35,7 @@ class ActionNames:
     status: str
 
 
-def action_names(node: Any, action: str, side: str) -> ActionNames:
+def action_names(node: object, action: str, side: str) -> ActionNames:
     """The names of an action's parts; raises `ValueError` for an invalid action name, with the message of rcl.
 
     `side` is "client" or "server".

@@ -66,7 +66,7 @@ def take(queue: deque[Any]) -> Any:
         return None
 
 
-async def call(callback: Callable[..., Any], *args: Any) -> Any:
+async def call(callback: Callable[..., Any], *args: object) -> Any:
     """Call a function, or await the coroutine of a coroutine function."""
     if is_coroutine_function(callback):
         return await callback(*args)

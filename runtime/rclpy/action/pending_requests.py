@@ -22,7 +22,7 @@ class PendingRequests:
         self._number = 0
         self._waiting: dict[int, tuple[Future[Any], Any]] = {}
 
-    def send(self, endpoint: ClientEndpoint, request: Any, goal_id: Any) -> Future[Any]:
+    def send(self, endpoint: ClientEndpoint, request: object, goal_id: object) -> Future[Any]:
         """Send a request; its future is completed by `settle`, and dropped if it is cancelled before."""
         future: Future[Any] = Future()
         with self._lock:
@@ -44,7 +44,7 @@ class PendingRequests:
         with self._lock:
             return any(each is future for each, _ in self._waiting.values())
 
-    def settle(self, number: int, result: Any, executor: Any) -> bool:
+    def settle(self, number: int, result: object, executor: object) -> bool:
         """Complete a request, with done callbacks run by `executor`; returns whether the request was pending."""
         found = self._forget(number)
         if found is None:

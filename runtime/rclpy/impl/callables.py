@@ -15,12 +15,12 @@ COROUTINE = 0x80
 """The flag `inspect.CO_COROUTINE`."""
 
 
-def is_coroutine(value: Any) -> TypeGuard[CoroutineType[Any, Any, Any]]:
+def is_coroutine(value: object) -> TypeGuard[CoroutineType[Any, Any, Any]]:
     """Whether a value was returned by an `async def` function."""
     return isinstance(value, CoroutineType)
 
 
-def is_coroutine_function(callback: Any) -> TypeGuard[Callable[..., Coroutine[Any, Any, Any]]]:
+def is_coroutine_function(callback: object) -> TypeGuard[Callable[..., Coroutine[Any, Any, Any]]]:
     """Whether a callback is an `async def` function, or is marked to count as one."""
     function = _plain(callback)
     if function is not None:
@@ -44,7 +44,7 @@ def takes(callback: Callable[..., Any], count: int) -> bool:
     return True
 
 
-def _plain(callback: Any) -> FunctionType | None:
+def _plain(callback: object) -> FunctionType | None:
     """The function of a function or method; None if attributes may change what `inspect` says, or `self` is missing."""
     is_method = isinstance(callback, MethodType)
     function = callback.__func__ if is_method else callback

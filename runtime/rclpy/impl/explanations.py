@@ -110,7 +110,7 @@ def _wrong_type(exception: Any) -> str:
     return wrong_type(given.name, literal_text(given.value), found[1], given.type_.name) if found else ""
 
 
-def _refused_value(exception: Any) -> str:
+def _refused_value(exception: object) -> str:
     """Which value was refused, if it came from a file: the exception does not say where from."""
     if type(exception).__name__ != "InvalidParameterValueException" or not is_read():
         return ""
@@ -127,7 +127,7 @@ def _not_declared(exception: Any) -> str:
     return read_before_declared(name, declared) if name and declared is not None else ""
 
 
-def _place_of_value(exception: Any) -> str:
+def _place_of_value(exception: object) -> str:
     """The line of a file that gives the refused value; empty if it is from no file."""
     source, node, name = getattr(exception, GIVEN_BY, ("", "", ""))
     return place_of(source, node, name)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from bot_console.runtime.process import ProcessLocal
 from rclpy.impl.log_file import LogFile
@@ -95,7 +95,7 @@ def reset() -> None:
     _state.set(LogState(state().log_file))
 
 
-def forget_rosout(found: LogState, show_text: Any) -> None:
+def forget_rosout(found: LogState, show_text: object) -> None:
     """Remove a publisher of `/rosout` from every logger that uses it."""
     for name in [name for name, each in found.rosout.items() if each == show_text]:
         del found.rosout[name]

@@ -57,7 +57,7 @@ def _for_targets(sections: Sequence[Section], targets: Sequence[str], keys: list
     return wanted
 
 
-def _sections(top: Any, path: str, value: Any) -> Iterator[Section]:
+def _sections(top: object, path: str, value: object) -> Iterator[Section]:
     below = cast("dict[Any, Any]", value) if isinstance(value, dict) else {}
     if KEYWORD in below or not below:
         yield Section(top, path, below.get(KEYWORD, MISSING))
@@ -66,5 +66,5 @@ def _sections(top: Any, path: str, value: Any) -> Iterator[Section]:
         yield from _sections(top, _below(path, key), inner)
 
 
-def _below(path: str, key: Any) -> str:
+def _below(path: str, key: object) -> str:
     return f"{path.rstrip('/')}/{str(key).strip('/')}"

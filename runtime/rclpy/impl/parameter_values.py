@@ -24,7 +24,7 @@ _ELEMENTS = tuple((each.python, each.code) for each in ARRAYS)
 _NUMERIC_LISTS = frozenset((INTEGER_ARRAY.code, DOUBLE_ARRAY.code))
 
 
-def infer(value: Any) -> int:
+def infer(value: object) -> int:
     """The parameter type of a value; an empty list is a byte array. Raises `TypeError` for a value of no such type."""
     if value is None:
         return NOT_SET
@@ -40,7 +40,7 @@ def infer(value: Any) -> int:
     raise TypeError(f"The given value is not a list of one of the allowed types '{value}'.")
 
 
-def value_fits(code: int, value: Any) -> bool:
+def value_fits(code: int, value: object) -> bool:
     """Whether a parameter of a type may hold the value."""
     if code == NOT_SET:
         return value is None

@@ -52,34 +52,34 @@ class RcutilsLogger:
         """Whether messages of that severity are logged."""
         return LoggingSeverity(severity) >= state().effective_level(self.name)
 
-    def debug(self, message: str, **kwargs: Any) -> bool:
+    def debug(self, message: str, **kwargs: object) -> bool:
         """Log a message for debugging."""
         return self._log(message, DEBUG, kwargs)
 
-    def info(self, message: str, **kwargs: Any) -> bool:
+    def info(self, message: str, **kwargs: object) -> bool:
         """Log what the program is doing."""
         return self._log(message, INFO, kwargs)
 
-    def warning(self, message: str, **kwargs: Any) -> bool:
+    def warning(self, message: str, **kwargs: object) -> bool:
         """Log a possible problem."""
         return self._log(message, WARN, kwargs)
 
-    def warn(self, message: str, **kwargs: Any) -> bool:
+    def warn(self, message: str, **kwargs: object) -> bool:
         """Log as `warning` does."""
         if distribution().warn_is_deprecated:
             text = "Deprecated in favor of :py:classmethod:RcutilsLogger.warning:."
             warnings.warn(text, DeprecationWarning, stacklevel=2)
         return self._log(message, WARN, kwargs)
 
-    def error(self, message: str, **kwargs: Any) -> bool:
+    def error(self, message: str, **kwargs: object) -> bool:
         """Log an error."""
         return self._log(message, ERROR, kwargs)
 
-    def fatal(self, message: str, **kwargs: Any) -> bool:
+    def fatal(self, message: str, **kwargs: object) -> bool:
         """Log an error that ends the program."""
         return self._log(message, FATAL, kwargs)
 
-    def log(self, message: str, severity: LoggingSeverity | int, **kwargs: Any) -> bool:
+    def log(self, message: str, severity: LoggingSeverity | int, **kwargs: object) -> bool:
         """Log with a severity given as a value."""
         return self._log(message, LoggingSeverity(severity), kwargs)
 
@@ -121,7 +121,7 @@ def _check_unchanged(site: Site, options: dict[str, Any]) -> None:
         raise ValueError("Logging filter parameters cannot be changed between calls.")
 
 
-def _text(message: Any) -> str:
+def _text(message: object) -> str:
     """Convert a message that is not a plain `str` as upstream's C layer does."""
     if message is None:
         return "(null)"

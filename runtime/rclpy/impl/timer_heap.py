@@ -25,7 +25,7 @@ class TimerHeap:
         timer.heap_deadline = deadline
         heappush(self.entries, (deadline, timer.order, timer))
 
-    def next_deadline(self, sink: Any) -> int | None:
+    def next_deadline(self, sink: object) -> int | None:
         """The deadline (steady ns) of the executor's next timer; None without one."""
         entries = self.entries
         while entries:
@@ -36,7 +36,7 @@ class TimerHeap:
             self._put_right(entry, sink)
         return None
 
-    def pop_due(self, now: int, sink: Any) -> list[Any]:
+    def pop_due(self, now: int, sink: object) -> list[Any]:
         """Remove and return the timers that are due."""
         due: list[Any] = []
         entries = self.entries
@@ -51,7 +51,7 @@ class TimerHeap:
                 self._put_right(entry, sink)
         return due
 
-    def _put_right(self, entry: tuple[int, int, Any], sink: Any) -> None:
+    def _put_right(self, entry: tuple[int, int, Any], sink: object) -> None:
         """Remove the outdated first entry, or move it to its timer's deadline."""
         deadline, order, timer = entry
         # A stale entry: the timer has gone to another executor, or was pushed again for an earlier time.

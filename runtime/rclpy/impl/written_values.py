@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
 
-
-def literal_text(value: Any) -> str:
+def literal_text(value: object) -> str:
     """A value as written in YAML."""
     return str(value).lower() if isinstance(value, bool) else str(value)

@@ -67,7 +67,7 @@ class SimpleManagedEntity(ManagedEntity):
 
         def decorate(method: Callable[..., Any]) -> Callable[..., None]:
             @wraps(method)
-            def only_when_enabled(self: SimpleManagedEntity, *args: Any, **kwargs: Any) -> None:
+            def only_when_enabled(self: SimpleManagedEntity, *args: object, **kwargs: object) -> None:
                 if self._enabled:
                     method(self, *args, **kwargs)
                 elif when_not_enabled is not None:

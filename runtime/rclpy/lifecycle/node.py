@@ -33,7 +33,7 @@ class LifecycleNodeMixin(ManagedEntity):
 
     _logger: Any
 
-    def __init__(self, *, enable_communication_interface: bool = True, callback_group: Any = None) -> None:
+    def __init__(self, *, enable_communication_interface: bool = True, callback_group: object = None) -> None:
         self._callbacks: dict[int, Callable[[LifecycleState], TransitionCallbackReturn]] = {
             State.TRANSITION_STATE_CONFIGURING: self.on_configure,
             State.TRANSITION_STATE_CLEANINGUP: self.on_cleanup,
@@ -151,7 +151,7 @@ class LifecycleNodeMixin(ManagedEntity):
             raise TypeError("Expected a rclpy.lifecycle.ManagedEntity instance.")
         self._managed_entities[entity] = None
 
-    def create_lifecycle_publisher(self, *args: Any, **kwargs: Any) -> LifecyclePublisher:
+    def create_lifecycle_publisher(self, *args: object, **kwargs: object) -> LifecyclePublisher:
         """Create a publisher that is silent while the node is not active; arguments as for `create_publisher`."""
         if "publisher_class" in kwargs:
             raise TypeError("create_publisher() got an unexpected keyword argument 'publisher_class'")

@@ -17,7 +17,7 @@ class LifecyclePublisher(SimpleManagedEntity, Publisher):
         Publisher.__init__(self, *args, **kwargs)
 
     @SimpleManagedEntity.when_enabled
-    def publish(self, msg: Any) -> None:
+    def publish(self, msg: object) -> None:
         """Publish a message, or its serialized bytes, if the node is active."""
         Publisher.publish(self, msg)
 

@@ -20,10 +20,10 @@ class LifecycleServices:
 
     def __init__(
         self,
-        node: Any,
+        node: object,
         machine: LifecycleStateMachine,
         change_state: Callable[[int], TransitionCallbackReturn],
-        group: Any,
+        group: object,
     ) -> None:
         self._machine = machine
         self._change_state = change_state

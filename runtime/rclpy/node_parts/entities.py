@@ -58,7 +58,7 @@ class NodeEntities:
     get_clock: Callable[[], Any]
     get_logger: Callable[[], Any]
 
-    def _ros_attach(self, executor: Any, order: int) -> None:
+    def _ros_attach(self, executor: object, order: int) -> None:
         self._ros_sink, self._ros_order = executor, order
         for entity in [*self._ros_entities]:
             entity.attach(executor, order)
@@ -75,7 +75,7 @@ class NodeEntities:
         if self._ros_sink is not None:
             entity.attach(self._ros_sink, self._ros_order)
 
-    def _ros_group(self, group: Any) -> Any:
+    def _ros_group(self, group: object) -> Any:
         return self.default_callback_group if group is None else group
 
     def _ros_may_create(self, what: str) -> None:
@@ -84,7 +84,7 @@ class NodeEntities:
             raise RCLError(f"Failed to create {what}: rcl node's context is invalid")
 
     @staticmethod
-    def _ros_profile(qos: Any) -> QoSProfile:
+    def _ros_profile(qos: object) -> QoSProfile:
         if isinstance(qos, QoSProfile):
             return qos
         if isinstance(qos, int):
@@ -220,8 +220,8 @@ class NodeEntities:
         self,
         timer_period_sec: float,
         callback: Callable[..., Any] | None,
-        callback_group: Any = None,
-        clock: Any = None,
+        callback_group: object = None,
+        clock: object = None,
         autostart: bool = True,
     ) -> Timer:
         """Create a timer with a period (s) of a clock, the node's own by default."""
@@ -232,7 +232,9 @@ class NodeEntities:
         self._ros_enter(timer, group)
         return timer
 
-    def create_guard_condition(self, callback: Callable[[], Any] | None, callback_group: Any = None) -> GuardCondition:
+    def create_guard_condition(
+        self, callback: Callable[[], Any] | None, callback_group: object = None
+    ) -> GuardCondition:
         """Create a guard condition."""
         group = self._ros_group(callback_group)
         self.context.require_running("guard_condition")
@@ -240,7 +242,7 @@ class NodeEntities:
         self._ros_enter(guard, group)
         return guard
 
-    def create_rate(self, frequency: float, clock: Any = None) -> Rate:
+    def create_rate(self, frequency: float, clock: object = None) -> Rate:
         """Create a rate (Hz); it ticks while another thread spins the node."""
         if frequency <= 0:
             raise ValueError("frequency must be > 0")
@@ -249,11 +251,11 @@ class NodeEntities:
         self._ros_rates[rate] = timer
         return rate
 
-    def add_waitable(self, waitable: Any) -> None:
+    def add_waitable(self, waitable: object) -> None:
         """Add a waitable to the node."""
         self._ros_waitables[waitable] = None
 
-    def remove_waitable(self, waitable: Any) -> None:
+    def remove_waitable(self, waitable: object) -> None:
         """Remove a waitable from the node."""
         self._ros_waitables.pop(waitable, None)
 
@@ -353,7 +355,7 @@ def _check_service_qos(profile: object) -> None:
 def _event_reporter(handlers: list[Any]) -> OnEvent:
     """A function that passes an event of the bus to the handlers of its kind."""
 
-    def report(kind: Event, what: Any) -> None:
+    def report(kind: Event, what: object) -> None:
         for handler in handlers:
             if kind in handler.kinds:
                 handler.happened(kind, what)

@@ -71,7 +71,7 @@ class NodeParameters(ParameterSetting):
     def declare_parameter(
         self,
         name: str,
-        value: Any = None,
+        value: object = None,
         descriptor: ParameterDescriptor | None = None,
         ignore_override: bool = False,
     ) -> Parameter:
@@ -165,7 +165,7 @@ class NodeParameters(ParameterSetting):
         _check_names(names)
         return [self.get_parameter(name) for name in names]
 
-    def get_parameter_or(self, name: str, alternative_value: Any = None) -> Any:
+    def get_parameter_or(self, name: str, alternative_value: object = None) -> Any:
         """A parameter; if it has no value, the alternative itself, or a NOT_SET parameter without one."""
         parameter = self._parameters.get(name)
         if parameter is not None and parameter._type_ is not NOT_SET:
@@ -258,7 +258,7 @@ def _from_value(name: str, value: ParameterValue) -> Parameter:
 ANY_DEPTH = 0
 
 
-def listed(names: Iterable[str], prefixes: Any, depth: Any) -> list[str]:
+def listed(names: Iterable[str], prefixes: object, depth: object) -> list[str]:
     """The names that `list_parameters` returns, in their order; raises `TypeError` and `ValueError`."""
     if not isinstance(prefixes, list):
         raise TypeError("The prefixes argument must be a list")
@@ -363,7 +363,7 @@ def read_declaration(
     return Parameter(name, value=value), descriptor
 
 
-def _full_name(index: int, name: Any, namespace: str) -> str:
+def _full_name(index: int, name: object, namespace: str) -> str:
     if not isinstance(name, str):
         raise TypeError(f"First element {name} at index {index} in parameters list is not a str.")
     name = f"{namespace}.{name}" if namespace else name

@@ -9,7 +9,7 @@ from rclpy._rclpy_pybind11 import RCLError
 from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
 
 
-def checked(node: Any, name: str, *, service: bool = False) -> str:
+def checked(node: object, name: str, *, service: bool = False) -> str:
     """The full, remapped name of an entity to be created.
 
     Raises `InvalidTopicNameException` or `InvalidServiceNameException`, and `ValueError` for an unknown substitution.
@@ -25,7 +25,7 @@ def checked(node: Any, name: str, *, service: bool = False) -> str:
     return full
 
 
-def expand_name(node: Any, name: str, *, service: bool = False) -> str:
+def expand_name(node: object, name: str, *, service: bool = False) -> str:
     """The full name of an existing topic or service, not remapped.
 
     Raises `ValueError` as upstream's counts do, and the exceptions of `checked` for invalid full names.

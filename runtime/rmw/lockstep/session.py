@@ -207,7 +207,7 @@ class _Publisher:
 class _Entry:
     """One of this process's callbacks for a key; the switchboard knows only whether there are any."""
 
-    def __init__(self, link: Link, entries: dict[str, dict[int, Any]], kind: str, key: str, callback: Any) -> None:
+    def __init__(self, link: Link, entries: dict[str, dict[int, Any]], kind: str, key: str, callback: object) -> None:
         self.number = next(link.numbers)
         self._send, self._entries, self._kind, self._key = link.send, entries, kind, key
         if key not in entries:

@@ -165,7 +165,7 @@ class _Interrupt:
             raise KeyboardInterrupt
 
 
-def _follow(node: Node, client: ActionClient, goal: Any, feedback: bool, interrupt: _Interrupt) -> Result:
+def _follow(node: Node, client: ActionClient, goal: object, feedback: bool, interrupt: _Interrupt) -> Result:
     """Send the goal and wait for its result; Ctrl-C cancels the goal."""
     print("Waiting for an action server to become available...")
     spin_until(node, lambda: interrupt.came or client.server_is_ready())

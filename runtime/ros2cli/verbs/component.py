@@ -129,7 +129,7 @@ def _unload(arguments: argparse.Namespace) -> Result:
     return None
 
 
-def _asked(node: Node, kind: Any, container: str, service: str, request: Any) -> Any:
+def _asked(node: Node, kind: object, container: str, service: str, request: object) -> Any:
     """The response of a container's service; raises `RuntimeError` if the service is not ready in time."""
     missing = f"No '{service}' service found for '{container}' container"
     return call(node, kind, f"{container}/_container/{service}", request, ANSWER_TIMEOUT_S, missing)

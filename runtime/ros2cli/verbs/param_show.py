@@ -169,7 +169,7 @@ def dump(arguments: argparse.Namespace) -> Result:
     return None
 
 
-def _insert(tree: dict[str, Any], path: list[str], value: Any) -> None:
+def _insert(tree: dict[str, Any], path: list[str], value: object) -> None:
     """Insert a value under nested keys; where a prefix is itself a parameter, the rest of the name keeps its dots."""
     *above, last = path
     for depth, key in enumerate(above):

@@ -102,7 +102,7 @@ class _Printer:
         self.problem = ""
         self.done = False
 
-    def show(self, message: Any, info: Any) -> None:
+    def show(self, message: object, info: object) -> None:
         """Print one message, or the selected field of it; the filter is applied to what would be printed."""
         chosen = self._arguments
         if self._field:
@@ -122,7 +122,7 @@ class _Printer:
             self._print_block(message, info)
         self.done = chosen.once
 
-    def _print_value(self, value: Any, info: Any) -> None:
+    def _print_value(self, value: object, info: object) -> None:
         """Print what is not a message, that is a field or raw bytes; ignores `--csv`."""
         if self._arguments.include_message_info:
             print(f"---Got new message, message info:---\n{info}\n---Message data:---")

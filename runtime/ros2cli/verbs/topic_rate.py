@@ -141,7 +141,7 @@ def rate(arguments: argparse.Namespace) -> Result:
         simulated = arguments.use_sim_time and not arguments.wall_time
         measured = _Rate(arguments.window_size)
 
-        def take(message: Any, info: Mapping[str, int]) -> None:
+        def take(message: object, info: Mapping[str, int]) -> None:
             # Messages may have waited while the type of the topic was learned.
             now = clock.now().nanoseconds if simulated else info["received_timestamp"]
             if passes(message) and (text := measured.take(now)):

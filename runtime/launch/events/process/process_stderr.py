@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from launch.events.process.process_io import ProcessIO
 
 
@@ -12,5 +10,5 @@ class ProcessStderr(ProcessIO):
 
     name = "launch.events.process.ProcessStderr"
 
-    def __init__(self, *, text: bytes, **kwargs: Any) -> None:
+    def __init__(self, *, text: bytes, **kwargs: object) -> None:
         super().__init__(text=text, fd=2, **kwargs)

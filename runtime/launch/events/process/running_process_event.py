@@ -15,13 +15,13 @@ class RunningProcessEvent(Event):
     def __init__(
         self,
         *,
-        action: Any,
+        action: object,
         name: str,
         cmd: list[str],
         cwd: str | None,
         env: dict[str, str] | None,
         pid: int,
-        **_more: Any,
+        **_more: object,
     ) -> None:
         self.__action = action
         self.__name = name
