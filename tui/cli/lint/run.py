@@ -32,7 +32,11 @@ def run(words: list[str]) -> int:
         epilog="exit codes: 0 nothing found, 1 something found, 2 wrong usage",
     )
     parser.add_argument(
-        "what", metavar="PACKAGE | FILE | FOLDER | COURSE | running", help="running: the nodes of the domain"
+        "what",
+        nargs="?",
+        default=".",
+        metavar="PACKAGE | FILE | FOLDER | COURSE | running",
+        help="running: the nodes of the domain; without: this folder",
     )
     parser.add_argument(
         "--json",
@@ -116,7 +120,9 @@ def files_of(what: str) -> list[Path]:
     return sorted(
         each
         for each in path.rglob("*")
-        if (each.suffix in (".py", ".yaml", ".yml") or each.name.endswith(XML_LAUNCH)) and "test" not in each.parts
+        if (each.suffix in (".py", ".yaml", ".yml") or each.name.endswith(XML_LAUNCH))
+        and "test" not in each.parts
+        and not any(part.startswith(".") for part in each.relative_to(path).parts)  # such as an environment, `.venv`
     )
 
 

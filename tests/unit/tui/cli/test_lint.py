@@ -230,3 +230,16 @@ def test_what_would_not_work_on_ros_is_found_in_packages(tmp_path: Path, capsys:
     lines = capsys.readouterr().out.splitlines()
     assert any("setup.cfg: is missing" in each and "not on ROS 2" in each for each in lines)
     assert any("setup.py:2: setup() is called with the name 'q'" in each for each in lines) and len(lines) == 2
+
+
+def test_without_argument_the_folder_is_linted_but_no_environment_in_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = "robot:\n  ros_parameters:\n    speed: 1.0\n"
+    for folder in (".venv", "config"):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "robot.yaml").write_text(text, "utf-8")
+    monkeypatch.chdir(tmp_path)
+    assert run([]) == 1
+    printed = capsys.readouterr().out
+    assert "config/robot.yaml:2" in printed and ".venv" not in printed
