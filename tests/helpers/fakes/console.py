@@ -311,8 +311,8 @@ class FakeConsole(FakeProfiles, FakeSeries):
         names = ", ".join(name for move in step.moves for name in move.after)
         return done(Answer(not left, "; ".join(each.reason for each in refused) or f"{source.value}: {names}"))
 
-    def move(self, linear: float, angular: float) -> None:
-        self.asked.append(("drive", linear, angular))
+    def move(self, linear: float, angular: float, sideways: float = 0.0) -> None:
+        self.asked.append(("drive", linear, angular, *([sideways] if sideways else [])))
         if not (math.isfinite(linear) and math.isfinite(angular)):
             raise ValueError("a velocity must be a finite number")
         if not (self.current.drive.stopped or self.closed):

@@ -46,6 +46,39 @@ def test_keys_are_ignored_until_armed() -> None:
     run(live(), play, (100, 30))
 
 
+def test_sideways_keys_slide_a_holonomic_base() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6", "comma")
+        assert commands(session) == [] and "not armed" in session.text()
+        await session.press("enter", "comma", "less_than_sign")
+        assert commands(session)[-1] == (0.0, 0.0, pytest.approx(0.55))
+        assert "0.55 m/s to the left" in session.text()
+        await session.press("x")
+        assert commands(session)[-1] == (0.0, 0.0) and "to the left" not in session.text()
+        await session.press("full_stop")
+        assert commands(session)[-1] == (0.0, 0.0, pytest.approx(-0.05)) and "to the right" in session.text()
+        pass_time(session, 100.0)
+        assert commands(session)[-1] == (0.0, 0.0) and not steering(session).state.armed
+
+    run(live(), play, (100, 30))
+
+
+def test_the_command_topic_is_chosen_by_its_name_and_the_robot_left_is_held() -> None:
+    async def play(session: Session) -> None:
+        chosen: list[str] = []
+        session.console.drive.choose = chosen.append
+        drive = session.console.current.drive
+        session.console.change(drive=replace(drive, robot="/", robots=("/", "/arm/servo", "/cmd_vel_desired")))
+        await session.press("6", "enter", "W", "o")
+        assert "/arm/servo" in session.text() and not steering(session).state.armed
+        assert stops(session)[-2:] == [("all_stop", True), ("steer", False)]
+        await session.type("serv")
+        await session.press("enter")
+        assert chosen == ["/arm/servo"]
+
+    run(live(), play, (100, 30))
+
+
 DRIVEN: list[tuple[list[str], tuple[float, float]]] = [
     (["w", "w"], (0.1, 0.0)),
     (["up", "up"], (0.1, 0.0)),

@@ -185,7 +185,7 @@ class DriveLink:
         velocity = (twist.linear.x, twist.angular.z)
         self._seen[token] = velocity
         self._heard[token] = self._now()
-        if token == FINAL and self._holds_by_zeros and velocity != (0.0, 0.0):
+        if token == FINAL and self._holds_by_zeros and (velocity != (0.0, 0.0) or twist.linear.y):
             # Somebody else keeps driving; without an arbiter the last command counts, so ours follows at once.
             self._send(FINAL, 0.0, 0.0)
 
@@ -202,13 +202,15 @@ class DriveLink:
         """
         return TELEOP if self._arbitrated else FINAL
 
-    def drive(self, linear: float, angular: float) -> None:
-        """Publish one command (m/s, rad/s), unless the robot is stopped; raises `ValueError` for NaN and infinity."""
-        if not (math.isfinite(linear) and math.isfinite(angular)):
+    def drive(self, linear: float, angular: float, sideways: float = 0.0) -> None:
+        """Publish one command (m/s, rad/s; `sideways` in m/s to the left), unless the robot is stopped; raises
+        `ValueError` for NaN and infinity.
+        """
+        if not all(map(math.isfinite, (linear, angular, sideways))):
             raise ValueError("a velocity must be a finite number")
         if not (self._stop.info.stopped or self._zeros or self._replaced):
             self._acted = True
-            self._send(self._token, linear, angular)
+            self._send(self._token, linear, angular, sideways)
 
     def stop(self, hold: bool, reason: str, others: Sequence[str] = ()) -> None:
         """Lock the robot, or withdraw that along with the stops of `others`, and send zero velocity now.
@@ -327,8 +329,8 @@ class DriveLink:
         locked = self._stop.info.locks and self._robot not in self._unlocked
         return self._stop.stopping or (self._zeros and not locked)
 
-    def _send(self, token: str, linear: float, angular: float) -> None:
-        self._publish(self._robot.get(token), linear, angular)
+    def _send(self, token: str, linear: float, angular: float, sideways: float = 0.0) -> None:
+        self._publish(self._robot.get(token), linear, angular, sideways)
 
     def _publisher(self, topic: str) -> Any:
         key = (topic, self._kind(topic))
@@ -336,12 +338,12 @@ class DriveLink:
             self._publishers[key] = self._node.create_publisher(key[1], topic, 10)
         return self._publishers[key]
 
-    def _publish(self, topic: str, linear: float, angular: float) -> None:
+    def _publish(self, topic: str, linear: float, angular: float, sideways: float = 0.0) -> None:
         if not topic:
             return
         message = self._kind(topic)()
         twist = getattr(message, "twist", message)
-        twist.linear.x, twist.angular.z = float(linear), float(angular)
+        twist.linear.x, twist.linear.y, twist.angular.z = float(linear), float(sideways), float(angular)
         if twist is not message and not self._found.simulated:
             # With simulated time our own clock would give a wrong stamp; zero means now.
             message.header.stamp = self._node.get_clock().now().to_msg()

@@ -15,8 +15,9 @@ from bot_console.tui.console.robot.robot_model import Pose
 class Drive(Protocol):
     """Steers the robot; a stop is accepted in every state of the console, and kept until the robot confirms it."""
 
-    def move(self, linear: float, angular: float) -> None:
-        """Send one velocity command (m/s, rad/s); the caller repeats it. Silently ignored while an all-stop holds.
+    def move(self, linear: float, angular: float, sideways: float = 0.0) -> None:
+        """Send one velocity command (m/s, rad/s; `sideways` in m/s to the left, for holonomic bases); the caller
+        repeats it. Silently ignored while an all-stop holds.
 
         Raises `ValueError` for NaN and infinity.
         """

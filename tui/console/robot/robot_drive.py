@@ -184,13 +184,13 @@ class RobotDrive:
         else:
             self._node.link.stop(False, "", others)
 
-    def move(self, linear: float, angular: float) -> None:
+    def move(self, linear: float, angular: float, sideways: float = 0.0) -> None:
         """Send a velocity command; while the network is silent, only a zero."""
-        if self._node is None or (self._gate.refusal and (linear, angular) != (0.0, 0.0)):
+        if self._node is None or (self._gate.refusal and (linear, angular, sideways) != (0.0, 0.0, 0.0)):
             return
         if not self._network().silent_s:
             self._zero_again()
-            self._node.link.drive(linear, angular)
+            self._node.link.drive(linear, angular, sideways)
         elif not self._zeroed:
             # Commands queued while the link is cut arrive late: the last of them has to be a zero.
             self._zeroed = True

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from bot_console.tui import keymap
@@ -22,7 +22,7 @@ from bot_console.tui.panes.steering.state import (
 from bot_console.tui.panes.steering.view import lines
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.prompt.line import Prompt
-from bot_console.tui.widgets.prompt.question import Line
+from bot_console.tui.widgets.prompt.question import Choice, Line, Option
 from textual.app import ComposeResult
 from textual.events import MouseDown, MouseEvent, MouseMove, MouseUp
 
@@ -276,6 +276,13 @@ class SteeringPane(Pane):
             self._send()
             self._draw()
 
+    def action_slide(self, steps: int) -> None:
+        """Change the sideways velocity and send it immediately."""
+        if self._ready():
+            self.state.slide(steps, self.clock())
+            self._send()
+            self._draw()
+
     def action_zero_axis(self, axis: int) -> None:
         """Zero one velocity."""
         if self._ready():
@@ -298,6 +305,18 @@ class SteeringPane(Pane):
         self._disarm()
         at = drive.robots.index(drive.robot) if drive.robot in drive.robots else -1
         self.console.drive.choose(drive.robots[(at + 1) % len(drive.robots)])
+
+    def action_topic(self) -> None:
+        """Choose the command topic by name; the robot steered now is released first."""
+        self._disarm()
+        robots = self._snapshot.drive.robots
+
+        def find(typed: str) -> Sequence[Option]:
+            return [Option(each) for each in robots if typed.strip() in each]
+
+        empty = "Nobody takes velocity commands on such a topic."
+        choose = self.console.drive.choose
+        self.ask(Choice("Steer which robot or topic?", choose, find=find, hint="type part of its name", empty=empty))
 
     def action_deadman(self) -> None:
         """The next dead-man time."""

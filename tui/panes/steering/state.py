@@ -37,6 +37,8 @@ class Steering:
 
     linear: float = 0.0
     angular: float = 0.0
+    sideways: float = 0.0
+    """To the left, in m/s; holonomic bases alone obey it."""
     armed: bool = False
     deadman: float = DEADMAN_TIMES[1]
     greatest: tuple[float, float] = GREATEST
@@ -50,7 +52,7 @@ class Steering:
     def arm(self, now: float) -> None:
         """Accept keys; the robot stands until one moves it."""
         self.armed, self.last_key, self.expired = True, now, False
-        self.linear = self.angular = 0.0
+        self.linear = self.angular = self.sideways = 0.0
 
     def disarm(self) -> None:
         """Ignore keys; the robot stands still."""
@@ -59,14 +61,14 @@ class Steering:
 
     def zero(self) -> None:
         """Stop; the zero is sent even if it was sent before."""
-        self.linear = self.angular = 0.0
+        self.linear = self.angular = self.sideways = 0.0
         self.sent_zero = False
 
     def zero_axis(self, axis: int, now: float) -> None:
-        """Zero linear (0) or angular (1) velocity."""
+        """Zero linear (0) velocity, also sideways, or angular (1) velocity."""
         self.last_key, self.expired, self.sent_zero = now, False, False
         if axis == 0:
-            self.linear = 0.0
+            self.linear = self.sideways = 0.0
         else:
             self.angular = 0.0
 
@@ -75,6 +77,11 @@ class Steering:
         self.last_key, self.expired = now, False
         self.linear = _moved(self.linear, linear * steps, self.greatest[0])
         self.angular = _moved(self.angular, angular * steps, self.greatest[1])
+
+    def slide(self, steps: int, now: float) -> None:
+        """Change the sideways velocity by steps to the left; its limit is that of the linear one."""
+        self.last_key, self.expired = now, False
+        self.sideways = _moved(self.sideways, steps, self.greatest[0])
 
     def aim(self, linear: float | None, angular: float | None, now: float) -> None:
         """Set velocities chosen by mouse; None leaves one unchanged."""
@@ -89,23 +96,29 @@ class Steering:
         self.greatest = greatest
         self.linear = max(-greatest[0], min(self.linear, greatest[0]))
         self.angular = max(-greatest[1], min(self.angular, greatest[1]))
+        self.sideways = max(-greatest[0], min(self.sideways, greatest[0]))
 
     def left(self, now: float) -> float:
         """The remaining share of the dead-man time, 0 to 1."""
         return max(0.0, min(1.0, 1.0 - (now - self.last_key) / self.deadman)) if self.armed else 0.0
 
-    def command(self, now: float) -> tuple[float, float] | None:
-        """The command to send now, if any: velocities repeatedly, a zero once. The dead-man timeout ends the
-        steering.
+    def command(self, now: float) -> tuple[float, float, float] | None:
+        """The command to send now, if any: linear, angular and sideways velocity repeatedly, a zero once. The dead-man
+        timeout ends the steering.
         """
-        moving = (self.linear, self.angular) != (0.0, 0.0)
+        moving = self.moving
         if self.armed and moving and now - self.last_key >= self.deadman:
             self.disarm()
             self.expired, moving = True, False
         if not moving and self.sent_zero:
             return None
         self.sent_zero = not moving
-        return self.linear, self.angular
+        return self.linear, self.angular, self.sideways
+
+    @property
+    def moving(self) -> bool:
+        """Whether the command is not zero."""
+        return (self.linear, self.angular, self.sideways) != (0.0, 0.0, 0.0)
 
 
 def _moved(value: float, steps: int, greatest: float) -> float:

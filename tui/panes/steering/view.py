@@ -29,6 +29,7 @@ def lines(
     """
     top = [_switch(state, drive, width), *_others(others, drive.topic)]
     sliders = [
+        *_sideways(state),
         _slider("linear", state.linear, state.greatest[0], "m/s", width),
         _slider("angular", -state.angular, state.greatest[1], "rad/s", width, turned=True),
     ]
@@ -39,6 +40,14 @@ def lines(
     full: list[Line] = [*roomy, (), *_keys(width)]
     pad = [*full, (), *_pad(state)] if width >= PAD[0] + 8 else full
     return next((each for each in (pad, full, roomy) if len(each) <= height), compact)[:height]
+
+
+def _sideways(state: Steering) -> list[Line]:
+    """The sideways velocity, while there is one: few bases have any."""
+    if not state.sideways:
+        return []
+    where = "to the left" if state.sideways > 0 else "to the right"
+    return [((f" {'sideways':<{WORDS}}", ""), (f"{abs(state.sideways):.2f} m/s {where}", "strong"))]
 
 
 def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
@@ -108,7 +117,7 @@ def _deadman(state: Steering, left: float) -> Line:
     if state.expired:
         return ((f" no key for {state.deadman:g} s: the robot stands", "warn"),)
     full = round(left * BAR)
-    moving = bool(state.linear or state.angular)
+    moving = state.moving
     bar = "▰" * full + "▱" * (BAR - full) if state.armed and moving else "▱" * BAR
     return ((f" {'dead-man':<{WORDS}}", ""), (f"{bar} ", "warn" if moving and left < 0.35 else "dim"),
             (f"stops {state.deadman:g} s after the last key", "dim"))  # fmt: skip

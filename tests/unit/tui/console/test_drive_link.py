@@ -100,6 +100,25 @@ def test_all_stop_answers_another_publishers_command_at_once(bench):
     assert [value for topic, value in bench.got if topic == "/cmd_vel"][-2:] == [1.0, 0.0]
 
 
+def test_a_holonomic_base_is_driven_sideways_and_held_against_sideways_commands(bench):
+    sideways: list[float] = []
+    bench.robot.create_subscription(Twist, "/cmd_vel_teleop", lambda each: sideways.append(each.linear.y), 10)
+    bench.link.drive(0.5, 0.0, -0.25)
+    bench.settle()
+    assert sideways == [-0.25]
+    other = bench.robot.create_publisher(Twist, "/cmd_vel", 10)
+    bench.link.stop(True, "ALL STOP")
+    bench.settle()
+    bench.got.clear()
+    command = Twist()
+    command.linear.y = 1.0
+    other.publish(command)
+    bench.settle()
+    assert bench.got == [("/cmd_vel", 0.0)] * 2, "the command, and at once our zero"
+    with pytest.raises(ValueError, match="finite"):
+        bench.link.drive(0.0, 0.0, math.nan)
+
+
 def test_a_released_robot_can_be_driven_again(bench):
     bench.link.stop(True, "ALL STOP")
     bench.link.stop(False, "")

@@ -44,9 +44,9 @@ def test_velocities_are_repeated_and_zero_is_sent_once() -> None:
     state = armed()
     assert state.command(0.0) is None
     state.steer(1, 0, 1, 0.0)
-    assert state.command(0.1) == state.command(0.2) == (0.05, 0.0)
+    assert state.command(0.1) == state.command(0.2) == (0.05, 0.0, 0.0)
     state.zero()
-    assert state.command(0.3) == (0.0, 0.0)
+    assert state.command(0.3) == (0.0, 0.0, 0.0)
     assert state.command(0.4) is None
 
 
@@ -54,14 +54,14 @@ def test_the_deadman_time_is_exact() -> None:
     state = armed()
     state.steer(1, 0, 1, 10.0)
     assert state.left(11.0) == 0.5 and state.left(99.0) == 0.0
-    assert state.command(11.999) == (0.05, 0.0) and not state.expired
-    assert state.command(12.0) == (0.0, 0.0) and state.expired and not state.armed
+    assert state.command(11.999) == (0.05, 0.0, 0.0) and not state.expired
+    assert state.command(12.0) == (0.0, 0.0, 0.0) and state.expired and not state.armed
 
 
 def test_zero_is_sent_while_disarmed_even_if_sent_before() -> None:
     state = armed()
     state.disarm()
-    assert state.command(0.0) == (0.0, 0.0)
+    assert state.command(0.0) == (0.0, 0.0, 0.0)
 
 
 @pytest.mark.parametrize(
@@ -87,3 +87,25 @@ def test_limits_are_never_those_of_another_robot() -> None:
     assert greatest_of(fleet, "/robot2/cmd_vel", {"/", "/robot20/"})[0] == 2.0
     assert greatest_of(fleet, "/robot3/cmd_vel", {"/", "/robot2/", "/robot20/"}) == GREATEST
     assert greatest_of(fleet[:1], "/base/cmd_vel")[0] == 0.5, "of one robot, wherever its nodes are"
+
+
+def test_sideways_velocity_is_steered_limited_and_zeroed_like_the_others() -> None:
+    state = Steering()
+    state.limit((1.0, 3.0))
+    state.arm(0.0)
+    state.slide(2, 0.0)
+    assert state.command(0.1) == (0.0, 0.0, 0.1)
+    state.slide(-1000, 0.2)
+    assert state.sideways == 0.0, "it stops before it changes its direction"
+    state.slide(-1000, 0.3)
+    assert state.sideways == -1.0
+    state.limit((0.5, 3.0))
+    assert state.sideways == -0.5
+    assert state.command(0.4 + state.deadman) == (0.0, 0.0, 0.0) and state.expired
+    state.arm(9.0)
+    state.slide(1, 9.0)
+    state.zero_axis(0, 9.0)
+    assert state.command(9.1) == (0.0, 0.0, 0.0)
+    state.slide(1, 9.2)
+    state.zero()
+    assert state.command(9.3) == (0.0, 0.0, 0.0)
