@@ -34,8 +34,8 @@ def undoing(name: str) -> str:
 
 @pytest.mark.parametrize("name", SHELLS)
 def test_scripts_and_other_programs_find_ros2(name: str, home: Path):
-    assert shell(name, home, "env ros2 interface show std_msgs/msg/String | tail -n 1") == "string data\n"
-    assert shell(name, home, "env sh -c 'ros2 --help' | head -n 1").startswith("usage: ros2 ")
+    lines = "env ros2 interface show std_msgs/msg/String | tail -n 1\nenv sh -c 'ros2 --help' | head -n 1"
+    assert shell(name, home, lines).startswith("string data\nusage: ros2 ")
 
 
 @pytest.mark.parametrize("name", SHELLS)
@@ -70,8 +70,8 @@ def test_chosen_distribution_is_that_of_the_shell_until_undone(name: str, home: 
 @pytest.mark.parametrize("name", SHELLS)
 def test_second_evaluation_adds_nothing(name: str, home: Path):
     shows = "printenv PATH; printenv PYTHONPATH"
-    once = shell(name, home, shows)
-    assert shell(name, home, f"{setup.evaluation(name)}\n{shows}") == once
+    once, twice = shell(name, home, f"{shows}; echo then\n{setup.evaluation(name)}\n{shows}").split("then\n")
+    assert "shims" in once and twice == once
 
 
 @pytest.mark.parametrize("name", SHELLS)
@@ -85,8 +85,8 @@ def test_python_imports_rclpy(name: str, home: Path):
 @pytest.mark.parametrize("extra", [{}, {"ROS_DISTRO": "kilted", "PYTHONPATH": "/mine:/too"}], ids=["bare", "sourced"])
 def test_undo_leaves_environment_of_before(name: str, home: Path, extra: dict[str, str]):
     before = in_shell(name, home, "env | sort", extra).stdout
-    assert shell(name, home, f"{undoing(name)}\nenv | sort", extra) == before
-    assert shell(name, home, f"{undoing(name)}\n{undoing(name)}\nenv | sort", extra) == before
+    done = shell(name, home, f"{undoing(name)}\nenv | sort; echo then\n{undoing(name)}\nenv | sort", extra)
+    assert done.split("then\n") == [before, before]
 
 
 @pytest.mark.parametrize("name", SHELLS)
