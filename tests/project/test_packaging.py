@@ -63,6 +63,14 @@ def test_no_module_shadows_an_outside_name(wheel):
     assert not any(name.startswith(("rclpy/", "launch/", "tests/")) for name in wheel)
 
 
+@pytest.mark.parametrize("folder", ["tests", "docs", "tools", "examples", ".ci", ".github"])
+def test_sdist_contains_what_its_own_tests_read(folder):
+    """The suite travels with the sdist, and has to pass there."""
+    assert (
+        f'"{folder}"' in (ROOT / "pyproject.toml").read_text("utf-8").partition("targets.sdist]")[2].partition("]")[0]
+    )
+
+
 def test_generator_of_messages_runs_where_nothing_is_installed_yet():
     program = ast.parse((ROOT / "runtime" / "rosidl" / "generate.py").read_text("utf-8"))
     imported = [each.module or "" for each in program.body if isinstance(each, ast.ImportFrom)]

@@ -37,7 +37,6 @@ def test_disagreement_is_reported(tag, version, changelog, why):
         module.notes(tag, version, changelog)
 
 
-@pytest.mark.skipif(not (ROOT / ".github").exists(), reason="the sdist has no workflows")
 def test_wheel_is_published_by_a_tag_without_a_stored_secret():
     text = (ROOT / ".github" / "workflows" / "publish.yml").read_text()
     assert "id-token: write" in text and "secrets." not in text and "password" not in text
