@@ -121,8 +121,8 @@ class _EntryPoint:
 
     def _look_up(self, modules: FreshModules | None) -> Callable[[], Any]:
         try:
-            own = modules is not None and modules.owns(self._module)
-            module: Any = modules.load(self._module) if own else importlib.import_module(self._module)
+            own = modules if modules is not None and modules.owns(self._module) else None
+            module: Any = importlib.import_module(self._module) if own is None else own.load(self._module)
         except ModuleNotFoundError as error:
             if error.name and f"{self._module}.".startswith(f"{error.name}."):  # else a module that this one imports
                 setattr(error, HINT, NO_ENTRY.format(f"the module {self._module}", ""))
