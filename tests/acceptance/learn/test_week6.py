@@ -272,7 +272,7 @@ def chapter_9(at: Student) -> None:
     two = at.shells[1]
     id = "declare-an-argument"
     show = at.listing(id, 1)
-    at.reads("there is no launch/*.launch.py", "waiting for: launch *.launch.py --show-args")
+    at.reads("launch/two.launch.py has no DeclareLaunchArgument", "waiting for: launch *.launch.py --show-args")
     imports, argument, parameters = at.listing(id).split("\n\n")
     at.write(ARGUMENTS, (at.workspace / "launch/two.launch.py").read_text("utf-8"))
     two.run(show)

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
+from bot_console.tui.files.state_store import texts_in
 from bot_console.tui.panes.graph.view import GraphView, Mode
-from bot_console.tui.state_store import texts_in
 
 STATE_NAME = "graph"
 SWITCHES = ("debug", "dead_sinks", "leaves", "services")
