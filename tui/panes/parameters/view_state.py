@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any, cast
 
 from bot_console.tui.console.query import parse
+from bot_console.tui.files.state_store import texts_in
 from bot_console.tui.panes.parameters.rows import View
-from bot_console.tui.state_store import texts_in
 
 At = tuple[str, str, str]
 """A row: its node, its name in the tree, its parameter."""
