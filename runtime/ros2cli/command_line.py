@@ -126,7 +126,7 @@ def top_parser() -> argparse.ArgumentParser:
 
 def _subparsers(
     parser: argparse.ArgumentParser, of: str, rows: Mapping[str, str]
-) -> argparse._SubParsersAction[argparse.ArgumentParser]:
+) -> argparse._SubParsersAction[argparse.ArgumentParser]:  # pyright: ignore[reportPrivateUsage] -- argparse has no public name for it
     width = max(map(len, rows), default=0)
     listing = "\n".join(f"{name.ljust(width)}  {text}" for name, text in sorted(rows.items()))
     return parser.add_subparsers(
@@ -134,7 +134,9 @@ def _subparsers(
     )
 
 
-def _all_commands(parser: argparse.ArgumentParser) -> argparse._SubParsersAction[argparse.ArgumentParser]:
+def _all_commands(
+    parser: argparse.ArgumentParser,
+) -> argparse._SubParsersAction[argparse.ArgumentParser]:  # pyright: ignore[reportPrivateUsage] -- argparse has no public name for it
     return _subparsers(parser, "ros2", {name: text for name, (_, text) in COMMANDS.items()})
 
 

@@ -27,7 +27,7 @@ def message_class(node: Node, topic: str, type_name: str) -> Any:
     except MISSING:
         pass
     why = _learned(node, type_name)
-    if not why:
+    if why == "":
         return get_message(type_name)
     why = "no node publishes it that could be asked" if why is None else why
     return f"The type '{type_name}' of topic '{topic}' is not installed here: {why}"

@@ -46,5 +46,5 @@ def _refuse_endless(value: object, seen: set[int]) -> None:
     elif isinstance(value, (list, dict)) and id(cast(object, value)) not in seen:
         seen.add(id(cast(object, value)))
         for each in cast("dict[Any, Any]", value).items() if isinstance(value, dict) else cast("list[Any]", value):
-            for part in each if isinstance(each, tuple) else (each,):
+            for part in cast("tuple[object, ...]", each) if isinstance(each, tuple) else (each,):
                 _refuse_endless(part, seen)

@@ -258,7 +258,7 @@ def is_octets(values: Sequence[Any]) -> bool:
     return all(isinstance(each, bytes) and len(each) == 1 for each in values)
 
 
-def texts(values: Sequence[str], at: int, limit: int, is_wide: bool) -> bytes:
+def texts(values: Sequence[object], at: int, limit: int, is_wide: bool) -> bytes:
     """Return the bytes of a sequence of strings at a place, each of at most `limit` characters (0: any length)."""
     chunks: list[bytes] = []
     for value in values:

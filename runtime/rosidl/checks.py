@@ -6,7 +6,7 @@ import math
 from array import array
 from collections.abc import Callable, Sequence, Set
 from functools import lru_cache
-from typing import Any
+from typing import Any, cast
 
 from bot_console.runtime.rosidl.definition import DTYPES, INTEGERS, TYPECODES, Type, parse_type
 from bot_console.runtime.rosidl.emit_copy import LIMITS
@@ -60,7 +60,10 @@ def _range(kind: Type, number: str) -> tuple[Callable[[Any], bool], str]:
     if kind.item in BOUNDS:
         bound, text = BOUNDS[kind.item]
         shown = text if number == "{}" else number.format(bound)
-        fits = lambda value: not (value < -bound or value > bound) or math.isinf(value)  # noqa: E731 -- beside its text
+
+        def fits(value: float) -> bool:
+            return not (value < -bound or value > bound) or math.isinf(value)
+
         return fits, f"a {kind.item} in [-{shown}, {shown}]"
     return (lambda value: True), ""
 
@@ -75,7 +78,7 @@ def _is_kept(kind: Type, field: str, value: Any) -> bool:
     if kind.sequence and isinstance(value, array):
         code = TYPECODES[kind.item]
         assert value.typecode == code, f"The '{field}' array.array() must have the type code of '{code}'"
-        fits = not kind.bound or len(value) <= kind.bound
+        fits = not kind.bound or len(cast("array[Any]", value)) <= kind.bound
         assert fits, f"The '{field}' array.array() must have a size <= {kind.bound}"
         return True
     return False
@@ -84,14 +87,15 @@ def _is_kept(kind: Type, field: str, value: Any) -> bool:
 def _many(kind: Type, owner: object, field: str, value: object) -> None:
     cls = _class(kind, owner)
     in_range, words = _range(kind, "{:f}")
+    items: Any = value
     fits = (
         isinstance(value, (Sequence, Set))
         and not isinstance(value, str)
-        and (not kind.limit or all(len(each) <= kind.limit for each in value))
-        and (not kind.bound or len(value) <= kind.bound)
-        and (not kind.size or len(value) == kind.size)
-        and all(isinstance(each, cls) for each in value)
-        and all(in_range(each) for each in value)
+        and (not kind.limit or all(len(each) <= kind.limit for each in items))
+        and (not kind.bound or len(items) <= kind.bound)
+        and (not kind.size or len(items) == kind.size)
+        and all(isinstance(each, cls) for each in items)
+        and all(in_range(each) for each in items)
     )
     if fits:
         return

@@ -7,7 +7,7 @@ import threading
 import warnings
 from array import array
 from collections.abc import Iterable, Mapping
-from typing import Any, ClassVar
+from typing import Any, ClassVar, cast
 
 from bot_console.runtime.rosidl.slot_types import SlotTypes
 
@@ -97,7 +97,7 @@ class Message(metaclass=MessageType):
 
 
 def _shown(value: object) -> str:
-    return repr(value.tolist()) if isinstance(value, array) else repr(value)
+    return repr(cast("array[Any]", value).tolist()) if isinstance(value, array) else repr(value)
 
 
 def _equal(one: Any, other: Any) -> bool:

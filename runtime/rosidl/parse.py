@@ -13,7 +13,11 @@ LINE = re.compile(
 CONSTANT = re.compile(r"^[A-Z]([A-Z0-9_]*[A-Z0-9])?$")
 FIELD = re.compile(r"^(?!.*__)(?!.*_$)[a-z][a-z0-9_]*$")
 NAME = re.compile(r"^[A-Z][A-Za-z0-9]*$")
-PARTS = {"msg": ("",), "srv": ("_Request", "_Response"), "action": ("_Goal", "_Result", "_Feedback")}
+PARTS: dict[str, tuple[str, ...]] = {
+    "msg": ("",),
+    "srv": ("_Request", "_Response"),
+    "action": ("_Goal", "_Result", "_Feedback"),
+}
 TEXTS = ("string", "wstring")
 
 

@@ -69,7 +69,7 @@ def _fields(cls: object) -> Iterator[tuple[str, Type, Any]]:
     """Yield names and types of the fields, with the class of nested ones; services and actions count as structures."""
     for name, inner in _members(cls):
         yield name, Type("/"), inner
-    texts = getattr(cls, "_fields_and_field_types", None)
+    texts: dict[str, str] | None = getattr(cls, "_fields_and_field_types", None)
     if texts is not None and not texts:
         yield FILLER, Type("uint8"), None
     for name, text in (texts or {}).items():

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import ast
-from typing import Any
+from typing import Any, cast
 
 from bot_console.runtime.rosidl.definition import PRIMITIVES, Constant, Definition, Field, Interface, Type
 
-WORDS = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "float64"}
-WORDS = {name: WORDS.get(name, name) for name in PRIMITIVES.values()}
+OTHER_WORDS = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "float64"}
+WORDS = {name: OTHER_WORDS.get(name, name) for name in PRIMITIVES.values()}
 
 
 def written(interface: Interface) -> str:
@@ -51,5 +51,5 @@ def _value(value: object) -> str:
     if isinstance(value, bytes):
         return str(value[0])
     if isinstance(value, list):
-        return "[" + ", ".join(map(_value, value)) + "]"
+        return "[" + ", ".join(map(_value, cast("list[object]", value))) + "]"
     return repr(value)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import yaml
 
@@ -62,5 +62,5 @@ def _flat(tree: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
     found: dict[str, Any] = {}
     for key, value in tree.items():
         path = prefix if key == "ros__parameters" else f"{prefix}{'.' if prefix else ''}{key}"
-        found.update(_flat(value, path) if isinstance(value, dict) else {path: value})
+        found.update(_flat(cast("dict[str, Any]", value), path) if isinstance(value, dict) else {path: value})
     return found

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import builtins
 from collections.abc import Iterator
+from typing import cast
 
 ALWAYS_THERE = frozenset(dir(builtins)) | {"__file__", "__builtins__", "__annotations__", "__class__", "__qualname__"}
 HIDDEN_SCOPES = frozenset({"exec", "globals", "locals", "vars", "NameError"})
@@ -56,7 +57,7 @@ def _evaluated(node: ast.AST) -> Iterator[ast.AST]:
     yield node
     for name, below in ast.iter_fields(node):
         if name not in ("annotation", "returns"):
-            for each in below if isinstance(below, list) else (below,):
+            for each in cast("list[object]", below) if isinstance(below, list) else (below,):
                 if isinstance(each, ast.AST):
                     yield from _evaluated(each)
 

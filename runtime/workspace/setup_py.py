@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 from bot_console.runtime.workspace.setup_mistakes import first_mistake
 from bot_console.runtime.workspace.setup_values import Unreadable, Values, called
@@ -37,11 +37,11 @@ class DataRow(NamedTuple):
 class SetupFile:
     """What a package installs: console scripts as `module:function`, files by target folder, Python packages."""
 
-    console_scripts: dict[str, str] = field(default_factory=dict)
-    scripts: dict[str, Path] = field(default_factory=dict)
-    modules: dict[str, Path] = field(default_factory=dict)
+    console_scripts: dict[str, str] = field(default_factory=dict[str, str])
+    scripts: dict[str, Path] = field(default_factory=dict[str, Path])
+    modules: dict[str, Path] = field(default_factory=dict[str, Path])
     data_files: tuple[tuple[str, tuple[Path, ...]], ...] = ()
-    panes: dict[str, str] = field(default_factory=dict)
+    panes: dict[str, str] = field(default_factory=dict[str, str])
     """Panes that a package provides for the console, as `module:class` (entry points of the group
     `bot_console.panes`).
     """
@@ -145,7 +145,7 @@ class _Reader:
 
     def result(self) -> SetupFile:
         entry_points, problem = self._entry_points()
-        groups = entry_points if isinstance(entry_points, dict) else {}
+        groups = cast("dict[str, Any]", entry_points) if isinstance(entry_points, dict) else {}
         scripts = {Path(each).name: self._folder / each for each in self._keyword("scripts", [])}
         programs, panes = (entry_lines(groups.get(group, [])) for group in ("console_scripts", PANES))
         wrong = next((f"{name} = {target}" for name, target in programs.items() if not TARGET.fullmatch(target)), "")
@@ -162,7 +162,7 @@ class _Reader:
             panes,
             problem,
             str(self._keyword("name", "")),
-            tuple(map(str, listed)) if isinstance(listed, (list, tuple)) else None,
+            tuple(map(str, cast("Sequence[object]", listed))) if isinstance(listed, (list, tuple)) else None,
             rows,
             {name: value.lineno for name, value in self._keywords.items()},
         )

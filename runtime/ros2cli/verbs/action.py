@@ -171,8 +171,11 @@ def _follow(node: Node, client: ActionClient, goal: object, feedback: bool, inte
     spin_until(node, lambda: interrupt.came or client.server_is_ready())
     interrupt.check()
     print(f"Sending goal:\n     {message_to_yaml(goal)}")
-    show = (lambda message: print(f"Feedback:\n    {message_to_yaml(message.feedback)}")) if feedback else None
-    handle: Any = _outcome(node, client, client.send_goal_async(goal, show), interrupt)
+
+    def show(message: Any) -> None:
+        print(f"Feedback:\n    {message_to_yaml(message.feedback)}")
+
+    handle: Any = _outcome(node, client, client.send_goal_async(goal, show if feedback else None), interrupt)
     if not handle.accepted:
         print("Goal was rejected.")
         return None
@@ -198,7 +201,7 @@ def _outcome(node: Node, client: ActionClient, future: Any, interrupt: _Interrup
     server = Server(node, client.server_is_ready, endpoints and endpoints.goal)
     while not spin_until(node, lambda: interrupt.came or future.done(), SERVER_POLL_S):
         if server.has_gone():
-            name = client._action_name
+            name = client._action_name  # pyright: ignore[reportPrivateUsage] -- upstream gives it no public name, either
             raise NoAnswer(f"nobody answers {name}: its server has ended since it was asked; see what it printed")
     interrupt.check()
     return future.result()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 from functools import partial
+from typing import cast
 
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import SetParameters
@@ -30,7 +31,8 @@ def set_(arguments: argparse.Namespace) -> Result:
         try:
             result = call(node, SetParameters, f"{absolute(arguments.node_name)}/set_parameters", request).results[0]
         except TypeError as error:
-            if isinstance(value.string_value, str):  # an integer beyond 64 bits
+            text = cast(object, value.string_value)
+            if isinstance(text, str):  # an integer beyond 64 bits
                 return f"{arguments.parameter_name}: {error}"
             # A YAML map: the message of ROS 2's conversion of strings.
             raise TypeError("bad argument type for built-in operation") from None

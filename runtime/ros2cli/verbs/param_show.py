@@ -6,7 +6,7 @@ import argparse
 import re
 import sys
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, cast
 
 from bot_console.runtime.rmw.parameter_types import BY_CODE, NOT_SET, ParameterType
 from rcl_interfaces.msg import ParameterValue
@@ -177,7 +177,7 @@ def _insert(tree: dict[str, Any], path: list[str], value: object) -> None:
         if not isinstance(below, dict):
             tree[".".join(path[depth:])] = value
             return
-        tree = below
+        tree = cast("dict[str, Any]", below)
     tree[last] = value
 
 

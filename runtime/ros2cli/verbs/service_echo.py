@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from functools import partial
 from typing import Any
 
 from rclpy.node import Node
@@ -43,7 +44,7 @@ def echo(arguments: argparse.Namespace) -> Result:
             return kind
         qos = profile(arguments, "services_default")
         topic = arguments.service_name + EVENT_TOPIC
-        node.create_subscription(kind.Event, topic, lambda event: _show(event, arguments), qos)
+        node.create_subscription(kind.Event, topic, partial(_show, arguments), qos)
         spin_until(node, lambda: False)
     return None
 
@@ -60,9 +61,9 @@ def _service_class(node: Node, arguments: argparse.Namespace) -> Any:
     return typed_class(get_service, "srv", types[0], f"The service name '{name}' is invalid", node)
 
 
-def _show(event: Any, chosen: argparse.Namespace) -> None:
+def _show(chosen: argparse.Namespace, event: Any) -> None:
     length = None if chosen.full_length else chosen.truncate_length
-    shown = {"truncate_length": length, "no_arr": chosen.no_arr, "no_str": chosen.no_str}
+    shown: dict[str, Any] = {"truncate_length": length, "no_arr": chosen.no_arr, "no_str": chosen.no_str}
     if chosen.csv:
         print(message_to_csv(event, **shown))
         return

@@ -95,7 +95,7 @@ class _Printer:
     def __init__(self, arguments: argparse.Namespace) -> None:
         self._arguments = arguments
         self._limit = None if arguments.full_length else arguments.truncate_length
-        self._passes = _filter(arguments.filter_expr)
+        self._passes = message_filter(arguments.filter_expr)
         self._field = ".".join(filter(None, (arguments.field or "").split(".")))
         if arguments.field is not None and not self._field:
             raise RuntimeError(f"Invalid field value '{arguments.field}'")
@@ -151,7 +151,7 @@ class _Printer:
         print(text, end="---\n")
 
 
-def _filter(expression: str | None) -> Callable[[Any], bool]:
+def message_filter(expression: str | None) -> Callable[[Any], bool]:
     """Compile a filter expression to a predicate on messages; raises `SyntaxError` if it is not an expression."""
     if expression is None:
         return lambda message: True

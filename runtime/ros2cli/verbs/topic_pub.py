@@ -106,7 +106,7 @@ def publish(arguments: argparse.Namespace) -> Result:
     kind = typed_class(get_message, "msg", arguments.message_type, "The passed message type is invalid")
     if isinstance(kind, str):
         return kind
-    values = {} if arguments.stdin else read_values(arguments.values)
+    values: Any = {} if arguments.stdin else read_values(arguments.values)
     if not isinstance(values, dict):
         return "The passed value needs to be a dictionary in YAML format"
     arguments.no_daemon = True

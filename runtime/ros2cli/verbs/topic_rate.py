@@ -14,7 +14,7 @@ from rclpy.qos import qos_profile_sensor_data
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
 from ros2cli.type_discovery import message_class
-from ros2cli.verbs.topic_echo import _filter as message_filter
+from ros2cli.verbs.topic_echo import message_filter
 
 WINDOW = 10_000
 BYTES_WINDOW = 100
