@@ -55,5 +55,4 @@ class Foreground:
         return self._app.return_code or 0
 
     def _hung(self, line: str) -> None:
-        # Imported after the first frame, which must not wait for it.
         self._printed(Severity.WARN, "bot-console", line)
