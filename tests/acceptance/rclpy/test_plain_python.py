@@ -241,6 +241,8 @@ def test_public_programs_print_the_same_under_plain_python(
 ) -> None:
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", str(tmp_path))
     plain = ["env", f"PYTHONPATH={set_up(home)['PYTHONPATH']}", str(PYTHON)]
-    assert outcome(plain, name, 0) == outcome(
-        ["env", f"PATH={home / 'bin'}:{os.defpath}", "bot-console", "run"], name, 1
-    )
+    ours = ["env", f"PATH={home / 'bin'}:{os.defpath}", "bot-console", "run"]
+    by_plain, by_run = outcome(plain, name, 0), outcome(ours, name, 1)
+    if by_plain.code is not None and by_plain.code < 0:  # a shell shows 130 for both, if a signal has ended Python
+        by_plain = by_plain._replace(code=128 - by_plain.code)
+    assert by_plain == by_run
