@@ -262,15 +262,15 @@ class LaunchPane(ListPane):
 
     def action_policy(self) -> None:
         """Restart what is at the cursor whenever it fails; if all of that is so already, no longer."""
-        row = self._list.current
-        if row is None or self.launcher is None or not self.may_change():
+        row, launcher = self._list.current, self.console.launcher
+        if row is None or launcher is None or not self.may_change():
             return
         info = self._info or LaunchInfo()
         chosen = [row.process] if row.process else [each for each in info.processes if _belongs(each, row.group)]
         own = [each for each in chosen if not (each.program and each.program.respawn)] or chosen
         stays = all(each.restart_policy for each in own)
         for each in own:
-            change = self.launcher.leave_ended if stays else self.launcher.restart_on_failure
+            change = launcher.leave_ended if stays else launcher.restart_on_failure
             self.report_later(change(each.key))
 
     def action_transition(self) -> None:
