@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 from typing import ClassVar, TypeAlias
 
@@ -102,6 +102,17 @@ class Picture(StyledByPart):
 @lru_cache(maxsize=1024)
 def _colors(name: str) -> Style:
     return Style.parse(name)
+
+
+def joined(cells: Iterable[Piece]) -> Line:
+    """Cells as a line, neighbours of the same style as one piece."""
+    found: list[Piece] = []
+    for text, style in cells:
+        if found and found[-1][1] == style:
+            found[-1] = (found[-1][0] + text, style)
+        else:
+            found.append((text, style))
+    return tuple(found)
 
 
 def changes(before: Line, after: Line, width: int) -> list[tuple[int, int]]:

@@ -119,9 +119,8 @@ class HistoryPane(ListPane):
             text = details(row) if row is not None else Text(sanitize(self._problem), "dim")
         self.query_one("#history-detail", StaticText).show_text(text)
 
-    def on_picture_resized(self, event: Picture.Resized) -> None:
+    def on_resize(self) -> None:
         """Draw the line of time for the new width."""
-        event.stop()
         self._describe()
 
     @property

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from bot_console.tui.format import clock_text
 from bot_console.tui.panes.history.sets import HistoryRow, changes_of
 from bot_console.tui.text.refusals import verdict_of_change
-from bot_console.tui.widgets.picture import Line, Piece
+from bot_console.tui.widgets.picture import Line, Piece, joined
 
 MIN_CELLS = 12
 """Cells of the line of time; on less, none is drawn."""
@@ -35,15 +35,4 @@ def time_strip(rows: Sequence[HistoryRow], chosen: HistoryRow | None, width: int
     if chosen is not None:
         at = (chosen.stamp - first) * (cells - 1) // (last - first)
         marks[at] = (CHOSEN, "error" if marks[at][0] == REFUSED else "strong")
-    return ((begin, "dim"), *_joined(marks), (end, "dim"))
-
-
-def _joined(marks: Sequence[Piece]) -> list[Piece]:
-    """Neighbours of the same style as one piece."""
-    found: list[Piece] = []
-    for text, style in marks:
-        if found and found[-1][1] == style:
-            found[-1] = (found[-1][0] + text, style)
-        else:
-            found.append((text, style))
-    return found
+    return ((begin, "dim"), *joined(marks), (end, "dim"))

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from bot_console.tui.panes.steering.view import BUTTONS, PAD, WORDS
+from bot_console.tui.panes.steering.plane import velocity_at
+from bot_console.tui.panes.steering.view import BUTTONS
 from bot_console.tui.widgets.picture import Line
 
 ENDS = 7
@@ -42,11 +43,5 @@ def velocities(
                 return None
             share = 2 * (x - start) / max(1, end - start - 1) - 1
             return (share * greatest[0], None, False) if axis == 0 else (None, -share * greatest[1], False)
-    top = next((at for at, text in enumerate(texts) if "forward" in text and "╭" in text), None)
-    if top is None:
-        return None
-    across, down = PAD[0] // 2, PAD[1] // 2
-    column, row = x - (WORDS + 2), y - top - 1
-    if not (0 <= column < PAD[0] and 0 <= row < PAD[1]):
-        return None
-    return (down - row) / down * greatest[0], (across - column) / across * greatest[1], True
+    found = velocity_at(texts, x, y, greatest)
+    return None if found is None else (*found, True)

@@ -2,18 +2,31 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
+from itertools import zip_longest
 
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.format import sanitize
+from bot_console.tui.panes.steering.plane import ASKED, ROBOT, plane
 from bot_console.tui.panes.steering.state import Steering, stands_after_steering
 from bot_console.tui.safety.stop_messages import held_by, holder_is_gone, may_move
 from bot_console.tui.widgets.picture import Line
 
 BAR = 10
-PAD = (37, 13)
-"""Cells of the plane of both velocities, odd so that it has a middle."""
-WORDS = 9
+"""Cells of a bar."""
+PLANE = (37, 13)
+"""Cells of the plane of both velocities at most, odd so that it has a middle."""
+NARROW_PLANE = 27
+"""Its width beside the bars on fewer than `WIDE` cells."""
+WIDE = 100
+MIN_ROWS = 5
+"""Rows of the plane at least; with less room there is none."""
+BESIDE = 45
+"""Cells that the bars need beside the plane."""
+GAP, FRAME = 2, 3
+"""Cells between plane and bars, and those of the frame of the plane with the blank before it."""
+WORDS, STAGE = 9, 8
 BUTTONS = {"linear": ("[-]", "[0]", "[+]"), "angular": ("[<]", "[0]", "[>]")}
 """For the mouse, behind each slider: less or to the left, zero, more or to the right."""
 FOR_BUTTONS = 60
@@ -33,13 +46,36 @@ def lines(
         _slider("linear", state.linear, state.greatest[0], "m/s", width),
         _slider("angular", -state.angular, state.greatest[1], "rad/s", width, turned=True),
     ]
-    chain = _chain(drive)
     deadman = _deadman(state, left)
+    controls: list[Line] = [*top, (), *sliders, deadman, ()]
+    size = _plane_size(width, height - len(controls) - 2)
+    if size is not None:
+        return [*controls, *_beside(_plane(state, drive, size), _chain(state, drive, narrow=True))][:height]
+    chain = _chain(state, drive)
     compact: list[Line] = [*top, *sliders, deadman, *chain]
     roomy: list[Line] = [*top, (), *sliders, (), deadman, (), *chain]
-    full: list[Line] = [*roomy, (), *_keys(width)]
-    pad = [*full, (), *_pad(state)] if width >= PAD[0] + 8 else full
-    return next((each for each in (pad, full, roomy) if len(each) <= height), compact)[:height]
+    return (roomy if len(roomy) <= height else compact)[:height]
+
+
+def _plane_size(width: int, rows: int) -> tuple[int, int] | None:
+    """The cells of the plane beside the bars; None if there is no room."""
+    across = PLANE[0] if width >= WIDE else NARROW_PLANE
+    if rows < MIN_ROWS or width < across + FRAME + GAP + BESIDE:
+        return None
+    return across, min(PLANE[1], rows - (rows + 1) % 2)
+
+
+def _plane(state: Steering, drive: DriveInfo, size: tuple[int, int]) -> list[Line]:
+    asked = (state.linear, state.angular) if state.armed else drive.asked
+    return plane(asked, drive.actual, state.greatest, size, moving=bool(state.linear or state.angular))
+
+
+def _beside(left: Sequence[Line], right: Sequence[Line]) -> list[Line]:
+    """Two blocks side by side, the right one in the middle of the left one."""
+    above = max(0, (len(left) - len(right)) // 2)
+    blank: Line = ()
+    rows = [*[blank] * above, *right]
+    return [(*one, (" " * GAP, ""), *other) for one, other in zip_longest(left, rows, fillvalue=blank)]
 
 
 def _sideways(state: Steering) -> list[Line]:
@@ -123,45 +159,41 @@ def _deadman(state: Steering, left: float) -> Line:
             (f"stops {state.deadman:g} s after the last key", "dim"))  # fmt: skip
 
 
-def _chain(drive: DriveInfo) -> list[Line]:
-    """Asked, limited, final, actual: what became of the command on its way."""
+def _chain(state: Steering, drive: DriveInfo, *, narrow: bool = False) -> list[Line]:
+    """Asked, limited, sent, robot: what became of the command on its way, as bars and numbers.
+
+    With `narrow`, the reason for a limit has a line of its own.
+    """
     rows: list[Line] = []
-    stages = (("asked", drive.asked), ("limited", drive.limited), ("final", drive.final), ("actual", drive.actual))
+    stages = (("asked", drive.asked), ("limited", drive.limited), ("sent", drive.final), ("robot", drive.actual))
+    marks = {"asked": (f"{ASKED} ", "strong"), "robot": (f"{ROBOT} ", "good")} if narrow else {}
     for word, velocity in stages:
-        text = f"{velocity[0]:+7.2f} m/s {velocity[1]:+7.2f} rad/s" if velocity else "      unknown"
-        why = f"  by {sanitize(drive.limited_by)}" if word == "limited" and drive.limited_by else ""
-        if velocity is not None or word in ("final", "actual"):
-            rows.append(((f" {word:<{WORDS}}", "dim"), (text, "" if velocity else "dim"), (why, "warn")))
+        text = f"{velocity[0]:+6.2f} m/s {velocity[1]:+6.2f} rad/s" if velocity else " unknown"
+        why = f"by {sanitize(drive.limited_by)}" if word == "limited" and drive.limited_by else ""
+        if velocity is None and word not in ("sent", "robot"):
+            continue
+        bar, style = _bar(velocity, state.greatest[0]), "warn" if why else "accent"
+        mark = marks.get(word, ("  " if narrow else " ", ""))
+        row = (
+            mark,
+            (f"{word:<{STAGE}}", "dim"),
+            ("▕", "dim"),
+            (bar, style),
+            ("▏", "dim"),
+            (text, "" if velocity else "dim"),
+        )
+        rows.append(row if narrow or not why else (*row, (f"  {why}", "warn")))
+        if why and narrow:
+            rows.append(((f"    {why}", "warn"),))
+    if narrow:
+        speed, turn = state.greatest
+        whose = "typed" if state.typed else "parameters"
+        rows += [(), ((f"  {'limits':<{STAGE}}{speed:g} m/s  {turn:g} rad/s  ({whose})", "dim"),)]
     return rows
 
 
-def _pad(state: Steering) -> list[Line]:
-    """Both velocities as a point in a plane: forward is up, a left turn is left."""
-    width, height = PAD
-    across, down = width // 2, height // 2
-    x = across - round(state.angular / state.greatest[1] * across) if state.greatest[1] else across
-    y = down - round(state.linear / state.greatest[0] * down) if state.greatest[0] else down
-    lines: list[Line] = [((" " * (WORDS + 1) + "╭" + "forward".center(width, "─") + "╮", "dim"),)]
-    for row in range(height):
-        cells = list("─" * width if row == down else " " * width)
-        cells[across] = "┼" if row == down else "│"
-        edge = " left    │" if row == down else " " * WORDS + "│"
-        end = "│ right" if row == down else "│"
-        if row != y:
-            lines.append(((" " + edge[:WORDS] + "│" + "".join(cells) + end, "dim"),))
-            continue
-        moving = bool(state.linear or state.angular)
-        lines.append(((" " + edge[:WORDS] + "│" + "".join(cells[:x]), "dim"), ("●", "accent" if moving else "strong"),
-                      ("".join(cells[x + 1 :]) + end, "dim")))  # fmt: skip
-    return [*lines, ((" " * (WORDS + 1) + "╰" + "backward".center(width, "─") + "╯", "dim"),)]
-
-
-def _keys(width: int) -> list[Line]:
-    rows = (
-        ("w s ↑ ↓", "faster, slower"),
-        ("a d ← →", "turn left, right"),
-        ("Shift", "ten steps at once"),
-        ("x  c", "zero speed, zero turn"),
-        ("space", "stop"),
-    )
-    return [((f" {keys:<{WORDS}}", "accent"), (text, "dim")) for keys, text in rows] if width >= 30 else []
+def _bar(velocity: tuple[float, float] | None, greatest: float) -> str:
+    """A speed as a bar, forward or backward."""
+    share = min(1.0, abs(velocity[0]) / greatest) if velocity and greatest > 0 else 0.0
+    halves = 0 if math.isnan(share) else round(share * BAR * 2)
+    return ("█" * (halves // 2) + "▌" * (halves % 2)).ljust(BAR)

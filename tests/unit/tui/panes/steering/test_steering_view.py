@@ -1,0 +1,69 @@
+"""The steering pane as lines: the plane with what is asked and what the robot does, bars, and what fits a size."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from bot_console.tui.console.robot.robot_model import DriveInfo
+from bot_console.tui.panes.steering.plane import ASKED, BOTH, ROBOT, plane, velocity_at
+from bot_console.tui.panes.steering.state import Steering
+from bot_console.tui.panes.steering.view import lines
+from samples import driving
+
+ARMED = Steering(linear=1.0, angular=1.0, armed=True, greatest=(1.0, 1.0))
+INNER = (78, 19)
+"""The room for the pane on a screen of 80x24."""
+
+
+def texts(state: Steering, drive: DriveInfo, size: tuple[int, int] = INNER) -> list[str]:
+    return ["".join(text for text, _ in line) for line in lines(state, drive, 1.0, *size)]
+
+
+def place(drawn: list[str], mark: str) -> tuple[int, int]:
+    return next((text.index(mark), y) for y, text in enumerate(drawn) if mark in text)
+
+
+def planed(asked: tuple[float, float] | None, robot: tuple[float, float] | None) -> list[str]:
+    drawn = plane(asked, robot, (1.0, 2.0), (27, 11), moving=True)
+    return ["".join(text for text, _ in line) for line in drawn]
+
+
+@pytest.mark.parametrize("velocity", [(1.0, 2.0), (-1.0, -2.0), (0.0, 0.0), (0.4, -2.0)])
+def test_mark_is_where_the_mouse_asks_for_its_velocity(velocity: tuple[float, float]) -> None:
+    drawn = planed(velocity, None)
+    assert velocity_at(drawn, *place(drawn, ASKED), (1.0, 2.0)) == pytest.approx(velocity)
+
+
+def test_robot_beyond_the_limits_is_at_the_edge_and_beside_the_plane_is_no_velocity() -> None:
+    drawn = planed(None, (9.0, -9.0))
+    assert place(drawn, ROBOT) == (28, 1)
+    assert place(planed(None, (float("nan"), 0.0)), ROBOT) == place(planed(None, (0.0, 0.0)), ROBOT)
+    assert velocity_at(drawn, 0, 3, (1.0, 2.0)) is None and velocity_at(drawn[1:], 9, 3, (1.0, 2.0)) is None
+
+
+def test_robot_that_does_what_is_asked_is_one_mark() -> None:
+    drawn = "\n".join(planed((0.5, 0.0), (0.5, 0.0)))
+    assert BOTH in drawn and ASKED not in drawn and ROBOT not in drawn
+
+
+def test_plane_and_bars_fit_80_by_24_with_every_reason() -> None:
+    drawn = texts(ARMED, driving())
+    assert len(drawn) <= INNER[1] and all(len(each) <= INNER[0] for each in drawn)
+    assert place(drawn[6:], ASKED)[1] == 1, "what the keys ask for is at the upper edge of the plane"
+    text = "\n".join(drawn)
+    assert "asked   ▕██████████▏ +1.00 m/s" in text and "robot   ▕██████    ▏ +0.58 m/s" in text
+    assert "by warning_distance of /safety_monitor" in text and "limits  1 m/s  1 rad/s" in text
+
+
+def test_disarmed_plane_shows_what_the_robots_program_asks() -> None:
+    ahead = replace(driving(), asked=(1.0, 0.0), actual=None)
+    state = Steering(greatest=(1.0, 1.0))
+    column, row = place(texts(state, ahead)[6:], ASKED)
+    assert (column, row) == (15, 1)
+
+
+@pytest.mark.parametrize("size", [(58, 15), (40, 12), (78, 11)])
+def test_small_pane_has_bars_without_a_plane(size: tuple[int, int]) -> None:
+    drawn = "\n".join(texts(ARMED, driving(), size))
+    assert "forward" not in drawn and "▕██████████▏" in drawn
