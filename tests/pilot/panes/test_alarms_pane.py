@@ -131,3 +131,45 @@ def test_empty_pane_explains_how_to_add_an_alarm() -> None:
 def test_name_precedes_colon_and_blank() -> None:
     assert parted("low battery:  /a/b  < 1") == ("low battery", "/a/b < 1")
     assert parted("/node:speed < 1") == ("/node:speed < 1", "/node:speed < 1")
+
+
+def test_alarms_are_suggested_with_live_values_and_enter_watches_one() -> None:
+    system = live()
+    system[0].series["rate(/scan)"] = ([1.0], [9.8])
+    system[0].series["/scan/ranges.min()"] = ([1.0], [0.85])
+
+    async def play(session: Session) -> None:
+        await session.press("B")
+        await later(session, 0.5)
+        row = next(line for line in session.lines() if "close to something" in line)
+        assert "min(/scan/ranges) < 0.3" in row and "now 0.85" in row
+        assert "Nothing is watched yet" in session.text() and session.app.state_store.get("alarms") is None
+        while session.pane(AlarmRows).current.name != "no scan":
+            await session.press("down")
+        await session.press("enter")
+        assert session.app.state_store.get("alarms") == [{"name": "no scan", "condition": "rate(/scan) < 1"}]
+        await later(session, 0.5)
+        assert "○ quiet" in session.text() and "close to something" not in session.text()
+        session.console.series["rate(/scan)"] = ([1.0, 2.0], [9.8, 0.0])
+        await later(session, 0.5)
+        assert "✗ active" in session.text()
+        assert ("unwatch", "/scan/ranges.min()") in session.console.asked, "what is not suggested is not received"
+
+    run(system, play, (100, 30))
+
+
+def test_nothing_that_is_suggested_is_received_while_the_pane_is_hidden() -> None:
+    system = live()
+    system[0].series["rate(/scan)"] = ([1.0], [9.8])
+
+    async def play(session: Session) -> None:
+        await later(session, 0.5)
+        assert ("watch", "rate(/scan)") not in session.console.asked
+        await session.press("B")
+        await later(session, 0.5)
+        assert ("watch", "rate(/scan)") in session.console.asked
+        await session.press("1")
+        await later(session, 0.5)
+        assert ("unwatch", "rate(/scan)") in session.console.asked
+
+    run(system, play)

@@ -30,7 +30,7 @@ class Plots(Protocol):
         """Collect a series for as long as any requester needs it; the answer says why a path cannot be plotted.
 
         `/topic/field.sub[2]`, `/topic/array[2:8].mean()` (or min, max, sum, std, len; yaw of a quaternion), or
-        `/node:parameter`.
+        `/node:parameter`, or `rate(/topic)`, the messages per second.
         """
         ...
 

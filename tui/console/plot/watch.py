@@ -14,13 +14,17 @@ from bot_console.tui.console.plot.arrays import NotPlottable
 from bot_console.tui.console.plot.paths import example, message_class, number_paths
 from bot_console.tui.console.plot.port import Samples
 from bot_console.tui.console.plot.series import Series, parse_path, reader
-from bot_console.tui.text.expression.tree import is_parameter
+from bot_console.tui.console.topics.meters import Meter
+from bot_console.tui.console.topics.offered_topics import offered_qos
+from bot_console.tui.text.expression.tree import is_parameter, topic_of_rate
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
 PLOT_QOS = QoSProfile(depth=50, reliability=ReliabilityPolicy.BEST_EFFORT)
 OTHER_CLOCK = 3600.0
 """Difference (s) between a header's time and the time of reception from which the header's clock is a simulator's."""
+RATE_POLL_S = 0.5
+"""Seconds between two samples of a topic's rate."""
 NUMBERS = (Kind.BOOL, Kind.INTEGER, Kind.DOUBLE)
 
 
@@ -30,6 +34,7 @@ class _Watched:
     def __init__(self) -> None:
         self.series = Series()
         self.subscription: Any = None
+        self.timer: Any = None
         self.problem = ""
         self.requesters: set[str] = set()
 
@@ -59,7 +64,9 @@ class PlotWatch:
             self._watched[path].requesters.add(requester)
             return Answer(True, f"{path} is already plotted")
         try:
-            if is_parameter(path):
+            if topic := topic_of_rate(path):
+                self._watch_rate(path, topic, graph)
+            elif is_parameter(path):
                 self._watch_parameter(path, trees)
             else:
                 self._watch_topic(path, graph)
@@ -90,6 +97,23 @@ class PlotWatch:
             read(kind())
         watched = self._watched[path] = _Watched()
         watched.subscription = self._node.create_subscription(kind, topic, self._collector(watched, read), PLOT_QOS)
+
+    def _watch_rate(self, path: str, topic: str, graph: GraphInfo) -> None:
+        """Count the messages of a topic, without unpacking them."""
+        types = next((each.types for each in graph.topics if each.name == topic), ())
+        if not types:
+            raise NotPlottable(f"there is no topic {topic}")
+        watched, meter = _Watched(), Meter(False, time.time_ns)
+
+        def poll() -> None:
+            rate = meter.poll().rate
+            if rate is not None:
+                watched.series.add(self.now(), rate)
+
+        qos = offered_qos(graph, topic).profile()
+        watched.subscription = self._node.create_subscription(message_class(types[0]), topic, meter.take, qos, raw=True)
+        watched.timer = self._node.create_timer(RATE_POLL_S, poll)
+        self._watched[path] = watched
 
     def _collector(self, watched: _Watched, read: Callable[[Any], float]) -> Callable[[Any], None]:
         def collect(message: Any) -> None:
@@ -129,6 +153,8 @@ class PlotWatch:
             del self._watched[path]
             if watched.subscription is not None:
                 self._node.destroy_subscription(watched.subscription)
+            if watched.timer is not None:
+                self._node.destroy_timer(watched.timer)
 
     def samples(self, path: str, after: int) -> Samples:
         """New samples; none for a path that is not watched."""

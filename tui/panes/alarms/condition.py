@@ -56,6 +56,13 @@ class Condition:
         known = {**WORDS, **values}
         return any(all(each.holds(known) for each in every) for every in self.alternatives)
 
+    def compared(self, values: Mapping[str, float]) -> float | None:
+        """What the first comparison compares, such as the least range of a scan; None while it is not known."""
+        try:
+            return float(value_of(self.alternatives[0][0].sides[0], {**WORDS, **values}))
+        except ValueError:
+            return None
+
 
 def read(text: str) -> Condition:
     """Parse a condition; raises `ValueError` that says what is wrong and how to fix it."""

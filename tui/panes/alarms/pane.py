@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from typing import Any
 
@@ -13,7 +13,8 @@ from bot_console.tui.console.model import ConsoleSnapshot, RateCheck
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.panes.alarms.alarm import Alarm, AlarmText, texts_of
 from bot_console.tui.panes.alarms.condition import read
-from bot_console.tui.panes.alarms.rows import AlarmRows, row_of, row_of_check
+from bot_console.tui.panes.alarms.rows import AlarmRows, row_of, row_of_check, row_of_suggestion
+from bot_console.tui.panes.alarms.templates import templates
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
@@ -22,7 +23,7 @@ from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
 
-REQUESTER = "alarms"
+REQUESTER, SUGGESTING = "alarms", "alarms suggested"
 STATE_NAME = "alarms"
 POLL_S, SHOWN, AGAIN = 0.2, 0.5, 1.0
 """Seconds between two looks at the samples, at the list, and at paths that are not there yet."""
@@ -41,6 +42,7 @@ EMPTY = Placeholder(
     "An alarm watches a condition over topics and parameters and says when it becomes true.",
     (("a", f"Add an alarm, such as  low battery: {EXAMPLE}"), ("9", "Topics that can be watched"), ("?", "Help")),
 )
+HINT = "Nothing is watched yet. Enter watches one of these, a asks for an alarm of your own."
 
 
 class AlarmsPane(ListPane):
@@ -49,7 +51,8 @@ class AlarmsPane(ListPane):
     TITLE = "Alarms"
     HELP = (
         "Conditions over fields of topics and parameters, such as  low battery: /battery/percentage < 0.2  or\n"
-        "/scan/ranges[0] < 0.4 and /odom/twist.twist.linear.x > 1. They are watched all the time, at each message;\n"
+        "/scan/ranges[0] < 0.4 and /odom/twist.twist.linear.x > 1, or over rates: rate(/scan) < 8. While there are\n"
+        "none, some are suggested, and Enter adds one. Alarms are watched all the time, at each message;\n"
         "each time that one begins to hold it is told once, with the terminal's bell where b asks for it. They are\n"
         "kept for the next start. Topics whose rates are expected (E in Topics) are listed first."
     )
@@ -69,9 +72,12 @@ class AlarmsPane(ListPane):
         self._checks: Sequence[RateCheck] = ()
         """The topics whose rates are expected."""
         self._polled = self._drawn = self._asked = float("-inf")
+        self._suggested: list[Alarm] = []
+        """What is suggested while there is no alarm and the pane is visible; only then is it watched."""
 
     def compose(self) -> ComposeResult:
         """The alarms, details of the one at the cursor, and a prompt."""
+        yield StaticText(id="alarms-hint")
         yield AlarmRows()
         yield StaticText(id="alarms-status")
         yield Prompt(id="alarms-prompt")
@@ -89,7 +95,22 @@ class AlarmsPane(ListPane):
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Redraw the list; its content comes by time, except for expected rates."""
         self._checks = snapshot.rate_checks
+        self._suggest(() if self._alarms or self._checks else templates(snapshot.graph.topics))
         self._arrange()
+
+    def _suggest(self, texts: Sequence[AlarmText]) -> None:
+        """Suggest these alarms, and receive what they need and no more."""
+        before = {each.text: each for each in self._suggested}
+        if list(before) == list(texts):
+            return
+        self._suggested = [before.get(each) or Alarm.of(each) for each in texts]
+        old, new = _paths(before.values()), _paths(self._suggested)
+        for path in old - new:
+            self.console.plots.unwatch(path, SUGGESTING)
+        for path in new - old:
+            answer = self.console.plots.watch(path, SUGGESTING)
+            for each in self._suggested if not answer.ok else ():
+                each.problem = answer.text if path in each.paths else each.problem
 
     def tick(self) -> None:
         """Process new samples, even while hidden, and update the list while it is visible."""
@@ -107,6 +128,8 @@ class AlarmsPane(ListPane):
                 if alarm.untold and now - alarm.reported >= NOTICE:
                     self._report(alarm, alarm.untold[-1], len(alarm.untold))
                     alarm.reported, alarm.untold = now, []
+        if self._suggested and not self.display:
+            self._suggest(())
         holding = [each.text.name for each in self._alarms if each.holds]
         if holding != self._holding:
             self._holding = holding
@@ -139,6 +162,9 @@ class AlarmsPane(ListPane):
             alarm.problem = waits or alarm.problem
         every = [row_of_check(each, time.time()) for each in self._checks]
         every += [row_of(each, now) for each in self._alarms]
+        for each in self._suggested:
+            each.poll(self.console.plots)
+            every.append(row_of_suggestion(each))
         shown = [each for each in every if self._query.matches(f"{each.name} {each.condition}")]
         self._list.exchange(shown)
         holding = sum(each.holds is True for each in every)
@@ -147,7 +173,10 @@ class AlarmsPane(ListPane):
 
     def _describe(self) -> None:
         alarm = self._current
-        self._list.show_placeholder(FILTERED_OUT if self._alarms or self._checks else EMPTY)
+        self._list.show_placeholder(FILTERED_OUT if self._alarms or self._checks or self._suggested else EMPTY)
+        hint = self.query_one("#alarms-hint", StaticText)
+        hint.display = bool(self._suggested)
+        hint.show_text(HINT if self._suggested else "")
         if alarm is None:
             text = EXPECTED if self._is_expected else ""
         else:
@@ -189,9 +218,11 @@ class AlarmsPane(ListPane):
 
     def action_edit(self) -> None:
         """Edit the alarm at the cursor."""
-        alarm = self._current
+        alarm, row = self._current, self._list.current
         if self._is_expected:
             self.notify(NO_ALARM, severity="warning")
+        elif row is not None and row.suggested:
+            self._take(None, f"{row.name}: {row.condition}")
         elif alarm is None:
             self.action_add()
         else:
@@ -219,6 +250,7 @@ class AlarmsPane(ListPane):
         else:
             self._alarms.append(alarm)
         self._watch(alarm.paths)
+        self._suggest(())
         self._release(old)
         self._keep()
         names = [each.name for each in self._list.rows]
@@ -261,8 +293,13 @@ class AlarmsPane(ListPane):
 
     def detach(self) -> None:
         """Stop watching all paths."""
-        for path in {path for each in self._alarms for path in each.paths}:
+        self._suggest(())
+        for path in _paths(self._alarms):
             self.console.plots.unwatch(path, REQUESTER)
+
+
+def _paths(alarms: Iterable[Alarm]) -> set[str]:
+    return {path for each in alarms for path in each.paths}
 
 
 def parted(typed: str) -> tuple[str, str]:

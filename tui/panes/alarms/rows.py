@@ -20,6 +20,9 @@ STATES = {True: ("✗", "active", "error"), False: ("○", "quiet", "good"), Non
 NAME, STATE, AGE = 24, 11, 8
 """Cells of the name at most, of the state, and of how long it is so."""
 
+SUGGESTED_VALUE = 20
+"""Cells for marks and the value of a suggestion."""
+
 
 @dataclass(frozen=True, slots=True)
 class Row:
@@ -35,6 +38,16 @@ class Row:
     value: str
     expected: bool = False
     """Whether it is an expected rate rather than an alarm."""
+    suggested: bool = False
+    """Whether it is an alarm that could be added."""
+
+
+def row_of_suggestion(alarm: Alarm) -> Row:
+    """The row of an alarm that is suggested, with what its condition compares now."""
+    text = alarm.text
+    value = alarm.condition.compared(alarm.values)
+    shown = alarm.problem or ("no value yet" if value is None else f"now {value:.4g}")
+    return Row(text.name, text.condition, False, None, 0, 0, shown, suggested=True)
 
 
 def row_of(alarm: Alarm, now: float) -> Row:
@@ -68,6 +81,8 @@ class AlarmRows(ItemList[Row]):
     def row(self, index: int, width: int) -> list[Segment]:
         """State, name, times, value, condition."""
         row = self.rows[index]
+        if row.suggested:
+            return self._suggestion(row, width)
         sign, word, style = STATES[row.holds]
         name = min(NAME, max((cell_len(sanitize(each.name)) for each in self.rows), default=0), max(8, width // 3))
         loud = self._style(style)
@@ -85,6 +100,19 @@ class AlarmRows(ItemList[Row]):
             Segment(sanitize(row.condition), self._style("dim")),
         ]
         return segments
+
+    def _suggestion(self, row: Row, width: int) -> list[Segment]:
+        """Name, condition, and the value now."""
+        name = min(NAME, max(cell_len(sanitize(each.name)) for each in self.rows))
+        condition = min(
+            max(cell_len(sanitize(each.condition)) for each in self.rows), max(12, width - name - SUGGESTED_VALUE)
+        )
+        return [
+            Segment("○ ", self._style("dim")),
+            Segment(cut(sanitize(row.name), name, pad=True) + "  ", self._style("strong")),
+            Segment(cut(sanitize(row.condition), condition, pad=True) + "  ", self._style("dim")),
+            Segment(sanitize(row.value)),
+        ]
 
     def _style(self, name: str) -> Style:
         return self.part_style(f"row-list--{name}")

@@ -6,7 +6,19 @@ import re
 from typing import NoReturn
 
 from bot_console.tui.format import cut
-from bot_console.tui.text.expression.tree import OF_ARRAYS, Call, Minus, Name, Number, Path, Span, Tree, Two
+from bot_console.tui.text.expression.tree import (
+    OF_ARRAYS,
+    RATE,
+    Call,
+    Minus,
+    Name,
+    Number,
+    Path,
+    Span,
+    Tree,
+    Two,
+    rate_path,
+)
 
 MAX_CHARACTERS = 400
 """The maximum length of an expression."""
@@ -23,6 +35,7 @@ PATH = re.compile(
     rf"(?:\.(?:{'|'.join(OF_ARRAYS)})\(\)|:[A-Za-z_]\w*(?:[./][A-Za-z_]\w*)*)?",
     re.ASCII,
 )
+TOPIC = re.compile(r"(?:/[A-Za-z_]\w*)+", re.ASCII)
 OPERATOR = re.compile(r"\*\*|//|[-+*/%]")
 _RANKS = {"+": 1, "-": 1, "*": 2, "/": 2, "//": 2, "%": 2}
 
@@ -150,7 +163,14 @@ class Reader:
         self._close()
         if function in OF_ARRAYS and len(arguments) == 1 and isinstance(one := arguments[0], Path):
             return Path(f"{one.text}.{function}()")
+        if function == RATE and self._paths:
+            return self._rate(arguments)
         return Call(function, tuple(arguments))
+
+    def _rate(self, arguments: list[Tree]) -> Path:
+        if len(arguments) != 1 or not isinstance(one := arguments[0], Path) or not TOPIC.fullmatch(one.text):
+            raise ValueError(f"{RATE} takes the name of a topic, such as {RATE}(/scan)")
+        return Path(rate_path(one.text))
 
     def _comma(self) -> bool:
         found = self.rest().startswith(",")

@@ -10,6 +10,10 @@ OF_ARRAYS = ("min", "max", "mean", "sum", "std", "len", "yaw")
 """Functions of a whole array, or of a quaternion, of one message: `min(/scan/ranges)` or `/scan/ranges.min()`."""
 
 
+RATE = "rate"
+"""The function of a topic as a whole: its messages per second."""
+
+
 @dataclass(frozen=True, slots=True)
 class Number:
     """A number as it was typed."""
@@ -33,7 +37,7 @@ class Name:
 
 @dataclass(frozen=True, slots=True)
 class Path:
-    """A field of a topic, or a parameter: `/odom/twist.twist.linear.x`, `/robot_navigator:max_speed`."""
+    """A field of a topic, its rate, or a parameter: `/odom/twist.twist.linear.x`, `rate(/scan)`, `/robot:max_speed`."""
 
     text: str
 
@@ -63,6 +67,16 @@ class Call:
 
 
 Tree: TypeAlias = "Number | Span | Name | Path | Minus | Two | Call"
+
+
+def rate_path(topic: str) -> str:
+    """The path of a topic's rate: `rate(/scan)`."""
+    return f"{RATE}({topic})"
+
+
+def topic_of_rate(path: str) -> str:
+    """The topic whose rate a path names; empty for any other path."""
+    return path[len(RATE) + 1 : -1] if path.startswith(f"{RATE}(") else ""
 
 
 def is_parameter(path: str) -> bool:

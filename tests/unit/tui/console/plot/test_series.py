@@ -10,6 +10,7 @@ from bot_console.tui.console.plot.arrays import NotPlottable
 from bot_console.tui.console.plot.paths import number_paths
 from bot_console.tui.console.plot.series import Series, parse_path, parse_steps, reader
 from bot_console.tui.console.plot.watch import PlotWatch
+from bot_console.tui.console.topics import meters
 
 
 def test_samples_are_read_by_cursor_and_the_oldest_are_dropped() -> None:
@@ -97,3 +98,51 @@ def test_the_colon_of_a_slice_does_not_mark_a_parameter() -> None:
     graph = GraphInfo(topics=(Endpoint("/scan", ("sensor_msgs/msg/LaserScan",)),))
     answer = PlotWatch(node).watch("/scan/ranges[80:100].min()", graph, {})
     assert answer.ok and made == ["/scan"], answer.text
+
+
+class CountingNode:
+    """A node whose only subscription and timer are called by the test."""
+
+    def __init__(self) -> None:
+        self.take: Any = None
+        self.poll: Any = None
+        self.left: list[str] = []
+
+    def create_subscription(self, kind: Any, topic: str, take: Any, qos: Any, *, raw: bool) -> str:
+        assert raw, "counting does not unpack"
+        self.take = take
+        return topic
+
+    def create_timer(self, period: float, poll: Any) -> str:
+        self.poll = poll
+        return "timer"
+
+    def destroy_subscription(self, subscription: str) -> None:
+        self.left.append(subscription)
+
+    destroy_timer = destroy_subscription
+
+
+def test_rate_of_a_topic_is_a_series_that_falls_to_zero_in_silence(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = [100.0]
+    monkeypatch.setattr(meters, "time", SimpleNamespace(monotonic=lambda: now[0], time_ns=lambda: int(now[0] * 1e9)))
+    node: Any = CountingNode()
+    watch = PlotWatch(node)
+    graph = GraphInfo(topics=(Endpoint("/scan", ("sensor_msgs/msg/LaserScan",)),))
+    assert watch.watch("rate(/scan)", graph, {}).ok
+    for _ in range(40):
+        now[0] += 0.1
+        node.take(b"\0" * 40, {"received_timestamp": None})
+        node.poll()
+    assert watch.samples("rate(/scan)", 0).values[-1] == pytest.approx(10.0)
+    for _ in range(20):
+        now[0] += 0.5
+        node.poll()
+    assert watch.samples("rate(/scan)", 0).values[-1] == 0.0
+    watch.unwatch("rate(/scan)")
+    assert node.left == ["/scan", "timer"] and len(watch.samples("rate(/scan)", 0).values) == 0
+
+
+def test_rate_of_a_topic_that_is_not_there_is_refused() -> None:
+    answer = PlotWatch(SimpleNamespace()).watch("rate(/nowhere)", GraphInfo(), {})  # type: ignore[arg-type]
+    assert not answer.ok and answer.text == "there is no topic /nowhere"

@@ -28,6 +28,8 @@ BATTERY, SPEED = "/battery/percentage", "/odom/twist.twist.linear.x"
         ("/order/x > 1", {"/order/x": 2.0}, True),
         ("/a/and/b > 1 and /a/or > 1", {"/a/and/b": 2.0, "/a/or": 2.0}, True),
         ("min(/scan/ranges[80:100]) < 1", {"/scan/ranges[80:100].min()": 0.5}, True),
+        ("rate(/scan) < 8", {"rate(/scan)": 7.5}, True),
+        ("rate(/robot2/scan) < 8 and /odom/x > 1", {"rate(/robot2/scan)": 7.5, "/odom/x": 0.0}, False),
         ("min(/a/x, /b/y) < 1", {"/a/x": 2.0, "/b/y": 0.5}, True),
     ],
 )

@@ -1,0 +1,36 @@
+"""Suggested alarms: only for topics that are there, each with a condition that can be read."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from bot_console.tui.console.model import Endpoint
+from bot_console.tui.panes.alarms.alarm import texts_of
+from bot_console.tui.panes.alarms.templates import MAX_TEMPLATES, templates
+
+KINDS = {
+    "/battery_state": "sensor_msgs/msg/BatteryState",
+    "/scan": "sensor_msgs/msg/LaserScan",
+    "/odom": "nav_msgs/msg/Odometry",
+    "/bumper": "std_msgs/msg/Bool",
+    "/lights/on": "std_msgs/msg/Bool",
+    "/camera/image": "sensor_msgs/msg/Image",
+}
+
+
+def topics(kinds: Mapping[str, str]) -> list[Endpoint]:
+    return [Endpoint(name, (kind,)) for name, kind in kinds.items()]
+
+
+def test_each_kind_of_topic_has_conditions_that_can_be_read() -> None:
+    found = templates(topics(KINDS))
+    assert [each.name for each in found if "rate(" in each.condition] == ["no odometry", "no scan", "no picture"]
+    assert {"battery low", "close to something", "stands still", "collision"} <= {each.name for each in found}
+    assert not any("/lights/on" in each.condition for each in found)
+    assert len(texts_of([each.data for each in found])) == len(found), "a condition that is wrong is left out"
+
+
+def test_names_are_unique_and_there_are_not_too_many() -> None:
+    found = templates(topics({f"/robot{at}/scan": KINDS["/scan"] for at in range(30)}))
+    assert len({each.name for each in found}) == len(found) == MAX_TEMPLATES
+    assert templates([Endpoint("/odd", ())]) == ()
