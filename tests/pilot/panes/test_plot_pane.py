@@ -115,6 +115,11 @@ def test_the_window_grows_and_shrinks_and_limits_can_be_given() -> None:
         await session.type("0 4")
         await session.press("enter")
         assert "y 0 .. 4" in session.text() and " 4 ┤" in session.text()
+        await session.press("greater_than_sign")
+        low, high = session.pane(PlotPane)._timeline.limits
+        assert high - low == pytest.approx(2.0) and "y 0 .. 4" not in session.text()
+        await session.press("less_than_sign")
+        assert "y 0 .. 4" in session.text()
 
     run(live(), play, (100, 30))
 

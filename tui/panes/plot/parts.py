@@ -246,6 +246,22 @@ def limits_of(text: str) -> tuple[float, float] | None:
     return low, high
 
 
+MIN_SPAN, MAX_SPAN = 1e-9, 1e12
+"""The least span of the value axis, as a share of its values, and the greatest one."""
+
+
+def zoomed(limits: tuple[float, float], value: float | None, factor: float) -> tuple[float, float]:
+    """Limits of `factor` times the span, with a value at its place; the same limits where that is too little or much.
+
+    Without a value within the limits, their middle stays.
+    """
+    low, high = limits
+    at = value if value is not None and low <= value <= high else (low + high) / 2
+    found = at - (at - low) * factor, at + (high - at) * factor
+    span = found[1] - found[0]
+    return found if MIN_SPAN * max(1.0, abs(at)) <= span <= MAX_SPAN else limits
+
+
 def wrong_limits(text: str) -> str:
     """What is wrong with typed limits; empty when nothing is."""
     try:

@@ -12,7 +12,7 @@ from bot_console.tui.files import plot_presets
 from bot_console.tui.files.plot_presets import KeptCurve, NoPreset, Preset
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.panes.pane import Pane
-from bot_console.tui.panes.plot.parts import Timeline, limits_of, wrong_limits
+from bot_console.tui.panes.plot.parts import Timeline, limits_of, wrong_limits, zoomed
 from bot_console.tui.panes.plot.thresholds import thresholds_of, thresholds_text, wrong_thresholds
 from bot_console.tui.widgets.prompt.question import Choice, Option
 from bot_console.tui.widgets.prompt.question import Line as Asked
@@ -101,6 +101,21 @@ class PlotQuestions(Pane):
         """Ask for the limits of the values."""
         label = "least and greatest value (empty: automatic)"
         self.ask(Asked(label, self._limit, text=self._limits_text(), check=wrong_limits))
+
+    def action_zoom_values(self, factor: float) -> None:
+        """Scale what the value axis shows around the newest value of the chosen curve; `y` makes it automatic again."""
+        from bot_console.tui.panes.plot.view import limits, reach_of
+
+        timeline = self._timeline
+        axes = timeline.axes(ACROSS)
+        shown = [each for each in timeline.curves if not each.right] or timeline.curves
+        if not shown:
+            return
+        now = timeline.limits or limits([reach_of(each, axes, ACROSS) for each in shown])
+        chosen = timeline.curves[self._chosen]
+        value = chosen.latest if axes.cursor is None else chosen.at(axes.cursor)
+        timeline.limits = zoomed(now, value if chosen in shown else None, factor)
+        self.take_in(force=True)
 
     def _limits_text(self) -> str:
         now = self._timeline.limits

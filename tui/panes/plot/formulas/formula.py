@@ -10,10 +10,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from bot_console.tui.panes.plot.formulas.functions import OPERATORS, OVER_TIME, PLAIN, derivative
+from bot_console.tui.panes.plot.formulas.functions import NEIGHBOURS, OF_CURVES, OPERATORS, OVER_TIME, PLAIN
 from bot_console.tui.text.expression.numbers import CONSTANTS
 from bot_console.tui.text.expression.parse import parse
 from bot_console.tui.text.expression.tree import (
+    OF_ARRAYS,
     Call,
     Minus,
     Name,
@@ -60,11 +61,11 @@ class Formula:
         back, before = _reach_back(self.tree)
         first = max(0, int(np.searchsorted(times, start - back)) - 1 - before)
         last = int(np.searchsorted(times, end, side="right")) + 1
-        times = times[first:last]
+        times = times[first : last + before]  # a function that looks at samples before its own looks at later ones, too
         with np.errstate(all="ignore"):
             values = _worked_out(self.tree, times, known)
         shown = max(0, int(np.searchsorted(times, start)) - 1)
-        return times[shown:], values[shown:]
+        return times[shown : last - first], values[shown : last - first]
 
     def _times(self, known: Mapping[str, Held]) -> Array:
         if self.lead:
@@ -86,7 +87,7 @@ def read(text: str) -> Formula | str:
         elif isinstance(each, Name) and each.text not in CONSTANTS:
             raise ValueError(f"'{each.text}' is not a path; paths begin with /")
         elif any(isinstance(part, Span) for part in children(each)):
-            raise ValueError("a length of time stands only at the end of mean, min, max or std")
+            raise ValueError("a length of time stands only at the end of mean, min, max, std or rms")
     return Formula(text.strip(), tree, paths)
 
 
@@ -114,14 +115,17 @@ def _check_call(call: Call) -> None:
         return
     if any(isinstance(each, Span) for each in given):
         raise ValueError(f"the length of time stands last: {name}(a path, 1 s)")
-    if name == "derivative":
+    if name in OF_CURVES:
         if len(given) != 1:
-            raise ValueError("write derivative(a path)")
+            raise ValueError(f"write {name}(a path)")
         return
     if name not in PLAIN:
         if name in OVER_TIME:
-            raise ValueError(f"write {name}(a path, 1 s), or {name} of an array such as {name}(/scan/ranges)")
-        raise ValueError(f"'{name}' is not one of derivative, {', '.join((*PLAIN, *OVER_TIME))}")
+            of_array = f", or {name} of an array such as {name}(/scan/ranges)" if name in OF_ARRAYS else ""
+            raise ValueError(f"write {name}(a path, 1 s){of_array}")
+        raise ValueError(
+            f"'{name}' is not one of {', '.join(dict.fromkeys(('derivative', *PLAIN, *OVER_TIME, *OF_CURVES)))}"
+        )
     least, maximum, _ = PLAIN[name]
     if not least <= len(given) <= maximum:
         raise ValueError(f"{name} takes {least if least == maximum else f'{least} or more'}, not {len(given)}")
@@ -134,6 +138,10 @@ def _reach_back(tree: Tree) -> tuple[float, int]:
     if isinstance(tree, Call):
         if tree.function == "derivative":
             samples += 1
+        elif tree.function == "integral":
+            seconds = np.inf
+        elif tree.function == "despike":
+            samples += NEIGHBOURS
         elif tree.arguments and isinstance(span := tree.arguments[-1], Span):
             seconds += span.seconds
     return seconds, samples
@@ -161,8 +169,8 @@ def _called(call: Call, times: Array, known: Mapping[str, Held]) -> Array:
     if isinstance(span := given[-1], Span):
         return OVER_TIME[call.function](times, _worked_out(given[0], times, known), span.seconds)
     parts: Sequence[Array] = [_worked_out(each, times, known) for each in given]
-    if call.function == "derivative":
-        return derivative(times, parts[0])
+    if call.function in OF_CURVES:
+        return OF_CURVES[call.function](times, parts[0])
     function: Callable[..., Array] = PLAIN[call.function][2]
     return function(*parts)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Mapping
 from functools import reduce
 from typing import TypeAlias
@@ -58,6 +59,40 @@ def derivative(times: Array, values: Array) -> Array:
     return slope
 
 
+def integral(times: Array, values: Array) -> Array:
+    """The area below the curve since its first sample, by trapezoids; what is not finite adds nothing."""
+    pieces = np.diff(times) * (values[1:] + values[:-1]) / 2
+    return np.concatenate([np.zeros(min(1, len(times))), np.cumsum(np.where(np.isfinite(pieces), pieces, 0.0))])
+
+
+NEIGHBOURS = 4
+"""Samples on either side of one that is compared with them."""
+MAX_DEVIATION = 4.0
+"""How far a sample may be from the median of its neighbours, in multiples of their median deviation from it."""
+
+
+def despike(times: Array, values: Array) -> Array:
+    """The curve without outliers: a sample far from its neighbours is replaced by their median (a Hampel filter)."""
+    if len(values) < 3:
+        return values
+    padded = np.pad(values, NEIGHBOURS, constant_values=np.nan)
+    near = np.lib.stride_tricks.sliding_window_view(padded, 2 * NEIGHBOURS + 1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # of samples whose neighbours are all NaN
+        middle = np.nanmedian(near, axis=1)
+        deviation = np.nanmedian(np.abs(near - middle[:, None]), axis=1)
+    far = np.abs(values - middle) > MAX_DEVIATION * np.maximum(deviation, 1e-9 * np.abs(middle))
+    return np.where(far & np.isfinite(middle), middle, values)
+
+
+OF_CURVES: Mapping[str, Callable[[Array, Array], Array]] = {
+    "derivative": derivative,
+    "integral": integral,
+    "despike": despike,
+}
+"""Functions of a whole curve."""
+
+
 def _begins(times: Array, seconds: float) -> npt.NDArray[np.intp]:
     """Where the samples of the last seconds begin, for each sample: those later than so long ago."""
     return np.minimum(np.searchsorted(times, times - seconds, side="right"), np.arange(len(times)))
@@ -90,6 +125,12 @@ def _moments(times: Array, values: Array, seconds: float) -> tuple[Array, Array]
     return first + middle, np.sqrt(np.maximum(second - first * first, 0.0))
 
 
+def rms(times: Array, values: Array, seconds: float) -> Array:
+    """The root of the mean of their squares."""
+    middle, spread = _moments(times, values, seconds)
+    return np.hypot(middle, spread)
+
+
 def least(times: Array, values: Array, seconds: float) -> Array:
     """The least value of the last seconds; NaN counts for nothing."""
     return _extreme(np.fmin, times, values, seconds)
@@ -109,4 +150,4 @@ def _extreme(function: np.ufunc, times: Array, values: Array, seconds: float) ->
     return found
 
 
-OVER_TIME: Mapping[str, OverTime] = {"mean": mean, "min": least, "max": greatest, "std": std}
+OVER_TIME: Mapping[str, OverTime] = {"mean": mean, "min": least, "max": greatest, "std": std, "rms": rms}

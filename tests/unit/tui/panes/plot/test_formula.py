@@ -28,6 +28,10 @@ def values(text: str) -> list[float]:
         (f"2 / {A} / 2", [1, 0.5, 0.25, 0.125]),
         (f"{A} // 3 + {A} % 3", [1, 2, 2, 4]),
         (f"derivative({A})", [np.nan, 1, 2, 4]),
+        (f"integral({A})", [0, 1.5, 4.5, 10.5]),
+        (f"integral(derivative({A}))", [0, 0, 1.5, 4.5]),
+        (f"rms({A}, 1.5 s)", [1, np.sqrt(2.5), np.sqrt(10), np.sqrt(40)]),
+        (f"despike({B})", [3, 3, 3, 3]),
         (f"mean({A}, 2 s)", [1, 1.5, 3, 6]),
         (f"max({B}, 1500 ms) - min({A}, 0.1 min)", [2, 2, 2, 3]),
         (f"{A} * /n:gain.k", [np.nan, np.nan, 40, 80]),
@@ -117,3 +121,26 @@ def test_samples_are_placed_by_header_stamps_on_request() -> None:
     curve.by_header = True
     assert [each.tolist() for each in curve.samples()] == [[0.4, 0.9, 2.0], [9.0, 7.0, 8.0]]
     assert curve.at(1.0) == 7.0 and curve.at(0.1) is None and curve.end == 2.0
+
+
+def curve(text: str, given: list[float], start: float, end: float) -> list[float]:
+    formula = read(text)
+    assert isinstance(formula, Formula)
+    return formula.values({A: Held(np.arange(float(len(given))), np.array(given))}, start, end)[1].tolist()
+
+
+def test_outliers_are_replaced_and_steps_and_gaps_stay() -> None:
+    noisy = [1.0, 1.1, 0.9, 1.0, 50.0, 1.1, 1.0, 0.9, 1.0, 1.1]
+    assert max(curve(f"despike({A})", noisy, 0, 9)) == 1.1
+    step = [1.0] * 6 + [2.0] * 6
+    assert curve(f"despike({A})", step, 0, 11) == step
+    gap = [1.0, 1.0, np.nan, 1.0, 1.0]
+    assert np.isnan(curve(f"despike({A})", gap, 0, 4)[2])
+    assert curve(f"despike({A})", [1.0, 9.0], 0, 1) == [1.0, 9.0]
+
+
+@pytest.mark.parametrize("text", [f"integral({A})", f"despike({A})", f"derivative({A})", f"rms({A}, 3 s)"])
+def test_part_of_a_curve_is_the_same_as_in_the_whole(text: str) -> None:
+    given = [float(each * each % 7) for each in range(30)]
+    whole = curve(text, given, -np.inf, np.inf)
+    assert curve(text, given, 12, 20) == pytest.approx(whole[11:22])

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 from bot_console.tui.panes.plot.curves import Curve, reach
-from bot_console.tui.panes.plot.parts import limits_of, wrong_limits
+from bot_console.tui.panes.plot.parts import limits_of, wrong_limits, zoomed
 from bot_console.tui.panes.plot.view import Axes, Mark, framed, legend, limits, short_number, strips, tick_step
 from hypothesis import given
 from hypothesis import strategies as st
@@ -114,3 +114,13 @@ def test_limits_are_two_numbers_or_none() -> None:
 def test_the_legend_writes_numbers_of_many_digits_out(value: float, shown: str) -> None:
     line = "".join(text for text, _ in legend(curve([value]), Axes(0.0, 2.0), 100, False))
     assert f" {shown} " in line and "e+" not in line
+
+
+def test_zoom_keeps_the_value_in_its_place_and_stays_within_bounds() -> None:
+    assert zoomed((0.0, 4.0), 1.0, 0.5) == (0.5, 2.5)
+    assert zoomed(zoomed((0.0, 4.0), 1.0, 0.5), 1.0, 2) == (0.0, 4.0)
+    assert (
+        zoomed((0.0, 4.0), None, 0.5) == zoomed((0.0, 4.0), 9.0, 0.5) == zoomed((0.0, 4.0), math.nan, 0.5) == (1.0, 3.0)
+    )
+    tiny, huge = (1.0, 1.0 + 1e-9), (-5e11, 5e11)
+    assert zoomed(tiny, None, 0.5) == tiny and zoomed(huge, None, 2) == huge
