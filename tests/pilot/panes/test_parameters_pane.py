@@ -8,7 +8,15 @@ from dataclasses import replace
 from types import MappingProxyType
 
 import pytest
-from bot_console.tui.console.model import RESTARTED, Change, ChangeSource, JournalState, ProcessState, SetOutcome
+from bot_console.tui.console.model import (
+    RESTARTED,
+    Change,
+    ChangeSource,
+    JournalState,
+    ParameterTree,
+    ProcessState,
+    SetOutcome,
+)
 from bot_console.tui.console.parameters.pending_sets import EVENT_TIMEOUT_S
 from bot_console.tui.panes.parameters.absences import LEFT_SHOWN_S
 from bot_console.tui.panes.parameters.pane import ParametersPane
@@ -455,3 +463,51 @@ def test_nodes_that_leave_or_do_not_answer_are_named() -> None:
         assert "parameters" not in session.console.sensors.watched_nodes, "nobody is asked for a pane that nobody sees"
 
     run(live(), play)
+
+
+def test_large_tree_starts_folded_opens_by_key_and_stays_open_as_nodes_come() -> None:
+    system = live()
+    tree = system[0].current.parameters["/robot_navigator"]
+
+    def fleet(robots: int) -> dict[str, ParameterTree]:
+        nodes = [f"/robot{robot}/{name}" for robot in range(robots) for name in ("base", "lidar", "planner")]
+        return {node: replace(tree, node=node) for node in nodes}
+
+    async def play(session: Session) -> None:
+        await session.press("1")
+        session.console.change(parameters=fleet(6))
+        await session.settle()
+        assert "▸ /robot5/" in session.text() and "max_speed" not in session.text() and "/base" not in session.text()
+        await session.press("right", "down", "right")
+        assert "▾ base" in session.text() and "max_speed" in session.text()
+        session.console.change(parameters=fleet(7))
+        await session.settle()
+        assert "max_speed" in session.text(), "what was opened stays open"
+
+    run(system, play, (100, 30))
+
+
+def test_edge_between_names_and_values_is_moved_by_key_and_mouse_and_kept() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1")
+        rows = session.pane(ParameterRows)
+
+        def value_at() -> int:
+            return next(line.index("1.0 m/s") for line in session.lines() if "max_speed" in line and "1.0 m/s" in line)
+
+        before = value_at()
+        await session.press("shift+right", "shift+right")
+        assert value_at() == before + 4
+        await session.press("shift+left")
+        assert value_at() == before + 2
+        edge = value_at() - 1 - rows.region.x
+        await session.pilot.mouse_down(rows, offset=(edge, 2))
+        await session.pilot.hover(rows, offset=(edge + 5, 2))
+        await session.pilot.mouse_up(rows, offset=(edge + 5, 2))
+        await session.settle()
+        assert value_at() > before + 4 and session.pane(ParametersPane)._list.split > 4
+        split = rows.split
+        session.pane(ParametersPane).on_unmount()
+        assert session.app.state_store.get("parameters")["split"] == split
+
+    run(live(), play, (100, 30))

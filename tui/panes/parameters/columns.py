@@ -29,6 +29,9 @@ GAP, END = 2, 1
 VALUE = 8
 """Cells that a value has at least."""
 
+MIN_NAME = 8
+"""Cells that names have at least, wherever the user moves their edge."""
+
 DESCRIPTION = 20
 """A description has at least these cells, or none."""
 
@@ -93,18 +96,26 @@ def shown_value(row: Row) -> str:
     return sanitize(value_text(parameter.value)) + (f" {parameter.unit}" if parameter.unit else "")
 
 
-def name_column(row: Row, own: Columns, width: int) -> int:
-    """Cells that a row's name takes: its column, or more where it is one of the few that run over it."""
-    return max(own.name, min(name_cells(row), width - MARKS - GAP - VALUE))
+def name_column(row: Row, own: Columns, width: int, split: int = 0) -> int:
+    """Cells that a row's name takes: its column, or more where it is one of the few that run over it.
+
+    In a column whose width the user has set, none runs over it.
+    """
+    return own.name if split else max(own.name, min(name_cells(row), width - MARKS - GAP - VALUE))
 
 
-def columns(need: Measures, width: int) -> Columns:
-    """Share a width (cells): the names take what the longest needs, or all but a few, and leave a value its place."""
+def columns(need: Measures, width: int, split: int = 0) -> Columns:
+    """Share a width (cells): the names take what the longest needs, or all but a few, and leave a value its place.
+
+    `split` is by how many cells the user has moved the edge between names and values.
+    """
     room = width - MARKS
     name = max(1, min(need.name, room - GAP - VALUE))
     beside_bar = room - GAP - need.number - GAP - SHORTEST_BAR - END
     if 0 < need.max_names <= beside_bar < name:
         name = beside_bar
+    if split:
+        name = min(max(MIN_NAME, name + split), max(1, room - GAP - VALUE))
     left = room - name - GAP
     value = max(0, min(need.number, left))
     bar = max(0, min(BAR, left - value - GAP - END))

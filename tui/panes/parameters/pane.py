@@ -18,7 +18,7 @@ from bot_console.tui.format import command_of, counted, sanitize, value_text
 from bot_console.tui.panes.parameters.absences import Absences
 from bot_console.tui.panes.parameters.details import details
 from bot_console.tui.panes.parameters.edit_pane import EditPane
-from bot_console.tui.panes.parameters.rows import Row, TreeRows, View, namesake, opened, worth_changing
+from bot_console.tui.panes.parameters.rows import Row, TreeRows, View, folds_at_start, namesake, opened, worth_changing
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.panes.parameters.view_state import At, Left, left_of
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
@@ -72,6 +72,8 @@ class ParametersPane(EditPane):
         self._chosen = False
         """Whether the cursor was moved; until then it is on the parameter that matters most, whatever nodes come."""
 
+        self._folds_itself = True
+        """Whether a large tree is folded as its nodes come: until the user folds, opens or filters something."""
         self._absences = Absences()
         self._shown: Mapping[str, ParameterTree] = {}
         """The trees that the rows were made of."""
@@ -84,14 +86,15 @@ class ParametersPane(EditPane):
         left = left_of(self.state_store.get(STATE_NAME))
         if left is not None and not self._expected:
             self._left = left.at
-            self.words, self._view = left.words, left.view
+            self.words, self._view, self._table.split = left.words, left.view, left.split
+            self._folds_itself = not (left.view.folded or left.view.filtering)
             self._sought = left.words
             self._arrange()
 
     def on_unmount(self) -> None:
         """Keep how the tree is left."""
         at = self._left or self._at_cursor
-        self.state_store.put(STATE_NAME, Left(self.words, self._view, at).data)
+        self.state_store.put(STATE_NAME, Left(self.words, self._view, at, self._table.split).data)
 
     def compose(self) -> ComposeResult:
         """The tree, what is known of the parameter at the cursor, and a prompt."""
@@ -173,8 +176,10 @@ class ParametersPane(EditPane):
     def _arrange(self) -> None:
         """Make the rows, keep the cursor on its parameter, draw what differs."""
         shown, old = self._list, self._list.rows
-        view = replace(self._view, essential=True) if self.has_class("compact") else self._view
         self._shown = self._trees_now()
+        if self._folds_itself:
+            self._fold_at_start()
+        view = replace(self._view, essential=True) if self.has_class("compact") else self._view
         new = self._tree.rows(self._shown, view)
         if len(old) == len(new):
             for before, after in zip(old, new, strict=True):
@@ -188,6 +193,14 @@ class ParametersPane(EditPane):
         if self._expected and not view.essential:  # the short list has no rows of nodes
             self._go_to_expected()
         self._describe()
+
+    def _fold_at_start(self) -> None:
+        """Fold a large tree, except for the row where the cursor was, and the node that is expected."""
+        folded = folds_at_start(self._shown)
+        for node, name in ((self._left[0], self._left[1]) if self._left else ("", ""), (self._expected, "")):
+            folded = opened(folded, node, name) if node else folded
+        if folded != self._view.folded:
+            self._view = replace(self._view, folded=folded)
 
     def _go_to_left(self) -> None:
         rows = self._list.rows if self._left else ()
@@ -290,7 +303,7 @@ class ParametersPane(EditPane):
         parameter = self._at()
         if parameter is not None and not view.filtering and self._view.filtering:
             view = replace(view, folded=opened(view.folded, parameter.node, parameter.name))
-        self._view = view
+        self._view, self._folds_itself = view, False
         self._arrange()
 
     def action_toggle_built_in(self) -> None:
@@ -315,12 +328,16 @@ class ParametersPane(EditPane):
     def _close(self, folded: Collection[str]) -> None:
         """Close these and no others; what is closed among the matches of a filter is another matter than the tree."""
         which = "folded_matches" if self._view.filtering else "folded"
-        self._view = replace(self._view, **{which: frozenset(folded)})
+        self._view, self._folds_itself = replace(self._view, **{which: frozenset(folded)}), False
         self._arrange()
 
     def action_fold_all(self) -> None:
         """Close all nodes, or open everything."""
         self._close(() if self._view.closed else self._snapshot.parameters)
+
+    def action_split(self, cells: int) -> None:
+        """Move the edge between names and values."""
+        self._table.move_split(cells)
 
     def action_plot(self) -> None:
         """Plot this parameter."""

@@ -76,6 +76,18 @@ def opened(folded: Collection[str], node: str, name: str) -> frozenset[str]:
     return frozenset(each for each in folded if not holds(each))
 
 
+MAX_OPEN_NODES = 14
+"""Nodes of a tree that starts open; with more of them it starts folded."""
+
+
+def folds_at_start(nodes: Iterable[str]) -> frozenset[str]:
+    """What is folded in a tree that nobody has folded or opened yet."""
+    names = tuple(nodes)
+    if len(names) <= MAX_OPEN_NODES:
+        return frozenset()
+    return frozenset((*names, *(f"{space}/" for spaces in _spaces(names).values() for space in spaces)))
+
+
 class TreeRows:
     """Makes rows; a node's rows are reused while its parameters and the view are the same objects."""
 

@@ -15,7 +15,7 @@ from bot_console.tui.text.refusals import beside_row
 from bot_console.tui.widgets.item_list import ItemList
 from rich.segment import Segment
 from rich.style import Style
-from textual.events import Click
+from textual.events import Click, MouseDown, MouseMove, MouseUp
 from textual.message import Message
 
 
@@ -44,6 +44,34 @@ class ParameterRows(ItemList[Row]):
         """Values that have just changed, with the time (s) until which they are highlighted."""
 
         self._measures = Measures()
+        self.split = 0
+        """By how many cells the user has moved the edge between names and values."""
+        self._dragged = False
+
+    def move_split(self, cells: int) -> None:
+        """Move the edge between names and values, as far as it goes."""
+        own = columns(self._measures, self.across, self.split)
+        moved = columns(self._measures, self.across, self.split + cells)
+        if moved.name != own.name:
+            self.split += cells
+            self.refresh()
+
+    def on_mouse_down(self, event: MouseDown) -> None:
+        """Take hold of the edge between names and values."""
+        edge = MARKS + columns(self._measures, self.across, self.split).name
+        self._dragged = edge <= event.x < edge + GAP and 0 <= event.y + self.scroll_offset.y < self.row_count()
+        if self._dragged:
+            self.capture_mouse()
+
+    def on_mouse_move(self, event: MouseMove) -> None:
+        """Move the edge with the mouse."""
+        if self._dragged and self.app.mouse_captured is self:  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
+            edge = MARKS + columns(self._measures, self.across, self.split).name
+            self.move_split(event.x - edge)
+
+    def on_mouse_up(self, event: MouseUp) -> None:
+        """Let go of the edge."""
+        self.release_mouse()
 
     @property
     def key_at_cursor(self) -> tuple[str, str, str] | None:
@@ -90,8 +118,8 @@ class ParameterRows(ItemList[Row]):
         return [head, Segment(f"  {row.count}", self._style("dim"))]
 
     def _parameter(self, row: Row, parameter: ParameterInfo, width: int) -> list[Segment]:
-        own = columns(self._measures, width)
-        taken = name_column(row, own, width)
+        own = columns(self._measures, width, self.split)
+        taken = name_column(row, own, width, self.split)
         over = taken - own.name
         name = cut("  " * row.depth + sanitize(row.name), taken, pad=True)
         key = (parameter.node, parameter.name)
@@ -146,12 +174,14 @@ class ParameterRows(ItemList[Row]):
             return
         chosen, row = index == self.cursor, self.rows[index]
         self.choose(index)
+        if self._dragged:
+            return
         if row.parameter is None:
             if chosen or event.x < 2 * row.depth + 2:
                 self.post_message(self.Pressed(row))
             return
-        own = columns(self._measures, self.across)
-        taken = name_column(row, own, self.across)
+        own = columns(self._measures, self.across, self.split)
+        taken = name_column(row, own, self.across, self.split)
         begin = MARKS + taken + GAP + own.value + GAP
         slides = own.bar and taken == own.name and not row.parameter.read_only
         if slides and bar(row.parameter, own.bar) and begin <= event.x < begin + own.bar:

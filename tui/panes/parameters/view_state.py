@@ -14,6 +14,8 @@ At = tuple[str, str, str]
 """A row: its node, its name in the tree, its parameter."""
 MAX_FOLDS = 5000
 """Folds that are kept."""
+MAX_SPLIT = 500
+"""Cells by which an edge can have been moved."""
 
 
 @dataclass(frozen=True)
@@ -23,12 +25,14 @@ class Left:
     words: str
     view: View
     at: At | None = None
+    split: int = 0
+    """By how many cells the edge between names and values was moved."""
 
     @property
     def data(self) -> dict[str, object]:
         """As plain data; what is as in a first run is left out."""
         found: dict[str, object] = {"filter": self.words, "changed": self.view.only_changed}
-        found |= {"built_in": self.view.built_in, "closed": sorted(self.view.folded)[:MAX_FOLDS]}
+        found |= {"split": self.split, "built_in": self.view.built_in, "closed": sorted(self.view.folded)[:MAX_FOLDS]}
         return {key: each for key, each in found.items() if each} | ({"at": list(self.at)} if self.at else {})
 
 
@@ -45,5 +49,6 @@ def left_of(data: object) -> Left | None:
         return None
     folds = texts_in(closed)
     view = View(query, given.get("changed") is True, given.get("built_in") is True, frozenset(folds))
-    row = texts_in(at)
-    return Left(words, view, (row[0], row[1], row[2]) if len(row) == 3 else None)
+    row, split = texts_in(at), given.get("split")
+    cells = split if isinstance(split, int) and abs(split) <= MAX_SPLIT else 0
+    return Left(words, view, (row[0], row[1], row[2]) if len(row) == 3 else None, cells)

@@ -7,6 +7,7 @@ from bot_console.tui.panes.parameters.columns import (
     BAR,
     GAP,
     MARKS,
+    MIN_NAME,
     SHORTEST_BAR,
     VALUE,
     Columns,
@@ -46,3 +47,13 @@ def test_single_long_name_does_not_remove_all_sliders() -> None:
     assert over > own.name and MARKS + over + GAP + VALUE <= 60, "it runs over its column, and its value is seen"
     assert columns(need, 100).name == 2 + len(LONG), "where there is room all names stand in the column"
     assert not columns(measured([rows[0], row(LONG)]), 60).bar, "one of two is not few"
+
+
+def test_moved_edge_gives_and_takes_room_but_leaves_names_and_values_some() -> None:
+    need = measured([row("gain"), row("emergency_stop_distance")])
+    own, wider, narrower = (columns(need, 52, split) for split in (0, 6, -6))
+    assert (wider.name, narrower.name) == (own.name + 6, own.name - 6)
+    assert wider.bar < own.bar and all(needed(each) <= 52 for each in (wider, narrower))
+    far = [columns(need, 52, split) for split in (-100, 100)]
+    assert far[0].name == MIN_NAME and far[1].value >= VALUE
+    assert name_column(row("emergency_stop_distance"), narrower, 52, -6) == narrower.name, "the name is cut"

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Value
 from bot_console.tui.console.query import parse
-from bot_console.tui.panes.parameters.rows import TreeRows, View, matches, namesake, opened, rows
+from bot_console.tui.panes.parameters.rows import TreeRows, View, folds_at_start, matches, namesake, opened, rows
 
 
 def tree(node: str, *names: str) -> ParameterTree:
@@ -183,3 +183,12 @@ def test_rows_are_reused_if_the_same_parameters_match() -> None:
     assert [a is b for a, b in zip(first[1:], again[1:], strict=True)] == [True] * (len(first) - 1)
     for view in (View(query=parse("pid.x")), View(query=parse("pid.x"), folded=frozenset({"/n:pid.x."})), View()):
         assert made.rows(GROUPED, view) == rows(GROUPED, view), "others pass, or stand folded: made anew"
+
+
+def test_large_tree_starts_folded_with_its_namespaces_and_a_small_one_open() -> None:
+    fleet = [f"/robot{robot}/{name}" for robot in range(5) for name in ("base", "lidar", "planner")]
+    assert folds_at_start(fleet[:-1]) == frozenset()
+    folded = folds_at_start(fleet)
+    assert set(fleet) <= folded and {f"/robot{robot}/" for robot in range(5)} <= folded
+    trees = {node: ParameterTree(node, ()) for node in fleet}
+    assert [row.title for row in rows(trees, View(folded=folded))] == [f"/robot{robot}/" for robot in range(5)]
