@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 BARS = "▁▂▃▄▅▆▇█"
 MAX_DRAWN = 1e300
@@ -22,7 +22,7 @@ def bars(values: Sequence[object]) -> list[str]:
     ]
 
 
-def strip(values: Sequence[float], top: float) -> str:
+def strip(values: Iterable[float], top: float) -> str:
     """A bar for each number on a scale from zero to `top`; greater ones are as high as `top`."""
     steps = len(BARS) - 1
     return "".join(BARS[round(min(max(each, 0.0), top) / (top or 1) * steps)] for each in values)

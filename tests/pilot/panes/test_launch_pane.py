@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.model import Endpoint, LaunchEvent, LaunchInfo, ProcessState
+from bot_console.tui.console.model import Endpoint, LaunchEvent, LaunchInfo, ProcessState, Severity
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.panes.graph.pane import GraphPane
 from bot_console.tui.panes.launch.pane import LaunchPane
@@ -345,3 +345,22 @@ def test_ending_a_lock_that_holds_the_robot_asks_and_names_the_holders() -> None
         assert session.launcher.asked[2:] == [("restart", "safety_monitor@1")]
 
     run(live(), play)
+
+
+def test_warnings_and_output_of_the_process_at_the_cursor_are_shown() -> None:
+    async def play(session: Session) -> None:
+        await session.press("8")
+        process = next(each for each in session.console.current.launch.processes if each.nodes)
+        logger = process.nodes[0].strip("/").replace("/", ".")
+        before = session.text()
+        for severity in (Severity.WARN, Severity.ERROR):
+            session.console.show_text(severity, logger, f"a line of severity {severity.name}")
+        await session.settle()
+        session.pane(LaunchPane).go_to(process.nodes[0])
+        await session.settle()
+        assert "a line of severity ERROR" in session.text() and "a line of severity ERROR" not in before
+        assert f"what {process.label} logged and printed" in session.text()
+        row = next(line for line in session.lines() if process.label in line and "running" in line)
+        assert " 1 E" in row and " W" in row
+
+    run(live(), play, (120, 40))

@@ -13,9 +13,17 @@ from typing import Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.model import ConsoleSnapshot, LaunchEvent, LaunchInfo, ProcessInfo, ProcessState, Severity
+from bot_console.tui.console.model import (
+    ConsoleSnapshot,
+    LaunchEvent,
+    LaunchInfo,
+    LogRecord,
+    ProcessInfo,
+    ProcessState,
+    Severity,
+)
 from bot_console.tui.console.query import Query, parse
-from bot_console.tui.format import clock_text, counted, cut, sanitize
+from bot_console.tui.format import SEVERITY_CHARACTERS, clock_text, counted, cut, sanitize
 from bot_console.tui.panes.launch.rows import ProcessRows, matches, rows
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
@@ -50,7 +58,8 @@ class LaunchPane(ListPane):
     HELP = (
         "What the launch files have started: state, process id, restarts and last exit code. On a launch file or a\n"
         "group, start, stop, restart and kill mean all of its processes. o opens a launch file and asks for its\n"
-        "arguments; several can run at once."
+        "arguments; several can run at once. E and W count errors and warnings; below the tree stands what the\n"
+        "process at the cursor logged and printed last."
     )
     BINDINGS = keymap.bindings("launch")
 
@@ -66,11 +75,17 @@ class LaunchPane(ListPane):
         self._read = ""
         self._folded: frozenset[tuple[str, ...]] = frozenset()
         self._query = Query()
+        self._output: object = None
+        """What stands in the lines below the tree."""
+
+    clock: Callable[[], float] = staticmethod(time.monotonic)
+    """A monotonic clock (s), replaced in tests."""
 
     def compose(self) -> ComposeResult:
         """The tree, a line on the process at the cursor, the newest events."""
         yield ProcessRows()
         yield StaticText(id="launch-status")
+        yield Picture(id="launch-output")
         yield Picture(id="launch-events")
         yield Prompt(id="launch-prompt")
 
@@ -102,6 +117,43 @@ class LaunchPane(ListPane):
         if state[0] is not self._info or state[1:] != (self._why_not, self._problem):
             self._info, self._why_not, self._problem = state
             self._arrange()
+        follower = self._list.follower
+        follower.know(snapshot.launch.processes)
+        if follower.read(snapshot.logs, self.console.logs.record):
+            self._list.follow()
+        self._show_output()
+
+    def observe(self, snapshot: ConsoleSnapshot) -> None:
+        """Sample the CPU usage, also while hidden."""
+        if not self.has_parts:
+            return
+        processes = snapshot.launch.processes
+        self._list.follower.know(processes)
+        if self._list.follower.sample(processes, self.clock()) and self.display:
+            self._list.follow()
+
+    def _show_output(self) -> None:
+        """Show the newest lines of the process at the cursor."""
+        row = self._list.current
+        output = self.query_one("#launch-output", Picture)
+        lines = self._list.follower.of(row.process.key).lines if row and row.process else ()
+        width, room = output.size.width, max(0, output.size.height - 1)
+        newest = [*lines][-room:] if room else []
+        known = (row.process.key if row and row.process else "", newest[-1].seq if newest else -1, width, room)
+        if known == self._output:
+            return
+        self._output = known
+        name = sanitize(row.process.label) if row and row.process else ""
+        title = (
+            f" what {name} logged and printed "
+            if newest
+            else f" {name} has logged and printed nothing "
+            if name
+            else ""
+        )
+        drawn: list[Line] = [((cut(title.center(width, "─"), width), "dim"),)]
+        drawn += [((cut(_output_line(each), width), STYLES.get(each.severity, "")),) for each in newest]
+        output.set_lines(drawn)
 
     def _arrange(self) -> None:
         info = self._info or LaunchInfo()
@@ -130,9 +182,10 @@ class LaunchPane(ListPane):
         events.set_lines(lines)
 
     def on_picture_resized(self, event: Picture.Resized) -> None:
-        """Cut the events to the new width."""
+        """Cut the events and the output to the new width."""
         event.stop()
         self._show_events()
+        self._show_output()
 
     def time_moved(self, stamp: int | None) -> None:
         """Show the events up to another moment."""
@@ -177,10 +230,12 @@ class LaunchPane(ListPane):
         event.stop()
         self._read = (self._info or LaunchInfo()).problem
         self._report()
+        self._show_output()
 
     def on_resize(self) -> None:
-        """No events where there is little room."""
+        """No events where there is little room, and no output where there is not much."""
         self.set_class(self.size.height < 12, "short")
+        self.set_class(self.size.height < 19, "no-output")
 
     def action_fold(self, closed: bool) -> None:
         """Close or open the group at the cursor."""
@@ -368,6 +423,11 @@ def _belongs(process: ProcessInfo, group: tuple[str, ...]) -> bool:
 def event_text(event: LaunchEvent) -> str:
     """A launch event on one line."""
     return f"{clock_text(event.stamp)} {sanitize(event.text)}"
+
+
+def _output_line(record: LogRecord) -> str:
+    letter = SEVERITY_CHARACTERS.get(record.severity, " ")
+    return f" {clock_text(record.stamp)[:8]} {letter} {sanitize(record.text.splitlines()[0] if record.text else '')}"
 
 
 def facts(process: ProcessInfo, info: LaunchInfo) -> list[tuple[str, list[str]]]:

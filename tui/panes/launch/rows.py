@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
 from bot_console.tui.console.query import Query
 from bot_console.tui.format import cut, sanitize
+from bot_console.tui.panes.launch.follow import CPU_SAMPLES, Followed, Follower
+from bot_console.tui.text.bars import strip
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment
@@ -23,6 +25,8 @@ STATES = {
     ProcessState.ABANDONED: ("⚠", "warn"),
 }
 
+FOR_TRACE = 84
+"""Cells of a row from which on the CPU usage over time has room."""
 STATE_AND_PID = 20
 """Cells of the columns after the name that are always visible."""
 
@@ -84,11 +88,33 @@ def _inside(group: tuple[str, ...], folded: Collection[tuple[str, ...]]) -> bool
     return any(group[:depth] in folded for depth in range(1, len(group) + 1))
 
 
+def _gathered(followed: Followed) -> tuple[str, str, str]:
+    """The CPU usage over time as bars, and the numbers of errors and of warnings."""
+    errors = f"{followed.errors} E" if followed.errors else ""
+    return strip(followed.cpu, 1.0), errors, f"{followed.warnings} W" if followed.warnings else ""
+
+
 class ProcessRows(ItemList[Row]):
     """The rows of the tree."""
 
+<<<<<<< HEAD
     lifecycle: Mapping[str, str] = {}
     """The states of lifecycle nodes."""
+=======
+    def __init__(self) -> None:
+        super().__init__()
+        self.follower = Follower()
+        self._drawn: dict[str, tuple[str, str, str]] = {}
+        """What of the follower stands in the rows, by the key of the process."""
+
+    def follow(self) -> None:
+        """Redraw the rows for which the follower has gathered something new."""
+        for index, each in enumerate(self.rows):
+            key = each.process.key if each.process else ""
+            if key and self._drawn.get(key) != (drawn := _gathered(self.follower.of(key))):
+                self._drawn[key] = drawn
+                self.row_changed(index)
+>>>>>>> daa361b4 (Launch: CPU over time, errors and warnings of each process, and what it printed)
 
     def key(self, item: Row) -> object:
         """The process or group of a row."""
@@ -122,18 +148,28 @@ class ProcessRows(ItemList[Row]):
         columns = [f"  {process.state.value:<10}", f"{process.pid or '':>8}"]
         columns.append(f"{f'↻{process.restarts}' if process.restarts or process.restart_policy else '':>5}")
         columns.append("" if process.exit_code is None else f"  exit {process.exit_code}")
+<<<<<<< HEAD
         states = [self.lifecycle[each] for each in process.nodes if each in self.lifecycle]
         columns += [f"  {sanitize(each)}" for each in states if process.state is ProcessState.RUNNING]
+=======
+        trace, errors, warnings = _gathered(self.follower.of(process.key))
+>>>>>>> daa361b4 (Launch: CPU over time, errors and warnings of each process, and what it printed)
         if process.cpu is not None and width >= 60:
-            columns.append(f"  {process.cpu:.0%} CPU")
+            columns.append(f"  {f'{process.cpu:.0%}':>4} CPU")
+        if process.cpu is not None and width >= FOR_TRACE:
+            columns.append(f" {trace:>{CPU_SAMPLES}}")
         if process.memory is not None and width >= 76:
-            columns.append(f"  {process.memory} MB")
+            columns.append(f"  {f'{process.memory} MB':>6}")
         nodes = "  " + " ".join(process.nodes) if width >= 90 and process.nodes else ""
         if process.problem and (process.exit_code is None or width >= 60):
             columns.append(f"  {sanitize(process.problem)}")
         plain = None if process.state is ProcessState.RUNNING else self._style(style)
         loud = [Segment(name[: len(head)], self._style(style)), Segment(name[len(head) :], plain)]
-        return [*loud, Segment("".join(columns), plain), Segment(sanitize(nodes), self._style("dim"))]
+        counts = (
+            Segment(f"  {errors}" if errors else "", self._style("error")),
+            Segment(f"  {warnings}" if warnings else "", self._style("warn")),
+        )
+        return [*loud, Segment("".join(columns), plain), *counts, Segment(sanitize(nodes), self._style("dim"))]
 
     def _names(self, width: int) -> int:
         """Cells of the name column: what the longest name needs, if state and process id still fit."""

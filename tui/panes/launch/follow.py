@@ -1,0 +1,103 @@
+"""What the launch pane gathers about each process over time: CPU, warnings and errors, and its newest lines."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+
+from bot_console.tui.console.model import LogRecord, LogState, ProcessInfo, Severity
+
+CPU_SAMPLE_S = 2.0
+"""Seconds between two samples of the CPU usage that is drawn."""
+CPU_SAMPLES = 8
+"""Samples that are drawn, one per cell."""
+MAX_LINES = 50
+"""The newest lines that are kept of a process."""
+MAX_RECORDS = 2_000
+"""Log records that are read at once; the rest follows with the next snapshot."""
+MAX_BACKLOG = 20_000
+"""Log records that are read at most from before the pane was opened, or while it was hidden."""
+
+
+@dataclass
+class Followed:
+    """What was gathered about one process."""
+
+    cpu: deque[float] = field(default_factory=lambda: deque[float](maxlen=CPU_SAMPLES))
+    """Shares of one CPU, the newest last."""
+    warnings: int = 0
+    errors: int = 0
+    lines: deque[LogRecord] = field(default_factory=lambda: deque[LogRecord](maxlen=MAX_LINES))
+
+
+class Follower:
+    """Gathers from snapshots and from the log; what is hidden costs nothing but the samples of CPU usage."""
+
+    def __init__(self) -> None:
+        self._known: dict[str, Followed] = {}
+        self._by_logger: dict[str, str] = {}
+        """The key of the process that logs or prints under a name."""
+        self._processes: object = None
+        self._sampled = float("-inf")
+        self._cursor = 0
+
+    def of(self, key: str) -> Followed:
+        """What was gathered about a process; nothing for one that has just appeared."""
+        return self._known.get(key) or Followed()
+
+    def know(self, processes: tuple[ProcessInfo, ...]) -> None:
+        """Learn which processes there are, and how they call themselves in the log."""
+        if processes is self._processes:
+            return
+        self._processes = processes
+        self._known = {each.key: self._known.get(each.key) or Followed() for each in processes}
+        names = {logger_of(node): each.key for each in processes for node in each.nodes}
+        self._by_logger = {**{each.label: each.key for each in processes}, **names}
+
+    def sample(self, processes: Iterable[ProcessInfo], now: float) -> bool:
+        """Add the CPU usage of each process if it is time (s); whether it was."""
+        if now - self._sampled < CPU_SAMPLE_S:
+            return False
+        self._sampled = now
+        for each in processes:
+            if each.key in self._known:
+                self._known[each.key].cpu.append(each.cpu or 0.0)
+        return True
+
+    def read(self, state: LogState, record: Callable[[int], LogRecord | None]) -> bool:
+        """Read new records of the log; whether any was of a process."""
+        if self._cursor > state.end:  # another log
+            self._cursor = 0
+        begin = max(self._cursor, state.first, state.end - MAX_BACKLOG)
+        self._cursor = min(state.end, begin + MAX_RECORDS)
+        found = False
+        for number in range(begin, self._cursor):
+            each = record(number)
+            key = self.key_of(each.node) if each is not None else ""
+            if each is not None and key:
+                self._add(self._known[key], each)
+                found = True
+        return found
+
+    def _add(self, followed: Followed, record: LogRecord) -> None:
+        followed.lines.append(record)
+        followed.errors += record.severity >= Severity.ERROR
+        followed.warnings += record.severity == Severity.WARN
+
+    def key_of(self, logger: str) -> str:
+        """The process that logs or prints under a name, or under one that it begins with; empty if none is known."""
+        return _longest(logger, self._by_logger)
+
+
+def logger_of(node: str) -> str:
+    """The name of a node's logger: `arm.zoo` for `/arm/zoo`."""
+    return node.strip("/").replace("/", ".")
+
+
+def _longest(logger: str, keys: Mapping[str, str]) -> str:
+    while logger:
+        if logger in keys:
+            return keys[logger]
+        logger = logger.rpartition(".")[0]
+    return ""
