@@ -10,11 +10,11 @@ from textual.widget import Widget
 from textual.widgets import Input
 
 BELOW = 2
-"""Lines of the status line and the key bar, below notifications."""
+"""Lines of the status line and the key bar, below notifications on a screen without panes."""
 MAX_LINES = 6
 """Maximum lines of a notification, as in the style sheet."""
 LEFT = 2
-"""Columns to the left of notifications; the right end of a pane's lower edge is left visible."""
+"""Columns to the left of notifications."""
 RACK = "#textual-toastrack"
 
 
@@ -27,15 +27,27 @@ def place_toasts(screen: Screen[object], *, another: bool = False) -> None:
     # The style sheet does so for new notifications, but not for the one before a notification that is removed.
     for each in rack.children:
         each.display = not another and each is rack.children[-1]
-    below = lines_below(line_in_use(screen.focused), screen.size.height)
+    below = lines_below(line_in_use(screen.focused), screen.size.height, _foot(screen))
     if rack.styles.margin.bottom != below:
         rack.styles.margin = (0, 0, below, LEFT)
 
 
-def lines_below(line: int | None, height: int) -> int:
-    """The lines to leave free below a notification on a screen of a `height`, if a `line` must stay visible."""
-    covered = line is not None and height - BELOW - MAX_LINES <= line < height - BELOW
-    return height - line if line is not None and covered else BELOW
+def _foot(screen: Screen[object]) -> int:
+    """The lines below the panes, such as the status line and a bag's player, and the lower edge with the captions."""
+    try:
+        panes = screen.query_one("#panes").region
+    except NoMatches:
+        return BELOW
+    return max(BELOW, screen.size.height - panes.bottom + 1) if panes.height else BELOW
+
+
+def lines_below(line: int | None, height: int, foot: int = BELOW) -> int:
+    """The lines to leave free below a notification on a screen of a `height`, if a `line` must stay visible.
+
+    The last `foot` lines are never covered.
+    """
+    covered = line is not None and height - foot - MAX_LINES <= line < height - foot
+    return height - line if line is not None and covered else foot
 
 
 def line_in_use(focused: Widget | None) -> int | None:
