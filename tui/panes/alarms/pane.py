@@ -42,7 +42,7 @@ EMPTY = Placeholder(
     "An alarm watches a condition over topics and parameters and says when it becomes true.",
     (("a", f"Add an alarm, such as  low battery: {EXAMPLE}"), ("9", "Topics that can be watched"), ("?", "Help")),
 )
-HINT = "Nothing is watched yet. Enter watches one of these, a asks for an alarm of your own."
+HINT = "Nothing is watched yet: Enter watches one of these, a adds your own."
 
 
 class AlarmsPane(ListPane):

@@ -20,7 +20,7 @@ STATES = {True: ("✗", "active", "error"), False: ("○", "quiet", "good"), Non
 NAME, STATE, AGE = 24, 11, 8
 """Cells of the name at most, of the state, and of how long it is so."""
 
-SUGGESTED_VALUE = 20
+SUGGESTED_VALUE = 16
 """Cells for marks and the value of a suggestion."""
 
 

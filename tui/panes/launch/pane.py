@@ -134,23 +134,20 @@ class LaunchPane(ListPane):
 
     def _show_output(self) -> None:
         """Show the newest lines of the process at the cursor."""
-        row = self._list.current
+        row, info = self._list.current, self._info or LaunchInfo()
         output = self.query_one("#launch-output", Picture)
-        lines = self._list.follower.of(row.process.key).lines if row and row.process else ()
+        inside = [each.key for each in info.processes if row and _belongs(each, row.group)]
+        keys = [row.process.key] if row and row.process else inside
+        lines = [line for key in keys for line in self._list.follower.of(key).lines]
         width, room = output.size.width, max(0, output.size.height - 1)
-        newest = [*lines][-room:] if room else []
-        known = (row.process.key if row and row.process else "", newest[-1].seq if newest else -1, width, room)
+        newest = sorted(lines, key=lambda each: each.seq)[-room:] if room else []
+        name = "" if row is None else sanitize(row.process.label if row.process else row.group[-1])
+        known = (name, newest[-1].seq if newest else -1, width, room)
         if known == self._output:
             return
         self._output = known
-        name = sanitize(row.process.label) if row and row.process else ""
-        title = (
-            f" what {name} logged and printed "
-            if newest
-            else f" {name} has logged and printed nothing "
-            if name
-            else ""
-        )
+        what = "logged and printed" if newest else "has logged and printed nothing yet"
+        title = f" {'what ' if newest else ''}{name} {what} " if name else ""
         drawn: list[Line] = [((cut(title.center(width, "─"), width), "dim"),)]
         drawn += [((cut(_output_line(each), width), STYLES.get(each.severity, "")),) for each in newest]
         output.set_lines(drawn)

@@ -97,10 +97,9 @@ def _gathered(followed: Followed) -> tuple[str, str, str]:
 class ProcessRows(ItemList[Row]):
     """The rows of the tree."""
 
-<<<<<<< HEAD
     lifecycle: Mapping[str, str] = {}
     """The states of lifecycle nodes."""
-=======
+
     def __init__(self) -> None:
         super().__init__()
         self.follower = Follower()
@@ -114,7 +113,6 @@ class ProcessRows(ItemList[Row]):
             if key and self._drawn.get(key) != (drawn := _gathered(self.follower.of(key))):
                 self._drawn[key] = drawn
                 self.row_changed(index)
->>>>>>> daa361b4 (Launch: CPU over time, errors and warnings of each process, and what it printed)
 
     def key(self, item: Row) -> object:
         """The process or group of a row."""
@@ -148,18 +146,10 @@ class ProcessRows(ItemList[Row]):
         columns = [f"  {process.state.value:<10}", f"{process.pid or '':>8}"]
         columns.append(f"{f'↻{process.restarts}' if process.restarts or process.restart_policy else '':>5}")
         columns.append("" if process.exit_code is None else f"  exit {process.exit_code}")
-<<<<<<< HEAD
         states = [self.lifecycle[each] for each in process.nodes if each in self.lifecycle]
         columns += [f"  {sanitize(each)}" for each in states if process.state is ProcessState.RUNNING]
-=======
         trace, errors, warnings = _gathered(self.follower.of(process.key))
->>>>>>> daa361b4 (Launch: CPU over time, errors and warnings of each process, and what it printed)
-        if process.cpu is not None and width >= 60:
-            columns.append(f"  {f'{process.cpu:.0%}':>4} CPU")
-        if process.cpu is not None and width >= FOR_TRACE:
-            columns.append(f" {trace:>{CPU_SAMPLES}}")
-        if process.memory is not None and width >= 76:
-            columns.append(f"  {f'{process.memory} MB':>6}")
+        columns += self._usage(process, trace, width)
         nodes = "  " + " ".join(process.nodes) if width >= 90 and process.nodes else ""
         if process.problem and (process.exit_code is None or width >= 60):
             columns.append(f"  {sanitize(process.problem)}")
@@ -170,6 +160,20 @@ class ProcessRows(ItemList[Row]):
             Segment(f"  {warnings}" if warnings else "", self._style("warn")),
         )
         return [*loud, Segment("".join(columns), plain), *counts, Segment(sanitize(nodes), self._style("dim"))]
+
+    def _usage(self, process: ProcessInfo, trace: str, width: int) -> list[str]:
+        """CPU and memory; blanks where only other processes have them, so that what follows stands in columns."""
+        every = [each.process for each in self.rows if each.process is not None]
+        columns: list[str] = []
+        if width >= 60 and any(each.cpu is not None for each in every):
+            columns.append("" if process.cpu is None else f"  {f'{process.cpu:.0%}':>4} CPU")
+            if width >= FOR_TRACE:
+                columns.append("" if process.cpu is None else f" {trace:>{CPU_SAMPLES}}")
+        if width >= 76 and any(each.memory is not None for each in every):
+            columns.append("" if process.memory is None else f"  {f'{process.memory} MB':>6}")
+        widths = (10, 1 + CPU_SAMPLES, 8)[: len(columns)] if width >= FOR_TRACE else (10, 8)
+        blank = process.problem and process.exit_code is not None  # its problem takes the room
+        return columns if blank else [each.ljust(cells) for each, cells in zip(columns, widths, strict=False)]
 
     def _names(self, width: int) -> int:
         """Cells of the name column: what the longest name needs, if state and process id still fit."""
