@@ -423,8 +423,8 @@ def event_text(event: LaunchEvent) -> str:
 
 
 def _output_line(record: LogRecord) -> str:
-    letter = SEVERITY_CHARACTERS.get(record.severity, " ")
-    return f" {clock_text(record.stamp)[:8]} {letter} {sanitize(record.text.splitlines()[0] if record.text else '')}"
+    mark = SEVERITY_CHARACTERS.get(record.severity, " ")
+    return f" {clock_text(record.stamp)[:8]} {mark} {sanitize(record.text.splitlines()[0] if record.text else '')}"
 
 
 def facts(process: ProcessInfo, info: LaunchInfo) -> list[tuple[str, list[str]]]:
