@@ -14,7 +14,8 @@ MAX_LINES, MAX_CHARACTERS = 6, 400
 
 def counted(number: int, word: str) -> str:
     """A number and a noun, in the plural if needed."""
-    return f"{number} {word}{'' if number == 1 else 's'}"
+    ending = "es" if word.endswith("s") else "s"
+    return f"{number} {word}{'' if number == 1 else ending}"
 
 
 def sanitize(text: str) -> str:

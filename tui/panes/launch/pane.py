@@ -199,7 +199,7 @@ class LaunchPane(ListPane):
         elif row is None:
             text = "" if info.processes else self._problem or self._elsewhere
         elif row.process is None:
-            text = f"{' / '.join(row.group)}  {counted(row.count, 'process').replace('processs', 'processes')}"
+            text = f"{' / '.join(row.group)}  {counted(row.count, 'process')}"
         else:
             text = self._about(row.process)
         status = self.query_one("#launch-status", StaticText)
@@ -288,7 +288,7 @@ class LaunchPane(ListPane):
         if held or verb == "kill" or (row.process is None and verb != "start"):
             names = "\n".join([*held, *(each.label for each in chosen)])
             of = f" of {sanitize(row.group[-1])}" if row.process is None and row.group else ""
-            question = f"{verb.capitalize()} {counted(len(chosen), 'process').replace('processs', 'processes')}{of}?"
+            question = f"{verb.capitalize()} {counted(len(chosen), 'process')}{of}?"
             then = partial(self._do, verb, chosen)
             self.ask(Confirmation(question, lambda _: then(), partial(self._ended, verb, chosen), reasons=names))
         else:

@@ -344,7 +344,7 @@ class ProfilesPane(ListPane):
             return
         ended = (ProcessState.EXITED, ProcessState.CRASHED, ProcessState.ABANDONED)
         keys = [each.key for each in self._snapshot.launch.processes if each.state not in ended]
-        self._reported = f"stopping {counted(len(keys), 'process').replace('processs', 'processes')} ..."
+        self._reported = f"stopping {counted(len(keys), 'process')} ..."
         self._compare()
         Replacement(launcher, keys, profile, partial(self._later, self._replaced, profile)).begin()
 
