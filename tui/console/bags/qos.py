@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from typing import Any, cast
 
@@ -17,6 +18,8 @@ POLICIES: Mapping[str, Any] = {
     "liveliness": LivelinessPolicy,
 }  # fmt: skip
 """Policies that are words in a file, by their names there."""
+DEPTH = re.compile(r"[0-9]{1,9}")
+"""A depth that a middleware can hold; another one in a file is damage."""
 DURATIONS = frozenset(["deadline", "lifespan", "liveliness_lease_duration"])
 
 
@@ -45,7 +48,7 @@ def offered(entries: Iterable[Mapping[str, Any]]) -> QoSProfile:
     found = list(entries)
     latching = any(each.get("durability") in ("transient_local", 1) for each in found)
     weak = bool(found) and all(each.get("reliability") in ("best_effort", 2) for each in found)
-    depths = [int(each["depth"]) for each in found if str(each.get("depth", "")).isdigit()]
+    depths = [int(each["depth"]) for each in found if DEPTH.fullmatch(str(each.get("depth", "")))]
     return QoSProfile(
         depth=max(depths, default=0) or 10,
         reliability=ReliabilityPolicy.BEST_EFFORT if weak else ReliabilityPolicy.RELIABLE,

@@ -14,6 +14,7 @@ from bot_console.tui.console.bags.playing.playback import PlaybackState
 from bot_console.tui.console.bags.qos import offered
 from bot_console.tui.console.bags.reader import Entry
 from rclpy.duration import Duration
+from rclpy.exceptions import InvalidTopicNameException
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from rosgraph_msgs.msg import Clock as Message
@@ -202,7 +203,10 @@ class Player:
             except (ImportError, AttributeError, ValueError) as error:
                 self.unknown[name] = f"its type {topic.type} is not available here ({error})"
                 continue
-            self._publishers[name] = node.create_publisher(kind, target, how.qos.get(name) or offered(topic.qos))
+            try:
+                self._publishers[name] = node.create_publisher(kind, target, how.qos.get(name) or offered(topic.qos))
+            except InvalidTopicNameException:  # recorded by others, or damaged
+                self.unknown[name] = f"'{target}' is not a valid topic name; remapped to one, it is played"
 
     def _play(self, begin: int, stopped: threading.Event) -> int | None:
         """Play from a time on; returns where to continue if it was moved, None at the end."""

@@ -284,6 +284,19 @@ def test_a_topic_of_an_unknown_type_is_reported(tmp_path: Path, node: rclpy.node
     assert "nobody_msgs/msg/Such" in player.unknown["/words"] and player.published == 0
 
 
+def test_a_topic_whose_name_is_not_valid_is_reported(tmp_path: Path, node: rclpy.node.Node) -> None:
+    bag = Bag(words(tmp_path / "bag", "a"))
+    bag.metadata.topics["/wo~ds"] = bag.metadata.topics.pop("/words")
+    player = Player(node, bag, Playing(), get_message)
+    player.run(threading.Event())
+    assert "'/wo~ds' is not a valid topic name" in player.unknown["/wo~ds"] and player.published == 0
+
+
+@pytest.mark.parametrize(("depth", "taken"), [(7, 7), ("²", 10), (10**40, 10), (-1, 10), (None, 10), ([], 10)])
+def test_a_recorded_depth_that_no_middleware_holds_is_left_out(depth: object, taken: int) -> None:
+    assert offered([{"depth": depth}]).depth == taken
+
+
 def test_a_ring_keeps_the_last_seconds_within_its_byte_limit(tmp_path: Path) -> None:
     ring = Ring(seconds=10, maximum=100_000)
     ring.topic("/words", String, [], "")
