@@ -349,7 +349,7 @@ TABLE: dict[str, tuple[Key, ...]] = {
             footer=True,
             short="Details",
         ),
-        Key("launch.policy", "R", "policy", "Restart the process when it fails, or no longer", shown="R"),
+        Key("launch.policy", "P", "policy", "Restart the process when it fails, or no longer", shown="P"),
         Key("launch.transition", "T", "transition", "A transition of the lifecycle node", shown="T"),
         Key("launch.write", "S", "write", "Write a launch file that starts the running nodes again", shown="S"),
         Key("launch.timeline", "t", "timeline", "All launch events"),

@@ -14,7 +14,7 @@ BELOW = 2
 MAX_LINES = 6
 """Maximum lines of a notification, as in the style sheet."""
 LEFT = 2
-"""Columns to the left of notifications."""
+"""Columns to the left of notifications; the right end of a pane's lower edge is left visible."""
 RACK = "#textual-toastrack"
 
 
@@ -33,12 +33,12 @@ def place_toasts(screen: Screen[object], *, another: bool = False) -> None:
 
 
 def _foot(screen: Screen[object]) -> int:
-    """The lines below the panes, such as the status line and a bag's player, and the lower edge with the captions."""
+    """The lines below the panes, such as the status line and a bag's player."""
     try:
         panes = screen.query_one("#panes").region
     except NoMatches:
         return BELOW
-    return max(BELOW, screen.size.height - panes.bottom + 1) if panes.height else BELOW
+    return max(BELOW, screen.size.height - panes.bottom) if panes.height else BELOW
 
 
 def lines_below(line: int | None, height: int, foot: int = BELOW) -> int:

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from bot_console.tui.learn.course import COURSES
 from bot_console.tui.learn.sandbox import can_isolate
-from helpers import intelligent_robot
+from helpers import student_robot
 from helpers.student import Student
 
 WEEK6 = COURSES / "week6"
@@ -400,7 +400,7 @@ def chapter_17(at: Student) -> None:
     at.reads(
         "there is no file intelligent_robot/robot_node.py", "setup.py has no line for robot_node in console_scripts"
     )
-    at.write(f"{PACKAGE}/intelligent_robot/robot_node.py", intelligent_robot.ROBOT)
+    at.write(f"{PACKAGE}/intelligent_robot/robot_node.py", student_robot.ROBOT)
     scripts(at, "robot_nod")
     at.reads("has no line for robot_node in console_scripts; did you mean robot_nod?")
     scripts(at, "robot_node")
@@ -417,9 +417,9 @@ def chapter_17(at: Student) -> None:
     at.does("it-refuses")
 
     at.reads("setup.py has no line for sensor_node in console_scripts")
-    for program, name in intelligent_robot.OTHERS.items():
-        at.write(f"{PACKAGE}/intelligent_robot/{program}.py", intelligent_robot.OTHER.format(name=name))
-    scripts(at, "robot_node", *intelligent_robot.OTHERS)
+    for program, name in student_robot.OTHERS.items():
+        at.write(f"{PACKAGE}/intelligent_robot/{program}.py", student_robot.OTHER.format(name=name))
+    scripts(at, "robot_node", *student_robot.OTHERS)
     at.does("sensor-safety-and-telemetry")
 
 
@@ -427,8 +427,8 @@ def chapter_18(at: Student) -> None:
     two = at.shells[1]
     at.reads("there is no file intelligent_robot/config/indoor_config.yaml")
     for name, speed in (("indoor", 0.8), ("outdoor", 2.0)):
-        at.write(f"{PACKAGE}/config/{name}_config.yaml", intelligent_robot.CONFIG.format(speed=speed))
-    wrong = intelligent_robot.CONFIG.format(speed=1.5).replace("ros__", "ros_")
+        at.write(f"{PACKAGE}/config/{name}_config.yaml", student_robot.CONFIG.format(speed=speed))
+    wrong = student_robot.CONFIG.format(speed=1.5).replace("ros__", "ros_")
     at.write(f"{PACKAGE}/config/warehouse_config.yaml", wrong)
     at.reads("warehouse_config.yaml:2: ros_parameters has one underscore")
     at.write(f"{PACKAGE}/config/warehouse_config.yaml", wrong.replace("ros_", "ros__"))
@@ -453,11 +453,11 @@ def chapter_19(at: Student) -> None:
     two = at.shells[1]
     path = f"{PACKAGE}/launch/robot_system.launch.py"
     at.reads("there is no file launch/*launch.py in a package")
-    at.write(path, intelligent_robot.LAUNCH.replace('    "telemetry_node": "telemetry_publisher",\n', ""))
+    at.write(path, student_robot.LAUNCH.replace('    "telemetry_node": "telemetry_publisher",\n', ""))
     two.start(at.listing("one-file-for-the-system"))
     at.reads("robot_system.launch.py had no telemetry_node when it was launched")
     two.interrupt()
-    at.write(path, intelligent_robot.LAUNCH)
+    at.write(path, student_robot.LAUNCH)
     two.start(at.listing("one-file-for-the-system"))
     at.does("one-file-for-the-system")
     two.interrupt()

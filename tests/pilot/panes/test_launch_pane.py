@@ -201,7 +201,7 @@ def test_restarts_on_failure_are_switched_for_a_process_and_for_a_group() -> Non
         first = next(each for each in info.processes if each.nodes == ("/sensor_handler",))
         await session.press("8")
         session.pane(LaunchPane).go_to("/sensor_handler")
-        await session.press("R")
+        await session.press("P")
         assert session.launcher.asked == [("restart_on_failure", first.key)]
         text = "on failure, up to 5 times, after 1 to 16 s"
         processes = tuple(replace(each, restart_policy=text) for each in info.processes)
@@ -210,7 +210,7 @@ def test_restarts_on_failure_are_switched_for_a_process_and_for_a_group() -> Non
         assert "↻0" in next(each for each in session.lines() if "sensor_handler-" in each)
         await session.press("enter")
         assert f"restarted {text}" in session.text()
-        await session.press("escape", "g", "R")
+        await session.press("escape", "g", "P")
         assert {verb for verb, _ in session.launcher.asked[1:]} == {"leave_ended"}
         assert len(session.launcher.asked) > 2
 

@@ -119,7 +119,8 @@ class LaunchPane(ListPane):
             self._arrange()
         follower = self._list.follower
         follower.know(snapshot.launch.processes)
-        if follower.read(snapshot.logs, self.console.logs.record):
+        sampled = follower.sample(snapshot.launch.processes, self.clock())
+        if follower.read(snapshot.logs, self.console.logs.record) or sampled:
             self._list.follow()
         self._show_output()
 

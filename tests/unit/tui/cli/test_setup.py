@@ -62,7 +62,7 @@ def test_existing_ros2_is_kept(name: str, home: Path):
 @pytest.mark.parametrize("name", SHELLS)
 def test_chosen_distribution_is_that_of_the_shell_until_undone(name: str, home: Path):
     kilted = setup.evaluation(name).replace(f" setup {name}", f" --distro kilted setup {name}")
-    shows = "echo -$ROS_DISTRO-$BOT_CONSOLE_DISTRO-"
+    shows = 'echo "-$ROS_DISTRO-$BOT_CONSOLE_DISTRO-"'
     done = shell(name, home, f"{kilted}\n{shows}\n{setup.evaluation(name)}\n{shows}\n{undoing(name)}\n{shows}")
     assert done.split() == ["-kilted-kilted-", "-kilted-kilted-", "---"], "also after a second setup, of the default"
 
