@@ -7,7 +7,6 @@ import re
 from typing import Any
 
 import rclpy
-from composition_interfaces.srv import ListNodes, LoadNode, UnloadNode
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -38,6 +37,9 @@ class ComponentContainer:
     """The services of a container, and the nodes it has loaded."""
 
     def __init__(self, node: Any, executor: Any) -> None:
+        # The rclpy of PyPI comes without these interfaces, and launch_ros loads this module for every launch file.
+        from composition_interfaces.srv import ListNodes, LoadNode, UnloadNode
+
         self._node = node
         self._executor = executor
         self._loaded: dict[int, Any] = {}

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import launch.logging
-from composition_interfaces.srv import LoadNode
 from launch.action import Action
 from launch.frontend import expose_action
 from launch.some_substitutions_type import SomeSubstitutionsType_types_tuple
@@ -71,6 +70,9 @@ class LoadComposableNodes(Action):
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
         """Request from the container each node whose condition holds."""
+        # The rclpy of PyPI comes without these interfaces, and launch files without composable nodes need none.
+        from composition_interfaces.srv import LoadNode
+
         target = self._container_name(context)
         wanted = [each for each in self.__descriptions if holds(each, context)]
         requests = [request_for(each, context) for each in wanted]
@@ -172,6 +174,8 @@ def holds(description: ComposableNode, context: LaunchContext) -> bool:
 
 def request_for(description: ComposableNode, context: LaunchContext) -> Any:
     """Return the request that loads a node, including what the launch file has set for all nodes."""
+    from composition_interfaces.srv import LoadNode
+
     request = LoadNode.Request()
     request.package_name = perform_substitutions(context, description.package)
     request.plugin_name = perform_substitutions(context, description.node_plugin)
