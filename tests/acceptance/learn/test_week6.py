@@ -322,7 +322,7 @@ def chapters_11_to_15(at: Student) -> None:
     at.reads("waiting for: somebody to set turn_rate")
     two.run(at.listing("slide-a-value"))
     keys("1/turn_rate\r")
-    at.shows("turn_rate  1.0")
+    at.shows("1.0 rad/s")
     keys("+")
     at.does("slide-a-value")
     keys("0")
