@@ -65,6 +65,8 @@ class LaunchPane(ListPane):
 
     wall_clock: Callable[[], int] = staticmethod(time.time_ns)
     """Time in ns since the epoch; tests give one that they step."""
+    clock: Callable[[], float] = staticmethod(time.monotonic)
+    """A monotonic clock (s), replaced in tests."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
@@ -77,9 +79,6 @@ class LaunchPane(ListPane):
         self._query = Query()
         self._output: object = None
         """What stands in the lines below the tree."""
-
-    clock: Callable[[], float] = staticmethod(time.monotonic)
-    """A monotonic clock (s), replaced in tests."""
 
     def compose(self) -> ComposeResult:
         """The tree, a line on the process at the cursor, the newest events."""
