@@ -265,12 +265,16 @@ class Clocks:
 
     @contextlib.contextmanager
     def prepare(self, robot: LiveRobot) -> Iterator[list[str]]:
-        """Start the locks and the console with a clock that can be set; monotonic clocks go on."""
+        """Start the locks and the console with a clock that can be set; monotonic clocks go on.
+
+        Shifted file times would have everything compiled again. The "fix" of monotonic deadlines makes timed waits end
+        at once with a current glibc, so that threads that wait for the interpreter poll.
+        """
         self._file, before = robot.folder / "clock", dict(robot.environment)
         self._set("+0")
         robot.environment |= {
             "LD_PRELOAD": str(FAKETIME), "FAKETIME_TIMESTAMP_FILE": str(self._file), "FAKETIME_CACHE_DURATION": "1",
-            "FAKETIME_DONT_FAKE_MONOTONIC": "1",
+            "FAKETIME_DONT_FAKE_MONOTONIC": "1", "NO_FAKE_STAT": "1", "FAKETIME_FORCE_MONOTONIC_FIX": "0",
         }  # fmt: skip
         try:
             both_restarted_and_free(robot)
