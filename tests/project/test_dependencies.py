@@ -7,6 +7,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+from ros_names import ros_names
 from syntax import statements
 
 if sys.version_info >= (3, 11):
@@ -65,14 +66,6 @@ def by_name(text):
 def called(function):
     """The last part of a called function's name."""
     return function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
-
-
-def ros_names():
-    """The ROS names that the runtime serves: its own folders, generated interfaces, our packages."""
-    runtime = ROOT / "runtime"
-    places = runtime, runtime / "rosidl" / "generated", runtime / "rosidl" / "unverified"
-    folders = {path.name for place in places for path in place.iterdir()}
-    return folders | {"bot_console", "bot_console_robot", "bot_console_demos", "intelligent_robot"}
 
 
 def test_declared_dependencies_are_imported():
