@@ -11,7 +11,7 @@ import rclpy
 from geometry_msgs.msg import Twist, Vector3
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.node import Node
-from rigs import is_embedded_rclpy
+from rigs import is_embedded_rclpy, next_domain
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool, Float64, Int32, String
 
@@ -22,7 +22,6 @@ else:
 
 WAY = "embedded" if is_embedded_rclpy() else "ros"
 pytestmark = [getattr(pytest.mark, WAY)] if WAY == "ros" else []
-DOMAIN = 65
 
 
 def twist(x: float, z: float) -> Twist:
@@ -90,7 +89,7 @@ REFUSED: list[tuple[Any, str, list[str]]] = [
 
 @pytest.fixture(scope="module")
 def node() -> Iterator[Node]:
-    rclpy.init(domain_id=DOMAIN)
+    rclpy.init(domain_id=next_domain())
     yield rclpy.create_node("filtering")
     rclpy.shutdown()
 

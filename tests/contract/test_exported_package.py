@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.workspace.exporting import NAME, export
-from rigs import is_embedded_rclpy
+from rigs import is_embedded_rclpy, next_domain
 
 pytestmark = [
     pytest.mark.ros,
@@ -18,7 +18,6 @@ pytestmark = [
     pytest.mark.skipif(is_embedded_rclpy(), reason="for the rclpy of a machine without `ros2`: .ci/on_rclpy"),
 ]
 PROFILES = ("competition", "indoor", "outdoor", "warehouse")
-DOMAIN = 80
 DRIVEN = """
 import importlib, json, sys, types
 import rclpy
@@ -145,12 +144,12 @@ def test_each_node_runs_with_the_profile_and_a_stop_holds_until_it_is_released(
 ) -> None:
     nodes = sorted(each.stem for each in (installed / "lib" / NAME).glob("*_node.py") if each.stem != WITHOUT_PYPI)
     prefixes = os.pathsep.join(filter(None, (str(installed), os.environ.get("AMENT_PREFIX_PATH", ""))))
-    domain = str(DOMAIN + PROFILES.index(profile))
     config = installed / "share" / NAME / "config" / f"{profile}_config.yaml"
     done = subprocess.run(
         [sys.executable, "-c", DRIVEN, str(config), "robot", *nodes],
-        env={**os.environ, "PYTHONPATH": str(installed / "lib"), "AMENT_PREFIX_PATH": prefixes, "ROS_DOMAIN_ID": domain,
-             "BOT_CONSOLE_STOP_FILE": str(tmp_path / "stops.json"), "ROS_LOG_DIR": str(tmp_path)},
+        env={**os.environ, "PYTHONPATH": str(installed / "lib"), "AMENT_PREFIX_PATH": prefixes,
+             "BOT_CONSOLE_STOP_FILE": str(tmp_path / "stops.json"), "ROS_LOG_DIR": str(tmp_path),
+             "ROS_DOMAIN_ID": str(next_domain())},
         capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr[-3000:]

@@ -9,11 +9,8 @@ import pytest
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
 from launcher_bench import TIMEOUT_S
-from rigs import domains
+from rigs import next_domain
 from scenes.launcher_rigs import DECLARED, AttachedRig, FakeRig, HostedRig, LauncherRig, MachineRig, RosRig
-
-_domains = domains()
-
 
 WAYS = [
     pytest.param(FakeRig, id="fake"),
@@ -27,7 +24,7 @@ WAYS = [
 @pytest.fixture(params=WAYS)
 def rig(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[LauncherRig]:
     """A launcher with one launch file."""
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(next(_domains)))
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(next_domain()))
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
     made = request.param(tmp_path)
     yield made

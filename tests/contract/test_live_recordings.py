@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 from helpers.recorded.cases import GIVEN, NOT_GIVEN, RECORDINGS, recorded_areas
 from helpers.recorded.releases import LIVE, PYPI_TYPES, absent_types, as_recorded
-from rigs import is_embedded_rclpy
+from rigs import is_embedded_rclpy, next_domain
 
 pytestmark = [
     pytest.mark.ros,
@@ -27,8 +27,6 @@ pytestmark = [
 DISTRO = os.environ.get("BOT_CONSOLE_TESTS_DISTRO", "jazzy")
 TIMED = ("programs/main_with_spin_and_interrupt",)
 """Interrupts itself after 0.3 s, when a busy machine may not have begun to spin: checked only with our rclpy."""
-FIRST_DOMAIN = 80
-"""Areas are replayed in parallel, each in a separate domain. DDS allows domains up to 101 on every system."""
 SETUP = f"exec(open({str(PYPI_TYPES)!r}).read())"
 
 
@@ -48,7 +46,7 @@ def differing(folder: Path, *which: str) -> dict[str, Any]:
 def test_area_is_replayed_as_recorded(
     area: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
 ) -> None:
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(FIRST_DOMAIN + list(recorded_areas()).index(area)))
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(next_domain()))
     known = json.loads((LIVE / f"{DISTRO}.json").read_text("utf-8"))
     found = differing(tmp_path, area)
     doubtful = [case for case in found if case not in known and not absent_types(found[case])]

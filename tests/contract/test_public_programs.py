@@ -6,19 +6,17 @@ why. `python tools/compare_programs.py REAL_PYTHON` runs both side by side.
 
 from __future__ import annotations
 
-import itertools
 import os
 import sys
 from pathlib import Path
 
 import pytest
 from helpers.recorded.programs import differing, names, outcome, recorded
-from rigs import is_embedded_rclpy
+from rigs import is_embedded_rclpy, next_domain
 
 EACH_RUN = 20
 """Of so many programs one is in the default run, the others run with `-m soak`."""
 OURS = [str(Path(sys.executable).with_name("bot-console")), "run"]
-_domains = itertools.count(67)
 pytestmark = pytest.mark.timeout(180)
 
 
@@ -26,16 +24,10 @@ def programs(mark: pytest.MarkDecorator) -> list[object]:
     return [pytest.param(each, marks=() if number % EACH_RUN == 0 else mark) for number, each in enumerate(names())]
 
 
-@pytest.fixture
-def domain() -> int:
-    """A ROS domain that no other program is in; DDS allows domains up to 101 on every system."""
-    return 67 + next(_domains) % 30
-
-
 @pytest.mark.skipif(not is_embedded_rclpy(), reason="about our rclpy")
 @pytest.mark.parametrize("name", programs(pytest.mark.soak))
-def test_program_ends_as_on_the_real_rclpy(name: str, domain: int) -> None:
-    ours, real = outcome(OURS, name, domain), recorded()[name]
+def test_program_ends_as_on_the_real_rclpy(name: str) -> None:
+    ours, real = outcome(OURS, name, next_domain()), recorded()[name]
     if name in differing():
         assert ours != real, f"{name} no longer differs: remove it from programs.yaml"
     else:
@@ -46,8 +38,8 @@ def test_program_ends_as_on_the_real_rclpy(name: str, domain: int) -> None:
 @pytest.mark.skipif(is_embedded_rclpy(), reason="for the rclpy of PyPI: .ci/on_rclpy")
 @pytest.mark.skipif(os.environ.get("BOT_CONSOLE_TESTS_DISTRO", "jazzy") != "jazzy", reason="recorded on Jazzy")
 @pytest.mark.parametrize("name", names())
-def test_program_ends_as_recorded(name: str, domain: int) -> None:
-    assert outcome([sys.executable], name, domain) == recorded()[name]
+def test_program_ends_as_recorded(name: str) -> None:
+    assert outcome([sys.executable], name, next_domain()) == recorded()[name]
 
 
 def test_every_program_is_recorded_and_every_difference_has_a_reason() -> None:
