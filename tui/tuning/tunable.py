@@ -44,8 +44,8 @@ class Tunable:
         return self._points or int(math.floor(self.high) - math.ceil(self.low)) + 1
 
     def at(self, share: float) -> TunableValue:
-        """The value at a fraction (0 to 1) of the range."""
-        value = self.low + min(1.0, max(0.0, share)) * (self.high - self.low)
+        """The value at a fraction (0 to 1) of the range; beyond these, the nearer end."""
+        value = self.low + share * (self.high - self.low)
         if self.kind == "double":
             return self._on_step(min(self.high, max(self.low, round(value, self._digits()))))
         whole = min(math.floor(self.high), max(math.ceil(self.low), round(value)))

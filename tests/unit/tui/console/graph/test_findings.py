@@ -73,3 +73,16 @@ def test_topics_published_on_demand_need_no_publisher() -> None:
     topics = ("/initialpose", "/robot1/emergency_stop/arbiter", "/scan")
     base = NodeInfo("/base", (), tuple(Endpoint(each, ("T",)) for each in topics))
     assert message(base) == ["nobody publishes /scan, which /base listens to"]
+
+
+def test_faults_come_first_and_each_group_is_in_the_order_of_its_subjects() -> None:
+    nodes = (
+        NodeInfo("/z", (), (Endpoint("/a_topic", TWIST),), clients=(Endpoint("/z_service", ("T",)),)),
+        NodeInfo("/y", (), (Endpoint("/b_topic", TWIST),), clients=(Endpoint("/a_service", ("T",)),)),
+        NodeInfo("/c_node"),
+    )
+    found = findings(GraphInfo(nodes, silent=("/y",), debugged=(("/a_node", ""),)))
+    assert [(each.subject, each.fault) for each in found] == [
+        *((subject, True) for subject in ("/a_service", "/y", "/z_service")),
+        *((subject, False) for subject in ("/a_node", "/a_topic", "/b_topic", "/c_node")),
+    ]
