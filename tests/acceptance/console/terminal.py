@@ -12,21 +12,27 @@ import struct
 import subprocess
 import sys
 import termios
+import threading
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from types import TracebackType
 
 from bot_console.tui.cli.foreground.hang_watch import FILE
 from bot_console.tui.files.folders import state_folder
 
 TIMEOUT_S = 120.0
 """Seconds after which a test gives up; nothing is measured by it."""
-STACKS = 5.0
-"""Seconds that a console may take to write the stacks of its threads."""
+STACKS_TIMEOUT_S = 5.0
+"""Seconds that a console which a test has waited for in vain gets to write the stacks of its threads."""
+POLL_S = 0.02
 
 
 class Terminal:
-    """A program in a terminal of a given size."""
+    """A program in a terminal of a given size, which ends with the block.
+
+    A thread reads all that the program writes, so that a program is never blocked by a test that waits for another.
+    """
 
     def __init__(self, words: Sequence[str], folder: Path, size: tuple[int, int] = (120, 40)) -> None:
         self.master, slave = pty.openpty()
@@ -39,57 +45,99 @@ class Terminal:
             [sys.executable, *words], cwd=folder, env=environment, start_new_session=True,
             stdin=slave, stdout=slave, stderr=slave,
         )  # fmt: skip
-        self.output = b""
         self.folder = folder
+        self._output = b""
+        self._reads = threading.Lock()
+        self._ended, self._end = os.pipe()
+        self._reader = threading.Thread(target=self._read_all, daemon=True)
+        self._reader.start()
         self._stacks = state_folder() / FILE
         self._stacks_before = self._stacks.stat().st_size if self._stacks.exists() else 0
 
-    def read_until(self, condition: Callable[[], bool], what: str) -> None:
-        """Read the program's output until a condition holds."""
+    def __enter__(self) -> Terminal:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    @property
+    def output(self) -> bytes:
+        """What the program has written; a test may forget what it no longer needs."""
+        return self._output
+
+    @output.setter
+    def output(self, value: bytes) -> None:
+        with self._reads:
+            self._output = value
+
+    def read_until(self, condition: Callable[[], object], what: str) -> None:
+        """Wait until a condition of the program's output holds."""
         deadline = time.monotonic() + TIMEOUT_S
         while not condition():
             if time.monotonic() >= deadline:
-                raise AssertionError(f"no {what}; the screen ended with {self.output[-800:]!r}\n{self.stacks()}")
-            ended = self.process.poll()
-            self._read(0.05)
-            assert ended is None or "end" in what, f"ended ({ended}) before {what}: {self.output[-1500:]!r}"
+                stacks = self.stacks(STACKS_TIMEOUT_S)
+                raise AssertionError(f"no {what}; the screen ended with {self.output[-800:]!r}\n{stacks}")
+            if (ended := self.process.poll()) is not None:
+                self._read_rest()
+                if condition():
+                    return
+                assert "end" in what, f"ended ({ended}) before {what}: {self.output[-1500:]!r}"
+            self.drain(POLL_S)
 
-    def _read(self, seconds: float) -> None:
-        if select.select([self.master], [], [], seconds)[0]:
-            with contextlib.suppress(OSError):
-                self.output += os.read(self.master, 65536)
+    def _read_all(self) -> None:
+        while self._ended not in (ready := select.select([self.master, self._ended], [], [])[0]):
+            if ready:
+                try:
+                    self._read_once()
+                except OSError:  # as Linux reports that nobody has the other end
+                    return
 
-    def stacks(self) -> str:
+    def _read_once(self) -> bool:
+        """Read what there is; whether there was something."""
+        with self._reads:
+            if self.master < 0 or not select.select([self.master], [], [], 0)[0]:
+                return False
+            self._output += os.read(self.master, 65536)
+            return True
+
+    def _read_rest(self) -> None:
+        with contextlib.suppress(OSError):
+            while self._read_once():
+                pass
+
+    def stacks(self, timeout_s: float = TIMEOUT_S) -> str:
         """The state of a console's screen and the stacks of its threads, as it writes them on request."""
         if self.process.poll() is not None or not self._stacks.exists():
             return "it keeps no stacks"
         self.process.send_signal(signal.SIGUSR1)
-        deadline = time.monotonic() + STACKS
+        deadline = time.monotonic() + timeout_s
         while f"process {self.process.pid}:" not in (text := self._written()):
             if time.monotonic() >= deadline:  # The drawing thread hangs.
                 self.process.send_signal(signal.SIGABRT)
                 self.process.wait()
                 return self._written()
-            self._read(0.05)
+            self.drain(POLL_S)
         return text
 
     def _written(self) -> str:
         return self._stacks.read_bytes()[self._stacks_before :].decode(errors="replace")
 
     def drain(self, seconds: float) -> None:
-        """Read the program's output for a while."""
-        end = time.monotonic() + seconds
-        while (left := end - time.monotonic()) > 0:
-            self._read(left)
+        """Let a while pass, in which the program's output is read."""
+        threading.Event().wait(seconds)
 
     def type(self, keys: str) -> None:
         """Press keys."""
-        os.write(self.master, keys.encode())
+        left = keys.encode()
+        while left:
+            left = left[os.write(self.master, left) :]
 
     def wait(self) -> int:
         """The exit code, once the program has ended."""
         self.read_until(lambda: self.process.poll() is not None, "the end of the program")
-        self._read(0.2)
+        self._read_rest()
         return self.process.returncode
 
     def is_usable(self) -> bool:
@@ -113,8 +161,10 @@ class Terminal:
 
     def hang_up(self) -> None:
         """Make the terminal vanish without a signal."""
-        os.close(self.master)
-        os.close(self._slave)
+        os.write(self._end, b"end")
+        self._reader.join()
+        for each in (self.master, self._slave, self._ended, self._end):
+            os.close(each)
         self.master = -1
 
     def close(self) -> None:

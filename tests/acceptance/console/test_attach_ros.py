@@ -113,39 +113,37 @@ def test_attached_console_shows_robot_launches_beside_it_and_leaves_it_alone(
     program, file = tmp_path / "second.py", tmp_path / "second.launch.py"
     program.write_text(ROBOT.format(name="second"))
     file.write_text(LAUNCH.format(program=str(program)))
-    terminal = Terminal([*CONSOLE, "attach", "--ros"], tmp_path)
-    terminal.read_until(lambda: b"top_speed" in terminal.output, "the robot")
-    terminal.type("2")  # A smaller terminal shows one pane at a time.
-    terminal.read_until(lambda: b"rover is up" in terminal.output, "its line in the log")
-    shows = screen_of(terminal)
-    terminal.read_until(lambda: shows("ROS 2 standin", "range LOCALHOST, this"), "the range and the distribution")
-    terminal.type("8o")
-    terminal.read_until(lambda: b"Open a launch file" in terminal.output, "the question for a file")
-    terminal.type(f"{file}\r")
-    terminal.read_until(lambda: b"launched-1 started" in terminal.output, "the launched process")
-    terminal.type("2")
-    terminal.read_until(lambda: b"second is up" in terminal.output, "its line in the log")
-    assert b"guard none" in terminal.output
-    terminal.type("q")
-    assert terminal.wait() == 0
-    assert terminal.is_usable()
-    assert robot.poll() is None
-    terminal.close()
+    with Terminal([*CONSOLE, "attach", "--ros"], tmp_path) as terminal:
+        terminal.read_until(lambda: b"top_speed" in terminal.output, "the robot")
+        terminal.type("2")  # A smaller terminal shows one pane at a time.
+        terminal.read_until(lambda: b"rover is up" in terminal.output, "its line in the log")
+        shows = screen_of(terminal)
+        terminal.read_until(lambda: shows("ROS 2 standin", "range LOCALHOST, this"), "the range and the distribution")
+        terminal.type("8o")
+        terminal.read_until(lambda: b"Open a launch file" in terminal.output, "the question for a file")
+        terminal.type(f"{file}\r")
+        terminal.read_until(lambda: b"launched-1 started" in terminal.output, "the launched process")
+        terminal.type("2")
+        terminal.read_until(lambda: b"second is up" in terminal.output, "its line in the log")
+        assert b"guard none" in terminal.output
+        terminal.type("q")
+        assert terminal.wait() == 0
+        assert terminal.is_usable()
+        assert robot.poll() is None
 
 
 @pytest.mark.soak
 @pytest.mark.parametrize("program", [pytest.param(CROWD, id="crowd")])
 def test_robot_of_fifty_nodes_and_a_hundred_topics_is_shown(robot: subprocess.Popen[bytes], tmp_path: Path) -> None:
-    terminal = Terminal([*CONSOLE, "attach", "--ros"], tmp_path)
-    shows = screen_of(terminal)
-    terminal.read_until(lambda: shows("part_00", "part_05"), "its first nodes")
-    terminal.type("1/part_49\r")
-    terminal.read_until(lambda: shows("part_49", "0.98"), "the last node's parameter")
-    terminal.type("9/wire_49_right\r")
-    terminal.read_until(lambda: shows("/wire_49_right", "1 of 1"), "the last topic, of more than a hundred")
-    terminal.type("q")
-    assert terminal.wait() == 0
-    terminal.close()
+    with Terminal([*CONSOLE, "attach", "--ros"], tmp_path) as terminal:
+        shows = screen_of(terminal)
+        terminal.read_until(lambda: shows("part_00", "part_05"), "its first nodes")
+        terminal.type("1/part_49\r")
+        terminal.read_until(lambda: shows("part_49", "0.98"), "the last node's parameter")
+        terminal.type("9/wire_49_right\r")
+        terminal.read_until(lambda: shows("/wire_49_right", "1 of 1"), "the last topic, of more than a hundred")
+        terminal.type("q")
+        assert terminal.wait() == 0
 
 
 def test_console_asks_which_system_if_one_of_ours_runs_too(robot: subprocess.Popen[bytes], tmp_path: Path) -> None:

@@ -82,12 +82,6 @@ class Console:
         """Wait for a note."""
         self.terminal.read_until(lambda: any(each.startswith(note) for each in self.notes()), note)
 
-    def type(self, text: str) -> None:
-        """Type, and read what the console writes meanwhile, so that neither blocks the other."""
-        for at in range(0, len(text), 1000):
-            self.terminal.type(text[at : at + 1000])
-            self.terminal.drain(0.0)
-
 
 @pytest.fixture
 def console(tmp_path: Path) -> Iterator[Console]:
@@ -104,10 +98,10 @@ def console(tmp_path: Path) -> Iterator[Console]:
     [each if each in ("nothing", "mouse moves") else pytest.param(each, marks=pytest.mark.soak) for each in BEFORE],
 )
 def test_robot_is_held_once_while_the_screen_hangs_and_its_turn_keeps_it(console: Console, before: str) -> None:
-    console.type(BEFORE[before])
+    console.terminal.type(BEFORE[before])
     for width in range(100, 130):
         fcntl.ioctl(console.terminal.master, termios.TIOCSWINSZ, struct.pack("HHHH", 40, width, 0, 0))
-    console.type("!")
+    console.terminal.type("!")
     console.until("hold_early")
     assert console.notes() == ["hangs", "hold_early ('1',) {}"]
     (console.folder / "resume").write_text("go on")

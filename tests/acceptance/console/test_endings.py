@@ -75,13 +75,10 @@ def console(tmp_path):
     (tmp_path / "wheels.py").write_text(WHEELS.format(folder=tmp_path))
     (tmp_path / "one.launch.py").write_text(LAUNCH.format(folder=tmp_path))
     (tmp_path / "program.py").write_text(CRASH.format(folder=tmp_path))
-    terminal = Terminal(["program.py", "--launch", "one.launch.py"], tmp_path)
     received = tmp_path / "received"
-    try:
+    with Terminal(["program.py", "--launch", "one.launch.py"], tmp_path) as terminal:
         terminal.read_until(lambda: received.exists() and received.read_text().count("1.0") >= 3, "the driving robot")
         yield terminal
-    finally:
-        terminal.close()
 
 
 ENDS = {

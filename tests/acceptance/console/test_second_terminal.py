@@ -27,21 +27,15 @@ def typed(*words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(line, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
 
 
-def eventually(terminal: Terminal, condition, what: str) -> None:
-    """Run a command in another terminal again and again while the console's output is read."""
-    terminal.read_until(condition, what)
-
-
 @pytest.fixture(scope="module")
 def console(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminal]:
     """One console with its robot; each test leaves it unchanged."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("BOT_CONSOLE_SOCKET_DIR", SOCKETS)
         patch.setenv("BOT_CONSOLE_USER_DIR", f"{SOCKETS}-user")
-        terminal = Terminal([*CONSOLE, "--seed", "1"], tmp_path_factory.mktemp("console"))
-        eventually(terminal, lambda: b"robot_navigator" in terminal.output, "the robot's nodes")
-        yield terminal
-        terminal.close()
+        with Terminal([*CONSOLE, "--seed", "1"], tmp_path_factory.mktemp("console")) as terminal:
+            terminal.read_until(lambda: b"robot_navigator" in terminal.output, "the robot's nodes")
+            yield terminal
     shutil.rmtree(SOCKETS, ignore_errors=True)
     shutil.rmtree(f"{SOCKETS}-user", ignore_errors=True)
 
@@ -67,30 +61,28 @@ def test_verbs_in_a_second_terminal_reach_the_robot(console: Terminal) -> None:
     console.read_until(lambda: b"ALL STOP" in console.output, "the lock on the first screen")
     assert abs(speed()) < 0.05
     assert typed("release").returncode == 0
-    eventually(console, lambda: speed() > 0.1, "the robot that drives again")
+    console.read_until(lambda: speed() > 0.1, "the robot that drives again")
 
 
 def test_second_console_asks_to_attach_and_leaves_the_robot_running(console: Terminal, tmp_path: Path) -> None:
-    asking = Terminal(CONSOLE, tmp_path)
-    asking.read_until(lambda: b"Attach the console" in asking.output, "the question")
-    assert b"/simulator" in asking.output
-    asking.type("n\n")
-    assert asking.wait() == 1
-    asking.close()
+    with Terminal(CONSOLE, tmp_path) as asking:
+        asking.read_until(lambda: b"Attach the console" in asking.output, "the question")
+        assert b"/simulator" in asking.output
+        asking.type("n\n")
+        assert asking.wait() == 1
 
-    attached = Terminal([*CONSOLE, "attach"], tmp_path)
-    attached.read_until(lambda: b"robot_navigator" in attached.output, "the robot's nodes in an attached console")
-    console.output = attached.output = b""
-    attached.type("!")
-    console.read_until(lambda: b"ALL STOP" in console.output, "the lock of another console on the first screen")
-    attached.read_until(lambda: b"releases" in attached.output, "the lock that the next key releases")
-    attached.type("!")
-    eventually(console, lambda: speed() > 0.1, "the robot that drives again")
-    attached.type("q")
-    assert attached.wait() == 0
-    attached.close()
+    with Terminal([*CONSOLE, "attach"], tmp_path) as attached:
+        attached.read_until(lambda: b"robot_navigator" in attached.output, "the robot's nodes in an attached console")
+        console.output = attached.output = b""
+        attached.type("!")
+        console.read_until(lambda: b"ALL STOP" in console.output, "the lock of another console on the first screen")
+        attached.read_until(lambda: b"releases" in attached.output, "the lock that the next key releases")
+        attached.type("!")
+        console.read_until(lambda: speed() > 0.1, "the robot that drives again")
+        attached.type("q")
+        assert attached.wait() == 0
     assert console.process.poll() is None
-    eventually(console, lambda: speed() > 0.1, "the robot that drives on")
+    console.read_until(lambda: speed() > 0.1, "the robot that drives on")
 
 
 def test_signal_makes_console_write_its_stacks_and_continue(console: Terminal) -> None:
