@@ -9,8 +9,9 @@ import signal
 import socket
 import sys
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Generator, Iterator
 from pathlib import Path
+from weakref import WeakKeyDictionary
 
 import pytest
 from bot_console.runtime.importer import install
@@ -147,14 +148,26 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         item.add_marker(pytest.mark.flaky(reruns=1))
 
 
+@pytest.hookimpl(wrapper=True)
+def pytest_fixture_setup(
+    fixturedef: pytest.FixtureDef[object], request: pytest.FixtureRequest
+) -> Generator[None, object, object]:
+    """Notes which fixtures of the module are in use, for a second try."""
+    if fixturedef.scope == "module":
+        _module_fixtures[fixturedef] = request
+    return (yield)
+
+
+_module_fixtures: WeakKeyDictionary[pytest.FixtureDef[object], pytest.FixtureRequest] = WeakKeyDictionary()
+
+
 @pytest.hookimpl(tryfirst=True)
-def pytest_runtest_setup(item: pytest.Function) -> None:
+def pytest_runtest_setup(item: pytest.Item) -> None:
     """A second try gets new fixtures of its module: it would fail again with a system that the first has broken."""
     if getattr(item, "execution_count", 1) > 1:
-        for definitions in item._fixtureinfo.name2fixturedefs.values():
-            for each in definitions:
-                if each.scope == "module":
-                    each.finish(item._request)
+        for fixture, request in tuple(_module_fixtures.items()):
+            if request.path == item.path:
+                fixture.finish(request)
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
