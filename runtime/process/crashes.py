@@ -20,7 +20,12 @@ def explain_with(explain: Explain) -> None:
 
 
 def explanation(exception: BaseException) -> str | None:
-    """Return the exception's own explanation, else the first from a registered function; None if there is none."""
+    """Return the exception's own explanation, else the first from a registered function; None if there is none.
+
+    That of a program that exits with an error is the explanation of the exception that it was handling.
+    """
+    if isinstance(exception, SystemExit):
+        return explanation(exception.__context__) if exception.code and exception.__context__ else None
     if own := getattr(exception, HINT, ""):
         return str(own)
     for explain in _explainers:

@@ -13,7 +13,10 @@ import sys
 from collections.abc import Callable
 from typing import NoReturn
 
+from ..crashes import explanation
+from ..current import MAIN
 from ..ending import exit_functions_run, wait_for_threads
+from ..notices import notify
 
 
 def run_to_end(program: Callable[[], object]) -> NoReturn:
@@ -32,6 +35,8 @@ def _run(program: Callable[[], object]) -> int:
     try:
         program()
     except SystemExit as end:
+        if cause := explanation(end):
+            notify(MAIN, cause)
         if end.code is None or isinstance(end.code, int):
             return end.code or 0
         print(end.code, file=sys.stderr)

@@ -73,6 +73,8 @@ def exit_code_of(target: Callable[[], object]) -> int:
     try:
         target()
     except SystemExit as exception:
+        if text := explanation(exception):
+            notify(local.process, text)
         return _system_exit(exception)
     except ProcessKilled:
         return -9

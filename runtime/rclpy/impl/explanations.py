@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from bot_console.runtime.process import current
-from bot_console.runtime.process.frames import line_outside
+from bot_console.runtime.process.frames import is_shipped, line_outside
 from bot_console.runtime.process.notices import notify
 from bot_console.runtime.programs.hints import at, is_read, read_before_declared, wrong_type
 from bot_console.runtime.rmw.parameter_places import place_of
@@ -140,13 +140,14 @@ _KNOWN: tuple[tuple[Callable[[BaseException], bool], str], ...] = (
 
 
 def _users_line(exception: BaseException) -> str:
-    """`file.py:12: ` for the innermost frame outside the runtime; empty without one."""
+    """`file.py:12: ` for the innermost frame outside the runtime and the nodes that come with it; empty without one."""
     found = ""
     trace = exception.__traceback__
     while trace is not None:
         name = trace.tb_frame.f_code.co_filename
         module = str(trace.tb_frame.f_globals.get("__name__", ""))
-        if module.partition(".")[0] not in ("rclpy", "bot_console") and linecache.getline(name, trace.tb_lineno):
+        ours = module.partition(".")[0] in ("rclpy", "bot_console") or is_shipped(name)
+        if not ours and linecache.getline(name, trace.tb_lineno):
             found = f"{name}:{trace.tb_lineno}: "
         trace = trace.tb_next
     return found

@@ -32,6 +32,18 @@ rclpy.spin(node)
 print(node.get_parameter("max_sped").value)
 """
 
+HANDLED = """\
+import sys
+import rclpy
+
+rclpy.init()
+try:
+    rclpy.create_node("robot").declare_parameter("max_speed", 1.0)
+except Exception as error:
+    print(error)
+    sys.exit(1)
+"""
+
 LAUNCH = """\
 from launch import LaunchDescription
 from launch_ros.actions import Node
@@ -59,6 +71,7 @@ def generate_launch_description():
         node(exec_name="file_string", name="robot", parameters=[HERE + "/string.yaml"]),
         node(exec_name="wildcard", name="robot", parameters=[HERE + "/wildcard.yaml"]),
         node(exec_name="by_argument", ros_arguments=["-p", "max_speed:2.0"]),
+        Node(executable=HERE + "/handled.py", exec_name="handled", parameters=[HERE + "/integer.yaml"]),
     ])
 """
 
@@ -82,6 +95,7 @@ HINTS = {
     "file_underscore": "{here}/underscore.yaml:2: ros_parameters has one underscore, ros__parameters has two",
     "file_string": "{here}/string.yaml:4: name is a string: write '\"7\"', as 7 alone is read as integer",
     "wildcard": "",
+    "handled": "{here}/integer.yaml:4: max_speed is a double, which takes no integer: write 2.0",
     "by_argument": "write -p max_speed:=2.0, with an equals sign",
 }
 UNDECLARED = "{here}/program.py:10: the parameter max_sped is not declared; did you mean max_speed?"
@@ -96,8 +110,9 @@ def server() -> Iterator[None]:
 @pytest.fixture
 def launched(run: Launch, tmp_path: Path) -> Any:
     """Run the launch file; returns what each process has reported as hints."""
-    (tmp_path / "program.py").write_text("#!/usr/bin/env python3\n" + PROGRAM.replace("\n\nrclpy", "\nrclpy", 1))
-    (tmp_path / "program.py").chmod(0o755)
+    for name, text in (("program", PROGRAM), ("handled", HANDLED)):
+        (tmp_path / f"{name}.py").write_text("#!/usr/bin/env python3\n" + text.replace("\n\nrclpy", "\nrclpy", 1))
+        (tmp_path / f"{name}.py").chmod(0o755)
     (tmp_path / "x.launch.py").write_text(textwrap.dedent(LAUNCH.format(here=str(tmp_path))))
     for name, text in FILES.items():
         (tmp_path / f"{name}.yaml").write_text(text)
