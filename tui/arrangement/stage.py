@@ -47,6 +47,8 @@ class Stage:
         self.plugins: list[PaneEntry] = []
         """Panes from other packages."""
         self.arrangement = arrangement
+        self.opened: set[str] = set()
+        """The panes that were shown alone, however short."""
 
     @cached_property
     def arranging(self) -> Arranging:
@@ -155,6 +157,7 @@ class Stage:
         self._wanted = name
         if name != OVERVIEW:
             self._focused = name
+            self.opened.add(name)
         elif (tree := self._tree()) is not None and self._focused not in panes(tree):
             self._focused = FIRST if FIRST in panes(tree) else panes(tree)[0]
         self._app.screen_stack[0].set_focus(None)

@@ -58,7 +58,7 @@ class CourseLesson:
         """
         self._deeds.observe(snapshot)
         self._deeds.add_changes(changes)
-        self._deeds.panes |= {screen.pane} - {""}
+        self._deeds.panes |= screen.panes
         self._deeds.curves |= screen.curves
         self._deeds.layouts |= screen.layouts
         self._deeds.steered |= screen.steers

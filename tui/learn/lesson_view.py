@@ -38,7 +38,8 @@ class LessonView:
 class OnScreen:
     """What a person has done in the console, as far as no snapshot says so."""
 
-    pane: str = ""
+    panes: frozenset[str] = frozenset()
+    """The panes that were opened."""
     curves: frozenset[str] = frozenset()
     layouts: frozenset[str] = frozenset()
     steers: bool = False

@@ -57,6 +57,8 @@ class LessonPane(Pane):
         self._shown: LessonView | None = None
         self._layouts_before: frozenset[str] | None = None
         """The layouts that there were when the lesson was opened; None before it is."""
+        self._steered = False
+        """Whether keys have driven the robot, however short."""
 
     def compose(self) -> ComposeResult:
         """The whole step, or two lines of it."""
@@ -73,6 +75,10 @@ class LessonPane(Pane):
         """Draw the step. What has happened is polled by `tick`, since lessons go on while the pane is hidden."""
         self._draw()
 
+    def observe(self, snapshot: ConsoleSnapshot) -> None:
+        """Note what may be over by the next poll."""
+        self._steered |= snapshot.drive.armed and snapshot.drive.asked not in (None, (0.0, 0.0))
+
     def tick(self) -> None:
         """Let the lesson take in what has happened, and say which steps are done."""
         self._ticks += 1
@@ -81,25 +87,23 @@ class LessonPane(Pane):
         snapshot = self.console.snapshot()
         changes = self.console.parameters.changes(self._after)
         self._after = max((each.seq + 1 for each in changes), default=self._after)
-        for title in self._lesson.observe(snapshot, changes, self._on_screen(snapshot)):
+        for title in self._lesson.observe(snapshot, changes, self._on_screen()):
             self.notify(f"Done: {title}", markup=False)
         if self.display:
             self._draw()
 
-    def _on_screen(self, snapshot: ConsoleSnapshot) -> OnScreen:
+    def _on_screen(self) -> OnScreen:
         app: Any = self.host
-        pane = app.current_pane
         plot = next(iter(app.screen_stack[0].query("#plot")), None)
         curves = getattr(getattr(plot, "_timeline", None), "curves", ())
         layouts = frozenset(app.stage.arrangement.layouts())
         if self._layouts_before is None:
             self._layouts_before = layouts
-        driving = snapshot.drive.armed and snapshot.drive.asked not in (None, (0.0, 0.0))
         return OnScreen(
-            pane.id or "" if pane is not None and not self.display else "",  # Tab leads through those beside it.
+            frozenset(app.stage.opened),
             frozenset(str(each.path) for each in curves),
             layouts - self._layouts_before,
-            driving,
+            self._steered,
         )
 
     def _draw(self) -> None:
