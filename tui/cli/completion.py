@@ -159,7 +159,7 @@ _TYPE = _names("interface", "list")
 _OURS: dict[str, Sequence[str]] = {
     "attach": (),
     "bag": ("burst", "convert", "info", "list", "open", "play", "record", "reindex", "snapshot"),
-    "check": ("--course", "--json", "--junit"),
+    "check": ("--course", "--json", "--junit", "--seed", "--start"),
     "config": (),
     "daemon": ("start", "status", "stop"),
     "doctor": ("--capture", "--connect", "--json", "--range", "--ros", "--seconds"),

@@ -45,6 +45,14 @@ def run(words: list[str]) -> int:
     )
     parser.add_argument("--json", action="store_true", help="print the report as one JSON object")
     parser.add_argument("--stop", action="store_true", help="stop at the first step that fails")
+    parser.add_argument(
+        "--start",
+        metavar="LINE",
+        action="append",
+        help="start this and carry out the steps on it alone, in simulated time: `run PACKAGE EXECUTABLE` or `launch "
+        "PACKAGE FILE`; may be repeated",
+    )
+    parser.add_argument("--seed", type=int, default=1, metavar="N", help="with --start: seed of the run (1)")
     parser.add_argument("--course", metavar="COURSE", help="grade the workspace SCRIPT by the rows of a course")
     parser.add_argument("--junit", metavar="FILE", help="with --course: also write a report of JUnit")
     parser.add_argument("--allow-network", action="store_true", help="with --course: also without isolation")
@@ -62,18 +70,44 @@ def run(words: list[str]) -> int:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else error
         print(f"{given.script} cannot be used: {sanitize(str(reason))}", file=sys.stderr)
         return 2
-    with reached_console() as console:
-        if console is None:
-            return 1
-        if not known(console, given.wait):
-            print("no node runs in this domain; `bot-console up` starts the robot", file=sys.stderr)
-            return 1
-        outcomes = _done(Runner(console), steps, print_progress=not given.json, stop=given.stop)
+    outcomes = _stepped(steps, given) if given.start else _on_what_runs(steps, given)
+    if outcomes is None:
+        return 1
     if given.json:
         print(json.dumps(report(given.script, steps, outcomes), indent=2))
     else:
         print(summary(steps, outcomes))
     return 0 if len(outcomes) == len(steps) and not any(each.why for each in outcomes) else 1
+
+
+def _on_what_runs(steps: Sequence[Step], given: argparse.Namespace) -> list[Outcome] | None:
+    """The outcomes on the system of this domain; None, after printing why, if there is none."""
+    with reached_console() as console:
+        if console is None:
+            return None
+        if not known(console, given.wait):
+            print("no node runs in this domain; `bot-console up` starts the robot", file=sys.stderr)
+            return None
+        return _done(Runner(console), steps, print_progress=not given.json, stop=given.stop)
+
+
+def _stepped(steps: Sequence[Step], given: argparse.Namespace) -> list[Outcome] | None:
+    """The outcomes on what the options start; None, after printing why, if it cannot be started."""
+    from bot_console.runtime.importer import install
+    from bot_console.tui.cli.check.stepped import StartError, read_start, run_stepped
+    from bot_console.tui.session.embedded.workspaces import choose
+
+    install()
+    choose([])
+    try:
+        starts = [read_start(each) for each in given.start]
+    except StartError as error:
+        print(sanitize(str(error)), file=sys.stderr)
+        return None
+    outcomes = run_stepped(steps, starts, given.seed, given.wait, stop=given.stop)
+    if not given.json:
+        print("\n".join(map(step_line, outcomes)))
+    return outcomes
 
 
 def _text(script: str) -> str:

@@ -15,7 +15,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Generator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from bot_console.runtime.importer import install
 from bot_console.runtime.process import MAIN, NodeProcess, on_notice, stepped
@@ -37,7 +37,6 @@ from bot_console.tui.session.embedded.workspaces import choose
 
 if TYPE_CHECKING:
     from bot_console.tui.cli.headless.launches import Launches
-    from bot_console.tui.cli.headless.observer import Observer
 
 Wait = Callable[[threading.Event, float], bool]
 """Waits for an event, at most so many seconds; a stepped run uses its own clock."""
@@ -72,7 +71,28 @@ def run(options: Options) -> int:
     return 0 if observer.complete else _no_report(launches)
 
 
-def simulated(options: Options, observer: Observer | None = None) -> tuple[dict[str, Any], Observer, Launches]:
+class Watcher(Protocol):
+    """What goes on beside the nodes of a run, in a process of its own."""
+
+    done: threading.Event
+    """Set when the run may end."""
+    complete: bool
+    """Whether it has done all that it was to do."""
+
+    def run(self) -> None:
+        """The main of the process."""
+        ...
+
+    def ask(self) -> None:
+        """End soon, since the nodes are about to end; may be called from any thread."""
+        ...
+
+    def report(self) -> dict[str, Any]:
+        """What is known at the end."""
+        ...
+
+
+def simulated(options: Options, observer: Watcher | None = None) -> tuple[dict[str, Any], Watcher, Launches]:
     """Run the system for a while; returns the observer's report, the observer, and the launches.
 
     `install` must have been called.
@@ -157,7 +177,7 @@ def _notices() -> Generator[None]:
         forget()
 
 
-def _wait_for(observer: Observer, launches: Launches, duration: float, wait: Wait) -> None:
+def _wait_for(observer: Watcher, launches: Launches, duration: float, wait: Wait) -> None:
     """Wait for the report, the end of all launches, or the time limit; an interrupt requests the report at once."""
     launches.on_end(observer.done.set)
     try:

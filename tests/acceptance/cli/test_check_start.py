@@ -1,0 +1,60 @@
+"""`check SCRIPT --start` carries out its steps on nodes of its own, in simulated time."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from bot_console.tui.cli.check.stepped import StartError, read_start
+
+NAVIGATOR = "run bot_console_robot robot_node"
+SIMULATOR = "launch bot_console_robot simulator.launch.py seed:=3"
+
+
+def checked(folder: Path, steps: str, *starts: str) -> tuple[int, list[dict[str, Any]]]:
+    (folder / "steps").write_text(steps, "utf-8")
+    words = [sys.executable, "-m", "bot_console.tui", "check", "steps", "--json"]
+    words += [word for each in starts for word in ("--start", each)]
+    environment = {**os.environ, "ROS_HOME": str(folder)}
+    done = subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True, check=False)
+    return done.returncode, json.loads(done.stdout)["steps"]
+
+
+def test_steps_are_carried_out_on_what_is_started_alike_each_time(tmp_path: Path) -> None:
+    steps = (
+        "expect-refused /robot_navigator max_speed 10.0\n"
+        "set /robot_navigator max_speed 2.0\n"
+        "expect /odom/twist.twist.linear.x > 0.5 within 60 s\n"
+        "expect-node /never within 2 s\n"
+    )
+    first = checked(tmp_path, steps, SIMULATOR, NAVIGATOR)
+    code, found = first
+    assert code == 1
+    assert [each["why"] for each in found] == ["", "", "", "there is none; nodes: /robot_navigator, /simulator"]
+    assert found[3]["seconds"] == pytest.approx(2.0, abs=0.5)
+    assert checked(tmp_path, steps, SIMULATOR, NAVIGATOR) == first
+
+
+def test_step_before_which_all_nodes_have_ended_is_not_reached(tmp_path: Path) -> None:
+    _, found = checked(tmp_path, "expect-node /robot_navigator\n", f"{NAVIGATOR} --ros-args -p max_speed:=1")
+    assert [each["why"] for each in found] == ["not reached: robot_node-1 ended with exit code 1"]
+
+
+@pytest.mark.parametrize(
+    ("line", "why"),
+    [
+        ("run bot_console_robot", "write `run PACKAGE EXECUTABLE"),
+        ("go bot_console_robot robot_node", "write `run PACKAGE EXECUTABLE"),
+        ("run 'bot_console_robot robot_node", "No closing quotation"),
+        ("launch bot_console_robot simulator.launch.py seed=3", "write `run PACKAGE EXECUTABLE"),
+        ("launch bot_console_robot nowhere.launch.py", "nowhere.launch.py"),
+    ],
+)
+def test_what_cannot_be_started_is_refused_with_its_form(line: str, why: str) -> None:
+    with pytest.raises(StartError, match=why):
+        read_start(line)
