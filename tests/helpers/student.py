@@ -23,7 +23,7 @@ from bot_console.tui.learn.lesson import CourseLesson
 from helpers.emulator import Emulator
 from helpers.shells import environment, make_home
 
-TIMEOUT_S = 120.0
+TIMEOUT_S = 300.0
 """Seconds after which a test gives up; nothing is measured by it."""
 SIZE = (120, 40)
 LESSON_COLUMNS = slice(74, 118)
@@ -116,6 +116,7 @@ class Shell:
 
     def interrupt(self) -> str:
         """Press Ctrl-C and wait for the prompt."""
+        self._from = self._pty.size()
         self._pty.type("\x03")
         return self.ended()
 
@@ -135,23 +136,37 @@ def until(true: Callable[[], object], what: Callable[[], str]) -> None:
 class Student:
     """Works through a course; knows which of its steps should be done."""
 
-    def __init__(self, folder: Path, course: Path) -> None:
+    def __init__(self, folder: Path, course: Path, workspace: Path | None = None) -> None:
+        """`workspace` is copied; without it, the student begins with an empty one."""
         home = folder / "home"
         home.mkdir()
         self.workspace = folder / "ws"
         (self.workspace / "src").mkdir(parents=True)
+        if workspace is not None:
+            shutil.copytree(workspace, self.workspace, dirs_exist_ok=True)
         self._env = environment(make_home(home), {"TERM": "xterm-256color", "LANG": "C.UTF-8", "PS1": PROMPT})
         self.course: Course = read_course(course)
         self._steps = {each.id: each for each in self.course.steps()}
-        self.expected: set[str] = set()
+        self.expected = self.done()
         self.shells = [Shell(self.workspace, self._env) for _ in range(3)]
-        words = [str(home / "bin" / "bot-console"), "learn", str(course)]
-        self.console = Pty(words, self.workspace, self._env, SIZE)
+        self._words = [str(home / "bin" / "bot-console"), "learn", str(course)]
+        self._open()
+
+    def _open(self) -> None:
+        self.console = Pty(self._words, self.workspace, self._env, SIZE)
         self._screen, self._fed = Emulator(*SIZE), 0
 
     def begin(self) -> None:
         """Wait until the lesson is shown: from then on, commands are recorded."""
         self.shows(f" of {len(self._steps)} done")
+
+    def reopen(self) -> None:
+        """Quit the console, and open the course again."""
+        self.console.type("q")
+        until(lambda: self.console.process.poll() is not None, self._state)
+        self.console.close()
+        self._open()
+        self.begin()
 
     def screen(self) -> list[str]:
         """The lines on the console's screen."""

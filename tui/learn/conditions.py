@@ -48,6 +48,8 @@ VERBS: Mapping[str, Verb] = {
 PANE_WORDS = frozenset(
     ("overview", "parameters", "logs", "graph", "plot", "world", "steering", "profiles", "launch", "topics", "history")
 )
+PLUGIN = "plugin_"
+"""What the name of a pane of another package begins with."""
 
 
 @dataclass(frozen=True)
@@ -89,7 +91,8 @@ def _wrong(verb: str, words: tuple[str, ...]) -> str:
     if verb == "saw-move":
         return "" if re.fullmatch(r"\d+(\.\d+)?", words[0]) else "a length in m"
     if verb == "saw-pane":
-        return "" if words[0] in PANE_WORDS else f"one of {', '.join(sorted(PANE_WORDS))}"
+        own = words[0].startswith(PLUGIN)
+        return "" if own or words[0] in PANE_WORDS else f"one of {', '.join(sorted(PANE_WORDS))}, {PLUGIN}NAME"
     if verb == "expect-file" and len(words) > 1:
         return "" if words[1] in ("contains", "lacks") and len(words) == 3 else "contains TEXT, lacks TEXT"
     if verb == "saw-launch" and len(words) > 1:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import fnmatch
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cached_property
 from pathlib import Path
 
@@ -30,6 +30,10 @@ class WorkspaceFiles:
         """The files whose path within the workspace ends with a pattern of shells, such as `config/*.yaml`."""
         wanted = f"*/{pattern.lstrip('/')}"
         return [each for each in self._files if fnmatch.fnmatch(f"/{each.relative_to(self.folder)}", wanted)]
+
+    def newest(self, found: Sequence[Path]) -> Path:
+        """The one of several files that was written last: the one that is being worked on."""
+        return max(found, key=_changed)
 
     def named(self, word: str) -> list[tuple[str, str]]:
         """The path and text of each Python, XML or YAML file that a word of a launch command may name."""

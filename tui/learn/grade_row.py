@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from bot_console.tui.cli.check.script import read as read_script
+from bot_console.tui.cli.check.stepped import USAGE
 from bot_console.tui.learn.conditions import VERBS, Condition, read_condition
 
 STARTERS = ("run", "launch")
@@ -36,10 +37,15 @@ class GradeRow:
     script: str = ""
     drives: tuple[Drive, ...] = ()
     line: int = 0
+    extra: bool = False
+    """Whether its points come on top: a workspace passes without it."""
 
 
 def read_grade_row(about: str, body: Sequence[str], line: int) -> GradeRow:
-    """Read a fence `grade POINTS Title`; raises `ValueError` with the line of a mistake."""
+    """Read a fence `grade POINTS Title`, or `grade +POINTS Title` for extra points.
+
+    Raises `ValueError` with the line of a mistake.
+    """
     head, _, title = about.partition(" ")
     try:
         points = float(head)
@@ -56,6 +62,8 @@ def read_grade_row(about: str, body: Sequence[str], line: int) -> GradeRow:
             continue
         if word in STARTERS:
             starts.append(_words(stripped, number))
+            if len(starts[-1]) < 3:
+                raise ValueError(f"{number}: {USAGE}")
         elif word == "drive":
             drives.append(_drive(stripped, number))
         elif word in VERBS and word.startswith("expect-"):
@@ -66,7 +74,16 @@ def read_grade_row(about: str, body: Sequence[str], line: int) -> GradeRow:
         raise ValueError(f"{line}: nothing is started: begin with `run PACKAGE EXECUTABLE` or `launch PACKAGE FILE`")
     if not (steps or files or drives):
         raise ValueError(f"{line}: the row checks nothing")
-    return GradeRow(title.strip(), points, tuple(files), tuple(starts), "\n".join(steps), tuple(drives), line)
+    return GradeRow(
+        title.strip(),
+        points,
+        tuple(files),
+        tuple(starts),
+        "\n".join(steps),
+        tuple(drives),
+        line,
+        extra=head.startswith("+"),
+    )
 
 
 def _words(text: str, line: int) -> tuple[str, ...]:

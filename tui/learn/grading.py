@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, cast
 from xml.etree import ElementTree
 
+from bot_console.tui.cli.check.stepped import NOT_REACHED
 from bot_console.tui.learn.course import Course
 from bot_console.tui.learn.deeds import Deeds
 from bot_console.tui.learn.files import WorkspaceFiles
@@ -21,12 +22,9 @@ from bot_console.tui.learn.sandbox import Finished, Sandbox, make_sandbox
 ROW_TIMEOUT_S = 90.0
 """Seconds that a row may take."""
 NODES_TIMEOUT_S = 15
-"""Seconds within which the nodes of a row have to appear."""
+"""Simulated seconds within which the nodes of a row have to appear."""
 SEED = 1
-SHELL = """\
-{starts}
-$BOT_CONSOLE check "$HOME/script" --json --wait {wait} > "$HOME/report" 2> "$HOME/problem"
-"""
+CHECK = '$BOT_CONSOLE check "$HOME/script" --json --wait {wait} --seed {seed} {starts} > "$HOME/report"'
 DRIVE = '$BOT_CONSOLE --headless --fast --seed {seed} --duration {seconds} --launch {words} > "$HOME/report"'
 EXPLAINING_LINES = 3
 """How many of the last lines of a program's output explain a failure."""
@@ -43,6 +41,11 @@ class RowResult:
     def points(self) -> float:
         """The points it got."""
         return 0.0 if self.why else self.row.points
+
+    @property
+    def failed(self) -> bool:
+        """Whether the workspace does not pass for it."""
+        return bool(self.why) and not self.row.extra
 
 
 def grade(course: Course, workspace: Path, *, allow_network: bool = False) -> Iterator[RowResult]:
@@ -66,14 +69,16 @@ def _why(row: GradeRow, sandbox: Sandbox, course: Course) -> str:
 
 def _script(row: GradeRow, sandbox: Sandbox, names: dict[str, str]) -> str:
     (sandbox.folder / "home" / "script").write_text(with_names(row.script, names), encoding="utf-8")
-    starts = [f"$BOT_CONSOLE {_line(words, names)} &" for words in row.starts]
-    done = sandbox.run(SHELL.format(starts="\n".join(starts), wait=NODES_TIMEOUT_S), ROW_TIMEOUT_S)
+    starts = " ".join(f"--start {shlex.quote(_line(words, names))}" for words in row.starts)
+    done = sandbox.run(CHECK.format(starts=starts, wait=NODES_TIMEOUT_S, seed=SEED), ROW_TIMEOUT_S)
     report = _report(sandbox)
     if report is None:
-        problem = _text(sandbox.folder / "home" / "problem").strip()
-        return done.why or _explained(problem or "the nodes did not start", done)
-    failed = [each for each in report["steps"] if not each["ok"]]
-    return f"{failed[0]['text']}: {failed[0]['why']}" if failed else done.why
+        return done.why or _explained("the nodes did not start", done)
+    failed = next((each for each in report["steps"] if not each["ok"]), None)
+    if failed is None:
+        return done.why
+    why = f"{failed['text']}: {failed['why']}"
+    return _explained(why, done) if failed["why"].startswith(NOT_REACHED) else why
 
 
 def _drive(drive: Drive, sandbox: Sandbox, names: dict[str, str]) -> str:
@@ -118,30 +123,50 @@ def table(results: Sequence[RowResult]) -> str:
     """The results as a table: passed or not, points, the row and why it failed."""
     lines: list[str] = []
     for each in results:
-        lines.append(f"{'FAIL' if each.why else 'ok  '}  {each.points:g}/{each.row.points:g}  {each.row.title}")
+        mark = "FAIL" if each.failed else "-   " if each.why else "ok  "
+        plus = "+" if each.row.extra else ""
+        lines.append(f"{mark}  {each.points:g}/{plus}{each.row.points:g}  {each.row.title}")
         if each.why:
             lines.append(f"           {each.why}")
-    got, most = sum(each.points for each in results), sum(each.row.points for each in results)
-    return "\n".join([*lines, f"{got:g} of {most:g} points"])
+    total = f"{_points(results):g} of {_most(results):g} points"
+    extra = f", {_points(results, extra=True):g} of {_most(results, extra=True):g} extra points"
+    return "\n".join([*lines, total + (extra if any(each.row.extra for each in results) else "")])
+
+
+def _points(results: Sequence[RowResult], *, extra: bool = False) -> float:
+    return sum(each.points for each in results if each.row.extra == extra)
+
+
+def _most(results: Sequence[RowResult], *, extra: bool = False) -> float:
+    return sum(each.row.points for each in results if each.row.extra == extra)
 
 
 def as_json(course: Course, results: Sequence[RowResult]) -> dict[str, Any]:
     """The results as JSON data."""
     rows = [
-        {"title": each.row.title, "ok": not each.why, "why": each.why, "points": each.points, "of": each.row.points}
+        {
+            "title": each.row.title,
+            "ok": not each.why,
+            "why": each.why,
+            "points": each.points,
+            "of": each.row.points,
+            "extra": each.row.extra,
+        }
         for each in results
     ]
-    return {"course": course.name, "points": sum(e.points for e in results), "rows": rows}
+    points = {"points": _points(results), "extra_points": _points(results, extra=True)}
+    return {"course": course.name, **points, "rows": rows}
 
 
 def as_junit(course: Course, results: Sequence[RowResult]) -> str:
-    """The results as a report of JUnit."""
-    failures = str(sum(bool(each.why) for each in results))
-    suite = ElementTree.Element("testsuite", name=course.name, tests=str(len(results)), failures=failures)
+    """The results as a report of JUnit; extra points that were not got are skipped tests."""
+    failures, skipped = sum(each.failed for each in results), sum(each.row.extra and bool(each.why) for each in results)
+    counts = {"tests": str(len(results)), "failures": str(failures), "skipped": str(skipped)}
+    suite = ElementTree.Element("testsuite", {"name": course.name, **counts})
     for each in results:
         case = ElementTree.SubElement(suite, "testcase", classname=course.name, name=each.row.title)
         if each.why:
-            ElementTree.SubElement(case, "failure", message=_printable(each.why))
+            ElementTree.SubElement(case, "failure" if each.failed else "skipped", message=_printable(each.why))
     return ElementTree.tostring(suite, encoding="unicode")
 
 

@@ -83,8 +83,10 @@ def _set(words: Sequence[str], deeds: Deeds) -> str:
     values = deeds.values_set(words[0])
     if len(words) == 1:
         return "" if values else f"waiting for: somebody to set {words[0]}"
-    same = any(_same(each, words[1]) for each in values)
-    return "" if same else f"waiting for: {words[0]} to be set to {words[1]}"
+    if any(_same(each, words[1]) for each in values):
+        return ""
+    other = f"; it was set to {values[-1]}" if values else ""
+    return f"waiting for: {words[0]} to be set to {words[1]}{other}"
 
 
 def _same(one: str, other: str) -> bool:
@@ -98,11 +100,12 @@ def _refused(words: Sequence[str], deeds: Deeds) -> str:
     reasons = deeds.refusals(words[0])
     if any(len(words) == 1 or words[1].lower() in each.lower() for each in reasons):
         return ""
-    asked, accepted = f"waiting for: a value of {words[0]} that is refused", deeds.values_set(words[0])
-    if not accepted:
-        return asked
-    how = "the callback has to return SetParametersResult(successful=False, ...)"
-    return f"{asked}; {accepted[-1]} was accepted: to refuse it, {how}"
+    asked = f"waiting for: a value of {words[0]} that is refused"
+    if len(words) > 1:
+        return f"{asked} with the reason '{words[1]}'{f', not: {reasons[-1]}' if reasons else ''}"
+    accepted = deeds.values_set(words[0])
+    how = "a callback refuses it by SetParametersResult(successful=False, ...)"
+    return f"{asked}; {accepted[-1]} was accepted: {how}" if accepted else asked
 
 
 def _command(words: Sequence[str], deeds: Deeds) -> str:
@@ -186,7 +189,7 @@ def _file(words: Sequence[str], files: WorkspaceFiles) -> str:
         return f"{files.name_of(having[0])} still has {words[2]}" if having else ""
     if len(words) == 1 or having:
         return ""
-    return f"{files.name_of(found[-1])} has no {words[2]}"
+    return f"{files.name_of(files.newest(found))} has no {words[2]}"
 
 
 def _entry_point(words: Sequence[str], files: WorkspaceFiles) -> str:

@@ -13,7 +13,8 @@ from xml.etree import ElementTree
 import pytest
 from bot_console.tui.learn import sandbox
 from bot_console.tui.learn.course import find_course, read_course
-from bot_console.tui.learn.grading import RowResult, as_junit, grade
+from bot_console.tui.learn.grade_row import read_grade_row
+from bot_console.tui.learn.grading import RowResult, as_junit, grade, table
 from bot_console.tui.learn.sandbox import NoSandboxError, can_isolate, make_sandbox
 from course.page import make_workspace
 from course.rows import rows
@@ -22,7 +23,7 @@ needs_course = pytest.mark.skipif(not rows(), reason="BOT_CONSOLE_COURSE names n
 needs_namespaces = pytest.mark.skipif(not can_isolate(), reason="programs get no namespaces of their own here")
 
 FILES, PROGRAMS, LAUNCHES, DEFAULTS, VALID, SPEED, DISTANCE, THRESHOLD, NAME, SYSTEM, DRIVES = (
-    each.title for each in read_course(find_course("week6")).rows()
+    each.title for each in read_course(find_course("week6")).rows() if not each.extra
 )
 NODE, SETUP = "intelligent_robot/robot_node.py", "setup.py"
 CONFIG, LAUNCH = "config/indoor_config.yaml", "launch/robot_system.launch.py"
@@ -84,7 +85,7 @@ def failed(folder: Path, rows: set[str] | None = None) -> dict[str, str]:
     if rows is not None:
         chapters = tuple(_with_rows(each, rows) for each in course.chapters)
         course = type(course)(course.name, course.title, chapters, course.defaults)
-    return {each.row.title: each.why for each in grade(course, folder) if each.why}
+    return {each.row.title: each.why for each in grade(course, folder) if each.failed}
 
 
 def _with_rows(chapter: Any, rows: set[str]) -> Any:
@@ -109,7 +110,7 @@ def test_wrong_variant_fails_only_in_rows_that_depend_on_it(
     folder = workspace(tmp_path)
     change(folder, file, pattern, replacement)
     found = failed(folder)
-    assert found and set(found) <= rows, found
+    assert set(found) == rows, found
 
 
 @needs_course
@@ -216,10 +217,25 @@ def test_report_of_junit_has_a_case_per_row(tmp_path: Path) -> None:
     course = course_of(tmp_path / "c", "expect-file a.txt")
     (row,) = course.rows()
     suite = ElementTree.fromstring(as_junit(course, [RowResult(row, "not \x1b there"), RowResult(row, "")]))
-    assert suite.attrib == {"name": "c", "tests": "2", "failures": "1"}
+    assert suite.attrib == {"name": "c", "tests": "2", "failures": "1", "skipped": "0"}
     failures = [each.find("failure") for each in suite]
     assert failures[0] is not None and failures[0].attrib["message"] == "not ? there"
     assert failures[1] is None
+
+
+def test_row_for_extra_points_is_counted_apart_and_fails_nothing(tmp_path: Path) -> None:
+    course = course_of(tmp_path / "c", "expect-file a.txt")
+    (row,) = course.rows()
+    extra = read_grade_row("+2 More", ["expect-file b.txt"], 1)
+    results = [RowResult(row, ""), RowResult(extra, "not there")]
+    assert table(results).splitlines()[1:] == [
+        "-     0/+2  More",
+        "           not there",
+        "1 of 1 points, 0 of 2 extra points",
+    ]
+    suite = ElementTree.fromstring(as_junit(course, results))
+    assert suite.attrib == {"name": "c", "tests": "2", "failures": "0", "skipped": "1"}
+    assert [each.tag for case in suite for each in case] == ["skipped"]
 
 
 @needs_namespaces

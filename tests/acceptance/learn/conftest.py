@@ -10,12 +10,12 @@ from helpers.student import Student
 
 
 @pytest.fixture
-def student(tmp_path: Path) -> Iterator[Callable[[Path], Student]]:
-    """Makes a student who opens a course."""
+def student(tmp_path: Path) -> Iterator[Callable[..., Student]]:
+    """Makes a student who opens a course, in a copy of a workspace if there is one."""
     at_work: list[Student] = []
 
-    def open_course(course: Path) -> Student:
-        at_work.append(Student(tmp_path, course))
+    def open_course(course: Path, workspace: Path | None = None) -> Student:
+        at_work.append(Student(tmp_path, course, workspace))
         at_work[-1].begin()
         return at_work[-1]
 

@@ -22,4 +22,4 @@ def test_course_is_listed_in_workspace_with_launch_files(tmp_path: Path) -> None
     words = [sys.executable, "-m", "bot_console.tui", "learn", "--list"]
     done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
-    assert "0 of 52 done" in done.stdout
+    assert "0 of 60 done" in done.stdout

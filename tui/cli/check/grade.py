@@ -15,7 +15,10 @@ from bot_console.tui.learn.sandbox import NoSandboxError
 
 
 def run_grading(given: argparse.Namespace) -> int:
-    """Grade and print the table; 0 if all rows passed, 1 if not or if it cannot be graded, 2 for wrong usage."""
+    """Grade and print the table; 0 if all rows passed but those for extra points, 1 if not, 2 for wrong usage.
+
+    A workspace that cannot be graded gives 1.
+    """
     workspace = Path(given.script).resolve()
     if not workspace.is_dir():
         print(f"there is no folder {given.script}: name the workspace that is to be graded", file=sys.stderr)
@@ -44,4 +47,4 @@ def run_grading(given: argparse.Namespace) -> int:
         except OSError as error:
             print(f"{given.junit} is not written: {error.strerror}", file=sys.stderr)
             return 1
-    return 0 if not any(each.why for each in results) else 1
+    return 0 if not any(each.failed for each in results) else 1
