@@ -1,8 +1,8 @@
-"""Checks that a tag names the version of the program, and prints what the changelog says about it.
+"""Gives the program the version that a tag names, and prints what the changelog says about it.
 
     python tools/release.py v0.1.0
 
-Ends with 1 and the reason if the tag, `tui/__init__.py` and `CHANGELOG.md` do not agree.
+Ends with 1 and the reason if the tag names no version, or `CHANGELOG.md` has no section for it.
 """
 
 from __future__ import annotations
@@ -14,14 +14,24 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 
 
+TAG = re.compile(r"v(\d+\.\d+\.\d+(?:(?:a|b|rc)\d+)?)")
+VERSION = re.compile(r'^__version__ = ".+"$', re.MULTILINE)
+
+
 class NoRelease(ValueError):
     """The tag cannot be released."""
 
 
-def notes(tag: str, version: str, changelog: str) -> str:
-    """The section of the changelog for a tag; raises `NoRelease`."""
-    if tag != f"v{version}":
-        raise NoRelease(f"the tag is {tag}, but tui/__init__.py has version {version}: tag v{version}")
+def version_of(tag: str) -> str:
+    """The version that a tag names; raises `NoRelease`."""
+    named = TAG.fullmatch(tag)
+    if named is None:
+        raise NoRelease(f"the tag is {tag}, which names no version; tags are like v1.2.0 or v1.2.0rc1")
+    return named[1]
+
+
+def notes(version: str, changelog: str) -> str:
+    """The section of the changelog for a version; raises `NoRelease`."""
     sections = re.split(r"^## ", changelog, flags=re.MULTILINE)[1:]
     found = [text for text in sections if re.match(rf"\[?{re.escape(version)}\]?(?: |$)", text.splitlines()[0])]
     if len(found) != 1:
@@ -29,20 +39,20 @@ def notes(tag: str, version: str, changelog: str) -> str:
     return found[0].partition("\n")[2].strip()
 
 
-def main(words: list[str]) -> int:
-    """Print the notes, or why there are none."""
+def main(words: list[str], root: Path = ROOT) -> int:
+    """Write the version and print the notes, or print why there are none."""
     if len(words) != 1:
         print("usage: python tools/release.py TAG", file=sys.stderr)
         return 2
-    text = (ROOT / "tui" / "__init__.py").read_text(encoding="utf-8")
-    version = re.search(r'^__version__ = "(.+)"$', text, re.MULTILINE)
+    module = root / "tui" / "__init__.py"
     try:
-        if version is None:
-            raise NoRelease("tui/__init__.py has no version")
-        print(notes(words[0], version[1], (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")))
+        version = version_of(words[0])
+        text = notes(version, (root / "CHANGELOG.md").read_text(encoding="utf-8"))
     except NoRelease as error:
         print(error, file=sys.stderr)
         return 1
+    module.write_text(VERSION.sub(f'__version__ = "{version}"', module.read_text(encoding="utf-8")), encoding="utf-8")
+    print(text)
     return 0
 
 

@@ -1,4 +1,4 @@
-"""A release needs a tag, a version and a section of the changelog that agree."""
+"""A release has the version of its tag, and a section of the changelog."""
 
 import importlib.util
 from pathlib import Path
@@ -18,23 +18,40 @@ def release():
     return module
 
 
-def test_notes_are_the_section_of_the_version():
-    assert release().notes("v1.2.0", "1.2.0", CHANGELOG) == "- new"
+@pytest.fixture
+def tree(tmp_path):
+    """A tree whose version is older than the tag."""
+    (tmp_path / "tui").mkdir()
+    (tmp_path / "tui" / "__init__.py").write_text('"""Text."""\n\n__version__ = "0.1.0"\n')
+    (tmp_path / "CHANGELOG.md").write_text(CHANGELOG)
+    return tmp_path
+
+
+def test_version_is_that_of_the_tag_and_notes_are_its_section(tree, capsys):
+    assert release().main(["v1.2.0"], tree) == 0
+    assert (tree / "tui" / "__init__.py").read_text() == '"""Text."""\n\n__version__ = "1.2.0"\n'
+    assert capsys.readouterr().out == "- new\n"
+
+
+def test_this_tree_has_the_line_that_is_replaced():
+    assert len(release().VERSION.findall((ROOT / "tui" / "__init__.py").read_text("utf-8"))) == 1
 
 
 @pytest.mark.parametrize(
-    ("tag", "version", "changelog", "why"),
+    ("tag", "changelog", "why"),
     [
-        ("v1.2.1", "1.2.0", CHANGELOG, "the tag is v1.2.1, but tui/__init__.py has version 1.2.0"),
-        ("v1.3.0", "1.3.0", CHANGELOG, "0 sections '## 1.3.0 - DATE'"),
-        ("v1.2.0", "1.2.0", CHANGELOG + "\n## 1.2.0 - again\n", "2 sections"),
-        ("v1.2", "1.2", CHANGELOG, "0 sections"),
+        ("1.2.0", CHANGELOG, "the tag is 1.2.0, which names no version"),
+        ("v1.2", CHANGELOG, "the tag is v1.2, which names no version"),
+        ('v1.2.0"; x', CHANGELOG, "which names no version"),
+        ("v1.3.0", CHANGELOG, "0 sections '## 1.3.0 - DATE'"),
+        ("v1.2.0", CHANGELOG + "\n## 1.2.0 - again\n", "2 sections"),
     ],
 )
-def test_disagreement_is_reported(tag, version, changelog, why):
-    module = release()
-    with pytest.raises(module.NoRelease, match=why.replace("(", r"\(")):
-        module.notes(tag, version, changelog)
+def test_tag_that_cannot_be_released_changes_nothing_and_is_reported(tree, capsys, tag, changelog, why):
+    (tree / "CHANGELOG.md").write_text(changelog)
+    assert release().main([tag], tree) == 1
+    assert why in capsys.readouterr().err
+    assert '"0.1.0"' in (tree / "tui" / "__init__.py").read_text()
 
 
 def test_wheel_is_published_by_a_tag_without_a_stored_secret():
