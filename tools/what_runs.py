@@ -35,7 +35,7 @@ FOLLOWED = """
 ## Which releases are followed
 
 The runtime follows ROS 2 Jazzy: recordings of rclpy 7.1.3, launch 3.4.3, launch_ros 0.26.6 and ros2cli 0.32.2, and what
-the releases up to rclpy 7.1.12, launch 3.4.11, launch_ros 0.26.13, ros2cli 0.32.12, common_interfaces 5.3.8 and
+the releases up to rclpy 7.1.12, launch 3.4.12, launch_ros 0.26.13, ros2cli 0.32.12, common_interfaces 5.3.8 and
 rcl_interfaces 2.0.3 changed for users:
 
 | release | what changed | here | test, or reason |

@@ -155,14 +155,16 @@ def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: floa
 def spin(node: Node, executor: Executor | None = None) -> None:
     """Run a node's callbacks until its context is shut down."""
     executor = get_global_executor() if executor is None else executor
+    was_added = False
     try:
-        executor.add_node(node)
+        was_added = executor.add_node(node)
         report_unused_overrides(executor.context)
         with executor._entered():  # pyright: ignore[reportPrivateUsage] -- one library
             while executor.context.ok():
                 executor.spin_once()
     finally:
-        executor.remove_node(node)
+        if was_added:
+            executor.remove_node(node)
 
 
 def spin_until_future_complete(

@@ -244,7 +244,7 @@ class Executor(TaskQueue, ReadyCallbacks):
 
     def spin_once_until_future_complete(self, future: Future[Any], timeout_sec: float | None = None) -> None:
         """Run one callback, or return when the future is done or cancelled."""
-        future.add_done_callback(lambda _: self.wake())
+        future._when_settled(self.wake)
         self._spin_once(timeout_sec, future._settled)
 
     def spin_until_future_complete(self, future: Future[Any], timeout_sec: float | None = None) -> None:
@@ -473,10 +473,10 @@ class MultiThreadedExecutor(Executor):
             while self._context.ok() and not self._is_shutdown:
                 self.spin_once()
 
-    def shutdown(self, timeout_sec: float | None = None) -> bool:
-        """Shut down, and end the pool's threads."""
+    def shutdown(self, timeout_sec: float | None = None, *, wait_for_threads: bool = True) -> bool:
+        """Shut down, and wait for the pool's threads to end unless told not to."""
         result = super().shutdown(timeout_sec)
-        self._pool.shutdown()
+        self._pool.shutdown(wait=wait_for_threads)
         return result
 
 

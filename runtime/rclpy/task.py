@@ -120,10 +120,14 @@ class Future(Generic[T]):
         self._executor = None if executor is None else weakref.ref(executor)
 
     def _when_settled(self, wake: Callable[[], object]) -> None:
-        """Call `wake` once, from any thread, when the future is settled, or at once if it is already."""
+        """Call `wake` once, from any thread, when the future is settled, or at once if it is already.
+
+        Whoever asks again while it waits, as a program that polls a future does, is not called twice.
+        """
         with self._lock:
             if not self._settled():
-                self._waiters.append(wake)
+                if wake not in self._waiters:
+                    self._waiters.append(wake)
                 return
         wake()
 

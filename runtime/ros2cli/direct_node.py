@@ -14,6 +14,7 @@ from bot_console.runtime.programs.exit_messages import is_read
 from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.endpoints import Owner
 from bot_console.runtime.rmw.names import full_name
+from bot_console.runtime.rmw.zenoh.domain.discovery_range import RANGE_VARIABLE, is_in_range
 from rclpy._rclpy_pybind11 import InvalidHandle, NodeNameNonExistentError
 from rclpy.clock import Clock, ClockType
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
@@ -69,12 +70,13 @@ class DirectNode:
         self._daemon = not getattr(arguments, "no_daemon", False)
         self._sim_time = bool(getattr(arguments, "use_sim_time", False))
         self._spin_time: float | None = getattr(arguments, "spin_time", None)
-        domain = os.environ.get("ROS_DOMAIN_ID", "0")
+        domain = os.environ.get("ROS_DOMAIN_ID") or "0"
         self._name = name or (
             f"_ros2cli_daemon_{domain}_{os.getpid():x}" if self._daemon else f"_ros2cli_{os.getpid()}"
         )
 
     def __enter__(self) -> Node:
+        advise(lambda: "" if is_in_range() else f"{RANGE_VARIABLE} is OFF: this command meets no other program")
         rclpy.init(args=[])
         self._context = rclpy.get_default_context()
         try:

@@ -23,6 +23,10 @@ class WorkerPool:
         self._idle: deque[Any] = deque()
         self._lock = threading.Lock()
         self._threads = 0
+        self._serving: set[int] = set()
+        """The threads that have not ended."""
+        self._waiting: list[Any] = []
+        """Wakeups of those who wait for the end of the threads."""
         self._closed = False
         current().end_with_main(self)
 
@@ -38,7 +42,18 @@ class WorkerPool:
                 self._threads += 1
                 name = f"{self._name}-{self._threads}"
                 # Not a daemon: a callback that has begun runs to its end even if the program is over, as upstream.
-                threading.Thread(target=self._serve, name=name, daemon=False).start()
+                thread = threading.Thread(target=self._run, name=name, daemon=False)
+                thread.start()
+                self._serving.add(thread.ident or 0)
+
+    def _run(self) -> None:
+        try:
+            self._serve()
+        finally:
+            with self._lock:
+                self._serving.discard(threading.get_ident())
+                for each in self._waiting:
+                    each.set()
 
     def _serve(self) -> None:
         wakeup = self._clock.wakeup()
@@ -62,11 +77,23 @@ class WorkerPool:
                     continue
 
     def shutdown(self, wait: bool = False) -> None:
-        """Let the threads end once they have no work left, without waiting for them."""
+        """Let the threads end once they have no work left, and wait for that if asked to; a thread does not wait for
+        itself.
+        """
+        ended = self._clock.wakeup() if wait else None
         with self._lock:
             self._closed = True
             while self._idle:
                 self._idle.popleft().set()
+            if ended is not None:
+                self._waiting.append(ended)
+        while ended is not None and self._is_serving(ended):
+            ended.wait()
+
+    def _is_serving(self, ended: Any) -> bool:
+        with self._lock:
+            ended.clear()
+            return bool(self._serving - {threading.get_ident()})
 
 
 def report_unfetched_at_exit(owner: object, futures: deque[Any]) -> None:

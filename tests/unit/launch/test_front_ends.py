@@ -15,7 +15,7 @@ from launch.conditions import IfCondition, UnlessCondition
 from launch.frontend.parse_substitution import parse_substitution
 from launch.frontend.process_attributes import parse_command_line
 from launch.utilities import perform_substitutions
-from launch_ros.actions import Node
+from launch_ros.actions import LifecycleNode, Node
 from launch_ros.descriptions import ParameterFile, ParameterValue
 from launch_xml import Parser as XmlParser
 from launch_yaml import Parser as YamlParser
@@ -171,6 +171,12 @@ def test_xml_node_accepts_all_attributes() -> None:
     assert words[1:6] == ["'-a'", "LaunchConfig('b')", "'c'", "'--ros-args'", "'--log-level'"]
 
 
+def test_lifecycle_node_may_start_itself() -> None:
+    [node] = xml('<lifecycle_node pkg="p" exec="e" name="n" namespace="" autostart="$(var x)"/>')
+    assert isinstance(node, LifecycleNode)
+    assert [each.describe() for each in node.node_autostart] == ["LaunchConfig('x')"]
+
+
 def test_yaml_executable_accepts_its_attributes() -> None:
     [process] = yaml(
         "  - executable: {cmd: \"echo a 'b c'\", name: e, shell: true, output: screen, env: [{name: A, value: b}]}"
@@ -227,6 +233,11 @@ def test_yaml_group_may_be_a_map() -> None:
 
 
 XML_ERRORS: list[tuple[str, type[Exception], str]] = [
+    (
+        '<node exec="e" node-name="n"/>',  # upstream took it for `name` until launch_ros 0.26.12, and failed later
+        ValueError,
+        "Unexpected attribute(s) found in `node`: {'node-name'}",
+    ),
     ('<node exec="e" bogus="1"/>', ValueError, "Unexpected attribute(s) found in `node`: {'bogus'}"),
     ('<node exec="e"><bogus/></node>', ValueError, "Unexpected nested tag(s) found in `node`: {'bogus'}"),
     ("<nodes/>", RuntimeError, "Unrecognized entity of the type: nodes"),

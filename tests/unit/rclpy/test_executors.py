@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 from typing import Any
 
@@ -313,6 +314,51 @@ def test_system_exit_in_a_pool_callback_ends_only_that_callback(ros: Any) -> Non
             break
     executor.shutdown()
     assert len(calls) > 2
+
+
+@pytest.mark.parametrize("has_node", [True, False])
+def test_spin_leaves_a_node_with_the_executor_that_had_it(ros: Any, has_node: bool) -> None:
+    node, executor = ros.node(), SingleThreadedExecutor(context=ros.context)
+    if has_node:
+        executor.add_node(node)
+    node.create_guard_condition(ros.context.shutdown).trigger()
+    with contextlib.suppress(ExternalShutdownException):
+        rclpy.spin(node, executor)
+    assert executor.get_nodes() == [node] * has_node
+
+
+@pytest.mark.parametrize("poll", ["spin_until_future_complete", "spin_once_until_future_complete"])
+def test_polled_future_wakes_the_executor_once(ros: Any, poll: str) -> None:
+    ros.node()
+    executor, future, wakes = SingleThreadedExecutor(context=ros.context), Future(), []
+    executor.wake = lambda: wakes.append("woken")
+    for _ in range(20):
+        getattr(executor, poll)(future, timeout_sec=0)
+    wakes.clear()
+    future.set_result(None)
+    assert wakes == ["woken"]
+
+
+@pytest.mark.parametrize("waits", [True, False])
+def test_shutdown_waits_for_running_callbacks_unless_told_not_to(ros: Any, waits: bool) -> None:
+    node, begun, may_end = ros.node(), threading.Event(), threading.Event()
+    ended: list[bool] = []
+
+    def work() -> None:
+        begun.set()
+        may_end.wait(20.0)
+        ended.append(True)
+
+    node.create_guard_condition(work).trigger()
+    executor = MultiThreadedExecutor(2, context=ros.context)
+    executor.add_node(node)
+    while not begun.is_set():
+        executor.spin_once(timeout_sec=0.01)
+    if waits:
+        may_end.set()
+    executor.shutdown(wait_for_threads=waits)
+    assert ended == [True] * waits
+    may_end.set()
 
 
 def _waiting_thread(executor: Any, wait: Any) -> tuple[threading.Thread, list[BaseException]]:

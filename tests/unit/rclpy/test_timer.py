@@ -108,6 +108,16 @@ def test_timer_can_be_cancelled_and_reset(stepped_ros: Any) -> None:
     assert record.times == [100, 1200]
 
 
+def test_timer_that_is_cancelled_once_it_is_ready_does_not_run(stepped_ros: Any) -> None:
+    node = stepped_ros.node()
+    calls: list[str] = []
+    node.create_timer(0.1, lambda: (calls.append("first"), second.cancel()))
+    second = node.create_timer(0.1, lambda: calls.append("second"))
+    for _ in range(3):
+        node.executor.spin_once(timeout_sec=0.15)
+    assert set(calls) == {"first"}
+
+
 def test_reset_postpones_a_timer(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     record = Recorder(node)

@@ -6,6 +6,7 @@ import threading
 import time
 from pathlib import Path
 
+import pytest
 from bot_console.runtime.process import NodeProcess
 from bot_console.runtime.process.stepping.stepped_time import stepped
 from rclpy.impl.worker_pool import WorkerPool
@@ -75,3 +76,25 @@ def test_exception_ending_a_callback_ends_no_thread() -> None:
     pool.submit(done.set)
     assert done.wait(20.0)
     pool.shutdown()
+
+
+@pytest.mark.parametrize(("wait", "order"), [(True, ["work", "shut down"]), (False, ["shut down", "work"])])
+def test_shutdown_waits_for_the_threads_if_asked(wait: bool, order: list[str]) -> None:
+    got: list[str] = []
+
+    def main() -> None:
+        pool = WorkerPool(2, "executor")
+        pool.submit(lambda: (time.sleep(1.0), got.append("work")))
+        pool.shutdown(wait=wait)
+        got.append("shut down")
+
+    with stepped(seed=1) as clock:
+        NodeProcess("n", clock).start(main)
+        clock.run_for(5.0)
+    assert got == order
+
+
+def test_thread_of_the_pool_that_shuts_it_down_does_not_wait_for_itself() -> None:
+    pool, done = WorkerPool(1, "executor"), threading.Event()
+    pool.submit(lambda: (pool.shutdown(wait=True), done.set()))
+    assert done.wait(20.0)
