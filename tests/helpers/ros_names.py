@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from bot_console.runtime import rosidl
 from bot_console.runtime.importer import DEMOS, OWN_PACKAGES
 
 RUNTIME = Path(__file__).resolve().parents[2] / "runtime"
@@ -12,5 +13,6 @@ OWN = {"bot_console", DEMOS, *OWN_PACKAGES}
 
 def ros_names() -> set[str]:
     """The ROS names that the runtime serves: its own folders, generated interfaces, our packages."""
-    places = RUNTIME, RUNTIME / "rosidl" / "generated", RUNTIME / "rosidl" / "unverified"
+    generated = Path(rosidl.__file__).with_name("generated")  # of the installation: an sdist comes without
+    places = RUNTIME, generated, RUNTIME / "rosidl" / "unverified"
     return {path.name for place in places for path in place.iterdir()} | OWN

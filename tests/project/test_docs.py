@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from bot_console.runtime import rosidl
 
 sys.path.insert(0, str(Path(__file__).parent))
 from documented_commands import commands, fault
@@ -100,10 +101,8 @@ def test_invalid_command_line_is_noticed(line):
 
 def test_all_message_packages_are_named():
     row = next(line for line in text_of(ROOT / "docs" / "nodes-and-runtime.md").splitlines() if "std_msgs`" in line)
-    generated = ROOT / "runtime" / "rosidl" / "generated"
+    generated = Path(rosidl.__file__).with_name("generated")
     packages = {each.parent.name for each in generated.glob("*/__init__.py")}
-    if not packages:
-        pytest.skip("message classes were not made in this tree")
     assert set(re.findall(r"`(\w+)`", row)) == packages
 
 
