@@ -1,4 +1,4 @@
-"""With the rclpy of PyPI in the environment of a set-up shell: who uses which, and that `doctor` says it."""
+"""With the rclpy of PyPI in the environment of a set-up shell: who uses which, and what `doctor` reports."""
 
 from __future__ import annotations
 
@@ -67,19 +67,19 @@ def test_python_uses_the_real_one_and_run_the_embedded_one(shell: dict[str, str]
     assert Path(output(shell, "bot-console", "run", "-c", SHOW).strip()).match("runtime/rclpy/__init__.py")
 
 
-def test_doctor_says_who_uses_which(shell: dict[str, str], talker: str) -> None:
-    said = {each["about"]: each["text"] for each in json.loads(output(shell, "bot-console", "doctor", "--json"))}
+def test_doctor_reports_who_uses_which(shell: dict[str, str], talker: str) -> None:
+    findings = {each["about"]: each["text"] for each in json.loads(output(shell, "bot-console", "doctor", "--json"))}
     folder = os.path.dirname(talker)
-    assert f"imports the real rclpy ({folder}); `bot-console run` the embedded one" in said["rclpy"]
-    assert f"({folder}): `bot-console attach --ros`" in said["ros"]
+    assert f"imports the real rclpy ({folder}); `bot-console run` the embedded one" in findings["rclpy"]
+    assert f"({folder}): `bot-console attach --ros`" in findings["ros"]
 
 
 def test_attached_to_the_machine_nodes_of_the_real_one_are_seen(shell: dict[str, str], talker: str) -> None:
     """`doctor --ros` sees what `attach --ros` shows: both import the rclpy of the machine."""
-    said = {
+    findings = {
         each["about"]: each["text"] for each in json.loads(output(shell, "bot-console", "doctor", "--ros", "--json"))
     }
-    assert said["graph"] == "1 other node"
+    assert findings["graph"] == "1 other node"
     alone = output(
         shell, "bot-console", "run", "-c", "import rclpy; rclpy.init(); print(rclpy.create_node('n').get_node_names())"
     )

@@ -340,7 +340,7 @@ def test_polled_future_wakes_the_executor_once(ros: Any, poll: str) -> None:
 
 
 @pytest.mark.parametrize("waits", [True, False])
-def test_shutdown_waits_for_running_callbacks_unless_told_not_to(ros: Any, waits: bool) -> None:
+def test_shutdown_waits_for_running_callbacks_by_default(ros: Any, waits: bool) -> None:
     node, begun, may_end = ros.node(), threading.Event(), threading.Event()
     ended: list[bool] = []
 
