@@ -113,7 +113,7 @@ class MeshSession(Session):
         if self._serving and not self._tokens:
             from bot_console.runtime.rmw.zenoh.network.frozen_processes import StoppedTokens
 
-            self._tokens = StoppedTokens(self, self.stopped)
+            self._tokens = StoppedTokens(self, self.stopped, self.debugged)
 
     def rejoin(self, needed: Callable[[str], bool]) -> None:
         """Reopen the session if it is `needed` (called with the folder's lock held), and declare everything again."""

@@ -96,13 +96,17 @@ class NetworkSession(Session):
         return RMW_ZENOH
 
     def watch(self) -> None:
-        """Probe the link to the router repeatedly, and watch which processes the router reports as frozen."""
+        """Probe the link to the router repeatedly, and watch which processes it reports as frozen or in a debugger."""
         self._probe = self._probe or LinkProbe(self.question, str(self.way))
         self._stopped = self._stopped or StoppedBehind(self)
 
     def stopped(self) -> Mapping[str, int]:
         """The frozen processes behind the router, if it is one of ours; empty unless `watch` was called."""
         return self._stopped.now() if self._stopped else {}
+
+    def debugged(self) -> Mapping[str, str]:
+        """Those in a debugger, with the line."""
+        return self._stopped.debugged() if self._stopped else {}
 
     def stopped_afar(self) -> Sequence[int]:
         """The pids of those processes, which run on the robot."""

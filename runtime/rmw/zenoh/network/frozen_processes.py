@@ -1,7 +1,7 @@
-"""Which processes behind a router are frozen: the router declares a token for each, which its clients watch.
+"""Which processes behind a router are frozen or stopped in a debugger: it declares a token for each to its clients.
 
-Zenoh itself considers a frozen process alive until its lease expires, and a client cannot read the states of processes
-on another machine.
+Zenoh itself considers such a process alive, for long or for ever, and a client cannot read the states of processes on
+another machine.
 """
 
 from __future__ import annotations
@@ -13,18 +13,24 @@ from bot_console.runtime.rmw.zenoh.declarations import Declaration
 from bot_console.runtime.rmw.zenoh.session import Session
 
 TOKEN = "@bot_console_stopped/"
-"""Prefix of such a token; the first 8 digits of the session's id and the process's pid follow."""
+"""Prefix of the token of a frozen process; the first 8 digits of its session's id and its pid follow."""
+DEBUGGED_TOKEN = "@bot_console_debugged/"
+"""The same for a process in a debugger; the line at which it is follows, as hexadecimal digits after an x."""
+MAX_LINE_BYTES = 1000
 FROZEN_POLL_S = 0.25
 """Interval between two checks, in seconds."""
 
 
 class StoppedTokens:
-    """Declares a token for each frozen process of a router's mesh, in a separate thread until `end`."""
+    """Declares a token for each frozen or debugged process of a router's mesh, in a separate thread until `end`."""
 
-    def __init__(self, session: Session, stopped: Callable[[], Mapping[str, int]]) -> None:
+    def __init__(
+        self, session: Session, stopped: Callable[[], Mapping[str, int]], debugged: Callable[[], Mapping[str, str]]
+    ) -> None:
         self._session = session
         self._stopped = stopped
-        self._shown: dict[tuple[str, int], Declaration] = {}
+        self._debugged = debugged
+        self._shown: dict[str, Declaration] = {}
         self._ended = threading.Event()
         threading.Thread(target=self._run, name="stopped-tokens", daemon=True).start()
 
@@ -40,20 +46,23 @@ class StoppedTokens:
                 continue
 
     def poll(self) -> None:
-        """Declare tokens for the processes that are frozen now, and undeclare all others."""
-        now = set(self._stopped().items())
+        """Declare tokens for the processes that are stopped now, and undeclare all others."""
+        now = {f"{TOKEN}{zid}/{pid}" for zid, pid in self._stopped().items()}
+        now |= {f"{DEBUGGED_TOKEN}{zid}/{_encoded(line)}" for zid, line in self._debugged().items()}
         for each in self._shown.keys() - now:
             self._shown.pop(each).undeclare()
-        for zid, pid in now - self._shown.keys():
-            self._shown[zid, pid] = self._session.declare_token(f"{TOKEN}{zid}/{pid}")
+        for each in now - self._shown.keys():
+            self._shown[each] = self._session.declare_token(each)
 
 
 class StoppedBehind:
-    """Tracks which processes a router reports as frozen."""
+    """Tracks which processes a router reports as frozen or in a debugger."""
 
     def __init__(self, session: Session) -> None:
         self._found: dict[str, int] = {}
+        self._lines: dict[str, str] = {}
         session.watch_tokens(f"{TOKEN}*/*", self._seen)
+        session.watch_tokens(f"{DEBUGGED_TOKEN}*/*", self._seen_in_debugger)
 
     def _seen(self, key: str, came: bool) -> None:
         """Take in a token; one with a foreign name comes from another program and is ignored."""
@@ -63,6 +72,34 @@ class StoppedBehind:
         elif not came:
             self._found.pop(zid, None)
 
+    def _seen_in_debugger(self, key: str, came: bool) -> None:
+        zid, _, text = key.removeprefix(DEBUGGED_TOKEN).partition("/")
+        line = _decoded(text)
+        if line is None:
+            return
+        if came:
+            self._lines[zid] = line
+        elif self._lines.get(zid) == line:  # else the token of the next line has come first
+            del self._lines[zid]
+
     def now(self) -> Mapping[str, int]:
         """Return the first 8 digits of their session ids, mapped to their pids. Thread-safe."""
         return self._found.copy()
+
+    def debugged(self) -> Mapping[str, str]:
+        """Return the same of those in a debugger, mapped to the line. Thread-safe."""
+        return self._lines.copy()
+
+
+def _encoded(line: str) -> str:
+    return "x" + line.encode("utf-8", "surrogateescape")[:MAX_LINE_BYTES].hex()
+
+
+def _decoded(text: str) -> str | None:
+    """The line in a token; None if another program has declared it."""
+    if text[:1] != "x" or len(text) > 1 + 2 * MAX_LINE_BYTES:
+        return None
+    try:
+        return bytes.fromhex(text[1:]).decode("utf-8", "replace")
+    except ValueError:
+        return None
