@@ -413,6 +413,8 @@ class BotConsoleApp(GuardedApp):
                 pane.expect(opening.curves)
             elif opening.node and pane.id == "parameters":
                 pane.go_to(opening.node)
+            elif (opening.topic or opening.rate) and pane.id == "steering":
+                pane.steer_on(opening.topic, opening.rate)
         for pane in self.visible_panes():
             pane.show(self._snapshot)
         for note in opening.notes:

@@ -331,6 +331,7 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("steering.deadman", "t", "deadman", "Dead-man time: seconds without a key until the robot stops"),
         Key("steering.robot", "r", "next_robot", "The next command topic, of this robot or another"),
         Key("steering.topic", "o", "topic", "Choose the robot or the command topic by its name"),
+        Key("steering.rate", "f", "rate", "Rate at which commands are sent: typed, in Hz"),
         Key("steering.limits", "v", "limits", "Limits of speed and turn rate: typed, or from the parameters"),
         Key("steering.hand_back", "h", "hand_back", "Hand back: the robot's own program drives again"),
         Key("steering.disarm", "escape", "disarm", "Disarm: the robot is locked until it is handed back"),

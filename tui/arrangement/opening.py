@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from bot_console.tui.console.robot.robot_model import STEERING_RATES_HZ
+
+STEERING = "rqt_robot_steering"
 RQT_PANES = {
     "rqt": "overview",
     "rqt_gui": "overview",
@@ -12,7 +16,7 @@ RQT_PANES = {
     "rqt_graph": "graph",
     "rqt_plot": "plot",
     "rqt_reconfigure": "parameters",
-    "rqt_robot_steering": "steering",
+    STEERING: "steering",
     "rqt_topic": "topics",
     "rqt_publisher": "topics",
     "rqt_service_caller": "topics",
@@ -24,7 +28,10 @@ RQT_PANES = {
 """Programs of rqt, as packages and as executables, and the pane that does their work."""
 STANDALONE = ("-s", "--standalone")
 PERSPECTIVE = ("--perspective-file", "-p", "--perspective")
-WITH_VALUE = ("--default_topic", "-d", "--display-config", "-f", "--fixed-frame")
+TOPIC_OPTION = "--default_topic"
+TOPIC_PARAMETER, RATE_PARAMETER = "default_topic", "publish_rate"
+"""The parameters of `rqt_robot_steering`, given after `--ros-args`."""
+WITH_VALUE = (TOPIC_OPTION, "-d", "--display-config", "-f", "--fixed-frame")
 """Options with a value that nothing here answers to."""
 WITHOUT_VALUE = (
     "-P",
@@ -58,6 +65,10 @@ class Opening(NamedTuple):
     notes: tuple[str, ...] = ()
     perspective: str = ""
     """A layout file or a perspective of rqt whose panes are to stand on the screen; empty: none."""
+    topic: str = ""
+    """The topic on which to steer; empty: that of the first robot."""
+    rate: float | None = None
+    """The rate of the commands with which to steer (Hz); None: the usual one."""
 
 
 def is_rqt(words: Sequence[str]) -> bool:
@@ -85,6 +96,7 @@ def rqt_opening(words: Sequence[str]) -> tuple[Opening, list[str]]:
     notes: list[str] = []
     left: list[str] = []
     node = perspective = ""
+    parameters, rest = _ros_parameters(program, rest)
     at = 0
     while at < len(rest):
         option, inline, value = rest[at].partition("=")
@@ -98,7 +110,7 @@ def rqt_opening(words: Sequence[str]) -> tuple[Opening, list[str]]:
             perspective = value
         elif takes_value or option in WITHOUT_VALUE:
             notes.append(f"{option}{f' {value}' if takes_value else ''} of {program} is not taken over")
-        elif option in ("--args", "--ros-args"):
+        elif option == "--args":
             pass
         elif option.endswith((".yaml", ".yml")):
             left.append(rest[at])  # A profile by its path, which has slashes as a curve has.
@@ -111,7 +123,44 @@ def rqt_opening(words: Sequence[str]) -> tuple[Opening, list[str]]:
         at += 1
     if program not in RQT_PANES:
         notes.append(f"there is no pane for {program}; there are: {', '.join(sorted(RQT_PANES))}")
-    return Opening(RQT_PANES.get(program, "overview"), tuple(curves), node, tuple(notes), perspective), left
+    of_steering = parameters if program == STEERING else {}
+    topic, rate = of_steering.pop(TOPIC_PARAMETER, ""), _rate(of_steering.pop(RATE_PARAMETER, ""), notes)
+    notes += [f"the parameter {each} of {program} is not taken over" for each in parameters]
+    pane = RQT_PANES.get(program, "overview")
+    return Opening(pane, tuple(curves), node, tuple(notes), perspective, topic, rate), left
+
+
+def _ros_parameters(program: str, words: Sequence[str]) -> tuple[dict[str, str], list[str]]:
+    """The parameters that are given after `--ros-args`, and the other words."""
+    found: dict[str, str] = {}
+    others: list[str] = []
+    at, ros = 0, False
+    while at < len(words):
+        word, following = words[at], words[at + 1] if at + 1 < len(words) else ""
+        ros = (ros or word == "--ros-args") and word != "--"
+        name, assigned, value = following.partition(":=")
+        if ros and word in ("-p", "--param") and assigned:
+            found[name.rpartition(":")[2]] = value
+            at += 1
+        elif program == STEERING and word.partition("=")[0] == TOPIC_OPTION:
+            found.setdefault(TOPIC_PARAMETER, word.partition("=")[2] or following)
+            at += "=" not in word
+        elif word != "--ros-args":
+            others.append(word)
+        at += 1
+    return found, others
+
+
+def _rate(text: str, notes: list[str]) -> float | None:
+    least, most = STEERING_RATES_HZ
+    try:
+        rate = float(text) if text else None
+    except ValueError:
+        rate = math.nan
+    if rate is None or least <= rate <= most:
+        return rate
+    notes.append(f"{RATE_PARAMETER}:={text} is not a number from {least:g} to {most:g} (Hz)")
+    return None
 
 
 def _program(words: Sequence[str]) -> tuple[str, list[str]]:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from bot_console.tui.console.bags.node_bags import NodeBags
 from bot_console.tui.console.gate import READ_ONLY, Gate
 from bot_console.tui.console.graph.node_graph import NodeGraph
+from bot_console.tui.console.launch.elsewhere import Elsewhere
 from bot_console.tui.console.launch.gated_launcher import GatedLauncher
 from bot_console.tui.console.logs.node_logs import NodeLogs
 from bot_console.tui.console.model import Capabilities, ConsoleSnapshot, LaunchInfo, LinkInfo, Severity
@@ -45,10 +46,12 @@ class NodePorts:
         buffer: Keeper | None,
         types: TypeSource | None,
         processes: Callable[[], Mapping[int, Sequence[str]]],
+        elsewhere: Elsewhere,
     ) -> None:
         self.gate = Gate()
         self._capabilities = capabilities
         self._launch_info = launch_info
+        self._elsewhere = elsewhere
         self._link = link
         self.problem = ""
         """Why the console itself cannot go on; empty when all is well."""
@@ -106,6 +109,7 @@ class NodePorts:
         old = self._snapshot
         world, launch = self.drive.world, self._launch_info()
         self.logs.discount_errors_of_ending(launch)
+        launch = self._elsewhere.beside(launch)
         new = ConsoleSnapshot(
             seq=old.seq,
             graph=self.graph.info,

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
 from bot_console.tui.console.gate import CLOSED
+from bot_console.tui.console.launch.elsewhere import Elsewhere
 from bot_console.tui.console.model import Capabilities, LaunchInfo, LinkInfo, Severity
 from bot_console.tui.console.node_ports import LABEL, NodePorts
 
@@ -59,6 +60,7 @@ class RosConsole(NodePorts):
         stop_means: Sequence[ConfiguredMeans] = (),
         expected: str = "",
         processes: Callable[[], Mapping[int, Sequence[str]]] = dict,
+        elsewhere: Elsewhere | None = None,
     ) -> None:
         """`own_profiles` is where profiles are saved; `workspace_profiles` finds further folders with profiles;
         `active_profile` is the name, or the absolute path, of the one with which the system starts.
@@ -69,7 +71,7 @@ class RosConsole(NodePorts):
         `link` returns the state of the network; `foreign`: see `ConsoleNode`; `buffer` keeps the last minutes; `halted`
         returns nodes of stopped processes; `types` builds missing message types; `stop_means` stop robots without lock;
         `expected` is the path of a file with the rates that topics should have; `processes` returns the nodes of
-        programs on this machine, by pid.
+        programs on this machine, by pid; `elsewhere` searches for those started in other terminals.
         """
         super().__init__(
             self._connect_robot,
@@ -79,6 +81,7 @@ class RosConsole(NodePorts):
             buffer=buffer,
             types=types,
             processes=processes,
+            elsewhere=elsewhere or Elsewhere(),
         )
         self._profile_store_of = profile_folders, own_profiles, workspace_profiles, fetch
         self._active_profile = active_profile

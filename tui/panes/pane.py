@@ -237,6 +237,9 @@ class Pane(LazyParts):
     def expect(self, wanted: Sequence[str]) -> None:
         """Show topics or paths instead of what the pane shows by itself, each as soon as it is there."""
 
+    def steer_on(self, topic: str, rate: float | None) -> None:
+        """Steer on a topic and at a rate (Hz), where the pane steers."""
+
     def detach(self) -> None:
         """Stop whatever must not go on without the pane; called when it ends by a fault."""
 

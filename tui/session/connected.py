@@ -10,13 +10,14 @@ from bot_console.tui.arrangement.arrival import System
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.tune.tuner import LocalTuner
 from bot_console.tui.console.bags.port import Keeper
+from bot_console.tui.console.launch.elsewhere import Elsewhere
 from bot_console.tui.console.model import LaunchInfo, Severity
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.files.folders import config_folder, state_folder
 from bot_console.tui.pane_table import PaneEntry
 from bot_console.tui.session import robot_starter
 from bot_console.tui.session.composition import embedded, node_process
-from bot_console.tui.session.embedded.domain import nodes_there
+from bot_console.tui.session.embedded.domain import nodes_there, socket_folder
 from bot_console.tui.session.embedded.hooks import (
     DomainTypes,
     fetched,
@@ -27,7 +28,9 @@ from bot_console.tui.session.embedded.hooks import (
 )
 from bot_console.tui.session.embedded.process_reports import log_process_reports
 from bot_console.tui.session.embedded.ros2_command_line import Ros2CommandLine
+from bot_console.tui.session.embedded.vitals import find_vitals
 from bot_console.tui.session.embedded.workspaces import SIMULATOR_LAUNCH, SYSTEM_LAUNCH, config_folders
+from bot_console.tui.session.launch_host.address import host_addresses, pid_of_address
 from bot_console.tui.session.plugins import find_plugins
 from bot_console.tui.session.protocol import ClosableLauncher
 from bot_console.tui.session.robot_starter import RobotProcess
@@ -75,10 +78,15 @@ class Connected:
             stop_means=settings.stop_means,
             expected=settings.expected,
             processes=node_processes,
+            elsewhere=Elsewhere(node_processes, find_vitals, self._other_hosts),
         )
         self.launcher = system(self.console)
         self._local_tuner = LocalTuner()
         self.tuner = None if options.read_only else self._local_tuner
+
+    def _other_hosts(self) -> list[int]:
+        """The launch hosts that this console can ask, whose processes it can control."""
+        return [pid_of_address(each) for each in host_addresses(socket_folder())] if self._options.attach else []
 
     def _launch_info(self) -> LaunchInfo:
         return self.launcher.info()

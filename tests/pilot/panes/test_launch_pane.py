@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.model import Endpoint, LaunchEvent, LaunchInfo, ProcessState, Severity
+from bot_console.tui.console.model import Endpoint, LaunchEvent, LaunchInfo, ProcessInfo, ProcessState, Severity
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.panes.graph.pane import GraphPane
 from bot_console.tui.panes.launch.pane import LaunchPane
@@ -71,6 +71,25 @@ def test_process_is_started_stopped_restarted_and_killed_after_a_question() -> N
         assert session.launcher.asked[3:] == [("kill", key)]
 
     run(live(), play)
+
+
+def test_process_of_another_terminal_is_shown_and_left_alone() -> None:
+    async def play(session: Session) -> None:
+        launch = session.console.current.launch
+        other = ProcessInfo("elsewhere@77", "talker", ProcessState.RUNNING, 77, ("/talker",),
+                            ("in other terminals", "ros2 launch a.launch.py"),
+                            started_by="ros2 launch a.launch.py (pid 70)")  # fmt: skip
+        session.console.change(launch=replace(launch, processes=(*launch.processes, other)))
+        await session.press("8")
+        session.pane(LaunchPane).go_to("/talker")
+        await session.settle()
+        assert "ros2 launch a.launch.py  1 of 1 running" in session.text()
+        assert "read-only: started by ros2 launch a.launch.py (pid 70)" in session.text()
+        await session.press("x", "r", "s", "K", "R", "up", "x")
+        assert session.launcher.asked == [] and not isinstance(session.app.screen, ConfirmScreen)
+        assert "Ctrl-C there ends it" in session.text()
+
+    run(live(), play, (120, 40))
 
 
 def test_keys_on_a_group_act_on_all_its_processes() -> None:

@@ -79,6 +79,63 @@ def test_the_command_topic_is_chosen_by_its_name_and_the_robot_left_is_held() ->
     run(live(), play, (100, 30))
 
 
+def test_the_command_topic_is_typed_in_full() -> None:
+    async def play(session: Session) -> None:
+        chosen: list[str] = []
+        session.console.drive.choose = chosen.append
+        drive = session.console.current.drive
+        session.console.change(drive=replace(drive, robot="/", robots=("/", "/robot2")))
+        await session.press("6", "o")
+        await session.type("/robot2/cmd_vel")
+        await session.press("enter")
+        assert chosen == ["/robot2"]
+
+    run(live(), play, (100, 30))
+
+
+def test_the_rate_of_the_commands_is_typed() -> None:
+    async def play(session: Session) -> None:
+        steering(session).clock = Clock()
+        await session.press("6", "f", *["backspace"] * 2)
+        await session.type("99")
+        assert "a number from 1 to 50" in session.text()
+        await session.press("backspace", "backspace")
+        await session.type("2")
+        await session.press("enter", "enter", "w")
+        assert "2 Hz" in session.text()
+        repeating = steering(session)._repeating
+        assert repeating is not None and repeating._interval == 0.5
+        session.console.asked.clear()
+        pass_time(session, 0.1)
+        assert commands(session) == [], "a tick sends nothing: the command is repeated twice per second"
+        steering(session)._repeat()
+        assert commands(session) == [(pytest.approx(0.05), 0.0)]
+        pass_time(session, 100.0)
+        assert commands(session)[-1] == (0.0, 0.0) and not steering(session).state.armed, "the dead-man time is kept"
+        await session.press("f", "backspace", "enter")
+        assert steering(session)._repeating is None and steering(session).state.rate == 10.0
+
+    run(live(), play, (100, 30))
+
+
+def test_topic_and_rate_given_as_parameters_are_taken_once_somebody_subscribes() -> None:
+    async def play(session: Session) -> None:
+        chosen: list[str] = []
+        session.console.drive.choose = chosen.append
+        await session.press("colon")
+        await session.type("rqt_robot_steering --ros-args -p default_topic:=/robot2/cmd_vel -p publish_rate:=20")
+        await session.press("enter")
+        assert steering(session).state.rate == 20.0 and "20 Hz" in session.text() and chosen == []
+        drive = session.console.current.drive
+        session.console.change(drive=replace(drive, robot="/", robots=("/", "/robot2")))
+        session.app.pull()
+        assert chosen == ["/robot2"]
+        session.app.pull()
+        assert chosen == ["/robot2"]
+
+    run(live(), play, (100, 30))
+
+
 DRIVEN: list[tuple[list[str], tuple[float, float]]] = [
     (["w", "w"], (0.1, 0.0)),
     (["up", "up"], (0.1, 0.0)),

@@ -88,6 +88,8 @@ class ProcessInfo:
     """When it is restarted after it has ended by itself, in words; empty: never, or as its launch file says."""
     program: Program | None = None
     """None: not known, as from a launch host of an earlier version."""
+    started_by: str = ""
+    """The command in another terminal that has started it, and alone can end it; empty: it is controlled from here."""
 
 
 @dataclass(frozen=True, slots=True)

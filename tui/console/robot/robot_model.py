@@ -8,6 +8,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+STEERING_RATES_HZ = (1.0, 50.0)
+"""The lowest and the highest rate at which a person's commands can be sent."""
+
 
 @dataclass(frozen=True, slots=True)
 class Pose:

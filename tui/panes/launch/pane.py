@@ -24,7 +24,7 @@ from bot_console.tui.console.model import (
 )
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.format import SEVERITY_CHARACTERS, clock_text, counted, cut, sanitize
-from bot_console.tui.panes.launch.rows import ProcessRows, matches, rows
+from bot_console.tui.panes.launch.rows import ProcessRows, Row, matches, rows
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.panes.transitions import ask_transition
@@ -214,7 +214,10 @@ class LaunchPane(ListPane):
             return f"{name} {ending}" + (f"  {process.problem}" if process.problem else "")
         states = self._list.lifecycle
         nodes = (f"{each} ({states[each]}, T changes it)" if each in states else each for each in process.nodes)
-        return process.problem or f"{process.label}  {' '.join(nodes)}"
+        about = f"{process.label}  {' '.join(nodes)}"
+        if process.started_by:
+            about = f"read-only: started by {process.started_by}  {' '.join(process.nodes)}"
+        return process.problem or about
 
     def tick(self) -> None:
         """Say how long ago the process at the cursor has ended."""
@@ -277,8 +280,9 @@ class LaunchPane(ListPane):
         row = self._list.current
         if row is None or self.console.launcher is None or not self.may_change():
             return
-        info = self._info or LaunchInfo()
-        chosen = [row.process] if row.process else [each for each in info.processes if _belongs(each, row.group)]
+        chosen = self._controlled(row)
+        if not chosen:
+            return
         if row.process is None:
             chosen = [each for each in chosen if not is_pointless(verb, each)]
             if not chosen:
@@ -293,6 +297,16 @@ class LaunchPane(ListPane):
             self.ask(Confirmation(question, lambda _: then(), partial(self._ended, verb, chosen), reasons=names))
         else:
             self._do(verb, chosen)
+
+    def _controlled(self, row: Row) -> list[ProcessInfo]:
+        """The processes of a row, without those that only another terminal can start and stop; says so if all are."""
+        info = self._info or LaunchInfo()
+        every = [row.process] if row.process else [each for each in info.processes if _belongs(each, row.group)]
+        chosen = [each for each in every if not each.started_by]
+        if every and not chosen:
+            who = sanitize(every[0].started_by)
+            self.notify(f"Read-only here: started by {who}; Ctrl-C there ends it", severity="warning", markup=False)
+        return chosen
 
     def _do(self, verb: str, processes: list[ProcessInfo]) -> None:
         for each in processes:
@@ -317,8 +331,7 @@ class LaunchPane(ListPane):
         row, launcher = self._list.current, self.console.launcher
         if row is None or launcher is None or not self.may_change():
             return
-        info = self._info or LaunchInfo()
-        chosen = [row.process] if row.process else [each for each in info.processes if _belongs(each, row.group)]
+        chosen = self._controlled(row)
         own = [each for each in chosen if not (each.program and each.program.respawn)] or chosen
         stays = all(each.restart_policy for each in own)
         for each in own:
@@ -439,7 +452,7 @@ def facts(process: ProcessInfo, info: LaunchInfo) -> list[tuple[str, list[str]]]
     return [
         ("Process", known),
         ("Problem", process.problem.splitlines()),
-        ("Launched by", list(process.group)),
+        ("Launched by", [process.started_by] if process.started_by else list(process.group)),
         ("Nodes", list(process.nodes)),
         ("Events", events[-12:]),
     ]

@@ -10,7 +10,14 @@ from typing import Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.model import ConsoleSnapshot, ProcessState, Profile, ProfileDifference, SetOutcome
+from bot_console.tui.console.model import (
+    ConsoleSnapshot,
+    ProcessInfo,
+    ProcessState,
+    Profile,
+    ProfileDifference,
+    SetOutcome,
+)
 from bot_console.tui.console.parameters.file.node_keys import means
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.files.save_file import typed_path
@@ -324,7 +331,7 @@ class ProfilesPane(ListPane):
         if self.console.launcher is None:
             self.notify("this console was started without a launcher")
             return
-        running = [each for each in self._snapshot.launch.processes if each.state is ProcessState.RUNNING]
+        running = [each for each in self._own_processes() if each.state is ProcessState.RUNNING]
         given = " ".join(f"{name}:={value}" for name, value in profile.arguments.items())
         reasons = [f"{profile.launch} {given}".rstrip(), "It takes the place of what this console has started:"]
         reasons += [f"  {each.label}" for each in running] or ["  nothing"]
@@ -338,12 +345,15 @@ class ProfilesPane(ListPane):
             )
         )
 
+    def _own_processes(self) -> list[ProcessInfo]:
+        return [each for each in self._snapshot.launch.processes if not each.started_by]
+
     def _replace_system(self, profile: Profile) -> None:
         launcher = self.console.launcher
         if launcher is None:
             return
         ended = (ProcessState.EXITED, ProcessState.CRASHED, ProcessState.ABANDONED)
-        keys = [each.key for each in self._snapshot.launch.processes if each.state not in ended]
+        keys = [each.key for each in self._own_processes() if each.state not in ended]
         self._reported = f"stopping {counted(len(keys), 'process')} ..."
         self._compare()
         Replacement(launcher, keys, profile, partial(self._later, self._replaced, profile)).begin()

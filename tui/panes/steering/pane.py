@@ -14,9 +14,12 @@ from bot_console.tui.panes.steering.state import (
     DEAD_MAN,
     DEADMAN_TIMES,
     LEFT,
+    RATE_HZ,
     Steering,
     greatest_of,
     parse_limits,
+    parse_rate,
+    robot_of,
     stands_after_steering,
 )
 from bot_console.tui.panes.steering.view import lines
@@ -25,6 +28,7 @@ from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Line, Option
 from textual.app import ComposeResult
 from textual.events import MouseDown, MouseEvent, MouseMove, MouseUp
+from textual.timer import Timer
 
 HELD = "The all-stop holds the robot; the line below shows how to release it."
 
@@ -55,6 +59,12 @@ class SteeringPane(Pane):
         self._snapshot = ConsoleSnapshot()
         self.can_focus = True
         self._dragging = self._on_pad = False
+        self._wanted = ""
+        """The topic to steer on as soon as somebody subscribes to it."""
+        self._rate: float | None = None
+        """The rate that every robot is steered at from the beginning."""
+        self._repeating: Timer | None = None
+        """Repeats the command at another rate than the ticks."""
 
     def compose(self) -> ComposeResult:
         """The picture, and a prompt for limits."""
@@ -71,6 +81,11 @@ class SteeringPane(Pane):
         drive = snapshot.drive
         if drive.robot != self._robot:
             self._take_robot(drive.robot)
+        if self._wanted and (robot := robot_of(self._wanted, drive.robots)):
+            self._wanted = ""
+            if robot != drive.robot:
+                self._disarm()
+                self.console.drive.choose(robot)
         whose = (drive.topic, drive.others)
         if snapshot.parameters is not before.parameters or whose != (before.drive.topic, before.drive.others):
             self._limit()
@@ -86,7 +101,39 @@ class SteeringPane(Pane):
             self._disarm("Disarmed: another robot is steered now." if robot else "Disarmed: the robot has left.")
         self._robot = robot
         if robot:
-            self.state = self._states.setdefault(robot, Steering() if self._states else self.state)
+            self.state = self._states.setdefault(robot, self._fresh() if self._states else self.state)
+            self._repeat_at_rate()
+
+    def _fresh(self) -> Steering:
+        return Steering() if self._rate is None else Steering(rate=self._rate)
+
+    def steer_on(self, topic: str, rate: float | None) -> None:
+        """Steer on a topic as soon as somebody subscribes to it, and at a rate (Hz); empty and None: as before."""
+        self._wanted = topic
+        if rate is not None:
+            self._rate = self.state.rate = rate
+            self._repeat_at_rate()
+
+    def _repeat_at_rate(self) -> None:
+        if self._repeating is not None:
+            self._repeating.stop()
+            self._repeating = None
+        if self.state.rate != RATE_HZ:
+            self._repeating = self.set_interval(1.0 / self.state.rate, self._repeat)
+
+    def _repeat(self) -> None:
+        if self.state.armed:
+            self._send()
+
+    def action_rate(self) -> None:
+        """Ask for the rate of the commands."""
+        text = f"{self.state.rate:g}"
+        self.ask(Line("commands per second, Hz (empty: 10)", self._rate_typed, text=text, check=_wrong_rate))
+
+    def _rate_typed(self, text: str) -> None:
+        self.state.rate = parse_rate(text)
+        self._repeat_at_rate()
+        self._draw()
 
     def _draw(self) -> None:
         picture = self.query_one(Picture)
@@ -168,7 +215,7 @@ class SteeringPane(Pane):
         """Repeat the command, or stop if no key was pressed within the dead-man time."""
         if self.state.armed and not (self.has_focus and self.host.screen is self.screen):
             self._disarm("Disarmed: the keyboard went elsewhere.")
-        if self.state.armed:
+        if self.state.armed and (self._repeating is None or self.state.expires(self.clock())):
             self._send()
         if self.state.armed:
             self.console.drive.steer(True)
@@ -312,7 +359,9 @@ class SteeringPane(Pane):
         robots = self._snapshot.drive.robots
 
         def find(typed: str) -> Sequence[Option]:
-            return [Option(each) for each in robots if typed.strip() in each]
+            found = [each for each in robots if typed.strip() in each]
+            named = robot_of(typed.strip(), robots)
+            return [Option(each) for each in found or ([named] if named else [])]
 
         empty = "Nobody takes velocity commands on such a topic."
         choose = self.console.drive.choose
@@ -323,6 +372,14 @@ class SteeringPane(Pane):
         times = DEADMAN_TIMES
         self.state.deadman = times[(times.index(self.state.deadman) + 1) % len(times)]
         self._draw()
+
+
+def _wrong_rate(text: str) -> str:
+    try:
+        parse_rate(text)
+    except ValueError as error:
+        return str(error)
+    return ""
 
 
 def _wrong_limits(text: str) -> str:

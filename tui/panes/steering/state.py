@@ -6,8 +6,9 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 
 from bot_console.tui.console.model import Kind, ParameterTree
+from bot_console.tui.console.robot.command_topics import FINAL, TELEOP
 from bot_console.tui.console.robot.fleet import Scope
-from bot_console.tui.console.robot.robot_model import DriveInfo
+from bot_console.tui.console.robot.robot_model import STEERING_RATES_HZ, DriveInfo
 from bot_console.tui.format import parse_number
 
 STEPS = 20
@@ -15,6 +16,9 @@ STEPS = 20
 
 DEADMAN_TIMES = (1.0, 2.0, 5.0, 10.0)
 """Seconds without a key after which the robot is stopped; terminals do not report key releases."""
+
+RATE_HZ = 10.0
+"""How often a velocity is repeated, unless another rate was given."""
 
 GREATEST = (1.0, 3.0)
 """Limits (m/s, rad/s) if no parameter provides them."""
@@ -41,6 +45,8 @@ class Steering:
     """To the left, in m/s; holonomic bases alone obey it."""
     armed: bool = False
     deadman: float = DEADMAN_TIMES[1]
+    rate: float = RATE_HZ
+    """How often the command is sent while it is not zero, in Hz."""
     greatest: tuple[float, float] = GREATEST
     last_key: float = 0.0
     typed: tuple[float, float] | None = None
@@ -107,13 +113,17 @@ class Steering:
         timeout ends the steering.
         """
         moving = self.moving
-        if self.armed and moving and now - self.last_key >= self.deadman:
+        if self.expires(now):
             self.disarm()
             self.expired, moving = True, False
         if not moving and self.sent_zero:
             return None
         self.sent_zero = not moving
         return self.linear, self.angular, self.sideways
+
+    def expires(self, now: float) -> bool:
+        """Whether the dead-man time is over."""
+        return self.armed and self.moving and now - self.last_key >= self.deadman
 
     @property
     def moving(self) -> bool:
@@ -135,6 +145,25 @@ def stands_after_steering(drive: DriveInfo) -> bool:
     if not drive.lockable:  # only this console's zeros hold it, sent for one of these reasons
         return drive.stopped_here and drive.stop_reason in OWN_REASONS
     return bool(drive.stops) and all(each.here and each.reason in OWN_REASONS for each in drive.stops)
+
+
+def parse_rate(text: str) -> float:
+    """Parse a rate in Hz; empty: the default; raises `ValueError`."""
+    if not text.strip():
+        return RATE_HZ
+    rate = parse_number(text)
+    if not STEERING_RATES_HZ[0] <= rate <= STEERING_RATES_HZ[1]:
+        raise ValueError(f"a number from {STEERING_RATES_HZ[0]:g} to {STEERING_RATES_HZ[1]:g}")
+    return rate
+
+
+def robot_of(topic: str, robots: Iterable[str]) -> str:
+    """The robot that takes commands on a topic; empty if none does. One that is named by its topic is that itself."""
+    name = topic if topic.startswith("/") else f"/{topic}"
+    namespace, _, token = name.rpartition("/")
+    known = set(robots)
+    usual = (namespace or "/") if token in (TELEOP, FINAL) else ""
+    return next((each for each in (name, usual) if each in known), "")
 
 
 def parse_limits(text: str) -> tuple[float, float] | None:

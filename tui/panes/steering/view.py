@@ -9,7 +9,7 @@ from itertools import zip_longest
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.format import sanitize
 from bot_console.tui.panes.steering.plane import ASKED, ROBOT, plane
-from bot_console.tui.panes.steering.state import Steering, stands_after_steering
+from bot_console.tui.panes.steering.state import RATE_HZ, Steering, stands_after_steering
 from bot_console.tui.safety.stop_messages import held_by, holder_is_gone, may_move
 from bot_console.tui.widgets.picture import Line
 
@@ -154,9 +154,10 @@ def _deadman(state: Steering, left: float) -> Line:
         return ((f" no key for {state.deadman:g} s: the robot stands", "warn"),)
     full = round(left * BAR)
     moving = state.moving
+    rate = "" if state.rate == RATE_HZ else f", {state.rate:g} Hz"
     bar = "▰" * full + "▱" * (BAR - full) if state.armed and moving else "▱" * BAR
     return ((f" {'dead-man':<{WORDS}}", ""), (f"{bar} ", "warn" if moving and left < 0.35 else "dim"),
-            (f"stops {state.deadman:g} s after the last key", "dim"))  # fmt: skip
+            (f"stops {state.deadman:g} s after the last key{rate}", "dim"))  # fmt: skip
 
 
 def _chain(state: Steering, drive: DriveInfo, *, narrow: bool = False) -> list[Line]:

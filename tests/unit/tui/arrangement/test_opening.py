@@ -40,6 +40,18 @@ def test_node_is_preselected(line: str) -> None:
     assert opening(line) == Opening("parameters", node="/arm")
 
 
+@pytest.mark.parametrize(
+    "line",
+    [
+        "rqt_robot_steering --default_topic /base/cmd --ros-args -p publish_rate:=20.0",
+        "run rqt_robot_steering rqt_robot_steering --ros-args -p default_topic:=/base/cmd --param publish_rate:=20",
+    ],
+)
+def test_steering_takes_topic_and_rate_from_its_parameters(line: str) -> None:
+    assert opening(line) == Opening("steering", topic="/base/cmd", rate=20.0)
+    assert rqt_opening(line.split())[1] == []
+
+
 @pytest.mark.parametrize(("program", "pane"), RQT_PANES.items())
 def test_every_program_has_its_pane(program: str, pane: str) -> None:
     for line in (program, f"ros2 run {program} {program}", f"run {program} {program}"):
@@ -51,7 +63,11 @@ def test_every_program_has_its_pane(program: str, pane: str) -> None:
     ("line", "note"),
     [
         ("rqt_plot -P /a", "-P of rqt_plot is not taken over"),
-        ("rqt_robot_steering --default_topic /cmd", "--default_topic /cmd of rqt_robot_steering is not taken over"),
+        ("rqt_plot --default_topic /cmd", "--default_topic /cmd of rqt_plot is not taken over"),
+        ("rqt_robot_steering --ros-args -p publish_rate:=500", "publish_rate:=500 is not a number from 1 to 50"),
+        ("rqt_robot_steering --ros-args -p publish_rate:=fast", "publish_rate:=fast is not a number from 1 to 50"),
+        ("rqt_robot_steering --ros-args -p speed:=1", "the parameter speed of rqt_robot_steering is not taken over"),
+        ("rqt_plot --ros-args -p default_topic:=/a", "the parameter default_topic of rqt_plot is not taken over"),
         ("rqt -s rqt_bag", "there is no pane for rqt_bag"),
     ],
 )

@@ -1,0 +1,160 @@
+"""Programs that were started in other terminals, as processes that can be seen but not controlled from here.
+
+What they run is known from the graph of the domain, who started them from `/proc`; without it none is found.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import NamedTuple
+
+from bot_console.tui.console.launch.vitals import FindVitals, Usage
+from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
+
+HEADING = "in other terminals"
+"""The group in which they stand."""
+ELSEWHERE_POLL_S = 1.0
+"""Seconds between two searches."""
+MAX_TITLE = 60
+"""Characters of a command that are shown."""
+LAUNCHERS = ("ros2", "bot-console")
+PYTHON_MODULES = {"bot_console.tui": "bot-console"}
+"""How programs of ours are named that were started with `python -m`."""
+
+
+class _Origin(NamedTuple):
+    """Who started a process: its ancestors' pids with its own first, and the command in the terminal with its pid."""
+
+    line: tuple[int, ...]
+    command: str
+    pid: int
+
+
+class _Found:
+    """A process that was found."""
+
+    def __init__(self, origin: _Origin, usage: Usage | None) -> None:
+        self.origin = origin
+        self.usage = usage
+
+
+class Elsewhere:
+    """Searches the processes of the domain for those that no launch host of this console has started."""
+
+    def __init__(
+        self,
+        processes: Callable[[], Mapping[int, Sequence[str]]] = dict,
+        vitals: FindVitals = lambda pid: None,
+        hosts: Callable[[], Iterable[int]] = lambda: (),
+        proc: Path = Path("/proc"),
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """`processes` returns the nodes of programs on this machine, by pid; `hosts` the pids of launch hosts whose
+        processes are known already; `clock` returns seconds.
+        """
+        self._processes, self._vitals, self._hosts = processes, vitals, hosts
+        self._proc, self._clock = proc, clock
+        self._polled: float | None = None
+        self._found: dict[int, _Found] = {}
+        self._infos: tuple[ProcessInfo, ...] = ()
+        self._merged: tuple[LaunchInfo, tuple[ProcessInfo, ...], LaunchInfo] | None = None
+
+    def beside(self, launch: LaunchInfo) -> LaunchInfo:
+        """What was launched, with what runs elsewhere; the same object until something changes."""
+        now = self._clock()
+        if self._polled is None or now - self._polled >= ELSEWHERE_POLL_S:
+            self._polled = now
+            self._search(now, {each.pid for each in launch.processes})
+        if not self._infos:
+            return launch
+        if self._merged is None or self._merged[0] is not launch or self._merged[1] is not self._infos:
+            merged = replace(launch, processes=(*launch.processes, *self._infos))
+            self._merged = launch, self._infos, merged
+        return self._merged[2]
+
+    def _search(self, now: float, launched: set[int | None]) -> None:
+        nodes = {pid: names for pid, every in self._processes().items() if (names := _shown(every))}
+        self._found = {pid: self._found.get(pid) or self._find(pid, now) for pid in sorted(nodes)}
+        known = {os.getpid(), *self._hosts(), *launched}
+        infos = tuple(
+            _info(pid, nodes[pid], found, now)
+            for pid, found in self._found.items()
+            if found.origin.command and known.isdisjoint(found.origin.line)
+        )
+        if infos != self._infos:
+            self._infos = infos
+
+    def _find(self, pid: int, now: float) -> _Found:
+        vitals = self._vitals(pid)
+        return _Found(self._origin(pid), None if vitals is None else Usage(vitals, now))
+
+    def _origin(self, pid: int) -> _Origin:
+        line, first, words = [pid], pid, self._words(pid)
+        started = words
+        while (parent := self._parent(line[-1])) > 1:
+            line.append(parent)
+            above = self._words(parent)
+            if first == line[-2] and above and _runs_programs(above):
+                first, started = parent, above
+        return _Origin(tuple(line), _title(started) if started else "", first)
+
+    def _words(self, pid: int) -> list[str]:
+        try:
+            content = (self._proc / str(pid) / "cmdline").read_bytes()
+        except OSError:  # It has ended, is another user's, or the system has no such file.
+            return []
+        return [each.decode("utf-8", "replace") for each in content.rstrip(b"\0").split(b"\0") if each]
+
+    def _parent(self, pid: int) -> int:
+        try:
+            return int((self._proc / str(pid) / "stat").read_bytes().rpartition(b")")[2].split()[1])
+        except (OSError, IndexError, ValueError):
+            return 0
+
+
+def _shown(nodes: Sequence[str]) -> tuple[str, ...]:
+    """The nodes that are no tool's, which are hidden, and not the one with which a launch sees the graph."""
+    return tuple(each for each in nodes if "/_" not in each and not each.startswith("/launch_ros_"))
+
+
+def _runs_programs(words: Sequence[str]) -> bool:
+    """Whether a command line is that of a program that starts nodes, unlike a shell's."""
+    name = os.path.basename(words[0])
+    return name in LAUNCHERS or name.startswith("python")
+
+
+def _title(words: Sequence[str]) -> str:
+    """A command as it was typed, without the interpreter and the folders of files."""
+    rest = list(words)
+    if os.path.basename(rest[0]).startswith("python") and len(rest) > 1:
+        rest = rest[1:]
+        while len(rest) > 1 and rest[0].startswith("-") and rest[0] not in ("-m", "-c"):
+            rest = rest[1:]
+        if rest[0] == "-m" and len(rest) > 1:
+            rest = [PYTHON_MODULES.get(rest[1], rest[1]), *rest[2:]]
+    text = " ".join(os.path.basename(each) if os.path.isabs(each) else each for each in [os.path.basename(rest[0]),
+                                                                                          *rest[1:]])  # fmt: skip
+    return text if len(text) <= MAX_TITLE else f"{text[: MAX_TITLE - 1]}…"
+
+
+def _info(pid: int, nodes: tuple[str, ...], found: _Found, now: float) -> ProcessInfo:
+    command, usage = found.origin.command, found.usage
+    if usage is not None:
+        usage.poll(now)
+    label = nodes[0].rpartition("/")[2] if len(nodes) == 1 else f"{len(nodes)} nodes"
+    return ProcessInfo(
+        f"elsewhere@{pid}",
+        label,
+        ProcessState.RUNNING,
+        pid,
+        nodes,
+        (HEADING, command),
+        problem=usage.stands if usage else "",
+        cpu=usage.share if usage else None,
+        memory=usage.memory if usage else None,
+        started_by=f"{command} (pid {found.origin.pid})",
+    )
