@@ -19,7 +19,7 @@ from textual.widgets import Input, Static
 
 
 class ArgumentsScreen(QuestionScreen[dict[str, str]]):
-    """Asks for launch arguments; the answer consists of the values that differ from their defaults."""
+    """Asks for launch arguments, or for other named values; the answer is those that differ from their defaults."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("form")]
     DEFAULT_CSS = """
@@ -44,7 +44,7 @@ class ArgumentsScreen(QuestionScreen[dict[str, str]]):
         """Name, value and description of each argument."""
         with Box() as box:
             box.border_title = Text(sanitize(self._form.label))
-            box.border_subtitle = "↑↓ move · enter launches · esc closes"
+            box.border_subtitle = f"↑↓ move · enter {self._form.verb} · esc closes"
             with VerticalScroll(can_focus=False):
                 for each in self._arguments:
                     with Vertical(classes="argument"):
@@ -104,16 +104,15 @@ class ArgumentsScreen(QuestionScreen[dict[str, str]]):
             for each in self._arguments
             if each.choices and values[each.name] not in each.choices
         ]
-        if wrong:
-            self.query_one("#wrong", Static).update(sanitize("; ".join(wrong)))
+        given = {
+            each.name: values[each.name]
+            for each in self._arguments
+            if values[each.name] != sanitize(each.default or "")
+        }
+        if why := "; ".join(wrong) or self._form.check(given):
+            self.query_one("#wrong", Static).update(sanitize(why))
             return
-        self.answer(
-            {
-                each.name: values[each.name]
-                for each in self._arguments
-                if values[each.name] != sanitize(each.default or "")
-            }
-        )
+        self.answer(given)
 
 
 def choices_line(argument: LaunchArgument, value: str) -> str:

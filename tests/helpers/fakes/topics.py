@@ -10,7 +10,17 @@ from typing import Any
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.topics import forms
 from bot_console.tui.console.topics.message_tree import tree
-from bot_console.tui.console.topics.port import Goal, LiveMessage, Measure, Payload, Repeated, Reply, Slot, Values
+from bot_console.tui.console.topics.port import (
+    Goal,
+    LiveMessage,
+    Measure,
+    Payload,
+    Repeated,
+    Reply,
+    RequestedQos,
+    Slot,
+    Values,
+)
 
 
 class FakeTopics:
@@ -24,6 +34,7 @@ class FakeTopics:
         self.response: Reply = Reply(True, "", 0.0042)
         self.requesters: dict[str, tuple[str, ...]] = {}
         self.listening = ""
+        self.qos: RequestedQos | None = None
         self.running: dict[str, Repeated] = {}
         self.sent_goals: dict[str, Goal] = {}
         self.remembered: dict[str, list[Values]] = {}
@@ -45,8 +56,8 @@ class FakeTopics:
         self.asked.append(("expect", path))
         return Answer(not self.problem, self.problem or "checking 1 topic")
 
-    def listen(self, topic: str) -> None:
-        self.listening = topic
+    def listen(self, topic: str, qos: RequestedQos | None = None) -> None:
+        self.listening, self.qos = topic, qos
         self._heard = LiveMessage(topic)
         if topic in self.messages:
             self.hear(*self.messages[topic])

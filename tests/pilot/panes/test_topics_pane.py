@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo, RateCheck
-from bot_console.tui.console.topics.port import Field, Reply
+from bot_console.tui.console.topics.port import Field, Reply, RequestedQos
 from bot_console.tui.panes.topics.pane import TopicsPane
 from bot_console.tui.panes.topics.table import TopicRows
 from geometry_msgs.msg import Twist
@@ -324,3 +324,27 @@ def test_key_bar_describes_keys_for_topics_services_and_actions() -> None:
         assert "enter Call" not in bar(), "words of one pane are none of another"
 
     run(live(), play, (140, 40))
+
+
+def test_qos_of_the_open_topic_is_asked_for_in_several_fields_at_once() -> None:
+    async def play(session: Session) -> None:
+        await session.press("9")
+        pane = session.pane(TopicsPane)
+        pane.go_to(ODOM_TOPIC)
+        await session.settle()
+        await session.press("enter", "Q")
+        assert f"QoS of {ODOM_TOPIC}" in session.text() and "enter subscribes" in session.text()
+        await session.press("pagedown", "down", "pagedown", "pagedown", "down", "down")
+        await session.type("0")
+        await session.press("enter")
+        assert "depth must be a whole number from 1 to 10000" in session.text()
+        await session.press("backspace")
+        await session.type("5")
+        await session.press("enter")
+        asked = RequestedQos("reliable", "transient_local", "", 5)
+        assert session.console.topics.qos == asked and session.console.topics.listening == ODOM_TOPIC
+        assert "heard reliable transient local depth 5" in session.text()
+        await session.press("Q", "pagedown", "enter")
+        assert session.console.topics.qos == RequestedQos("best_effort", "transient_local", "", 5)
+
+    run(live(), play, (120, 40))

@@ -9,7 +9,7 @@ from bot_console.tui.console.gate import Gate
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.topics.message_tree import tree
 from bot_console.tui.console.topics.node_topics import NodeTopics
-from bot_console.tui.console.topics.port import LiveMessage, Measure
+from bot_console.tui.console.topics.port import LiveMessage, Measure, RequestedQos
 
 
 class BagTopics(NodeTopics):
@@ -38,7 +38,7 @@ class BagTopics(NodeTopics):
             }
         return self._means
 
-    def listen(self, topic: str) -> None:
+    def listen(self, topic: str, qos: RequestedQos | None = None) -> None:
         """Show this topic."""
         self._topic = topic
 

@@ -10,9 +10,15 @@ from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.topics.followed_topic import FollowedTopic
 from bot_console.tui.console.topics.interfaces import interface
 from bot_console.tui.console.topics.message_tree import tree
-from bot_console.tui.console.topics.port import LiveMessage, Payload
+from bot_console.tui.console.topics.offered_topics import Offer
+from bot_console.tui.console.topics.port import LiveMessage, Payload, RequestedQos
 from rclpy.node import Node
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 
+AS_OFFERED = RequestedQos()
+RELIABILITY = {"reliable": ReliabilityPolicy.RELIABLE, "best_effort": ReliabilityPolicy.BEST_EFFORT}
+DURABILITY = {"volatile": DurabilityPolicy.VOLATILE, "transient_local": DurabilityPolicy.TRANSIENT_LOCAL}
+HISTORY = {"keep_last": HistoryPolicy.KEEP_LAST, "keep_all": HistoryPolicy.KEEP_ALL}
 MAX_AGES = 10
 """Steps per second in which an age is shown, so that the object does not change at every poll."""
 
@@ -24,13 +30,15 @@ class Listening(FollowedTopic):
         """`explain` returns why a type is unknown, or else the given text."""
         super().__init__(node)
         self._explain = explain
+        self._qos = AS_OFFERED
         self._newest: tuple[int, Any, float] = (0, None, 0.0)
         self._live = LiveMessage()
 
-    def listen(self, topic: str, graph: GraphInfo) -> None:
+    def listen(self, topic: str, graph: GraphInfo, qos: RequestedQos = AS_OFFERED) -> None:
         """Subscribe to this topic and no other; called by the executor."""
-        if topic == self._topic and (self._subscription is None) == (not topic):
+        if topic == self._topic and qos == self._qos and (self._subscription is None) == (not topic):
             return
+        self._qos = qos
         self._detach()
         self._newest, self._problem = (0, None, 0.0), ""
         self._topic = topic
@@ -41,6 +49,19 @@ class Listening(FollowedTopic):
             return interface(Payload.MESSAGE, kind)
         except ValueError as error:
             raise ValueError(self._explain(kind, str(error))) from None
+
+    def _profile(self, offer: Offer) -> QoSProfile:
+        """What was asked for; the rest as it is offered."""
+        profile, qos = offer.profile(), self._qos
+        if qos.reliability:
+            profile.reliability = RELIABILITY[qos.reliability]
+        if qos.durability:
+            profile.durability = DURABILITY[qos.durability]
+        if qos.history:
+            profile.history = HISTORY[qos.history]
+        if qos.depth:
+            profile.depth = qos.depth
+        return profile
 
     def _take(self, message: Any) -> None:
         self._newest = (self._newest[0] + 1, message, time.monotonic())

@@ -13,7 +13,17 @@ from typing import TYPE_CHECKING, Any, cast
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.gate import Gate
 from bot_console.tui.console.model import GraphInfo
-from bot_console.tui.console.topics.port import Goal, LiveMessage, Measure, Payload, Repeated, Reply, Slot, Values
+from bot_console.tui.console.topics.port import (
+    Goal,
+    LiveMessage,
+    Measure,
+    Payload,
+    Repeated,
+    Reply,
+    RequestedQos,
+    Slot,
+    Values,
+)
 from bot_console.tui.console.topics.rate_checks import RateChecks
 
 if TYPE_CHECKING:
@@ -122,9 +132,9 @@ class NodeTopics:
         self.rate_checks.expect(found)
         return Answer(True, f"checking {', '.join(found)}" if found else "no file is checked any more")
 
-    def listen(self, topic: str) -> None:
+    def listen(self, topic: str, qos: RequestedQos | None = None) -> None:
         """Keep the newest message of this topic."""
-        self._later(lambda: self._listening.listen(topic, self._graph()))
+        self._later(lambda: self._listening.listen(topic, self._graph(), qos or RequestedQos()))
 
     def heard(self) -> LiveMessage:
         """The newest message."""

@@ -38,6 +38,27 @@ class Measure:
     """Whether too little was measured for the rate and the bandwidth to be reliable."""
 
 
+MAX_DEPTH = 10_000
+"""The longest queue of a subscription that can be asked for."""
+
+
+@dataclass(frozen=True, slots=True)
+class RequestedQos:
+    """The QoS of a subscription as a person asks for it; what is empty, or 0, is as the publishers offer it."""
+
+    reliability: str = ""
+    """`reliable` or `best_effort`, likewise the next two: the names that `ros2 topic echo --qos-...` takes."""
+    durability: str = ""
+    history: str = ""
+    depth: int = 0
+
+    @property
+    def text(self) -> str:
+        """What was asked for, in the words of the list; empty: nothing."""
+        words = [each.replace("_", " ") for each in (self.reliability, self.durability, self.history) if each]
+        return " ".join([*words, *([f"depth {self.depth}"] if self.depth else [])])
+
+
 @dataclass(frozen=True, slots=True)
 class Field:
     """A row of a message: a field, or an element of an array."""
@@ -145,8 +166,10 @@ class Topics(Protocol):
         """
         ...
 
-    def listen(self, topic: str) -> None:
-        """Keep the newest message of this topic and of no other; an empty name stops that."""
+    def listen(self, topic: str, qos: RequestedQos | None = None) -> None:
+        """Keep the newest message of this topic and of no other; an empty name stops that. Without `qos` it is heard as
+        its publishers offer it.
+        """
         ...
 
     def heard(self) -> LiveMessage:

@@ -10,18 +10,19 @@ from typing import Any
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo, RateCheck
 from bot_console.tui.console.query import Query, parse
-from bot_console.tui.console.topics.port import LiveMessage
+from bot_console.tui.console.topics.port import LiveMessage, RequestedQos
 from bot_console.tui.files.save_file import typed_path
 from bot_console.tui.format import counted
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.topics.message import MessageRows
+from bot_console.tui.panes.topics.qos_form import changed_qos, qos_fields, unheard, wrong_qos
 from bot_console.tui.panes.topics.rows import Kind, Row, matches, rows
 from bot_console.tui.panes.topics.table import TopicRows, heading
 from bot_console.tui.text.figures import age_text, rate_text
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.common import wrong_path
 from bot_console.tui.widgets.prompt.line import Prompt
-from bot_console.tui.widgets.prompt.question import Choice, Fill, Line, Option
+from bot_console.tui.widgets.prompt.question import Choice, Fill, Form, Line, Option
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
@@ -64,6 +65,8 @@ class TopicsPane(ListPane):
         self._measuring: list[str] = []
         self._topic = ""
         """The topic whose message is open."""
+        self._qos: dict[str, RequestedQos] = {}
+        """The QoS with which topics are heard otherwise than as they are offered."""
         self._shown = LiveMessage()
         self._frozen = False
         self._polled = self._message_polled_at = 0.0
@@ -181,7 +184,7 @@ class TopicsPane(ListPane):
     def _poll_message(self, now: float) -> None:
         """Show the newest message, or, while frozen, how many have come since."""
         if not self._message_polled_at:
-            self.console.topics.listen(self._topic)
+            self.console.topics.listen(self._topic, self._qos.get(self._topic))
         self._message_polled_at = now
         heard = self.console.topics.heard()
         if heard.topic != self._topic:
@@ -192,16 +195,18 @@ class TopicsPane(ListPane):
         self.query_one("#message-state", StaticText).show_text(self._message_state(heard))
 
     def _message_state(self, heard: LiveMessage) -> str:
+        asked = self._qos.get(self._topic)
+        qos = f"heard {asked.text}  " if asked else ""
         if heard.problem:
             return f"{self._topic}  {heard.problem}"
         if not heard.count:
-            return f"{self._topic}  no message yet"
+            return f"{self._topic}  {qos}no message yet{unheard(asked, self._topic, self._info) if asked else ''}"
         if self._frozen:
             return f"{self._topic}  frozen, +{heard.count - self._shown.count} new; space goes on"
         measure = self._list.measure_of(self._topic)
         rate = rate_text(measure.rate, provisional=measure.provisional) if measure.rate else ""
         parts = [counted(heard.count, "message"), age_text(heard.age), f"{rate} Hz" if rate else ""]
-        return f"{self._topic}  {', '.join(filter(None, parts))}"
+        return f"{self._topic}  {qos}{', '.join(filter(None, parts))}"
 
     def _report(self) -> None:
         """What is listed, and all about the row at the cursor."""
@@ -290,6 +295,22 @@ class TopicsPane(ListPane):
         if self._topic:
             self._frozen = not self._frozen
             self._poll_message(self.clock())
+
+    def action_qos(self) -> None:
+        """Ask for the QoS with which the topic is heard."""
+        row = self._list.current
+        topic = self._topic or (row.name if row is not None and self._kind is Kind.TOPICS else "")
+        if topic:
+            fields = qos_fields(self._qos.get(topic) or RequestedQos())
+            then = partial(self._hear, topic)
+            self.ask(Form(f"QoS of {topic}", then, arguments=fields, verb="subscribes", check=wrong_qos))
+
+    def _hear(self, topic: str, changed: Mapping[str, str]) -> None:
+        qos = changed_qos(self._qos.get(topic) or RequestedQos(), changed)
+        self._qos = {**self._qos, topic: qos}
+        if qos == RequestedQos():
+            del self._qos[topic]
+        self._open(topic)
 
     def action_kind(self) -> None:
         """Topics, services, actions."""

@@ -96,9 +96,13 @@ class Choice(Question[str]):
 
 @dataclass(frozen=True)
 class Form(Question[dict[str, str]]):
-    """Values for the arguments of a launch file; the answer is those that differ from their defaults."""
+    """Named values, such as the arguments of a launch file; the answer is those that differ from their defaults."""
 
     arguments: Sequence[LaunchArgument] = ()
+    verb: str = "launches"
+    """What Enter does."""
+    check: Callable[[dict[str, str]], str] = lambda _: ""
+    """Why the answer cannot be taken; empty if it can."""
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.robot import robot_drive
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.console.topics.offered_topics import offered_qos
-from bot_console.tui.console.topics.port import Payload
+from bot_console.tui.console.topics.port import Payload, RequestedQos
 from example_interfaces.action import Fibonacci
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
@@ -109,6 +109,18 @@ def test_the_newest_message_is_shown_as_lines(console: RosConsole) -> None:
     assert {each.path: each.text for each in heard.fields}["pose.pose.position.x"] == "4.25"
     console.topics.listen("/nowhere")
     until(lambda: "no topic /nowhere" in console.topics.heard().problem, "the problem")
+
+
+def test_a_topic_is_heard_with_the_qos_that_is_asked_for(console: RosConsole, robot: Robot) -> None:
+    def reliabilities() -> set[ReliabilityPolicy]:
+        return {each.qos_profile.reliability for each in robot.node.get_subscriptions_info_by_topic("/odom")}
+
+    console.topics.listen("/odom", RequestedQos("best_effort", "volatile", "keep_last", 3))
+    until(lambda: console.topics.heard().count, "a message")
+    assert ReliabilityPolicy.RELIABLE not in reliabilities()
+    console.topics.listen("/odom", RequestedQos("reliable", depth=7))
+    until(lambda: ReliabilityPolicy.RELIABLE in reliabilities(), "a reliable subscription")
+    assert console.topics.heard().count == 0, "nothing arrives from a best-effort publisher"
 
 
 def test_a_message_is_published_once_or_at_a_rate_until_stopped(console: RosConsole, robot: Robot) -> None:

@@ -1,0 +1,57 @@
+"""The QoS of a subscription as a form, and why nothing may arrive with it. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from bot_console.tui.console.model import GraphInfo, LaunchArgument
+from bot_console.tui.console.topics.port import MAX_DEPTH, RequestedQos
+
+OFFERED = "as_offered"
+CHOICES = {
+    "reliability": (OFFERED, "reliable", "best_effort"),
+    "durability": (OFFERED, "volatile", "transient_local"),
+    "history": (OFFERED, "keep_last", "keep_all"),
+}
+ABOUT = {
+    "reliability": "A reliable subscription hears nothing from a best-effort publisher",
+    "durability": "A transient-local subscription gets what was published earlier, from such publishers only",
+    "history": "Whether the newest messages are kept, or all",
+}
+DEPTH = "depth"
+
+
+def qos_fields(now: RequestedQos) -> Sequence[LaunchArgument]:
+    """The fields of the form."""
+    policies = [
+        LaunchArgument(name, ABOUT[name], getattr(now, name) or OFFERED, choices) for name, choices in CHOICES.items()
+    ]
+    depth = LaunchArgument(DEPTH, "Messages that are kept until they are shown", str(now.depth or OFFERED))
+    return (*policies, depth)
+
+
+def wrong_qos(changed: Mapping[str, str]) -> str:
+    """Why what was typed cannot be used; empty if it can."""
+    depth = changed.get(DEPTH, OFFERED)
+    if depth == OFFERED or (depth.isascii() and depth.isdigit() and len(depth) < 8 and 1 <= int(depth) <= MAX_DEPTH):
+        return ""
+    return f"depth must be a whole number from 1 to {MAX_DEPTH}, or {OFFERED}"
+
+
+def changed_qos(now: RequestedQos, changed: Mapping[str, str]) -> RequestedQos:
+    """The QoS with other values, as the form returns them."""
+    values = {name: "" if text == OFFERED else text for name, text in changed.items()}
+    depth = values.pop(DEPTH, str(now.depth))
+    return replace(now, **values, depth=int(depth or 0))
+
+
+def unheard(asked: RequestedQos, topic: str, info: GraphInfo | None) -> str:
+    """Why no message arrives, if the publishers offer less than was asked for."""
+    offers = [end.qos for node in (info.nodes if info else ()) for end in node.publishers if end.name == topic]
+    wanted = {"best effort": asked.reliability == "reliable", "volatile": asked.durability == "transient_local"}
+    for less, matters in wanted.items():
+        count = sum(less in each for each in offers)
+        if matters and count:
+            return f": {count} of {len(offers)} publishers offer {less}, so nothing arrives from them"
+    return ""
