@@ -56,9 +56,11 @@ print(sorted(future.result().result.names))
 """
 """A node that answers it spins: a signal then interrupts it there, and not while it logs."""
 OTHERS_END = "others end"
-IN_ANY_ORDER = ("fibonacci", "single_goal", "callback_groups two", "callback_groups reentrant", "spins_in_threads")
-"""Programs with lines whose order is a matter of time: an action's first feedback may arrive before its response, and
-callbacks run in several threads.
+IN_ANY_ORDER = (
+    "fibonacci", "single_goal", "lifecycle", "callback_groups two", "callback_groups reentrant", "spins_in_threads",
+)  # fmt: skip
+"""Programs with lines whose order is a matter of time: an action's first feedback may arrive before its response,
+messages come from two topics, and callbacks run in several threads.
 """
 
 
@@ -110,7 +112,7 @@ CASTS = [
 COURSE_NODES = [
     [Line("simple_robot_step1.py", OTHERS_END), Line(f"-c {shlex.quote(ASKS)} simple_robot")],
     [Line("simple_robot_step2.py", OTHERS_END), Line(f"-c {shlex.quote(ASKS)} simple_robot")],
-    [Line("simple_robot_step3.py", OTHERS_END), Line(f"-c {shlex.quote(ASKS)} simple_robot")],
+    [Line("simple_robot_step3.py", "Speed"), Line(f"-c {shlex.quote(ASKS)} simple_robot")],
     [Line("configurable_robot.py", OTHERS_END), Line(f"-c {shlex.quote(ASKS)} configurable_robot")],
     [Line("data_publisher.py", OTHERS_END), Line(f"-c {shlex.quote(ASKS)} data_publisher")],
     [Line("intelligent_robot/robot_node.py", r"SAFE.*Speed")],
