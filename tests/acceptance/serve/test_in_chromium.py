@@ -16,7 +16,7 @@ from browser import CHROMIUM, Page, browser
 from emulator import Emulator
 
 pytestmark = pytest.mark.skipif(not CHROMIUM, reason="there is no Chromium")
-TIMEOUT_S = 140.0
+TIMEOUT_S = 280.0
 SHOWN = "document.body?.classList.contains('-first-byte')"
 ABOVE_STOP = (
     "document.querySelector('.xterm-screen').getBoundingClientRect().bottom"
