@@ -1,4 +1,7 @@
-"""A robot that loses its operator stands until a person hands it back; judged by the odometry that a witness sees."""
+"""A robot that loses its operator stands until a person hands it back; judged by the odometry that a witness sees.
+
+The default run kills a program that steers, in stepped time: `robot/test_emergency_stop.py`.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +17,7 @@ if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
 from processes.live_robot import LiveRobot, live_robot
-from processes.losses import PERSONS, STOPS, killed_console
+from processes.losses import PERSONS, STOPS
 
 
 @pytest.fixture(scope="module")
@@ -26,12 +29,8 @@ def robot(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveRobot]:
     shutil.rmtree(sockets, ignore_errors=True)
 
 
-OFTEN = (killed_console,)
-"""What the default run tries; each takes consoles. Stops that are kept: `robot/test_emergency_stop.py`."""
-LOSSES = [pytest.param(each, marks=() if each in OFTEN else pytest.mark.soak) for each in (*PERSONS, *STOPS)]
-
-
-@pytest.mark.parametrize("loss", LOSSES, ids=lambda each: each.__name__)
+@pytest.mark.soak
+@pytest.mark.parametrize("loss", (*PERSONS, *STOPS), ids=lambda each: each.__name__)
 def test_robot_that_lost_its_operator_stands_until_handed_back(
     robot: LiveRobot, loss: Callable[[LiveRobot], float]
 ) -> None:
