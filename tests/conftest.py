@@ -9,7 +9,7 @@ import signal
 import socket
 import sys
 import tempfile
-from collections.abc import Generator, Iterator
+from collections.abc import Generator, Iterator, Sequence
 from pathlib import Path
 from weakref import WeakKeyDictionary
 
@@ -137,15 +137,35 @@ def pytest_xdist_auto_num_workers() -> int:
     return 2 * (os.cpu_count() or 1)
 
 
+WAITING = ("acceptance", "contract")
+"""Folders whose tests mostly wait for other programs."""
+COMPUTING = ("pilot", "project", "property", "snapshot")
+"""Folders whose tests mostly compute."""
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """One order, however they were read; and each test is tried twice.
+
+    Files that wait and files that compute alternate: workers that all wait at the same time leave processors idle, and
+    many programs that start at the same time delay each other.
 
     On a busy machine a part of what a test waits for may come too late. The summary counts what needed its second try
     (`rerun`) and shows what failed in the first; a fault fails both.
     """
-    items.sort(key=lambda each: each.path)
+    turns = _turns(sorted({each.path for each in items}))
+    items.sort(key=lambda each: turns[each.path])
     for item in items:
         item.add_marker(pytest.mark.flaky(reruns=1))
+
+
+def _turns(files: Sequence[Path]) -> dict[Path, tuple[float, Path]]:
+    """What the files are sorted by: those of both kinds begin and end together, all others follow."""
+    folders = {each: each.relative_to(TESTS).parts[0] if each.is_relative_to(TESTS) else "" for each in files}
+    turns = {each: (1.0, each) for each in files}
+    for kind in (WAITING, COMPUTING):
+        those = [each for each in files if folders[each] in kind]
+        turns |= {each: (index / len(those), each) for index, each in enumerate(those)}
+    return turns
 
 
 @pytest.hookimpl(wrapper=True)

@@ -50,6 +50,11 @@ class Session:
             self.app.post_message(events.Key(_character_to_key(character), character))
         await self.settle()
 
+    async def paste(self, text: str) -> None:
+        """Paste a text into the focused field, where typing is not what a test is about."""
+        self.app.post_message(events.Paste(text))
+        await self.settle()
+
     async def click(self, text: str, *, times: int = 1, last: bool = False) -> None:
         """Click on the beginning of a text on the screen, at its first or last occurrence."""
         lines = self.lines()
@@ -110,7 +115,7 @@ def run(
         console, launcher = system
         console.launcher = launcher
         app = BotConsoleApp(console, FakeCommandLine(console.asked), refresh_hz=0, appearance=appearance)
-        with at_rest():
+        with at_rest(is_scripted=True):
             async with app.run_test(size=size, notifications=True) as pilot:
                 session = Session(app, pilot, console, launcher)
                 for kind in (SteeringPane, DiagnosticsPane, AlarmsPane, ImagesPane, LaunchPane):

@@ -27,5 +27,5 @@ def plain_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture(autouse=True)
 def pictures_are_taken_at_rest() -> Iterator[None]:
-    with at_rest():
+    with at_rest(is_scripted=True):
         yield

@@ -69,7 +69,7 @@ def run(folder: Path, play: Callable[[Session], Awaitable[None]], size: tuple[in
             appearance=replace(Appearance(), arrangement=Arrangement(WithLesson(Forgetful()), NAME)),
             plugins=lambda: [entry],
         )
-        with at_rest():
+        with at_rest(is_scripted=True):
             async with app.run_test(size=size, notifications=True) as pilot:
                 session = Session(app, pilot, console, launcher)
                 await session.settle()

@@ -52,7 +52,7 @@ def arrive(typed: str, play: Callable[[Session], Awaitable[None]], panes: int = 
             return System(console, FakeCommandLine(console.asked))
 
         app = BotConsoleApp(reach=reach, refresh_hz=0)
-        with at_rest():
+        with at_rest(is_scripted=True):
             async with app.run_test(size=SIZE, notifications=True) as pilot:
                 while not app.current_pane or len(app.query("Pane")) < panes:
                     await pilot.pause()
@@ -73,7 +73,7 @@ def test_the_keys_of_the_first_frame_are_those_of_the_pane_that_is_coming() -> N
             return System(console, FakeCommandLine(console.asked))
 
         app = BotConsoleApp(reach=reach, refresh_hz=0, opening=Opening(pane="steering"))
-        with at_rest():
+        with at_rest(is_scripted=True):
             async with app.run_test(size=SIZE) as pilot:
                 while not app.query("#images"):
                     await pilot.pause()
@@ -105,7 +105,7 @@ def test_the_first_frame_has_the_places_of_the_panes_the_tabs_and_the_keys(monke
 
     async def main() -> None:
         app = BotConsoleApp(reach=lambda: System(live()[0]), refresh_hz=0)
-        with at_rest():
+        with at_rest(is_scripted=True):
             async with app.run_test(size=SIZE) as pilot:
                 await pilot.pause()
                 text = "\n".join(strip.text for strip in app.screen._compositor.render_strips())

@@ -42,9 +42,9 @@ def streams(monkeypatch: pytest.MonkeyPatch) -> list[Printing]:
 
 
 async def begin(session: Session, line: str = "ros2 topic hz /odom") -> StreamPanels:
-    """Type a line that goes on."""
+    """Run a line that goes on."""
     await session.press(":")
-    await session.type(line)
+    await session.paste(line)
     await session.press("enter")
     return session.pane(StreamPanels)
 
