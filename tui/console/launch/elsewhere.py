@@ -1,6 +1,7 @@
-"""Programs that were started in other terminals, as processes that can be seen but not controlled from here.
+"""Programs that were started in other terminals, as processes that can be seen but not controlled from here; and the
+nodes of launched programs that are no `Node` of their launch file.
 
-What they run is known from the graph of the domain, who started them from `/proc`; without it none is found.
+What runs is known from the graph of the domain, who started it from `/proc`; without it nothing is found.
 """
 
 from __future__ import annotations
@@ -61,7 +62,11 @@ class Elsewhere:
         self._polled: float | None = None
         self._found: dict[int, _Found] = {}
         self._infos: tuple[ProcessInfo, ...] = ()
-        self._merged: tuple[LaunchInfo, tuple[ProcessInfo, ...], LaunchInfo] | None = None
+        self._launched: dict[int, tuple[str, ...]] = {}
+        """The nodes of launched processes, by pid."""
+        self._ended: dict[str, tuple[str, ...]] = {}
+        """The same by key, for those that end."""
+        self._merged: tuple[tuple[object, ...], LaunchInfo] | None = None
 
     def beside(self, launch: LaunchInfo) -> LaunchInfo:
         """What was launched, with what runs elsewhere; the same object until something changes."""
@@ -69,12 +74,21 @@ class Elsewhere:
         if self._polled is None or now - self._polled >= ELSEWHERE_POLL_S:
             self._polled = now
             self._search(now, {each.pid for each in launch.processes})
-        if not self._infos:
+        if not (self._infos or self._launched or self._ended):
             return launch
-        if self._merged is None or self._merged[0] is not launch or self._merged[1] is not self._infos:
-            merged = replace(launch, processes=(*launch.processes, *self._infos))
-            self._merged = launch, self._infos, merged
-        return self._merged[2]
+        parts = launch, self._infos, self._launched
+        if self._merged is None or any(old is not new for old, new in zip(self._merged[0], parts, strict=True)):
+            own = (self._with_nodes(each) for each in launch.processes)
+            self._merged = parts, replace(launch, processes=(*own, *self._infos))
+        return self._merged[1]
+
+    def _with_nodes(self, process: ProcessInfo) -> ProcessInfo:
+        """A process with the nodes that only the graph knows, also after its end."""
+        found = self._launched.get(process.pid or 0) or self._ended.get(process.key, ())
+        if found:
+            self._ended[process.key] = found
+        more = tuple(each for each in found if each not in process.nodes)
+        return replace(process, nodes=(*process.nodes, *more)) if more else process
 
     def _search(self, now: float, launched: set[int | None]) -> None:
         nodes = {pid: names for pid, every in self._processes().items() if (names := _shown(every))}
@@ -87,6 +101,13 @@ class Elsewhere:
         )
         if infos != self._infos:
             self._infos = infos
+        own: dict[int, tuple[str, ...]] = {}
+        for pid, found in self._found.items():
+            owner = next((each for each in found.origin.line if each in launched), 0)
+            own[owner] = (*own.get(owner, ()), *nodes[pid])
+        own.pop(0, None)
+        if own != self._launched:
+            self._launched = own
 
     def _find(self, pid: int, now: float) -> _Found:
         vitals = self._vitals(pid)

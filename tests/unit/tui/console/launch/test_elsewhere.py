@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from pathlib import Path
 
 from bot_console.tui.console.launch.elsewhere import HEADING, Elsewhere
@@ -72,7 +73,19 @@ def test_what_a_known_launch_host_or_this_console_started_is_not_found_again(tmp
     assert machine.found() == ()
     machine.hosts = []
     launched = LaunchInfo(processes=(ProcessInfo("talker@1", "talker-1", ProcessState.RUNNING, 301),))
-    assert machine.found(launched) == launched.processes
+    assert [each.key for each in machine.found(launched)] == ["talker@1"]
+
+
+def test_nodes_of_a_launched_program_are_known_even_if_it_started_them_through_a_shell(tmp_path: Path) -> None:
+    machine = Machine(tmp_path)
+    machine.runs(600, SHELL, "sh", "-c", "python3 mine.py")
+    machine.runs(601, 600, "python3", "mine.py", nodes=("/mine", "/_hidden"))
+    plain = ProcessInfo("sh@1", "sh-1", ProcessState.RUNNING, 600)
+    named = ProcessInfo("b@2", "b-2", ProcessState.RUNNING, 700, ("/b",))
+    assert machine.found(LaunchInfo(processes=(plain, named))) == (replace(plain, nodes=("/mine",)), named)
+    del machine.nodes[601]
+    ended = replace(plain, state=ProcessState.CRASHED, pid=None, exit_code=1)
+    assert machine.found(LaunchInfo(processes=(ended, named)))[0].nodes == ("/mine",)
 
 
 def test_it_is_the_same_object_until_something_changes(tmp_path: Path) -> None:
