@@ -40,10 +40,12 @@ chmod +x "$root/srv/venv/bin/bot-console"
 
 inside 'uname -m; bot-console --version'
 inside "python -m pytest -q -o timeout=3000 $*" || echo "pytest ended with $?"
-echo "there: $(inside "/usr/bin/time -v -o /tmp/run bot-console ${run[*]}" | python3 -c "$digest")"
-echo "here:  $(bot-console "${run[@]}" | python3 -c "$digest")"
-inside "bot-console --headless --duration 1e9 >/dev/null & (sleep 90; kill -INT \$(pgrep -f 'tui attach')) & \
-    script -qec '/usr/bin/time -v -o /tmp/attach python -m bot_console.tui attach' /dev/null >/dev/null; kill %1"
+echo "there: $(inside "/usr/bin/time -v -o /tmp/run bot-console ${run[*]} 2>/dev/null" | python3 -c "$digest")"
+echo "here:  $(bot-console "${run[@]}" 2>/dev/null | python3 -c "$digest")"
+inside 'bot-console --headless --duration 1e9 >/dev/null 2>&1 & robot=$!
+    script -qec "/usr/bin/time -v -o /tmp/attach timeout --foreground -s INT 120 python -m bot_console.tui attach" \
+        /dev/null >/dev/null </dev/null
+    kill -INT $robot' || true # timeout ends with 124
 for what in run attach; do
     echo "$what there:"
     grep -E 'Maximum resident|User time|System time|Elapsed' "$root/tmp/$what"
