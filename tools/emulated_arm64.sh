@@ -43,7 +43,7 @@ inside "python -m pytest -q -o timeout=3000 $*" || echo "pytest ended with $?"
 echo "there: $(inside "/usr/bin/time -v -o /tmp/run bot-console ${run[*]} 2>/dev/null" | python3 -c "$digest")"
 echo "here:  $(bot-console "${run[@]}" 2>/dev/null | python3 -c "$digest")"
 inside 'bot-console --headless --duration 1e9 >/dev/null 2>&1 & robot=$!
-    script -qec "/usr/bin/time -v -o /tmp/attach timeout --foreground -s INT 120 python -m bot_console.tui attach" \
+    script -qec "/usr/bin/time -v -o /tmp/attach timeout --foreground -k 60 120 python -m bot_console.tui attach" \
         /dev/null >/dev/null </dev/null
     kill -INT $robot' || true # timeout ends with 124
 for what in run attach; do
