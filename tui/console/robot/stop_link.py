@@ -31,7 +31,7 @@ LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 HEARTBEAT_S = 0.2
 """Seconds between two claims of a console that has control; after 1 s of silence the robot locks itself."""
 RELEASE_TIMEOUT_S = 2.0
-"""Seconds for which a release is repeated for a lock that has not acknowledged it."""
+"""Seconds for which a release is repeated for a lock that does not report; one that reports may take any time."""
 REMINDER_S = 1.0
 """Seconds between two copies of a stop that every lock has acknowledged: one may have lost it unnoticed."""
 REPORT_TIMEOUT_S = 3.0
@@ -301,13 +301,24 @@ class StopLink:
         """Repeat requests that have not been acknowledged; to be called ten times a second."""
         now = time.monotonic()
         if now > self._release_until:
-            self._releasing = frozenset()
+            self._releasing &= self._still_held()
         if self._releasing:
             self._send_release()
         if self.info.confirmed and self._silent_locks():
             self._update()
         if self.stopping or now - self._sent_at >= REMINDER_S:
             self._send_stops()
+
+    def _still_held(self) -> frozenset[str]:
+        """The ids of stops that locks report; none once a lock has been silent, since a late release would come
+        unexpected.
+
+        A lock on a busy machine may need longer for a release, and refuses it as often as its challenge has changed.
+        """
+        if self._silent_locks():
+            return frozenset()
+        states = [each for each in list(self._states.values()) if each.released is not None]
+        return frozenset(each.id for state in states for each in state.stops)
 
     def _send_stops(self) -> None:
         self._sent_at = time.monotonic()

@@ -11,7 +11,7 @@ from typing import Any, cast
 
 import pytest
 from bot_console.tui.console.robot import stop_link
-from bot_console.tui.console.robot.stop_link import REPORT_TIMEOUT_S, StopLink
+from bot_console.tui.console.robot.stop_link import RELEASE_TIMEOUT_S, REPORT_TIMEOUT_S, StopLink
 from bot_console_robot.safety.emergency_stop import ARBITER, BASE, LATCHED, EmergencyStop
 from bot_console_robot.safety.lock import Lock, Stop
 from bot_console_robot.safety.stop_messages import State, state_message
@@ -187,6 +187,27 @@ def test_a_report_that_comes_after_its_lock_has_gone_counts_for_nothing(monkeypa
     bus.send(arbiter, report)
     bus.settle()
     assert anna.info.locks == 1 and anna.info.confirmed
+
+
+@pytest.mark.parametrize("silent", [False, True])
+def test_a_release_is_repeated_as_long_as_the_locks_report(
+    silent: bool, rig: StopRig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    now = [0.0]
+    monkeypatch.setattr(stop_link, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    anna = rig.links["anna"]
+    press = anna.add_stop("ALL STOP")
+    rig.settle()
+    for lock in rig.locks.values():
+        lock.stop("robot", "a fault")  # Another challenge, which anna has not received: her release is refused.
+    anna.withdraw(press)
+    now[0] = RELEASE_TIMEOUT_S + 0.5
+    if silent:
+        now[0] += REPORT_TIMEOUT_S
+        anna.repeat()  # Nothing has come from the locks meanwhile: a release that is sent later would come unexpected.
+    rig.settle(3)
+    assert all((press in lock.lock.ids) is silent for lock in rig.locks.values())
+    assert all(lock.lock.held for lock in rig.locks.values())
 
 
 def test_a_stop_without_locks_is_unconfirmed_and_sent_to_new_locks(
