@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
+from typing import Protocol
 
 from rich.cells import get_character_cell_size
 
 TOKEN = re.compile(r"\x1b\[(?P<private>\??)(?P<numbers>[\d;]*)(?P<final>[@-~])|\x1b.|(?P<letter>[^\x1b])", re.DOTALL)
 BLANK = (" ", "")
+FRAME_END = b"\x1b[6n"
+"""The query to the terminal after each frame."""
 
 
 class Emulator:
@@ -78,3 +82,25 @@ def _kind(code: str) -> str:
     if value == 38 or 30 <= value <= 37 or 90 <= value <= 97:
         return "x"
     return "y" if value == 48 or 40 <= value <= 47 or 100 <= value <= 107 else code
+
+
+class Output(Protocol):
+    """A program in a terminal."""
+
+    output: bytes
+    """All that it has written."""
+
+
+def screen_of(program: Output) -> Callable[..., bool]:
+    """Whether the screen shows all of some texts; its output is differences between frames, so bytes would not do."""
+    screen, fed = Emulator(120, 40), 0
+
+    def shows(*words: str) -> bool:
+        nonlocal fed
+        whole = max(fed, program.output.rfind(FRAME_END))
+        screen.feed(program.output[fed:whole].decode())
+        fed = whole
+        text = "\n".join(screen.lines())
+        return all(each in text for each in words)
+
+    return shows

@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from emulator import Emulator
+from emulator import screen_of
 from fakes.ros_installation import make_standin
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -19,8 +19,6 @@ if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
 CONSOLE = ["-m", "bot_console.tui"]
-FRAME_END = b"\x1b[6n"
-"""The query to the terminal after each frame."""
 ROBOT = """
 import rclpy
 from geometry_msgs.msg import Twist
@@ -90,21 +88,6 @@ def robot(
     yield process
     process.kill()
     process.wait()
-
-
-def screen_of(terminal: Terminal) -> Callable[..., bool]:
-    """Whether the screen shows all of some texts; its output is differences between frames, so bytes would not do."""
-    screen, fed = Emulator(120, 40), 0
-
-    def shows(*words: str) -> bool:
-        nonlocal fed
-        whole = max(fed, terminal.output.rfind(FRAME_END))
-        screen.feed(terminal.output[fed:whole].decode())
-        fed = whole
-        text = "\n".join(screen.lines())
-        return all(each in text for each in words)
-
-    return shows
 
 
 def test_attached_console_shows_robot_launches_beside_it_and_leaves_it_alone(

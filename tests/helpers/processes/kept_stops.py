@@ -13,6 +13,8 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 
+from emulator import screen_of
+
 from processes.live_robot import DRIVER, MOVING, RESTING, TIMEOUT_S, LiveRobot
 from processes.losses import BRAKING, CONSOLE, WATCHED, Terminal, console, is_alive
 
@@ -78,30 +80,32 @@ def held_through(way: Way, robot: LiveRobot) -> float:
         with way.disturb(robot, person):
             wait(person, WATCHED)
         wait(person, WATCHED)
-        drives_after_restart(robot)
+        drives_after_restart(robot, person)
         if way.releases_within:
             way.stop(robot, person)
             _until_rests(robot, person)
             with way.disturb(robot, person):
                 wait(person, WATCHED)
-                drives_after_restart(robot, "--all")
+                drives_after_restart(robot, person, "--all")
             wait(person, WATCHED)
-            drives_after_restart(robot)
+            drives_after_restart(robot, person)
     return went_on
 
 
 def _stop_and_release(robot: LiveRobot, person: Terminal) -> None:
-    """Press the stop key and then again, as a person does who sees the robot stand, until it drives.
+    """Press the stop key and then again, as a person does who sees the robot stand and that the key releases it.
 
-    On a busy machine the second press may come before the console has drawn the stop; then it stops once more.
+    On a busy machine the console may already show a stop whose key has not had its turn: then another press stops the
+    robot once more.
     """
+    shows = screen_of(person)
     person.type("!")
     _until_rests(robot, person)
-    person.read_until(lambda: b"held" in person.output, "the acknowledged stop")
     deadline = time.monotonic() + TIMEOUT_S
     while not any(speed > MOVING for _, speed in robot.speeds(time.monotonic() - 0.5)):
         assert time.monotonic() < deadline, f"it is not released: {person.output[-800:]!r}"
-        person.type("!")
+        if shows("! releases"):
+            person.type("!")
         wait(person, WATCHED)
 
 
@@ -126,19 +130,22 @@ def release(robot: LiveRobot) -> None:
     robot.drives()
 
 
-def drives_after_restart(robot: LiveRobot, *options: str) -> None:
+def drives_after_restart(robot: LiveRobot, person: Terminal | None, *options: str) -> None:
     """Release what nodes have stopped because of a restart, as often as one starts late, until the robot drives.
 
-    Without `--all`, no person's stop is released by this.
+    Without `--all`, no person's stop is released by this. The screen is read meanwhile: a console that cannot write
+    does not get to its keys.
     """
     deadline = time.monotonic() + TIMEOUT_S
     while True:
-        robot.typed("release", *options)
+        releasing = robot.console("release", *options)
+        while releasing.poll() is None:
+            wait(person, 0.1)
         began = time.monotonic()
         while time.monotonic() < began + WATCHED:
             if any(speed > MOVING for _, speed in robot.speeds(began)):
                 return
-            time.sleep(0.05)
+            wait(person, 0.1)
         assert time.monotonic() < deadline, f"the stop came back: {robot.answer('status')} {robot.log()[-2000:]}"
 
 

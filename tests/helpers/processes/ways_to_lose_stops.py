@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from bot_console.tui.console.parameters.history import History
+from emulator import screen_of
 
 from processes.bad_link import BadLink
 from processes.kept_stops import Way, drives_after_restart, wait
@@ -24,6 +25,8 @@ from processes.ports import free_port
 RECORDED = ("/emergency_stop/request", "/emergency_stop/arbiter", "/emergency_stop/base")
 MONITOR, BASE = "safety_monitor", "simulator"
 ESCAPE = "\x1b"
+PROMPT = "esc Cancel"
+"""In the line of keys, while a line is typed."""
 MOVES = "".join(f"\x1b[<35;{10 + at % 90};{5 + at % 30}M" for at in range(15_000))
 FLOOD = MOVES + "\x1b[<65;60;20M" * 2000 + "12345678" * 200 + MOVES
 """Mouse moves, wheel steps and keys that change the pane."""
@@ -302,7 +305,7 @@ class Clocks:
 def both_restarted_and_free(robot: LiveRobot) -> None:
     """Restart both locks, and release what they hold because of it."""
     both_restarted(robot, None)
-    drives_after_restart(robot)
+    drives_after_restart(robot, None)
 
 
 def send(person: Terminal, text: str) -> None:
@@ -331,10 +334,11 @@ def press_on_help(robot: LiveRobot, person: Terminal) -> None:
 
 def typed_in_prompt(robot: LiveRobot, person: Terminal) -> None:
     """The stop key is a letter of a line that is typed, alone and behind other input."""
+    shows = screen_of(person)
     person.type(ESCAPE)
-    wait(person, 0.3)
+    wait(person, WATCHED)  # or the two keys would be read as one with Alt
     person.type(":")
-    wait(person, 0.5)
+    person.read_until(lambda: shows(PROMPT), "the prompt")
     person.type("!")
     wait(person, 0.5)
     send(person, MOVES + "echo !!! !")
