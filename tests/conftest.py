@@ -79,11 +79,16 @@ def apart(socket_folder: str) -> Iterator[None]:
     before = _takes_part()
     yield
     if _takes_part() and not before:
+        from bot_console.runtime.children.child_discovery import let_children_meet
+        from bot_console.runtime.rmw.local import local_bus
+        from bot_console.runtime.rmw.middleware import choose_middleware
         from bot_console.runtime.rmw.zenoh.domain.domain_bus import close_shared_buses
-        from bot_console.tui.session.embedded.domain import isolate_from_domain
+        from bot_console.runtime.stop_file import STOP_FILE_VARIABLE
 
         close_shared_buses()
-        isolate_from_domain()
+        choose_middleware(local_bus)
+        let_children_meet(False)
+        os.environ.pop(STOP_FILE_VARIABLE, None)
 
 
 def _takes_part() -> bool:

@@ -26,8 +26,8 @@ WITH_ARRAYS = ("rclpy.action",)
 MAX_SOURCE_BYTES = 1_000_000
 """The maximum number of bytes of source text that are read."""
 
-STEPPED = ("asyncio", "numpy.random")
-"""Modules that a process of a stepped run needs: their time and their random numbers are those of the run."""
+STEPPED = ("asyncio", "numpy.random", MEMBER_PROGRAM.partition(":")[0])
+"""Modules that a process of a stepped run needs: its time, messages and random numbers are those of the run."""
 
 _seen: set[tuple[str | None, int]] = set()
 

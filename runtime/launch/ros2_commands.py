@@ -7,6 +7,7 @@ import re
 import shlex
 from collections.abc import Callable, Sequence
 
+from bot_console.runtime.workspace.discover import workspace
 from launch.child import PythonProgram
 
 NEEDS_SHELL = re.compile(r"[;&|<>()`$*?#~\n]|\[[^\]]*\]")
@@ -17,9 +18,15 @@ QUOTED = re.compile(r"'[^']*'|\"[^\"`$\\]*\"")
 
 
 def ros2_program(command: Sequence[str], shell: bool) -> PythonProgram | None:
-    """Return a command that consists only of a `ros2` command line as a program; None for all others."""
+    """Return a command that consists only of a `ros2` command line as a program; None for all others.
+
+    It is ours, but for `ros2 run`, which becomes what it runs.
+    """
     words = ros2_words(command, shell)
-    return None if words is None else PythonProgram("launch.ros2_commands:verb", (words,), is_ours=True)
+    if words is None:
+        return None
+    folders = [str(each) for each in workspace().folders]
+    return PythonProgram("launch.ros2_commands:verb", (folders, words), is_ours=words[:1] != ["run"])
 
 
 def ros2_words(command: Sequence[str], shell: bool) -> list[str] | None:
@@ -41,8 +48,11 @@ def ros2_words(command: Sequence[str], shell: bool) -> list[str] | None:
     return words[1:]
 
 
-def verb(words: Sequence[str]) -> Callable[[], object]:
+def verb(workspace_folders: Sequence[str], words: Sequence[str]) -> Callable[[], object]:
     """Return a callable that runs a `ros2` command line and exits with its exit code."""
+    from bot_console.runtime.workspace.launched import find_packages_in
+
+    find_packages_in(workspace_folders)
 
     def run() -> object:
         import sys

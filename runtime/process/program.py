@@ -148,10 +148,11 @@ class _FoundFirst:
         self._modules = modules
 
     def find_spec(self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None) -> Any:
-        """Return the spec of such a package; None for every other name."""
-        if path is None and fullname in self._modules.packages:
-            return PathFinder.find_spec(fullname, self._modules.folders)
-        return None
+        """Return the spec of such a package; None for every other name, and for a folder without `__init__.py`."""
+        if path is not None or fullname not in self._modules.packages:
+            return None
+        spec = PathFinder.find_spec(fullname, self._modules.folders)
+        return spec if spec is not None and spec.loader is not None else None
 
 
 def _functions(module: ModuleType) -> list[str]:

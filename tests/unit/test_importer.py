@@ -5,6 +5,8 @@ Our nodes are composed: they share their modules."""
 from __future__ import annotations
 
 import importlib
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -82,6 +84,22 @@ def test_package_beside_the_node_file_takes_precedence(tmp_path):
     (tmp_path / PAGE_NAME).mkdir()
     (tmp_path / PAGE_NAME / "__init__.py").write_text("theirs = True")
     assert node_modules([tmp_path]).load(PAGE_NAME).theirs
+
+
+BESIDE = """
+from bot_console.runtime.importer import install, node_modules
+from bot_console.runtime.process import code_program
+
+install()
+code_program("import {name}.trip", node_modules([{folder!r}]))()
+"""
+
+
+def test_folder_of_our_name_beside_a_program_hides_our_package_only_if_it_is_a_package(tmp_path):
+    (tmp_path / PAGE_NAME / "worlds").mkdir(parents=True)
+    program = BESIDE.format(name=PAGE_NAME, folder=str(tmp_path))
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 0, done.stderr
 
 
 def test_our_name_means_our_package_in_our_own_launch(workspace, monkeypatch):

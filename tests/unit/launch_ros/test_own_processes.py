@@ -15,7 +15,10 @@ import pytest
 if not hasattr(os, "fork"):
     pytest.skip("needs fork", allow_module_level=True)
 
+import rclpy
 from bot_console.runtime.children.child_discovery import let_children_meet
+from bot_console.runtime.workspace.discover import Workspace, use, workspace
+from bot_console.tui.session.embedded.domain import isolate_from_domain, join_domain
 from launch.actions import EmitEvent, ExecuteProcess, RegisterEventHandler, Shutdown
 from launch.child import News, close_fork_server, fork_server, on_news
 from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
@@ -24,6 +27,7 @@ from launch.events.process import SignalProcess
 from launch_ros.actions import Node
 from launching import Launch
 from processes.waiting_node import WAITS, once_up
+from std_msgs.msg import String
 
 PROCESS = {"isolation": "process"}
 
@@ -85,7 +89,7 @@ def meets(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     let_children_meet(False)
 
 
-WHERE = "import os; print('own' if os.getpid() < 1 << 22 else 'shared')"
+WHERE = f"import os; print('own' if os.getpid() != {os.getpid()} and os.getpid() < 1 << 22 else 'shared')"
 
 
 def test_program_that_can_meet_its_launch_has_its_own_process(run: Launch, script: Any, meets: None) -> None:
@@ -114,6 +118,55 @@ def test_program_joins_the_domain_that_its_launch_has_joined(run: Launch, script
         """
     )
     assert lines_of(run([Node(executable=path, output="screen")]).text) == ["True"]
+
+
+def test_programs_of_an_isolated_system_have_processes_that_meet_in_a_folder_of_its_own(
+    run: Launch, script: Any, socket_folder: str
+) -> None:
+    assert not join_domain()
+    isolate_from_domain()
+    folder = os.environ["BOT_CONSOLE_SOCKET_DIR"]
+    path = script("""
+        import os, sys
+        import rclpy
+        rclpy.init()
+        node = rclpy.create_node("seeker")
+        found = node.count_publishers("sought")
+        while not found:
+            rclpy.spin_once(node, timeout_sec=0.1)
+            found = node.count_publishers("sought")
+        print(os.getpid() < 1 << 22, os.environ["BOT_CONSOLE_SOCKET_DIR"])
+    """)
+    context = rclpy.Context()
+    rclpy.init(args=[], context=context)
+    node = rclpy.create_node("sought", context=context)
+    try:
+        node.create_publisher(String, "sought", 1)
+        text = run([Node(executable=path, output="screen")]).text
+    finally:
+        node.destroy_node()
+        context.try_shutdown()
+    assert lines_of(text) == [f"True {folder}"] and folder != socket_folder
+
+
+@pytest.mark.parametrize("shell", [False, True])
+def test_ros2_run_in_a_launch_file_has_its_own_process(run: Launch, tmp_path: Path, meets: None, shell: bool) -> None:
+    for name, text in {
+        "package.xml": "<package><name>talks</name><export><build_type>ament_python</build_type></export></package>",
+        "setup.py": "from setuptools import setup\nsetup(name='talks', packages=['talks'],"
+        " entry_points={'console_scripts': ['talk = talks.talk:main']})\n",
+        "talks/__init__.py": "",
+        "talks/talk.py": f"def main():\n    {WHERE}\n",
+    }.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(text)
+    before = workspace()
+    use(Workspace([tmp_path]))
+    try:
+        text = run([ExecuteProcess(cmd=["ros2", "run", "talks", "talk"], shell=shell, output="screen")]).text
+    finally:
+        use(before)
+    assert lines_of(text) == ["own"]
 
 
 def test_crash_without_listener_is_printed(run: Launch, script: Any) -> None:

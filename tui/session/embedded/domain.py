@@ -6,6 +6,7 @@ versa.
 
 from __future__ import annotations
 
+import atexit
 import os
 import sys
 from collections.abc import Mapping, Sequence
@@ -78,13 +79,20 @@ def note_connection() -> None:
 
 
 def isolate_from_domain() -> None:
-    """Isolate the contexts initialised from now on, and the programs of launches, from all other programs."""
-    from bot_console.runtime.children.child_discovery import let_children_meet
-    from bot_console.runtime.rmw.local import local_bus
-    from bot_console.runtime.rmw.middleware import choose_middleware
+    """Isolate this program and those that it launches from all others: they meet in a folder of their own.
 
-    choose_middleware(local_bus)
-    let_children_meet(False)
+    The program has joined its domain before.
+    """
+    import shutil
+    import tempfile
+
+    from bot_console.runtime.rmw.zenoh.domain.domain_bus import close_shared_buses
+    from bot_console.runtime.rmw.zenoh.domain.folder import BASE_VARIABLE
+
+    close_shared_buses()
+    place = "/tmp" if os.path.isdir("/tmp") else None  # the path of a socket must be short, whatever TMPDIR says
+    folder = os.environ[BASE_VARIABLE] = tempfile.mkdtemp(prefix="bot-console-", dir=place)
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
     os.environ.pop(STOP_FILE_VARIABLE, None)  # An isolated system is another robot.
 
 
