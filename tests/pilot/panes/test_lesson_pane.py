@@ -15,7 +15,8 @@ from bot_console.tui.layout.arrangement import Arrangement, Forgetful
 from bot_console.tui.learn.course import read_course
 from bot_console.tui.learn.layout import NAME, WithLesson
 from bot_console.tui.learn.lesson import CourseLesson
-from bot_console.tui.panes.lesson.pane import LessonPane
+from bot_console.tui.learn.lesson_view import LessonView
+from bot_console.tui.panes.lesson.pane import LessonPane, text_of, wrapped
 from bot_console.tui.settings.appearance import Appearance
 from fakes.command_line import FakeCommandLine
 from piloting import Session
@@ -54,9 +55,11 @@ class Clock:
         return self.now
 
 
-def run(folder: Path, play: Callable[[Session], Awaitable[None]], size: tuple[int, int]) -> None:
+def run(
+    folder: Path, play: Callable[[Session], Awaitable[None]], size: tuple[int, int], chapter: str = CHAPTER
+) -> None:
     (folder / "course.md").write_text("# C\n", encoding="utf-8")
-    (folder / "1.md").write_text(CHAPTER, encoding="utf-8")
+    (folder / "1.md").write_text(chapter, encoding="utf-8")
     lesson = CourseLesson(read_course(folder), folder, "", Clock())
     entry = PluginEntry("lesson", "", "Lesson", "", find=lambda: LessonPane.of(lesson), source="a test")
 
@@ -129,3 +132,44 @@ def test_enter_does_not_make_a_step_done(tmp_path: Path) -> None:
         assert "0 of 2 done" in session.text()
 
     run(tmp_path, play, (120, 40))
+
+
+def test_listing_leaves_room_for_what_follows_and_long_lines_are_marked() -> None:
+    line = '        self.create_service(AddTwoInts, "add", self.add)'
+    body = "\n".join([line, *(f"line {number}" for number in range(30))])
+    view = LessonView("C", "S", 1, 1, 0, snippets=(("a.py", body), ("", "bot-console run a.py")))
+    text = text_of(view, 47, 30).plain
+    assert "  " + "\n  ".join(wrapped(line, 45)) in text
+    assert wrapped(line, 45) == ["        self.create_service(AddTwoInts, …", '            "add", self.add)']
+    assert "… 21 more lines: enter shows them, y copies all" in text
+    assert text.endswith("In a terminal:\n  bot-console run a.py\n\n")
+    assert body.replace("\n", "\n  ") in text_of(view).plain
+
+
+def test_each_press_of_y_copies_the_next_listing(tmp_path: Path) -> None:
+    async def play(session: Session) -> None:
+        session.pane(LessonPane).focus_target()
+        await session.press("y")
+        assert session.app.clipboard == "x = 1"
+        await session.press("y")
+        assert session.app.clipboard == "ros2 param list"
+        await session.press("y")
+        assert session.app.clipboard == "x = 1"
+
+    chapter = "# One\n## A\n```python a.py\nx = 1\n```\n```console\nros2 param list\n```\n```step\nsaw-steering\n```\n"
+    run(tmp_path, play, (120, 40), chapter)
+
+
+def test_robot_counts_as_driven_once_a_key_moves_it_and_not_when_it_is_armed(tmp_path: Path) -> None:
+    async def play(session: Session) -> None:
+        await session.press("6", "enter", "0")
+        await look(session)
+        assert "0 of 1 done" in session.text()
+        await session.press("6", "enter", "w")
+        session.pane(LessonPane).tick()
+        await session.press("space", "0")
+        await look(session)
+        assert "1 of 1 done" in session.text()
+
+    chapter = "# One\n## Drive\n```step\nsaw-steering\n```\n"
+    run(tmp_path, play, (120, 40), chapter)

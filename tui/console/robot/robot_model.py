@@ -121,7 +121,6 @@ class DriveInfo:
     """All robots that subscribe to velocities."""
     others: frozenset[str] = frozenset()
     """Namespaces, each with a slash at its end, of robots that are not part of the driven one."""
-    armed: bool = False
     asked: tuple[float, float] | None = None
     limited: tuple[float, float] | None = None
     final: tuple[float, float] | None = None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import textwrap
 from typing import Any, ClassVar
 
 from bot_console.tui import keymap
@@ -20,6 +21,10 @@ TICKS_PER_POLL = 5
 """Ticks (of 0.1 s) between two polls of what has happened."""
 SHORT_ROWS = 2
 """Rows of the pane up to which it shows two lines."""
+LISTING_SHARE = 3
+"""A listing before other ones takes a third of the rows: what follows it should be visible, too."""
+FRAME_COLUMNS = 5
+"""Columns of the pane beside its text: borders, padding and scroll bar."""
 
 
 class LessonPane(Pane):
@@ -54,7 +59,10 @@ class LessonPane(Pane):
         self._lesson = type(self).LESSON
         self._ticks = 0
         self._after = 0
-        self._shown: LessonView | None = None
+        self._shown: tuple[LessonView, int, int] | None = None
+        """The step as it is drawn, for so many columns and rows."""
+        self._copied = -1, -1
+        """The number of the step, and which of its listings was copied last."""
         self._layouts_before: frozenset[str] | None = None
         """The layouts that there were when the lesson was opened; None before it is."""
         self._steered = False
@@ -75,12 +83,9 @@ class LessonPane(Pane):
         """Draw the step. What has happened is polled by `tick`, since lessons go on while the pane is hidden."""
         self._draw()
 
-    def observe(self, snapshot: ConsoleSnapshot) -> None:
-        """Note what may be over by the next poll."""
-        self._steered |= snapshot.drive.armed and snapshot.drive.asked not in (None, (0.0, 0.0))
-
     def tick(self) -> None:
         """Let the lesson take in what has happened, and say which steps are done."""
+        self._steered = self._steered or self._steers()
         self._ticks += 1
         if self._ticks % TICKS_PER_POLL:
             return
@@ -92,9 +97,17 @@ class LessonPane(Pane):
         if self.display:
             self._draw()
 
+    def _pane(self, id: str) -> Any:
+        return next(iter(self.host.screen_stack[0].query(f"#{id}")), None)
+
+    def _steers(self) -> bool:
+        """Whether keys drive the robot now."""
+        steering = getattr(self._pane("steering"), "state", None)
+        return steering is not None and steering.armed and steering.moving
+
     def _on_screen(self) -> OnScreen:
         app: Any = self.host
-        plot = next(iter(app.screen_stack[0].query("#plot")), None)
+        plot = self._pane("plot")
         curves = getattr(getattr(plot, "_timeline", None), "curves", ())
         layouts = frozenset(app.stage.arrangement.layouts())
         if self._layouts_before is None:
@@ -110,12 +123,14 @@ class LessonPane(Pane):
         view = self._lesson.view()
         if not self.has_parts:
             return
-        if view != self._shown:
-            self._shown = view
-            self.query_one("#lesson-text", StaticText).update(text_of(view))
+        wanted = view, self.size.width - FRAME_COLUMNS, self.size.height
+        if wanted != self._shown:
+            self._shown = wanted
+            self.query_one("#lesson-text", StaticText).update(text_of(*wanted))
             self.query_one(VerticalScroll).scroll_home(animate=False)
             self.query_one("#lesson-line", StaticText).show_text(lines_of(view))
-        self.caption(view.problem or f"{view.done} of {view.total} done")
+        way = "" if self.has_focus_within else " · Tab: its keys"
+        self.caption(view.problem or f"{view.done} of {view.total} done{way}")
 
     def action_go(self, by: int) -> None:
         """Show another step, done or not."""
@@ -123,42 +138,64 @@ class LessonPane(Pane):
         self._draw()
 
     def action_copy(self) -> None:
-        """Copy what is to be typed or written to the clipboard."""
+        """Copy what is to be typed or written to the clipboard; of several, the next one each time."""
         view = self._lesson.view()
         if not view.snippets:
             self.notify("This step has nothing to copy.", severity="warning")
             return
-        path, text = view.snippets[0]
+        number, last = self._copied
+        now = (last + 1) % len(view.snippets) if number == view.number else 0
+        self._copied = view.number, now
+        path, text = view.snippets[now]
         self.host.copy_to_clipboard(text)
-        self.notify(f"Copied{f': put it into {path}' if path else ''}", markup=False)
+        which = f" {now + 1} of {len(view.snippets)}" if len(view.snippets) > 1 else ""
+        self.notify(f"Copied{which}: {f'put it into {path}' if path else text.partition(chr(10))[0]}", markup=False)
 
     def action_detail(self) -> None:
         """Show the whole step over all panes."""
         view = self._lesson.view()
-        parts = [(view.title, view.text.splitlines())]
+        parts = [(view.title, _paragraphs(view))]
         parts += [(path or "in a terminal", text.splitlines()) for path, text in view.snippets]
         parts.append(("waits for", [f"{'✓' if held else '○'} {text}" for held, text in view.waits]))
         self.host.push_screen(FactsScreen(sanitize(f"{view.chapter}, step {view.number} of {view.total}"), parts))
 
 
-def text_of(view: LessonView) -> Text:
-    """The whole step."""
+def text_of(view: LessonView, columns: int = 0, rows: int = 0) -> Text:
+    """The whole step; where columns and rows are given, long lines and listings are cut for them."""
     text = Text()
     text.append(f"{sanitize(view.chapter)}\n", "dim")
     text.append(f"{view.number}/{view.total} {sanitize(view.title)}{'  ✓ done' if view.is_done else ''}\n\n", "bold")
-    for paragraph in view.text.split("\n\n"):
-        if paragraph:
-            text.append(f"{sanitize(' '.join(paragraph.split()))}\n\n")
+    for paragraph in _paragraphs(view):
+        text.append(f"{sanitize(paragraph)}\n\n")
     for held, asked in view.waits:
         text.append("✓ " if held else "○ ", "bold")
         text.append(f"{sanitize(asked)}\n", "dim" if held else "")
     text.append("\n")
-    for path, body in view.snippets:
+    for number, (path, body) in enumerate(view.snippets, 1):
         text.append(f"{sanitize(path) or 'In a terminal'}:\n", "dim")
-        for line in re.sub(r"\n{3,}", "\n\n", body).splitlines():
-            text.append(f"  {sanitize(line)}\n", "bold")
+        lines = re.sub(r"\n{3,}", "\n\n", body).splitlines()
+        most = max(rows // LISTING_SHARE, 1) if rows and number < len(view.snippets) else len(lines)
+        for line in lines[:most]:
+            for piece in wrapped(sanitize(line), columns - 2):
+                text.append(f"  {piece}\n", "bold")
+        if len(lines) > most:
+            text.append(f"  … {len(lines) - most} more lines: enter shows them, y copies all\n", "dim")
         text.append("\n")
     return text
+
+
+def _paragraphs(view: LessonView) -> list[str]:
+    return [" ".join(each.split()) for each in view.text.split("\n\n") if each]
+
+
+def wrapped(line: str, columns: int) -> list[str]:
+    """A line of a listing in pieces that fit; each but the last ends with `…`, and each but the first is indented."""
+    own = line[: len(line) - len(line.lstrip())]
+    if columns < len(own) + 12 or len(line) <= columns:
+        return [line]
+    indents = {"initial_indent": own, "subsequent_indent": f"{own}    "}
+    found = textwrap.wrap(line.lstrip(), columns - 2, break_long_words=False, break_on_hyphens=False, **indents)
+    return [*(f"{each} …" for each in found[:-1]), found[-1]]
 
 
 def lines_of(view: LessonView) -> Text:
