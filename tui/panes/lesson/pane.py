@@ -193,8 +193,8 @@ def wrapped(line: str, columns: int) -> list[str]:
     own = line[: len(line) - len(line.lstrip())]
     if columns < len(own) + 12 or len(line) <= columns:
         return [line]
-    indents = {"initial_indent": own, "subsequent_indent": f"{own}    "}
-    found = textwrap.wrap(line.lstrip(), columns - 2, break_long_words=False, break_on_hyphens=False, **indents)
+    words = textwrap.TextWrapper(columns - 2, own, f"{own}    ", break_long_words=False, break_on_hyphens=False)
+    found = words.wrap(line.lstrip())
     return [*(f"{each} …" for each in found[:-1]), found[-1]]
 
 
