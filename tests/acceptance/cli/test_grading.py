@@ -27,46 +27,46 @@ FILES, PROGRAMS, LAUNCHES, DEFAULTS, VALID, SPEED, DISTANCE, THRESHOLD, NAME, SY
 )
 NODE, SETUP = "intelligent_robot/robot_node.py", "setup.py"
 CONFIG, LAUNCH = "config/indoor_config.yaml", "launch/robot_system.launch.py"
-STARTED = {DEFAULTS, VALID, SPEED, DISTANCE, THRESHOLD, NAME}
+STARTED = (DEFAULTS, VALID, SPEED, DISTANCE, THRESHOLD, NAME)
 """Rows that start the robot node."""
-ALL = {*STARTED, SYSTEM, DRIVES}
+ALL = (*STARTED, SYSTEM, DRIVES)
 
-VARIANTS: list[tuple[str, str, str, set[str]]] = [
-    (CONFIG, "ros__parameters", "ros_parameters", {FILES, SYSTEM, DRIVES}),
-    (CONFIG, "max_speed", "max_sped", {FILES}),
-    (SETUP, r"'\*?config'\),\s*glob\('config/\*\.yaml'\)", "'config'), []", {FILES, SYSTEM, DRIVES}),
-    (SETUP, r"glob\('launch/\*\.py'\)", "[]", {LAUNCHES, SYSTEM, DRIVES}),
-    (SETUP, r"'robot_node = .*", "", {PROGRAMS, *ALL}),
-    (SETUP, r"'sensor_node = .*", "", {PROGRAMS, SYSTEM, DRIVES}),
-    (SETUP, r"'safety_node = .*", "", {PROGRAMS, SYSTEM, DRIVES}),
-    (SETUP, r"'telemetry_node = .*", "", {PROGRAMS, SYSTEM, DRIVES}),
-    (NODE, r"'max_speed', 1\.0", "'max_speed', 1.5", {DEFAULTS}),
-    (NODE, r"'safety_distance', 0\.5", "'safety_distance', 0.6", {DEFAULTS}),
-    (NODE, r"'detection_threshold', 100", "'detection_threshold', 99", {DEFAULTS}),
-    (NODE, r"'turn_rate', 1\.0", "'turn_rate', 1.1", {DEFAULTS}),
-    (NODE, r"'turn_rate', 1\.0", "'turn_rate', 1", {DEFAULTS, SYSTEM, DRIVES}),
+VARIANTS: list[tuple[str, str, str, tuple[str, ...]]] = [
+    (CONFIG, "ros__parameters", "ros_parameters", (FILES, SYSTEM, DRIVES)),
+    (CONFIG, "max_speed", "max_sped", (FILES,)),
+    (SETUP, r"'\*?config'\),\s*glob\('config/\*\.yaml'\)", "'config'), []", (FILES, SYSTEM, DRIVES)),
+    (SETUP, r"glob\('launch/\*\.py'\)", "[]", (LAUNCHES, SYSTEM, DRIVES)),
+    (SETUP, r"'robot_node = .*", "", (PROGRAMS, *ALL)),
+    (SETUP, r"'sensor_node = .*", "", (PROGRAMS, SYSTEM, DRIVES)),
+    (SETUP, r"'safety_node = .*", "", (PROGRAMS, SYSTEM, DRIVES)),
+    (SETUP, r"'telemetry_node = .*", "", (PROGRAMS, SYSTEM, DRIVES)),
+    (NODE, r"'max_speed', 1\.0", "'max_speed', 1.5", (DEFAULTS,)),
+    (NODE, r"'safety_distance', 0\.5", "'safety_distance', 0.6", (DEFAULTS,)),
+    (NODE, r"'detection_threshold', 100", "'detection_threshold', 99", (DEFAULTS,)),
+    (NODE, r"'turn_rate', 1\.0", "'turn_rate', 1.1", (DEFAULTS,)),
+    (NODE, r"'turn_rate', 1\.0", "'turn_rate', 1", (DEFAULTS, SYSTEM, DRIVES)),
     (NODE, r"'max_speed', 1\.0", "'max_speed', 1", ALL),
     (NODE, r"'max_speed', 1\.0", "'maximum_speed', 1.0", ALL),
     (NODE, r"super\(\).__init__\('robot_navigator'\)", "super().__init__('navigator')", STARTED),
-    (NODE, r"<= 5\.0", "<= 50.0", {SPEED}),
-    (NODE, r"if 0\.1 <= param.value <= 5\.0", "if param.value <= 5.0", {SPEED}),
-    (NODE, r"if 0\.1 <= param.value <= 5\.0", "if 0.1 <= param.value <= 1.5", {VALID}),
-    (NODE, r"<= 2\.0", "<= 20.0", {DISTANCE}),
-    (NODE, r"if 0\.1 <= param.value <= 2\.0", "if 0.1 <= param.value <= 0.7", {VALID}),
-    (NODE, r"<= 255", "<= 999", {THRESHOLD}),
-    (NODE, r"len\(param.value\) > 0", "True", {NAME}),
-    (NODE, r"        return result", "        return None", {VALID}),
-    (NODE, r"result.successful = False", "result.successful = True", {SPEED, DISTANCE, THRESHOLD, NAME}),
-    (NODE, r"self.add_on_set_parameters_callback\(.*\)", "pass", {SPEED, DISTANCE, THRESHOLD, NAME}),
+    (NODE, r"<= 5\.0", "<= 50.0", (SPEED,)),
+    (NODE, r"if 0\.1 <= param.value <= 5\.0", "if param.value <= 5.0", (SPEED,)),
+    (NODE, r"if 0\.1 <= param.value <= 5\.0", "if 0.1 <= param.value <= 1.5", (VALID,)),
+    (NODE, r"<= 2\.0", "<= 20.0", (DISTANCE,)),
+    (NODE, r"if 0\.1 <= param.value <= 2\.0", "if 0.1 <= param.value <= 0.7", (VALID,)),
+    (NODE, r"<= 255", "<= 999", (THRESHOLD,)),
+    (NODE, r"len\(param.value\) > 0", "True", (NAME,)),
+    (NODE, r"        return result", "        return None", (VALID,)),
+    (NODE, r"result.successful = False", "result.successful = True", (SPEED, DISTANCE, THRESHOLD, NAME)),
+    (NODE, r"self.add_on_set_parameters_callback\(.*\)", "pass", (SPEED, DISTANCE, THRESHOLD, NAME)),
     (NODE, r"import rclpy\n", "import rclpyy\n", ALL),
-    (NODE, r"twist.linear.x = self.max_speed", "twist.linear.x = 0.0", {DRIVES}),
-    (NODE, r"self.cmd_vel_pub.publish\(twist\)", "pass", {DRIVES}),
-    (LAUNCH, r"        telemetry_node\n", "", {SYSTEM}),
-    (LAUNCH, r"name='sensor_handler'", "name='sensors'", {SYSTEM}),
-    (LAUNCH, r"executable='safety_node'", "executable='safty_node'", {SYSTEM, DRIVES}),
-    (LAUNCH, r"return LaunchDescription", "LaunchDescription", {SYSTEM, DRIVES}),
+    (NODE, r"twist.linear.x = self.max_speed", "twist.linear.x = 0.0", (DRIVES,)),
+    (NODE, r"self.cmd_vel_pub.publish\(twist\)", "pass", (DRIVES,)),
+    (LAUNCH, r"        telemetry_node\n", "", (SYSTEM,)),
+    (LAUNCH, r"name='sensor_handler'", "name='sensors'", (SYSTEM,)),
+    (LAUNCH, r"executable='safety_node'", "executable='safty_node'", (SYSTEM, DRIVES)),
+    (LAUNCH, r"return LaunchDescription", "LaunchDescription", (SYSTEM, DRIVES)),
 ]
-"""File, pattern, replacement, and the rows that may fail for it, of which at least one has to."""
+"""File, pattern, replacement, and the rows that depend on it, of which the first has to fail."""
 
 
 def workspace(folder: Path) -> Path:
@@ -105,12 +105,12 @@ def test_reference_solution_passes_every_row(tmp_path: Path) -> None:
 @pytest.mark.soak
 @pytest.mark.parametrize(("file", "pattern", "replacement", "rows"), VARIANTS)
 def test_wrong_variant_fails_only_in_rows_that_depend_on_it(
-    file: str, pattern: str, replacement: str, rows: set[str], tmp_path: Path
+    file: str, pattern: str, replacement: str, rows: tuple[str, ...], tmp_path: Path
 ) -> None:
     folder = workspace(tmp_path)
     change(folder, file, pattern, replacement)
     found = failed(folder)
-    assert set(found) == rows, found
+    assert rows[0] in found and set(found) <= set(rows), found
 
 
 @needs_course

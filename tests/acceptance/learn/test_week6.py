@@ -375,10 +375,8 @@ def chapter_10(at: Student) -> None:
     two.interrupt()
 
 
-def chapters_11_to_15(at: Student) -> None:
-    """The tools: keys of the console."""
-    two = at.shells[1]
-    keys = at.console.type
+def chapter_11(at: Student) -> None:
+    two, keys = at.shells[1], at.console.type
     at.reads("waiting for: somebody to set turn_rate")
     two.run(at.listing("slide-a-value"))
     two.run("ros2 param set /robot_navigator max_speed 1.1")
@@ -391,15 +389,24 @@ def chapters_11_to_15(at: Student) -> None:
     at.reads("waiting for: the pane history")
     keys("H")
     at.does("see-what-was-changed-and-take-it-back")
-    keys("050")
+    keys("0")
+
+
+def chapter_12(at: Student) -> None:
+    keys = at.console.type
+    keys("50")
     at.reads("waiting for: the pane logs")
-    keys("2")
+    keys("20")
     at.does("only-warnings")
-    keys("050")
+    keys("50")
     at.reads("waiting for: the pane graph")
     keys("3")
     at.does("read-the-graph")
     keys("0")
+
+
+def chapter_13(at: Student) -> None:
+    two, keys = at.shells[1], at.console.type
     at.reads("waiting for: the pane plot", "waiting for: a curve of angular.z in the plot")
     keys(at.listing("the-turning-over-time").replace("angular.z", "linear.x") + "\r")
     at.shows("linear.x")
@@ -417,15 +424,21 @@ def chapters_11_to_15(at: Student) -> None:
     two.run(set_rate)
     at.does("beside-the-limit")
     keys("0")
+
+
+def chapter_14(at: Student) -> None:
+    keys = at.console.type
     at.reads("waiting for: the pane steering", "waiting for: the robot to be driven by your keys")
-    keys("6w")
-    at.shows("Steering")
-    keys("0")
+    keys("6w0")  # without arming
     at.reads("✓ saw-pane steering", "waiting for: the robot to be driven by your keys")
     keys("6\r")
     to_and_fro = itertools.cycle("s" * 40 + "w" * 40)  # One of them leads away from the wall, if there is one.
     at.does_by("drive-by-hand", lambda: keys(next(to_and_fro)))
-    keys(" \r0")
+    keys(" 0")
+
+
+def chapter_15(at: Student) -> None:
+    keys = at.console.type
     at.reads("waiting for: a saved layout")
     keys("V")
     at.shows("w Save")
@@ -434,8 +447,10 @@ def chapters_11_to_15(at: Student) -> None:
     keys("V")
     at.shows("w Save")
     keys("wmine\r")
+    keys("\x1b:layout lesson\r")
+    at.reads("✓ saw-layout", "a robot that you have steered is handed back by h")
+    keys("6h0")
     at.does("arrange-and-save")
-    keys("\x1b")
 
 
 PACKAGE = "src/intelligent_robot"
@@ -676,7 +691,11 @@ CHAPTERS = {
     8: chapter_8,
     9: chapter_9,
     10: chapter_10,
-    11: chapters_11_to_15,
+    11: chapter_11,
+    12: chapter_12,
+    13: chapter_13,
+    14: chapter_14,
+    15: chapter_15,
     16: chapter_16,
     17: chapter_17,
     18: chapter_18,
@@ -696,8 +715,10 @@ def begin(at: Student, number: int) -> None:
     if number in range(2, 6):
         one.start("bot-console run src/simple_robot.py")
         one.shows("m/s")
-    if number in range(2, 7) or number in (16, 17):
+    if number in range(2, 7) or number in range(12, 18):
         two.run("bot-console up")
+    if number == 15:
+        at.console.type("6\r0")
     if number in range(18, 22):
         three.start(SIMULATOR)
     if number == 18:
