@@ -440,17 +440,24 @@ def chapter_14(at: Student) -> None:
 def chapter_15(at: Student) -> None:
     keys = at.console.type
     at.reads("waiting for: a saved layout")
-    keys("V")
-    at.shows("w Save")
-    keys("wmine\x1b\x1b")
+    arrange(at, "")  # without saving
     at.reads("waiting for: a saved layout")
-    keys("V")
-    at.shows("w Save")
-    keys("wmine\r")
-    keys("\x1b:layout lesson\r")
+    arrange(at, "wmine\r")
+    keys(":layout lesson\r")
     at.reads("✓ saw-layout", "a robot that you have steered is handed back by h")
     keys("6h0")
     at.does("arrange-and-save")
+
+
+def arrange(at: Student, keys: str) -> None:
+    """Arrange the panes by some keys. What is typed right after Esc would be a key with Alt."""
+    at.console.type("V")
+    at.shows("w Save")
+    at.console.type(keys)
+    if keys:
+        at.shows("[0 mine]")
+    at.console.type("\x1b")
+    at.shows("q Quit")
 
 
 PACKAGE = "src/intelligent_robot"
