@@ -25,7 +25,7 @@ from rest import at_rest
 from systems import Program, System
 from textual.events import Paste
 
-TIMEOUT_S = 30.0
+TIMEOUT_S = 60.0
 """Seconds after which a test gives up; the tests measure no time."""
 
 

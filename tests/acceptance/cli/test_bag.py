@@ -30,7 +30,7 @@ def robot(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     line = [*PROGRAM, "--headless", "--duration", "1000"]
     system = subprocess.Popen(line, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment)
     seen = [*PROGRAM, "topic", "echo", "--once", "--timeout", "60", "/odom"]
-    subprocess.run(seen, capture_output=True, timeout=90, check=False, env=environment)
+    subprocess.run(seen, capture_output=True, timeout=120, check=False, env=environment)
     yield folder
     system.send_signal(signal.SIGINT)
     try:
@@ -48,7 +48,7 @@ def domain(robot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def typed(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
     line = [*PROGRAM, "bag", *words]
-    return subprocess.run(line, capture_output=True, text=True, timeout=90, check=False, cwd=folder)
+    return subprocess.run(line, capture_output=True, text=True, timeout=120, check=False, cwd=folder)
 
 
 def grown(file: Path, size: int) -> bool:
@@ -69,16 +69,16 @@ def test_topics_are_recorded_and_played(robot: Path) -> None:
     line = [*PROGRAM, "bag", "play", "mine", "-m", "/odom:=/copy", "-l"]
     played = subprocess.Popen(line, cwd=robot, stderr=subprocess.PIPE, text=True)
     heard = [*PROGRAM, "topic", "echo", "--once", "/copy", "nav_msgs/msg/Odometry"]
-    out = subprocess.run(heard, capture_output=True, text=True, timeout=60, check=False).stdout
+    out = subprocess.run(heard, capture_output=True, text=True, timeout=120, check=False).stdout
     played.send_signal(signal.SIGINT)
-    _, reported = played.communicate(timeout=30)
+    _, reported = played.communicate(timeout=120)
     assert "pose:" in out and played.returncode == 0, reported
 
 
 def called(name: str, kind: str, request: str = "{}") -> str:
     """The answer of a service of rosbag2."""
     line = [*PROGRAM, "service", "call", name, f"rosbag2_interfaces/srv/{kind}", request]
-    return subprocess.run(line, capture_output=True, text=True, timeout=60, check=False).stdout
+    return subprocess.run(line, capture_output=True, text=True, timeout=120, check=False).stdout
 
 
 def test_a_recorder_and_a_player_follow_options_and_services(robot: Path) -> None:
@@ -90,7 +90,7 @@ def test_a_recorder_and_a_player_follow_options_and_services(robot: Path) -> Non
     called("/mine/resume", "Resume")
     assert grown(robot / "options" / "options_2.db3", 1)
     recorder.send_signal(signal.SIGINT)
-    recorder.communicate(timeout=30)
+    recorder.communicate(timeout=120)
     reported = typed(robot, "info", "options")
     assert reported.returncode == 0 and "who=me" in reported.stdout and "Storage id:        sqlite3" in reported.stdout
     line = [*PROGRAM, "bag", "play", "options", "--start-paused", "--remap", "/odom:=/copy"]
@@ -98,7 +98,7 @@ def test_a_recorder_and_a_player_follow_options_and_services(robot: Path) -> Non
     assert "success=True" in called("/rosbag2_player/play_next", "PlayNext")
     assert "success=True" in called("/rosbag2_player/set_rate", "SetRate", "{rate: 100.0}")
     called("/rosbag2_player/resume", "Resume")
-    _, message = player.communicate(timeout=30)
+    _, message = player.communicate(timeout=120)
     assert player.returncode == 0 and "0 messages published" not in f" {message}".splitlines(), message
 
 

@@ -22,7 +22,7 @@ from bot_console.tui.session.embedded.child_host import start_host
 from bot_console.tui.session.launch_host.proxy import HostedLauncher
 from launcher_bench import HEAD, WAITS
 
-TIMEOUT_S = 40.0
+TIMEOUT_S = 60.0
 CRASHES = "import ctypes\nprint('up', flush=True)\nctypes.string_at(0)\n"
 
 

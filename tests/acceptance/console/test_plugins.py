@@ -86,7 +86,7 @@ def test_example_is_built_installed_and_found(tmp_path: Path) -> None:
         "from bot_console.tui.session.plugins import find_plugins; each, = find_plugins(); print(each.load().TITLE)"
     )
     line = [sys.executable, "-c", f"import sys; sys.path.insert(0, {str(tmp_path / 'site')!r}); {program}"]
-    found = subprocess.run(line, capture_output=True, text=True, timeout=60, check=False, cwd=tmp_path / "site")
+    found = subprocess.run(line, capture_output=True, text=True, timeout=120, check=False, cwd=tmp_path / "site")
     assert found.stdout.strip() == "My robot", found.stderr
 
 

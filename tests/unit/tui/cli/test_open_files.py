@@ -29,5 +29,5 @@ print(resource.getrlimit(resource.RLIMIT_NOFILE)[0])
 )
 def test_low_limit_is_raised_or_reported(soft: int, hard: int, message: str, now: str) -> None:
     program = PROGRAM.format(soft=soft, hard=hard)
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True)
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=True)
     assert done.stdout.split("\n")[:2] == [message, now]

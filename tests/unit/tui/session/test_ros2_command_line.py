@@ -17,7 +17,7 @@ from bot_console.tui.session.embedded.ros2_command_line import Ros2CommandLine
 from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH
 from fakes.launcher import FakeLauncher
 
-TIMEOUT_S = 30.0
+TIMEOUT_S = 60.0
 
 
 @pytest.mark.parametrize("line", ["ros2 interface show std_msgs/msg/String", "interface show std_msgs/msg/String"])

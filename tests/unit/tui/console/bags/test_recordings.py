@@ -30,7 +30,7 @@ def texts(folder: Path, topic: str = "/words") -> list[str]:
 
 
 def reported(future: Future[Answer]) -> Answer:
-    return future.result(timeout=20)
+    return future.result(timeout=120)
 
 
 @pytest.fixture
