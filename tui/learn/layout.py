@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from bot_console.tui.layout.arrangement import LayoutStore
 from bot_console.tui.layout.named import Layout
-from bot_console.tui.layout.tree import Tree, below, beside
+from bot_console.tui.layout.tree import Tree, below, beside, close
 
 NAME = "lesson"
 LESSON = Layout(
@@ -48,8 +48,8 @@ class WithLesson:
         return {NAME: LESSON, **self.store.layouts()}
 
     def save(self, name: str, tree: Tree) -> str:
-        """Save a tree under a name; raises `NotSaved`."""
-        return self.store.save(name, tree)
+        """Save a tree under a name, without the lesson: a console without a course has none. Raises `NotSaved`."""
+        return self.store.save(name, close(tree, NAME) or tree)
 
     def remember(self, name: str, tree: Tree | None) -> None:
         """Keep the user's last layout as it was before the course."""
