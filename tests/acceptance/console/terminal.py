@@ -134,6 +134,10 @@ class Terminal:
         while left:
             left = left[os.write(self.master, left) :]
 
+    def unread(self) -> int:
+        """The number of bytes typed that the program has not read."""
+        return int.from_bytes(fcntl.ioctl(self._slave, termios.FIONREAD, bytes(4)), sys.byteorder)
+
     def wait(self) -> int:
         """The exit code, once the program has ended."""
         self.read_until(lambda: self.process.poll() is not None, "the end of the program")

@@ -19,12 +19,14 @@ from emulator import screen_of
 from processes.bad_link import BadLink
 from processes.kept_stops import Way, drives_after_restart, wait
 from processes.live_robot import TIMEOUT_S, LiveRobot
-from processes.losses import CONSOLE, WATCHED, Terminal, console
+from processes.losses import CONSOLE, WATCHED, Terminal, console, is_alive
 from processes.ports import free_port
 
 RECORDED = ("/emergency_stop/request", "/emergency_stop/arbiter", "/emergency_stop/base")
 MONITOR, BASE = "safety_monitor", "simulator"
 ESCAPE = "\x1b"
+SEQUENCES = 150
+"""How many are typed at once: fewer bytes than a terminal holds."""
 PROMPT = "esc Cancel"
 """In the line of keys, while a line is typed."""
 MOVES = "".join(f"\x1b[<35;{10 + at % 90};{5 + at % 30}M" for at in range(15_000))
@@ -309,10 +311,18 @@ def both_restarted_and_free(robot: LiveRobot) -> None:
 
 
 def send(person: Terminal, text: str) -> None:
-    """Type much, reading the screen meanwhile."""
-    for at in range(0, len(text), 2048):
-        person.type(text[at : at + 2048])
+    """Type much, reading the screen meanwhile.
+
+    Sequences arrive whole, as long as the console reads: the first byte of one that arrives alone, and late, is the
+    key Esc.
+    """
+    begin, *sequences = text.split(ESCAPE)
+    person.type(begin)
+    for at in range(0, len(sequences), SEQUENCES):
+        person.type("".join(ESCAPE + each for each in sequences[at : at + SEQUENCES]))
         person.drain(0.001)
+        while person.unread() and is_alive(person.process.pid):
+            person.drain(0.001)
 
 
 def press_behind_flood(robot: LiveRobot, person: Terminal) -> None:
