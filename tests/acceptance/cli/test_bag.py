@@ -31,13 +31,15 @@ def robot(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     line = [*PROGRAM, "--headless", "--duration", "1000"]
     system = subprocess.Popen(line, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment)
     seen = [*PROGRAM, "topic", "echo", "--once", "--timeout", "100", "/odom", "nav_msgs/msg/Odometry"]
-    subprocess.run(seen, capture_output=True, timeout=120, check=True, env=environment)
-    yield folder
-    system.send_signal(signal.SIGINT)
     try:
-        system.wait(60)
-    except subprocess.TimeoutExpired:
-        system.kill()
+        subprocess.run(seen, capture_output=True, timeout=120, check=True, env=environment)
+        yield folder
+    finally:
+        system.send_signal(signal.SIGINT)
+        try:
+            system.wait(60)
+        except subprocess.TimeoutExpired:
+            system.kill()
     subprocess.run(["rm", "-rf", SOCKETS, f"{SOCKETS}-user"], check=False)
 
 
