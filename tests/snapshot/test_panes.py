@@ -12,6 +12,7 @@ from bot_console.tui.pane_table import PANES
 from bot_console.tui.panes.steering.pane import SteeringPane
 from fakes.console import FakeConsole
 from fakes.launcher import FakeLauncher
+from fleet import fleet
 from piloting import Clock
 from samples import empty, faulty, live, with_camera
 
@@ -24,10 +25,12 @@ STATES: list[tuple[str, System, tuple[int, int]]] = [
 ]
 RARER: list[tuple[str, System, tuple[int, int]]] = [
     ("medium", live, (120, 40)),
-    ("large", live, (200, 60)),
+    ("large", live, (200, 50)),
     ("empty_medium", empty, (120, 40)),
     ("faulty_medium", faulty, (120, 40)),
+    ("fleet_medium", fleet, (120, 40)),
     ("empty_large", empty, (200, 50)),
+    ("fleet_large", fleet, (200, 50)),
     ("faulty_large", faulty, (200, 50)),
 ]
 """What is drawn by the same code as above, with more room."""
@@ -49,10 +52,29 @@ def test_pane(entry: Any, state: str, system: System, size: tuple[int, int], sna
 
 
 @pytest.mark.parametrize(
-    "size", [(60, 20), (80, 24), (100, 30), (120, 40), (200, 60)], ids=["least", "compact", "small", "medium", "large"]
+    "size", [(60, 20), (80, 24), (100, 30), (120, 40), (200, 50)], ids=["least", "compact", "small", "medium", "large"]
 )
 def test_overview(size: tuple[int, int], snap_compare: Any) -> None:
     assert snap_compare(app_of(live), terminal_size=size)
+
+
+FOLDED = ("graph", "launch", "topics")
+"""The panes that fold a fleet, whose pictures at the smallest size are taken by default."""
+
+
+@pytest.mark.parametrize(
+    "entry",
+    [pytest.param(each, id=each.id, marks=() if each.id in FOLDED else pytest.mark.soak) for each in PANES],
+)
+def test_fleet(entry: Any, snap_compare: Any) -> None:
+    assert snap_compare(app_of(fleet), terminal_size=(80, 24), press=[entry.key])
+
+
+@pytest.mark.soak
+@pytest.mark.parametrize("size", [(80, 24), (120, 40), (200, 50)], ids=["compact", "medium", "large"])
+@pytest.mark.parametrize("system", [empty, fleet])
+def test_overview_of_other_systems(system: System, size: tuple[int, int], snap_compare: Any) -> None:
+    assert snap_compare(app_of(system), terminal_size=size)
 
 
 def test_too_small(snap_compare: Any) -> None:

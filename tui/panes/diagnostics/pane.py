@@ -114,7 +114,7 @@ class DiagnosticsPane(ListPane):
         if row is None:
             return Text(sanitize(self._problem or self._info.problem), "dim")
         if row.status is None:
-            return Text(sanitize(below_text(row)))
+            return Text(below_text(row))
         text = Text(no_wrap=True, overflow="ellipsis")
         for heading, lines in sections(row.status, self.clock()):
             if lines:
@@ -200,4 +200,4 @@ def sections(status: Status, now: float) -> list[Section]:
 
 def below_text(row: Row) -> str:
     """The details of a part that only contains others."""
-    return f"{row.path}\n  {row.count - row.bad} of {row.count} OK"
+    return f"{sanitize(row.path)}\n  {row.count - row.bad} of {row.count} OK"

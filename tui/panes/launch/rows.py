@@ -94,6 +94,14 @@ def _gathered(followed: Followed) -> tuple[str, str, str]:
     return strip(followed.cpu, 1.0), errors, f"{followed.warnings} W" if followed.warnings else ""
 
 
+def short_names(nodes: Sequence[str]) -> Sequence[str]:
+    """Node names; several of one namespace without it, which then stands in front of them once."""
+    spaces = {each.rpartition("/")[0] for each in nodes}
+    if len(nodes) < 2 or len(spaces) > 1 or not (space := spaces.pop()):
+        return nodes
+    return f"{space}/", *(each.rpartition("/")[2] for each in nodes)
+
+
 class ProcessRows(ItemList[Row]):
     """The rows of the tree."""
 
@@ -150,7 +158,7 @@ class ProcessRows(ItemList[Row]):
         columns += [f"  {sanitize(each)}" for each in states if process.state is ProcessState.RUNNING]
         trace, errors, warnings = _gathered(self.follower.of(process.key))
         columns += self._usage(process, trace, width)
-        nodes = "  " + " ".join(process.nodes) if width >= 90 and process.nodes else ""
+        nodes = "  " + " ".join(short_names(process.nodes)) if width >= 90 and process.nodes else ""
         if process.problem and (process.exit_code is None or width >= 60):
             columns.append(f"  {sanitize(process.problem)}")
         plain = None if process.state is ProcessState.RUNNING else self._style(style)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -167,7 +168,14 @@ def essential_rows(trees: Mapping[str, ParameterTree]) -> list[Row]:
     found = [each for tree in trees.values() for each in tree.parameters if not _is_built_in(each.name)]
     ranked = [(rank, each) for each in found if (rank := importance(each)) is not None and rank <= DISTANCE]
     best = [each for _, each in sorted(ranked, key=lambda pair: ("." in pair[1].name, pair[0]))]
-    return [Row(each.node, each.name, 0, each) for each in best or [each for each in found if each.range] or found]
+    chosen = best or [each for each in found if each.range] or found
+    names = Counter(each.name for each in chosen)
+    return [Row(each.node, _name_among(each, names), 0, each) for each in chosen]
+
+
+def _name_among(parameter: ParameterInfo, names: Mapping[str, int]) -> str:
+    """The name of a parameter; with its node where several nodes have one of that name."""
+    return parameter.name if names[parameter.name] == 1 else f"{parameter.name} {parameter.node.removeprefix('/')}"
 
 
 def worth_changing(found: Sequence[Row]) -> int:

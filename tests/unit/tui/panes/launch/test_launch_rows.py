@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
-from bot_console.tui.panes.launch.rows import rows
+from bot_console.tui.panes.launch.rows import rows, short_names
 
 
 def process(key: str, *group: str, state: ProcessState = ProcessState.RUNNING) -> ProcessInfo:
@@ -36,3 +36,10 @@ def test_group_counts_its_running_processes() -> None:
 
 def test_processes_without_a_group_are_not_indented() -> None:
     assert shape(LaunchInfo(processes=(process("a"), process("b", "f")))) == ["a", "f", "  b"]
+
+
+def test_nodes_of_one_namespace_are_named_without_it() -> None:
+    assert short_names(("/robot1/lidar", "/robot1/base")) == ("/robot1/", "lidar", "base")
+    assert short_names(("/robot1/lidar", "/base")) == ("/robot1/lidar", "/base")
+    assert short_names(("/lidar", "/base")) == ("/lidar", "/base")
+    assert short_names(("/robot1/lidar",)) == ("/robot1/lidar",)

@@ -192,3 +192,9 @@ def test_large_tree_starts_folded_with_its_namespaces_and_a_small_one_open() -> 
     assert set(fleet) <= folded and {f"/robot{robot}/" for robot in range(5)} <= folded
     trees = {node: ParameterTree(node, ()) for node in fleet}
     assert [row.title for row in rows(trees, View(folded=folded))] == [f"/robot{robot}/" for robot in range(5)]
+
+
+def test_short_list_names_the_node_where_several_have_a_parameter_of_that_name() -> None:
+    found = trees(tree("/robot1/base", "max_speed"), tree("/robot2/base", "max_speed", "safety_distance"))
+    assert drawn(found, View(essential=True)) == ["max_speed robot1/base", "max_speed robot2/base", "safety_distance"]
+    assert drawn(trees(tree("/base", "max_speed")), View(essential=True)) == ["max_speed"]
