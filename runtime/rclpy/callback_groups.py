@@ -1,16 +1,22 @@
 """Callback groups: which callbacks may run at the same time."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 import weakref
 from _thread import allocate_lock
-from typing import Any
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rclpy.impl.entity import Entity
 
 
 class CallbackGroup:
     """Holds entities by weak reference, and decides which of them may run. The base of both kinds of group."""
 
-    blocked: list[Any] | None = None
+    blocked: list[Entity] | None = None
     """Entities that are ready and have to wait for the group, or nothing."""
     own_rules = False
     """Whether it is a program's own class, which does not report when a waiting entity may begin."""
@@ -24,12 +30,13 @@ class CallbackGroup:
         cls.own_rules = cls.__module__ != __name__
 
     def __init__(self) -> None:
-        self.entities: set[Any] = set()
+        self.entities: set[weakref.ref[object]] = set()
 
-    def block(self, entity: Any) -> None:
+    def block(self, entity: Entity) -> None:
         """Register an entity that may not run now, to be notified when it may."""
         if self.own_rules:
-            entity.sink.ask_again(entity)
+            if entity.sink is not None:
+                entity.sink.ask_again(entity)
             return
         if self.blocked is None:
             self.blocked = []
@@ -56,15 +63,15 @@ class CallbackGroup:
         """Whether an entity belongs to the group."""
         return weakref.ref(entity) in self.entities
 
-    def can_execute(self, entity: object) -> bool:
+    def can_execute(self, entity: Entity) -> bool:
         """Whether the entity's callback may run now."""
         raise NotImplementedError
 
-    def beginning_execution(self, entity: object) -> bool:
+    def beginning_execution(self, entity: Entity) -> bool:
         """Mark the entity's callback as running, if that is allowed; returns whether it was."""
         raise NotImplementedError
 
-    def ending_execution(self, entity: object) -> None:
+    def ending_execution(self, entity: Entity) -> None:
         """Mark the entity's callback as ended."""
         raise NotImplementedError
 
@@ -72,15 +79,15 @@ class CallbackGroup:
 class ReentrantCallbackGroup(CallbackGroup):
     """Every callback may run at any time."""
 
-    def can_execute(self, entity: object) -> bool:
+    def can_execute(self, entity: Entity) -> bool:
         """Whether the entity's callback may run now: always."""
         return True
 
-    def beginning_execution(self, entity: object) -> bool:
+    def beginning_execution(self, entity: Entity) -> bool:
         """Mark the entity's callback as running, which is always allowed."""
         return True
 
-    def ending_execution(self, entity: object) -> None:
+    def ending_execution(self, entity: Entity) -> None:
         """Mark the entity's callback as ended."""
 
 
@@ -89,21 +96,21 @@ class MutuallyExclusiveCallbackGroup(CallbackGroup):
 
     def __init__(self) -> None:
         super().__init__()
-        self._active_entity: Any = None
+        self._active_entity: Entity | None = None
         self._busy = allocate_lock()
 
-    def can_execute(self, entity: object) -> bool:
+    def can_execute(self, entity: Entity) -> bool:
         """Whether no callback of the group is running."""
         return not self._busy.locked()
 
-    def beginning_execution(self, entity: object) -> bool:
+    def beginning_execution(self, entity: Entity) -> bool:
         """Mark the entity's callback as running, unless another callback of the group is."""
         if self._busy.acquire(False):
             self._active_entity = entity
             return True
         return False
 
-    def ending_execution(self, entity: object) -> None:
+    def ending_execution(self, entity: Entity) -> None:
         """Mark the entity's callback as ended."""
         if self._active_entity is entity:
             self._active_entity = None

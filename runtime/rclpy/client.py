@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import threading
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import ClientEndpoint
@@ -18,6 +18,14 @@ from rclpy.impl.graph_wait import require_valid, wait_until_there
 from rclpy.impl.reexports import reexporting
 from rclpy.task import Future
 
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.message import Message, ServiceType
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.clock import Clock
+    from rclpy.node_parts.base import NodeBase
+    from rclpy.qos import QoSProfile
+    from rclpy.service_introspection import ServiceEvents, ServiceIntrospectionState
+
 NANO = 1_000_000_000
 
 
@@ -25,10 +33,17 @@ class Client(Entity):
     """Calls a service; made by `Node.create_client`."""
 
     KIND = CLIENT
-    events: Any = None
+    events: ServiceEvents | None = None
     """Publishes the client's events while introspection is on."""
 
-    def __init__(self, node: Any, srv_type: Any, srv_name: str, qos_profile: Any, callback_group: Any) -> None:
+    def __init__(
+        self,
+        node: NodeBase,
+        srv_type: ServiceType,
+        srv_name: str,
+        qos_profile: QoSProfile,
+        callback_group: CallbackGroup,
+    ) -> None:
         super().__init__(callback_group)
         self._node = node
         self.srv_type = srv_type
@@ -56,7 +71,7 @@ class Client(Entity):
         """The name of the node's logger."""
         return self._node.get_logger().name
 
-    def call(self, request: Any, timeout_sec: float | None = None) -> Any:
+    def call(self, request: Message, timeout_sec: float | None = None) -> Any:
         """Send a request and wait for the response, received by another thread; None after the time-out (s).
 
         Without a time-out it raises `ROSInterruptException` when the context is shut down.
@@ -78,7 +93,7 @@ class Client(Entity):
             raise future.exception()  # type: ignore[misc] -- there is one here
         return future.result()
 
-    def call_async(self, request: Any) -> Future[Any]:
+    def call_async(self, request: Message) -> Future[Any]:
         """Send a request; the future is done when the response has arrived and an executor has taken it."""
         if not isinstance(request, self.srv_type.Request):
             raise TypeError
@@ -114,7 +129,7 @@ class Client(Entity):
         """Whether a response has arrived."""
         return bool(self.endpoint.queue) and not self.destroyed
 
-    def run(self) -> Any:
+    def run(self) -> object:
         """Take one response and settle its future."""
         try:
             number, response = self.endpoint.queue.popleft()
@@ -138,7 +153,9 @@ class Client(Entity):
         """Block until a server is available; False after the time-out (s). Raises `RCLError` once the context ends."""
         return wait_until_there(self._node, self.service_is_ready, timeout_sec)
 
-    def configure_introspection(self, clock: Any, service_event_qos_profile: Any, introspection_state: Any) -> None:
+    def configure_introspection(
+        self, clock: Clock, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
+    ) -> None:
         """Publish the client's activity on a topic next to the service."""
         from rclpy.service_introspection import configure
 

@@ -10,7 +10,7 @@ import weakref
 from collections.abc import Callable
 from enum import IntEnum
 from types import TracebackType
-from typing import Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from bot_console.runtime.process import current
 from rclpy.clock_type import ClockType, TimeClockType
@@ -20,6 +20,9 @@ from rclpy.impl.any_clock import AnyClock
 from rclpy.impl.reexports import reexporting
 from rclpy.time import Time
 from rclpy.utilities import get_default_context
+
+if TYPE_CHECKING:
+    from rclpy.context import Context
 
 __all__ = [
     "Clock",
@@ -78,10 +81,26 @@ class TimeJump:
         return self._delta
 
 
+class ClockUser(Protocol):
+    """Something that waits for a time of a clock."""
+
+    def arm(self) -> None:
+        """Set again when it is due."""
+
+    def time_jumped(self, backward: bool) -> None:
+        """Observe a jump of the clock."""
+
+
 class JumpHandle:
     """Callbacks before and after jumps, until `unregister` is called."""
 
-    def __init__(self, clock: Any, threshold: JumpThreshold, pre_callback: Any, post_callback: Any) -> None:
+    def __init__(
+        self,
+        clock: Clock,
+        threshold: JumpThreshold,
+        pre_callback: Callable[[], object] | None,
+        post_callback: Callable[[TimeJump], object] | None,
+    ) -> None:
         self._clock = clock
         self.threshold = threshold
         self.pre_callback = pre_callback
@@ -121,7 +140,7 @@ class Clock(AnyClock):
         # Chosen once: a timer reads its clock several times per call.
         self._read = self._source.steady_ns if self._clock_type is ClockType.STEADY_TIME else self._source.system_ns
         self._jump_handles: list[JumpHandle] = []
-        self._timers: weakref.WeakSet[Any] = weakref.WeakSet()
+        self._timers: weakref.WeakSet[ClockUser] = weakref.WeakSet()
         self._lock = threading.Lock()
 
     @property
@@ -156,18 +175,18 @@ class Clock(AnyClock):
         until = when - self._source.system_ns()
         return self._source.steady_ns() + until
 
-    def _add_timer(self, timer: object) -> None:
+    def _add_timer(self, timer: ClockUser) -> None:
         self._timers.add(timer)
 
-    def _remove_timer(self, timer: object) -> None:
+    def _remove_timer(self, timer: ClockUser) -> None:
         self._timers.discard(timer)
 
     def create_jump_callback(
         self,
         threshold: JumpThreshold,
         *,
-        pre_callback: Callable[[], Any] | None = None,
-        post_callback: Callable[[Any], Any] | None = None,
+        pre_callback: Callable[[], object] | None = None,
+        post_callback: Callable[[TimeJump], object] | None = None,
     ) -> JumpHandle:
         """Register callbacks before and after jumps beyond a threshold; raises `ValueError` if not callable."""
         if pre_callback is None and post_callback is None:
@@ -177,7 +196,7 @@ class Clock(AnyClock):
                 raise ValueError(f"{name} must be callable if given")
         return JumpHandle(self, threshold, pre_callback, post_callback)
 
-    def sleep_until(self, until: Time, context: Any = None) -> bool:
+    def sleep_until(self, until: Time, context: Context | None = None) -> bool:
         """Block until a time of this clock; False if the context was shut down or the clock jumped back meanwhile."""
         context = get_default_context() if context is None else context
         if not context.ok():
@@ -188,7 +207,7 @@ class Clock(AnyClock):
         forget = context.on_end(wakeup.set)
         changed: list[bool] = []
 
-        def jumped(jump: Any) -> None:
+        def jumped(jump: TimeJump) -> None:
             if jump.clock_change in (ClockChange.ROS_TIME_ACTIVATED, ClockChange.ROS_TIME_DEACTIVATED):
                 changed.append(True)
             wakeup.set()
@@ -202,7 +221,7 @@ class Clock(AnyClock):
         forget()
         return bool(context.ok()) and not changed
 
-    def sleep_for(self, rel_time: Duration, context: object = None) -> bool:
+    def sleep_for(self, rel_time: Duration, context: Context | None = None) -> bool:
         """Block for a duration of this clock."""
         return self.sleep_until(self.now() + rel_time, context)
 

@@ -1,5 +1,8 @@
 """Contexts: what `rclpy.init` creates and `rclpy.shutdown` ends."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 import sys
@@ -7,7 +10,7 @@ import threading
 import weakref
 from collections.abc import Callable, Sequence
 from types import MethodType, TracebackType
-from typing import Any
+from typing import TYPE_CHECKING, Protocol
 
 from bot_console.runtime.distribution import distribution
 from bot_console.runtime.domain_id import domain_id as environments_domain
@@ -20,7 +23,31 @@ from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.reexports import reexporting
 from rclpy.signals import remember_context
 
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from bot_console.runtime.rmw.arguments import Arguments
+    from rclpy.impl.log_file import LogFile
+
 NOT_INITIALIZED = "this context has not been initialised: call rclpy.init() first"
+
+
+class NodeOfContext(Protocol):
+    """A node as its context knows it."""
+
+    def get_fully_qualified_name(self) -> str:
+        """Namespace and name."""
+
+    def _ros_leave_graph(self) -> None: ...
+
+    @property
+    def _allow_undeclared_parameters(self) -> bool: ...
+
+    @property
+    def _parameters(self) -> Mapping[str, object]: ...
+
+    @property
+    def _ros_arguments(self) -> Sequence[Arguments]: ...
 
 
 class Context:
@@ -28,18 +55,18 @@ class Context:
 
     def __init__(self) -> None:
         self._lock = threading.RLock()
-        self._callbacks: list[Callable[[], Any]] = []
-        self._wakes: list[Callable[[], Any]] = []
-        self._nodes: weakref.WeakSet[Any] = weakref.WeakSet()
+        self._callbacks: list[Callable[[], Callable[[], object] | None]] = []
+        self._wakes: list[Callable[[], Callable[[], object] | None]] = []
+        self._nodes: weakref.WeakSet[NodeOfContext] = weakref.WeakSet()
         self._initialized = False
         self.ended = False
         """Whether it was shut down."""
         self.ended_by_signal = False
         self._abandoned = False
-        self.arguments: Any = None
+        self.arguments: Arguments
         self._domain = 0
         self._bus: Bus | None = None
-        self._log_file: Any = None
+        self._log_file: LogFile | None = None
         self.lingering: set[Thing] = set()
         """Endpoints that stay in the graph although their node was destroyed."""
 
@@ -150,17 +177,17 @@ class Context:
             if callback is not None:
                 callback()
 
-    def on_shutdown(self, callback: Callable[[], Any]) -> None:
+    def on_shutdown(self, callback: Callable[[], object]) -> None:
         """Register a callback for the shutdown, called at once if that is over."""
         if not callable(callback):
             raise TypeError("callback should be a callable, got {}", type(callback))  # a pair, as upstream
         self._add(callback, "_callbacks")
 
-    def on_end(self, wake: Callable[[], Any]) -> Callable[[], None]:
+    def on_end(self, wake: Callable[[], object]) -> Callable[[], None]:
         """Register `wake` to be called when the context ends for any reason; returns a function that removes it."""
         return self._add(wake, "_wakes")
 
-    def _add(self, callback: Callable[[], Any], name: str) -> Callable[[], None]:
+    def _add(self, callback: Callable[[], object], name: str) -> Callable[[], None]:
         held = self._held(callback)
         with self._lock:
             if not self.ended:
@@ -169,7 +196,7 @@ class Context:
         callback()
         return lambda: None
 
-    def _held(self, callback: Callable[[], Any]) -> Callable[[], Any]:
+    def _held(self, callback: Callable[[], object]) -> Callable[[], Callable[[], object] | None]:
         """A reference to the callback: methods are held weakly, so that the context keeps no object alive."""
         if isinstance(callback, MethodType):
             try:
@@ -183,17 +210,17 @@ class Context:
             self._callbacks = [each for each in self._callbacks if each is not held]
             self._wakes = [each for each in self._wakes if each is not held]
 
-    def track_node(self, node: Any) -> None:
+    def track_node(self, node: NodeOfContext) -> None:
         """Register a node created in this context."""
         self._nodes.add(node)
         if self._abandoned:
             node._ros_leave_graph()
 
-    def tracked_nodes(self) -> list[Any]:
+    def tracked_nodes(self) -> list[NodeOfContext]:
         """The nodes in this context."""
         return list(self._nodes)
 
-    def untrack_node(self, node: object) -> None:
+    def untrack_node(self, node: NodeOfContext) -> None:
         """Unregister a destroyed node."""
         self._nodes.discard(node)
 

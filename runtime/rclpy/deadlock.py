@@ -8,15 +8,18 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from types import FrameType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.frames import line_outside
 from bot_console.runtime.process.notices import notify
-from rclpy.callback_groups import CallbackGroup
 from rclpy.exceptions import ROSInterruptException
 from rclpy.ready_callbacks import ReadyCallbacks
 from rclpy.task import Future, Task
+
+if TYPE_CHECKING:
+    from rclpy.impl.entity import Entity
+    from rclpy.node_parts.base import NodeBase
 
 WARNING_DELAY_NS = 5_000_000_000
 """How long a thread waits before a deadlock is reported."""
@@ -37,7 +40,7 @@ UNSPUN = (
 )
 
 
-def report_deadlock(entity: Any, node: Any, what: str) -> None:
+def report_deadlock(entity: Entity, node: NodeBase, what: str) -> None:
     """Give a notice if what the calling thread waits for, an event of a node's entity, cannot come."""
     frame = sys._getframe(1)
     if text := _cause(entity, frame):
@@ -62,7 +65,7 @@ def runs_in_callback() -> bool:
     return next(_running(sys._getframe(1)), None) is not None
 
 
-def _cause(entity: Any, frame: FrameType) -> str:
+def _cause(entity: Entity, frame: FrameType) -> str:
     if _blocked(entity, frame):
         return GROUP
     if any(executor is entity.sink and executor.receives_in_one_thread for executor, _ in _running(frame)):
@@ -70,9 +73,9 @@ def _cause(entity: Any, frame: FrameType) -> str:
     return UNSPUN if entity.sink is None else ""
 
 
-def _blocked(entity: Any, frame: FrameType) -> bool:
+def _blocked(entity: Entity, frame: FrameType) -> bool:
     """Whether a callback of the entity's group runs further up the stack, and keeps the entity from being served."""
-    group: CallbackGroup = entity.callback_group
+    group = entity.callback_group
     return any(each.callback_group is group for _, each in _running(frame)) and not group.can_execute(entity)
 
 
@@ -93,7 +96,9 @@ _KINDS = ("the action client", "the timer", "the subscription", "the guard condi
 """By the kind of an entity."""
 
 
-def wait_until_settled(future: Future[Any], entity: Any, node: Any, what: str, deadline_ns: int | None = None) -> None:
+def wait_until_settled(
+    future: Future[Any], entity: Entity, node: NodeBase, what: str, deadline_ns: int | None = None
+) -> None:
     """Block until the future, which a node's entity settles, is done or cancelled, or until a steady time (ns).
 
     If it never can be, a notice says so after a while, which calls the wait `what`.

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from bot_console.runtime.distribution import distribution
 from rclpy.constants import S_TO_NS
+
+if TYPE_CHECKING:
+    from builtin_interfaces.msg import Duration as DurationMsg
 
 MAX_NS = 2**63
 
@@ -73,7 +76,7 @@ class Duration:
             return Duration(nanoseconds=int(self._nanoseconds * other))
         return NotImplemented
 
-    def to_msg(self) -> Any:
+    def to_msg(self) -> DurationMsg:
         """A `builtin_interfaces/Duration`; its nanoseconds are never negative."""
         from builtin_interfaces.msg import Duration as DurationMessage
 

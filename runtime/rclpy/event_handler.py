@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rclpy._rclpy_pybind11 import UnsupportedEventTypeError, rmw_qos_policy_kind_t
 from rclpy.impl.event_handlers import (
@@ -18,6 +18,13 @@ from rclpy.impl.event_types import QoSPublisherEventType, QoSSubscriptionEventTy
 from rclpy.impl.qos_policies import QoSPolicyKind
 from rclpy.impl.reexports import reexporting
 from rclpy.qos import LivelinessPolicy, QoSProfile
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.duration import Duration
+    from rclpy.impl.rcutils_logger import RcutilsLogger
 
 __all__ = [
     "EventHandler",
@@ -38,7 +45,7 @@ __all__ = [
     "UnsupportedEventTypeError",
 ]
 
-Callback = Callable[[Any], Any]
+Callback = Callable[[Any], object]
 INFINITE_NS = 2**63 - 2
 """Durations from here on stand for no limit."""
 
@@ -114,9 +121,9 @@ class IncompatibleTypeInfo(QoSCountInfo):
 
 class _EventCallbacks:
     _WORDS: str
-    _INCOMPATIBLE: Any
-    _MATCHED: Any
-    _DEADLINE: Any
+    _INCOMPATIBLE: type[QoSIncompatibleInfo]
+    _MATCHED: type[QoSMatchedInfo]
+    _DEADLINE: type[QoSCountInfo]
 
     def __init__(
         self,
@@ -136,7 +143,7 @@ class _EventCallbacks:
         self.use_default_callbacks = use_default_callbacks
 
     def create_event_handlers(
-        self, callback_group: object, logger: Callable[[], Any], topic: str, qos: QoSProfile
+        self, callback_group: CallbackGroup, logger: Callable[[], RcutilsLogger], topic: str, qos: QoSProfile
     ) -> list[EventHandler]:
         """The handlers of a publisher or subscription of a topic."""
         handlers: list[EventHandler] = []
@@ -152,13 +159,13 @@ class _EventCallbacks:
             handlers += self._liveliness(self.liveliness, callback_group, qos)
         return handlers
 
-    def _warner(self, logger: Callable[[], Any], topic: str) -> Callback:
-        def warn(info: Any) -> None:
+    def _warner(self, logger: Callable[[], RcutilsLogger], topic: str) -> Callback:
+        def warn(info: QoSIncompatibleInfo) -> None:
             logger().warning(self._WORDS.format(topic, QoSPolicyKind(info.last_policy_kind).name))
 
         return warn
 
-    def _liveliness(self, callback: Callback, group: object, qos: QoSProfile) -> list[EventHandler]:
+    def _liveliness(self, callback: Callback, group: CallbackGroup, qos: QoSProfile) -> Sequence[EventHandler]:
         raise NotImplementedError
 
 
@@ -178,7 +185,7 @@ class SubscriptionEventCallbacks(_EventCallbacks):
         self.message_lost = message_lost
 
     def create_event_handlers(
-        self, callback_group: object, logger: Callable[[], Any], topic: str, qos: QoSProfile
+        self, callback_group: CallbackGroup, logger: Callable[[], RcutilsLogger], topic: str, qos: QoSProfile
     ) -> list[EventHandler]:
         """The handlers of a subscription of a topic."""
         handlers = super().create_event_handlers(callback_group, logger, topic, qos)
@@ -186,7 +193,7 @@ class SubscriptionEventCallbacks(_EventCallbacks):
             handlers.append(LostHandler(QoSMessageLostInfo, self.message_lost, callback_group))
         return handlers
 
-    def _liveliness(self, callback: Callback, group: object, qos: QoSProfile) -> list[EventHandler]:
+    def _liveliness(self, callback: Callback, group: CallbackGroup, qos: QoSProfile) -> Sequence[EventHandler]:
         return [LivelinessHandler(QoSLivelinessChangedInfo, callback, group)]
 
 
@@ -201,14 +208,14 @@ class PublisherEventCallbacks(_EventCallbacks):
     _MATCHED = QoSPublisherMatchedInfo
     _DEADLINE = QoSOfferedDeadlineMissedInfo
 
-    def _liveliness(self, callback: Callback, group: object, qos: QoSProfile) -> list[EventHandler]:
+    def _liveliness(self, callback: Callback, group: CallbackGroup, qos: QoSProfile) -> Sequence[EventHandler]:
         lease = limit(qos.liveliness_lease_duration)
         if lease is None or qos.liveliness is not LivelinessPolicy.MANUAL_BY_TOPIC:
             return []  # a publisher whose process lives is alive
         return [MissedHandler(QoSLivelinessLostInfo, callback, group, lease, again=False)]
 
 
-def limit(duration: Any) -> int | None:
+def limit(duration: Duration) -> int | None:
     """Return a profile's duration in ns; None if it means no limit."""
     return duration.nanoseconds if 0 < duration.nanoseconds < INFINITE_NS else None
 

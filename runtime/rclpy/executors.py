@@ -13,7 +13,7 @@ from collections.abc import Callable, Coroutine, Generator
 from contextlib import contextmanager
 from operator import attrgetter
 from types import TracebackType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.distribution import distribution
 from bot_console.runtime.process import current
@@ -29,20 +29,28 @@ from rclpy.ready_callbacks import await_or_execute as await_or_execute
 from rclpy.task import Future, Task
 from rclpy.utilities import get_default_context, timeout_sec_to_nsec
 
+if TYPE_CHECKING:
+    from _thread import LockType
+
+    from bot_console.runtime.process.clock_source import Wakeup
+    from rclpy.context import Context
+    from rclpy.impl.entity import Entity
+    from rclpy.node_parts.base import NodeBase
+
 
 class TaskQueue:
     """The methods of `Executor` that keep tasks and continue them."""
 
-    _tasks: dict[Task[Any], Any]
+    _tasks: dict[Task[Any], Entity | None]
     _ready_tasks: list[Task[Any]]
-    _lock: Any
+    _lock: LockType
     _waiting: int
-    _wakeup: Any
+    _wakeup: Wakeup
     _is_shutdown: bool
-    _ended: Callable[[Any], None]
+    _ended: Callable[[Entity], None]
 
     def create_task(
-        self, callback: Callable[..., Any] | Coroutine[Any, Any, Any], *args: object, **kwargs: object
+        self, callback: Callable[..., object] | Coroutine[object, None, object], *args: object, **kwargs: object
     ) -> Task[Any]:
         """Schedule a function or coroutine in this executor; thread-safe."""
         if self._is_shutdown and not distribution().closed_executor_takes_work:
@@ -51,7 +59,7 @@ class TaskQueue:
         self._enter(task, None)
         return task
 
-    def _enter(self, task: Task[Any], entity: object) -> None:
+    def _enter(self, task: Task[Any], entity: Entity | None) -> None:
         with self._lock:
             self._tasks[task] = entity
             self._ready_tasks.append(task)
@@ -133,24 +141,24 @@ class Executor(TaskQueue, ReadyCallbacks):
     receives_in_one_thread = False
     """Whether nothing is received while a callback runs."""
 
-    def __init__(self, *, context: Any = None) -> None:
+    def __init__(self, *, context: Context | None = None) -> None:
         self._context = get_default_context() if context is None else context
         self._context.require_running("guard_condition")
         self._clock = current().clock
         self._steady_ns = self._clock.steady_ns
-        self._nodes: dict[Any, int] = {}
+        self._nodes: dict[NodeBase, int] = {}
         self._node_count = 0
-        self._ready: deque[Any] = deque()
-        self._batch: deque[Any] = deque()
-        self._tasks: dict[Task[Any], Any] = {}
+        self._ready: deque[Entity] = deque()
+        self._batch: deque[Any] = deque()  # entities and tasks, told apart by their class: `isinstance` takes longer
+        self._tasks: dict[Task[Any], Entity | None] = {}
         self._ready_tasks: list[Task[Any]] = []
-        self._held: list[Any] = []
+        self._held: list[Entity] = []
         """Ready entities whose group, one of the program's own, did not let them begin."""
         self._timers = TimerHeap()
         self._lock = allocate_lock()  # held for a few lines that never wait: it blocks nobody, in a stepped run either
         self._wakeup = self._clock.wakeup()
         self._waiting = 0
-        self._awaited: tuple[Any, ...] | None = None
+        self._awaited: tuple[object, ...] | None = None
         """What the thread that waits for work has requested."""
         self._is_shutdown = False
         self.is_global = False
@@ -175,7 +183,7 @@ class Executor(TaskQueue, ReadyCallbacks):
             self._spinning -= 1
 
     @property
-    def context(self) -> Any:
+    def context(self) -> Context:
         """The context whose shutdown ends this executor's spinning."""
         return self._context
 
@@ -187,13 +195,13 @@ class Executor(TaskQueue, ReadyCallbacks):
     ) -> None:
         self.shutdown()
 
-    def arm(self, timer: object, deadline: int) -> None:
+    def arm(self, timer: Entity, deadline: int) -> None:
         """Set the steady time (ns) at which a timer is due; thread-safe."""
         self._timers.push(deadline, timer)
         if self._waiting:
             self._wakeup.set()
 
-    def ask_again(self, entity: object) -> None:
+    def ask_again(self, entity: Entity) -> None:
         """Retry an entity that may not begin now at the next wake."""
         self._held.append(entity)
 
@@ -201,7 +209,7 @@ class Executor(TaskQueue, ReadyCallbacks):
         """Wake a waiting `spin_once`."""
         self._wakeup.set()
 
-    def add_node(self, node: Any) -> bool:
+    def add_node(self, node: NodeBase) -> bool:
         """Add a node, removing it from its previous executor; returns whether it was new here."""
         if node in self._nodes:
             return False
@@ -214,12 +222,12 @@ class Executor(TaskQueue, ReadyCallbacks):
         self.wake()
         return True
 
-    def remove_node(self, node: Any) -> None:
+    def remove_node(self, node: NodeBase) -> None:
         """Remove a node; its `executor` still refers to this one, as upstream."""
         if self._nodes.pop(node, None) is not None:
             node._ros_detach()
 
-    def get_nodes(self) -> list[Any]:
+    def get_nodes(self) -> list[NodeBase]:
         """The nodes of this executor."""
         return list(self._nodes)
 
@@ -271,7 +279,7 @@ class Executor(TaskQueue, ReadyCallbacks):
     def _spin_once(self, timeout_sec: float | None, condition: Condition | None = None) -> None:
         raise NotImplementedError
 
-    def _take(self, timeout_sec: float | None, condition: Condition | None, nodes: Any = None) -> Any:
+    def _take(self, timeout_sec: float | None, condition: Condition | None, nodes: set[NodeBase] | None = None) -> Any:
         """Take the next entity (with its callback group entered) or task; raises the reason if there is none.
 
         Raises `ValueError` if another thread waits for the same (of the same `nodes`), as upstream's generator does.
@@ -333,7 +341,7 @@ class Executor(TaskQueue, ReadyCallbacks):
         due = bool(timers) and timers[0][0] <= now
         if not (due or ready or self._ready_tasks):  # the usual case before a wait
             return bool(batch)
-        entities: list[Any] = []
+        entities: list[Entity] = []
         if due:
             with self._lock:
                 entities = self._timers.pop_due(now, self)
@@ -349,7 +357,7 @@ class Executor(TaskQueue, ReadyCallbacks):
         batch.extend(entities)
         return bool(batch)
 
-    def _wait(self, deadline: int | None, asked: tuple[Any, ...]) -> None:
+    def _wait(self, deadline: int | None, asked: tuple[object, ...]) -> None:
         with self._lock:
             timer = self._timers.next_deadline(self)
         until = timer if deadline is None else deadline if timer is None else min(deadline, timer)
@@ -389,7 +397,7 @@ class Executor(TaskQueue, ReadyCallbacks):
             self._tasks[task] = item
         self._run_task(task)
 
-    def _ended(self, entity: Any) -> None:
+    def _ended(self, entity: Entity) -> None:
         group = entity.callback_group
         group.ending_execution(entity)
         if not entity.arms_itself and entity.pending():
@@ -422,7 +430,7 @@ class SingleThreadedExecutor(Executor):
 class MultiThreadedExecutor(Executor):
     """Runs callbacks in a pool of threads; an exception of one is raised at a later `spin_once`."""
 
-    def __init__(self, num_threads: int | None = None, *, context: object = None) -> None:
+    def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
         super().__init__(context=context)
         if num_threads is None:
             num_threads = cpu_count()

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING
 
 from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import GUARD, Entity
+
+if TYPE_CHECKING:
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.context import Context
 
 
 class GuardCondition(Entity):
@@ -14,7 +18,9 @@ class GuardCondition(Entity):
 
     KIND = GUARD
 
-    def __init__(self, callback: Callable[[], Any] | None, callback_group: Any, context: Any = None) -> None:
+    def __init__(
+        self, callback: Callable[[], object] | None, callback_group: CallbackGroup, context: Context | None = None
+    ) -> None:
         super().__init__(callback_group)
         self.callback = callback
         self._triggered = False
@@ -34,7 +40,7 @@ class GuardCondition(Entity):
         """Whether it was triggered."""
         return self._triggered and not self.destroyed
 
-    def run(self) -> Any:
+    def run(self) -> object:
         """Run the callback."""
         self._triggered = False
         result = self._callback() if self._callback is not None else None

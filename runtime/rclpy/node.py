@@ -1,11 +1,14 @@
 """Nodes."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 import weakref
 from collections.abc import Collection, Iterator, Sequence
 from types import FunctionType, TracebackType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
@@ -34,13 +37,21 @@ from rclpy.time_source import TimeSource
 from rclpy.utilities import get_default_context
 
 if TYPE_CHECKING:
+    from bot_console.runtime.rmw.arguments import Arguments
     from bot_console.runtime.rmw.parameter_precedence import ParameterTable
+    from rclpy.context import Context
+    from rclpy.impl.entity import Entity, EntityExecutor
+    from rclpy.impl.rcutils_logger import RcutilsLogger
+    from rclpy.node_parts.base import NodeExecutor
+    from rclpy.publisher import Publisher
+    from rclpy.timer import Rate, Timer
+    from rclpy.waitable import Waitable
 
 HIDDEN_NODE_PREFIX = "_"
 LOGGER_SEPARATOR = "."
 
 
-class Node(NodeEntities, NodeParameters, NodeGraph):
+class Node(NodeParameters, NodeGraph):
     """A node of the ROS graph: it has parameters, and makes publishers, subscriptions, services, clients and timers.
 
     Programs inherit from it and name their attributes as they like, `_name` or `_bus` as well; therefore internal names
@@ -54,7 +65,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         self,
         node_name: str,
         *,
-        context: object = None,
+        context: Context | None = None,
         cli_args: Sequence[str] | None = None,
         namespace: str | None = None,
         use_global_arguments: bool = True,
@@ -66,14 +77,13 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         enable_logger_service: bool = False,
     ) -> None:
         self._ros_context = get_default_context() if context is None else context
-        self._ros_entities: dict[Any, None] = {}
-        self._ros_publishers: dict[Any, None] = {}
-        self._ros_waitables: dict[Any, None] = {}
-        self._ros_rates: dict[Any, Any] = {}
-        self._ros_sink: Any = None
+        self._ros_entities: dict[Entity, None] = {}
+        self._ros_publishers: dict[Publisher, None] = {}
+        self._ros_waitables: dict[Waitable, None] = {}
+        self._ros_rates: dict[Rate, Timer] = {}
+        self._ros_sink: EntityExecutor | None = None
         self._ros_order = 0
-        self._ros_executor: Any = None
-        self._ros_id: Any = None
+        self._ros_executor: weakref.ref[NodeExecutor] | None = None
         self._ros_rosout: Rosout | None = None
         self._ros_destroyed = False
         self._default_callback_group = MutuallyExclusiveCallbackGroup()
@@ -102,7 +112,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
 
         self._type_description_service = TypeDescriptionService(self)
 
-    def _ros_read_arguments(self, cli_args: Sequence[str] | None, use_global: bool) -> list[Any]:
+    def _ros_read_arguments(self, cli_args: Sequence[str] | None, use_global: bool) -> list[Arguments]:
         """The parsed command lines that concern this node, the context's first."""
         found = [self.context.arguments] if use_global else []
         if cli_args is not None:
@@ -111,7 +121,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
             found.append(parse_local(cli_args))
         return found
 
-    def _ros_choose_name(self, name: str, namespace: str, arguments: list[Any]) -> None:
+    def _ros_choose_name(self, name: str, namespace: str, arguments: list[Arguments]) -> None:
         """Check and remap name and namespace; rules of the node's own command line take precedence."""
         if not isinstance(name, str):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
             raise TypeError(f"node name must be a string, not {type(name).__name__}")
@@ -135,7 +145,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
             raise RCLError(f"error creating node: invalid node namespace: {names.in_words_for_node_names(problem[0])}")
 
     def _ros_make_parameters(
-        self, arguments: list[Any], overrides: Sequence[Parameter] | None, undeclared: bool, automatic: bool
+        self, arguments: list[Arguments], overrides: Sequence[Parameter] | None, undeclared: bool, automatic: bool
     ) -> None:
         self._parameter_event_publisher = self.create_publisher(
             ParameterEvent, "/parameter_events", qos_profile_parameter_events
@@ -146,7 +156,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         self._time_source = TimeSource(node=self)
         self._time_source.attach_clock(self._clock)
 
-    def _ros_report_missed_files(self, arguments: list[Any]) -> None:
+    def _ros_report_missed_files(self, arguments: list[Arguments]) -> None:
         if remapping.remap_node_name(self._ros_remap_rules, self._ros_name):
             return  # whoever remapped its name knew it, such as launch, which reports this in its own way
         own = self.get_fully_qualified_name()
@@ -156,12 +166,12 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
                 notify(current(), line)
 
     @property
-    def executor(self) -> Any:
+    def executor(self) -> NodeExecutor | None:
         """The executor that the node was added to last, or None."""
         return self._ros_executor() if self._ros_executor is not None else None
 
     @executor.setter
-    def executor(self, new: Any) -> None:
+    def executor(self, new: NodeExecutor | None) -> None:
         before = self.executor
         if before is new:
             return
@@ -174,7 +184,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
             new.add_node(self)
 
     @property
-    def context(self) -> Any:
+    def context(self) -> Context:
         """The context that the node belongs to."""
         return self._ros_context
 
@@ -215,7 +225,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         """The node's clock, of ROS time."""
         return self._clock
 
-    def get_logger(self) -> Any:
+    def get_logger(self) -> RcutilsLogger:
         """The node's logger."""
         return self._logger
 
@@ -241,8 +251,7 @@ class Node(NodeEntities, NodeParameters, NodeGraph):
         """Remove the node from the graph and silence it, whatever its code may still do."""
         if self._ros_rosout is not None:
             self._ros_rosout.close()
-        if self._ros_id is not None:
-            self._ros_bus.remove_node(self._ros_id)
+        self._ros_bus.remove_node(self._ros_id)
 
     def __enter__(self) -> Node:
         return self

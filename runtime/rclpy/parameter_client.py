@@ -1,5 +1,8 @@
 """A client of the parameter services of another node."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
@@ -14,7 +17,14 @@ from rclpy.qos import QoSProfile, qos_profile_parameter_events, qos_profile_serv
 from rclpy.task import Future
 
 if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.message import Message, ServiceType
     from rcl_interfaces.msg import Parameter as ParameterMsg
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.client import Client
+    from rclpy.event_handler import SubscriptionEventCallbacks
+    from rclpy.node import Node
+    from rclpy.qos_overriding_options import QoSOverridingOptions
+    from rclpy.subscription import Subscription
 
 NANO = 1_000_000_000
 
@@ -29,15 +39,15 @@ class AsyncParameterClient:
 
     def __init__(
         self,
-        node: Any,
+        node: Node,
         remote_node_name: str,
         qos_profile: QoSProfile = qos_profile_services_default,
-        callback_group: Any = None,
+        callback_group: CallbackGroup | None = None,
     ) -> None:
         self.node = node
         self.remote_node_name = remote_node_name
 
-        def client(service_type: Any, name: str) -> Any:
+        def client(service_type: ServiceType, name: str) -> Client:
             return node.create_client(
                 service_type, f"{remote_node_name}/{name}", qos_profile=qos_profile, callback_group=callback_group
             )
@@ -49,7 +59,7 @@ class AsyncParameterClient:
         self._describe_parameters_client = client(srv.DescribeParameters, "describe_parameters")
         self._set_parameters_atomically_client = client(srv.SetParametersAtomically, "set_parameters_atomically")
 
-    def _clients(self) -> tuple[Any, ...]:
+    def _clients(self) -> tuple[Client, ...]:
         return (
             self._list_parameter_client,
             self._set_parameter_client,
@@ -135,11 +145,11 @@ class AsyncParameterClient:
         callback: Callable[..., None],
         qos_profile: QoSProfile = qos_profile_parameter_events,
         *,
-        callback_group: Any = None,
-        event_callbacks: Any = None,
-        qos_overriding_options: Any = None,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: SubscriptionEventCallbacks | None = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
         raw: bool = False,
-    ) -> Any:
+    ) -> Subscription:
         """Subscribe to the parameter events of all nodes; returns the subscription."""
         return self.node.create_subscription(
             ParameterEvent,
@@ -153,11 +163,11 @@ class AsyncParameterClient:
         )
 
 
-def _messages(parameters: Sequence[Any]) -> list[Any]:
+def _messages(parameters: Sequence[Parameter | ParameterMsg]) -> list[ParameterMsg]:
     return [each.to_parameter_msg() if isinstance(each, Parameter) else each for each in parameters]
 
 
-def _ask(client: Any, request: Any, callback: Callback | None) -> Future[Any]:
+def _ask(client: Client, request: Message, callback: Callback | None) -> Future[Any]:
     future = client.call_async(request)
     if callback is not None:
         future.add_done_callback(callback)

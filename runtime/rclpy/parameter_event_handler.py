@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from itertools import chain
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from rcl_interfaces.msg import ParameterEvent
 from rclpy.qos import QoSProfile, qos_profile_parameter_events
 
 if TYPE_CHECKING:
     from rcl_interfaces.msg import Parameter as ParameterMsg
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.event_handler import SubscriptionEventCallbacks
+    from rclpy.node import Node
+    from rclpy.qos_overriding_options import QoSOverridingOptions
 
 TOPIC = "/parameter_events"
 UNKNOWN = "Callback doesn't exist"
@@ -37,11 +41,11 @@ class ParameterEventHandler:
 
     def __init__(
         self,
-        node: Any,
+        node: Node,
         qos_profile: QoSProfile | int = qos_profile_parameter_events,
-        callback_group: Any = None,
-        event_callbacks: Any = None,
-        qos_overriding_options: Any = None,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: SubscriptionEventCallbacks | None = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
         raw: bool = False,
     ) -> None:
         self.node = node

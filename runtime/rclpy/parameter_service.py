@@ -4,18 +4,32 @@ from __future__ import annotations
 
 import weakref
 from contextlib import suppress
-from typing import Any
+from typing import TYPE_CHECKING
 
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.exceptions import ParameterNotDeclaredException, ParameterUninitializedException
 from rclpy.parameter import Parameter
 from rclpy.qos import qos_profile_parameters
 
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from rcl_interfaces.msg import Parameter as ParameterMsg
+    from rcl_interfaces.srv import (
+        DescribeParameters,
+        GetParameters,
+        GetParameterTypes,
+        ListParameters,
+        SetParameters,
+        SetParametersAtomically,
+    )
+    from rclpy.node_parts.parameters import NodeParameters
+
 
 class ParameterService:
     """Serves requests to read, describe and set the parameters of a node; created by the node itself."""
 
-    def __init__(self, node: Any) -> None:
+    def __init__(self, node: NodeParameters) -> None:
         from rcl_interfaces import srv
 
         self._node_ref = weakref.ref(node)
@@ -30,13 +44,15 @@ class ParameterService:
         for service_type, name, callback in services:
             node.create_service(service_type, f"{node.get_name()}/{name}", callback, qos_profile=qos_profile_parameters)
 
-    def _node(self) -> Any:
+    def _node(self) -> NodeParameters:
         node = self._node_ref()
         if node is None:
             raise ReferenceError("Expected valid node weak reference")
         return node
 
-    def _describe(self, request: Any, response: Any) -> Any:
+    def _describe(
+        self, request: DescribeParameters.Request, response: DescribeParameters.Response
+    ) -> DescribeParameters.Response:
         """Describe parameters; one undeclared name empties the whole response, as in the two services below."""
         try:
             response.descriptors = self._node().describe_parameters(request.names)
@@ -44,7 +60,7 @@ class ParameterService:
             response.descriptors = []
         return response
 
-    def _get(self, request: Any, response: Any) -> Any:
+    def _get(self, request: GetParameters.Request, response: GetParameters.Response) -> GetParameters.Response:
         node = self._node()
         try:
             response.values = [node.get_parameter(name).get_parameter_value() for name in request.names]
@@ -52,7 +68,9 @@ class ParameterService:
             response.values = []
         return response
 
-    def _get_types(self, request: Any, response: Any) -> Any:
+    def _get_types(
+        self, request: GetParameterTypes.Request, response: GetParameterTypes.Response
+    ) -> GetParameterTypes.Response:
         node = self._node()
         try:
             types = [node.get_parameter_type(name) for name in request.names]
@@ -61,22 +79,24 @@ class ParameterService:
         response.types = [each.value if isinstance(each, Parameter.Type) else each for each in types]
         return response
 
-    def _list(self, request: Any, response: Any) -> Any:
+    def _list(self, request: ListParameters.Request, response: ListParameters.Response) -> ListParameters.Response:
         # Upstream answers an invalid request with an empty list.
         with suppress(TypeError, ValueError):
             response.result = self._node().list_parameters(request.prefixes, request.depth)
         return response
 
-    def _set(self, request: Any, response: Any) -> Any:
+    def _set(self, request: SetParameters.Request, response: SetParameters.Response) -> SetParameters.Response:
         for message in request.parameters:
             response.results.append(self._set_all([message]))
         return response
 
-    def _set_atomically(self, request: Any, response: Any) -> Any:
+    def _set_atomically(
+        self, request: SetParametersAtomically.Request, response: SetParametersAtomically.Response
+    ) -> SetParametersAtomically.Response:
         response.result = self._set_all(request.parameters)
         return response
 
-    def _set_all(self, messages: list[Any]) -> Any:
+    def _set_all(self, messages: Sequence[ParameterMsg]) -> SetParametersResult:
         parameters = [Parameter.from_parameter_msg(message) for message in messages]
         try:
             return self._node().set_parameters_atomically(parameters)

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import sys
-from typing import Any
+from typing import TYPE_CHECKING
 
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.bus import PublisherEndpoint
@@ -19,19 +19,26 @@ from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import DESTROYED
 from rclpy.impl.reexports import reexporting
 
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.message import Message
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.impl.event_handlers import EventHandler
+    from rclpy.node_parts.base import NodeBase
+    from rclpy.qos import QoSProfile
+
 
 class Publisher:
     """Publishes messages of one type on one topic; made by `Node.create_publisher`."""
 
     def __init__(
         self,
-        node: Any,
+        node: NodeBase,
         endpoint: PublisherEndpoint,
-        msg_type: Any,
+        msg_type: type[Message],
         topic: str,
-        qos_profile: Any,
-        event_handlers: list[Any],
-        group: Any,
+        qos_profile: QoSProfile,
+        event_handlers: list[EventHandler],
+        group: CallbackGroup,
     ) -> None:
         self._node = node
         self._endpoint = endpoint
@@ -63,7 +70,7 @@ class Publisher:
         if self.destroyed:
             raise InvalidHandle(DESTROYED)
 
-    def publish(self, msg: Any) -> None:
+    def publish(self, msg: Message | bytes) -> None:
         """Publish a message, or its serialized bytes; each subscription gets its own copy.
 
         Raises `TypeError` for another class, `FieldTypeError` (a `TypeError`) for a field of the wrong type.
@@ -79,7 +86,7 @@ class Publisher:
             self._explain(error)
             raise
 
-    def _publish_own(self, msg: Any) -> None:
+    def _publish_own(self, msg: Message | bytes) -> None:
         """Publish a well-formed message of the right class that nobody else holds."""
         if self.destroyed or self._context.ended:
             self._refuse()
@@ -95,7 +102,7 @@ class Publisher:
             self._refuse()
         self._endpoint.skip()
 
-    def _publish_other(self, msg: Any) -> None:
+    def _publish_other(self, msg: Message | bytes) -> None:
         if self.destroyed or self._context.ended:
             self._refuse()
         if isinstance(msg, bytes):

@@ -1,9 +1,12 @@
 """QoS policies of a publisher or subscription that parameters may override."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
 from rclpy.duration import Duration
@@ -18,6 +21,9 @@ from rclpy.qos import (
     ReliabilityPolicy,
 )
 from rclpy.subscription import Subscription
+
+if TYPE_CHECKING:
+    from rclpy.node_parts.base import NodeBase
 
 QosCallbackType = Callable[[QoSProfile], Any]
 """Says by a `QosCallbackResult` whether a profile with its overrides is valid."""
@@ -75,7 +81,7 @@ class QoSOverridingOptions:
 
 def _declare_qos_parameters(  # pyright: ignore[reportUnusedFunction] -- node_parts.entities calls it
     entity_type: type[Publisher] | type[Subscription],
-    node: Any,
+    node: NodeBase,
     topic_name: str,
     qos: QoSProfile,
     options: QoSOverridingOptions,
@@ -104,7 +110,7 @@ def _declare_qos_parameters(  # pyright: ignore[reportUnusedFunction] -- node_pa
         _refuse_where_requested(options.callback(qos), about)
 
 
-def _refuse_where_requested(answer: Any, about: str) -> None:
+def _refuse_where_requested(answer: bool | SetParametersResult, about: str) -> None:
     """Raise if a callback has returned a failure: a `QosCallbackResult`, or a bool as in older releases."""
     if isinstance(answer, bool):
         if not answer:
@@ -113,7 +119,7 @@ def _refuse_where_requested(answer: Any, about: str) -> None:
         raise InvalidQosOverridesError(f"Provided QoS overrides {about}, are not valid: {answer.reason}")
 
 
-def _parameter_value(qos: QoSProfile, policy: QoSPolicyKind) -> Any:
+def _parameter_value(qos: QoSProfile, policy: QoSPolicyKind) -> object:
     """A policy as a parameter value: a lower-case name, nanoseconds, or a plain value."""
     value = getattr(qos, policy.name.lower())
     if policy in _ENUMS:
@@ -123,7 +129,7 @@ def _parameter_value(qos: QoSProfile, policy: QoSPolicyKind) -> Any:
     return value.nanoseconds if policy in _DURATIONS else value
 
 
-def _policy_value(policy: QoSPolicyKind, value: Any) -> Any:
+def _policy_value(policy: QoSPolicyKind, value: Any) -> object:
     if policy in _DURATIONS:
         return Duration(nanoseconds=value)
     if policy not in _ENUMS:

@@ -1,12 +1,19 @@
 """What custom executors are built on: it takes ready callbacks, which they run wherever they like."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any
 
 from rclpy.impl.callables import is_coroutine_function
 from rclpy.task import Future, Task
+
+if TYPE_CHECKING:
+    from rclpy.impl.entity import Entity
+    from rclpy.node_parts.base import NodeBase
 
 
 class TimeoutObject:
@@ -26,19 +33,24 @@ async def await_or_execute(callback: Callable[..., Any], *args: object) -> Any:
 class ReadyCallbacks:
     """The methods of `Executor` that hand out work instead of running it."""
 
-    _nodes: dict[Any, int]
-    _take: Callable[[float | None, Callable[[], bool] | None, Any], Any]
-    _run: Callable[[Any], None]
-    _ended: Callable[[Any], None]
+    _nodes: dict[NodeBase, int]
+    _take: Callable[[float | None, Callable[[], bool] | None, set[NodeBase] | None], Entity | Task[Any]]
+    _run: Callable[[Entity | Task[Any]], None]
+    _ended: Callable[[Entity], None]
     _resume: Callable[[Task[Any]], None]
-    _tasks: dict[Task[Any], Any]
+    _tasks: dict[Task[Any], Entity | None]
+
+    if TYPE_CHECKING:
+
+        def create_task(self, callback: Callable[..., object], *args: object) -> object:
+            """Schedule a function in this executor."""
 
     def wait_for_ready_callbacks(
         self,
         timeout_sec: float | TimeoutObject | None = None,
-        nodes: Iterable[Any] | None = None,
+        nodes: Iterable[NodeBase] | None = None,
         condition: Callable[[], bool] | None = None,
-    ) -> tuple[Task[Any], Any, Any]:
+    ) -> tuple[Task[Any], Entity | None, NodeBase | None]:
         """The next piece of work as (task, entity, node): calling the task, in any thread, runs the callback.
 
         Limited to the given nodes, if any. Raises `TimeoutException`, `ShutdownException`,
@@ -46,7 +58,7 @@ class ReadyCallbacks:
         """
         timeout = timeout_sec.timeout if isinstance(timeout_sec, TimeoutObject) else timeout_sec
         wanted = None if nodes is None else set(nodes)
-        others: list[Any] = []
+        others: list[Entity | Task[Any]] = []
         try:
             while True:
                 item = self._take(timeout, condition, wanted)
@@ -62,20 +74,18 @@ class ReadyCallbacks:
         """A future whose done callbacks run in this executor."""
         return Future(executor=self)
 
-    def can_execute(self, entity: Any) -> bool:
+    def can_execute(self, entity: Entity) -> bool:
         """Whether the entity's callback group allows its callback to begin now."""
         return entity.callback_group.can_execute(entity)
 
-    def _origin(self, item: object) -> tuple[Any, Any]:
+    def _origin(self, item: Entity | Task[Any]) -> tuple[Entity | None, NodeBase | None]:
         """The entity and node that a callback belongs to; the entity is None for a task created by `create_task`."""
-        task: Any = item
-        entity = self._tasks.get(task) if isinstance(item, Task) else item
+        entity = self._tasks.get(item) if isinstance(item, Task) else item
         return entity, next((node for node in self._nodes if entity in node._ros_entities), None)
 
-    def _give_back(self, item: Any) -> None:
+    def _give_back(self, item: Entity | Task[Any]) -> None:
         if isinstance(item, Task):
-            task = cast("Task[Any]", item)
-            self._resume(task)
+            self._resume(item)
         else:
             self._ended(item)
             if item.pending():  # only here for a timer, too: it has not run, which would have armed it

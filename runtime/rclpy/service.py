@@ -1,31 +1,45 @@
 """Service servers."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.rmw.endpoints import ServiceEndpoint
 from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import SERVICE, Entity
 from rclpy.impl.reexports import reexporting
 
+if TYPE_CHECKING:
+    from types import TracebackType
+
+    from bot_console.runtime.rmw.endpoints import ClientEndpoint
+    from bot_console.runtime.rosidl.message import Message, ServiceType
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.clock import Clock
+    from rclpy.node_parts.base import NodeBase
+    from rclpy.qos import QoSProfile
+    from rclpy.service_introspection import ServiceEvents, ServiceIntrospectionState
+
 
 class Service(Entity):
     """Serves requests; made by `Node.create_service`. The callback takes (request, response) and returns a response."""
 
     KIND = SERVICE
-    events: Any = None
+    events: ServiceEvents | None = None
     """Publishes the service's events while introspection is on."""
 
     def __init__(
         self,
-        node: Any,
-        srv_type: Any,
+        node: NodeBase,
+        srv_type: ServiceType,
         srv_name: str,
         callback: Callable[..., Any],
-        callback_group: Any,
-        qos_profile: Any,
+        callback_group: CallbackGroup,
+        qos_profile: QoSProfile,
     ) -> None:
         super().__init__(callback_group)
         self._node = node
@@ -55,7 +69,7 @@ class Service(Entity):
         """Whether a request has arrived."""
         return bool(self.endpoint.queue) and not self.destroyed
 
-    def run(self) -> Any:
+    def run(self) -> object:
         """Take one request, run the callback and respond."""
         try:
             client, number, request = self.endpoint.queue.popleft()
@@ -70,10 +84,10 @@ class Service(Entity):
         self.send_response(self._callback(request, self.srv_type.Response()), (client, number))
         return None
 
-    async def _respond_later(self, client: Any, number: int, request: Any) -> None:
+    async def _respond_later(self, client: ClientEndpoint, number: int, request: Message) -> None:
         self.send_response(await self._callback(request, self.srv_type.Response()), (client, number))
 
-    def send_response(self, response: Any, header: Any) -> None:
+    def send_response(self, response: Message, header: tuple[ClientEndpoint, int]) -> None:
         """Send a response; raises `TypeError` for anything but a response of the service."""
         if not isinstance(response, self.srv_type.Response):
             raise TypeError
@@ -82,7 +96,9 @@ class Service(Entity):
         if self.events is not None:
             self.events.report(2, header[0], header[1], response=response)
 
-    def configure_introspection(self, clock: Any, service_event_qos_profile: Any, introspection_state: Any) -> None:
+    def configure_introspection(
+        self, clock: Clock, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
+    ) -> None:
         """Publish the service's activity on a topic next to it."""
         from rclpy.service_introspection import configure
 
@@ -97,7 +113,9 @@ class Service(Entity):
     def __enter__(self) -> Service:
         return self
 
-    def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self.destroy()
 
 

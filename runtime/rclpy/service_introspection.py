@@ -1,11 +1,21 @@
 """Service introspection: publishes the activity of a service or client on `<service>/_service_event`."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from bot_console.runtime.rmw.endpoints import ClientEndpoint
 from rclpy.impl.named_enum import NamedIntEnum
+
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.message import Message, ServiceType
+    from rclpy.clock import Clock
+    from rclpy.node_parts.base import NodeBase
+    from rclpy.publisher import Publisher
+    from rclpy.qos import QoSProfile
 
 EVENT_TOPIC = "/_service_event"
 
@@ -18,16 +28,42 @@ class ServiceIntrospectionState(NamedIntEnum):
     CONTENTS = 2
 
 
+class Introspected(Protocol):
+    """A service or client as far as its activity is published."""
+
+    srv_type: ServiceType
+    events: ServiceEvents | None
+    _node: NodeBase
+
+    @property
+    def service_name(self) -> str:
+        """The fully qualified name."""
+
+    def use(self) -> None:
+        """Raise `InvalidHandle` if the entity was destroyed."""
+
+
 class ServiceEvents:
     """Publishes the events of one service or client; event types are those of `ServiceEventInfo`."""
 
-    def __init__(self, entity: Any, clock: Any, qos_profile: Any) -> None:
+    def __init__(self, entity: Introspected, clock: Clock, qos_profile: QoSProfile) -> None:
         self.state = ServiceIntrospectionState.OFF
         self._event = entity.srv_type.Event
         self._clock = clock
-        self._publisher = entity._node.create_publisher(self._event, entity.service_name + EVENT_TOPIC, qos_profile)
+        self._node: Any = entity._node  # one that creates publishers, which what is below them cannot name
+        self._publisher: Publisher = self._node.create_publisher(
+            self._event, entity.service_name + EVENT_TOPIC, qos_profile
+        )
 
-    def report(self, kind: int, client: Any, number: int, *, request: Any = None, response: Any = None) -> None:
+    def report(
+        self,
+        kind: int,
+        client: ClientEndpoint,
+        number: int,
+        *,
+        request: Message | None = None,
+        response: Message | None = None,
+    ) -> None:
         """Publish one event, with request and response only in the state CONTENTS."""
         if self.state == ServiceIntrospectionState.OFF:
             return
@@ -45,7 +81,7 @@ class ServiceEvents:
     def close(self) -> None:
         """Stop publishing."""
         self.state = ServiceIntrospectionState.OFF
-        self._publisher._node.destroy_publisher(self._publisher)
+        self._node.destroy_publisher(self._publisher)
 
 
 def client_gid(client: ClientEndpoint) -> bytes:
@@ -53,7 +89,7 @@ def client_gid(client: ClientEndpoint) -> bytes:
     return client.gid
 
 
-def configure(entity: Any, clock: Any, qos_profile: Any, state: ServiceIntrospectionState) -> None:
+def configure(entity: Introspected, clock: Clock, qos_profile: QoSProfile, state: ServiceIntrospectionState) -> None:
     """Make a service or client publish its events, or stop it with OFF; raises `ValueError` for an invalid state."""
     state = ServiceIntrospectionState(state)
     entity.use()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import signal
 import weakref
 from collections.abc import Callable
-from typing import Any
+from typing import Protocol
 
 from bot_console.runtime.process import ProcessLocal, current
 from rclpy.impl.named_enum import NamedIntEnum
@@ -28,13 +28,20 @@ SIGNALS = {
 }
 
 
+class EndsBySignal(Protocol):
+    """A context as the signal handling knows it."""
+
+    def shut_down_by_signal(self) -> None:
+        """Shut down without the callbacks of `on_shutdown`."""
+
+
 class _State:
     """The signal handling of one process, and its contexts."""
 
     def __init__(self) -> None:
         self.option = SignalHandlerOptions.NO
         self.remove: Callable[[], None] | None = None
-        self.contexts: weakref.WeakSet[Any] = weakref.WeakSet()
+        self.contexts: weakref.WeakSet[EndsBySignal] = weakref.WeakSet()
 
 
 _state: ProcessLocal[_State] = ProcessLocal(_State)
@@ -63,7 +70,7 @@ def get_current_signal_handlers_options() -> SignalHandlerOptions:
     return _state.get().option
 
 
-def remember_context(context: object) -> None:
+def remember_context(context: EndsBySignal) -> None:
     """Register a context of this process, to be shut down on a signal."""
     _state.get().contexts.add(context)
 

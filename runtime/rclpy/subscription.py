@@ -1,11 +1,14 @@
 """Subscriptions."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Sequence
 from enum import Enum
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import Held, SubscriptionEndpoint, own
@@ -15,6 +18,16 @@ from rclpy.impl.destroyable import SubscriptionHandle
 from rclpy.impl.entity import SUBSCRIPTION, Entity
 from rclpy.impl.reexports import reexporting
 from rclpy.subscription_content_filter_options import ContentFilterOptions
+
+if TYPE_CHECKING:
+    from types import TracebackType
+
+    from bot_console.runtime.rmw.endpoints import Arrival
+    from bot_console.runtime.rosidl.message import Message
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.impl.event_handlers import EventHandler
+    from rclpy.node_parts.base import NodeBase
+    from rclpy.qos import QoSProfile
 
 DOUBLE_ARGUMENT, SINGLE_ARGUMENT = 2, 1
 
@@ -32,14 +45,14 @@ class Subscription(Entity):
 
     def __init__(
         self,
-        node: Any,
-        msg_type: Any,
+        node: NodeBase,
+        msg_type: type[Message],
         topic: str,
-        callback: Callable[..., Any],
-        callback_group: Any,
-        qos_profile: Any,
+        callback: Callable[..., object],
+        callback_group: CallbackGroup,
+        qos_profile: QoSProfile,
         raw: bool,
-        event_handlers: list[Any],
+        event_handlers: list[EventHandler],
     ) -> None:
         super().__init__(callback_group)
         self._node = node
@@ -49,7 +62,7 @@ class Subscription(Entity):
         self.qos_profile = qos_profile
         self.event_handlers = event_handlers
         self.endpoint: SubscriptionEndpoint
-        self._queue: deque[Any] = deque()
+        self._queue: deque[Arrival] = deque()
         self._content_filter: ContentFilterOptions | None = None
         self.callback = callback
 
@@ -63,12 +76,12 @@ class Subscription(Entity):
         return SubscriptionHandle(self, self.use)
 
     @property
-    def callback(self) -> Callable[..., Any]:
+    def callback(self) -> Callable[..., object]:
         """The function called with `(message)` or `(message, info)`."""
         return self._callback
 
     @callback.setter
-    def callback(self, value: Callable[..., Any]) -> None:
+    def callback(self, value: Callable[..., object]) -> None:
         self._callback = value
         self._callback_type = Subscription.CallbackType.MessageOnly
         self._message_only = True
@@ -148,7 +161,7 @@ class Subscription(Entity):
         self._content_filter = wanted
         self._use_queue(FilteredQueue(self._queue, self._queue.maxlen, accepts, self.msg_type))
 
-    def _use_queue(self, queue: deque[Any]) -> None:
+    def _use_queue(self, queue: deque[Arrival]) -> None:
         self._queue = self.endpoint.queue = queue
 
     def get_publisher_count(self) -> int:
@@ -170,7 +183,7 @@ class Subscription(Entity):
                     return taken, _info(stamp, received, number)
         return None
 
-    def run(self) -> Any:
+    def run(self) -> object:
         """Take one message and run the callback."""
         try:
             message, stamp, received, number, expires = self._queue.popleft()
@@ -201,7 +214,9 @@ class Subscription(Entity):
     def __enter__(self) -> Subscription:
         return self
 
-    def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
         self.destroy()
 
 

@@ -6,8 +6,8 @@ import sys
 import threading
 import warnings
 import weakref
-from collections.abc import Callable, Coroutine, Generator
-from typing import Any, Generic, TypeVar, cast
+from collections.abc import Callable, Coroutine, Generator, Iterable, Mapping
+from typing import Any, Generic, Protocol, TypeVar, cast
 
 from rclpy.impl.callables import is_coroutine, is_coroutine_function
 
@@ -17,19 +17,26 @@ _running = threading.local()
 """`task`: the task that the thread is running; a future awaited by it registers itself there."""
 
 
+class TaskExecutor(Protocol):
+    """An executor as a future knows it."""
+
+    def create_task(self, callback: Callable[..., object], *args: object) -> object:
+        """Schedule a function in the executor."""
+
+
 class Future(Generic[T]):
     """A result that arrives later. Done callbacks run as tasks of the executor if there is one, else at once."""
 
-    def __init__(self, *, executor: object = None) -> None:
+    def __init__(self, *, executor: TaskExecutor | None = None) -> None:
         self._done = False
         self._cancelled = False
         self._result: T | None = None
         self._exception: BaseException | None = None
         self._exception_fetched = False
-        self._callbacks: list[Callable[[Future[T]], Any]] = []
+        self._callbacks: list[Callable[[Future[T]], object]] = []
         self._waiters: list[Callable[[], object]] = []
         self._lock = threading.Lock()
-        self._executor: Any = None
+        self._executor: weakref.ref[TaskExecutor] | None = None
         self._set_executor(executor)
 
     def __del__(self) -> None:
@@ -41,7 +48,7 @@ class Future(Generic[T]):
             self._exception_fetched = True
             print(f"The following exception was never retrieved: {self._exception}", file=sys.stderr)
 
-    def __await__(self) -> Generator[Any, None, T]:
+    def __await__(self) -> Generator[None, None, T]:
         while not self._settled():
             task = getattr(_running, "task", None)
             if task is not None:
@@ -96,7 +103,7 @@ class Future(Generic[T]):
             self._cancelled = False
         self._settle()
 
-    def add_done_callback(self, callback: Callable[[Future[T]], Any]) -> None:
+    def add_done_callback(self, callback: Callable[[Future[T]], object]) -> None:
         """Add a callback that gets this future when it is done or cancelled, or at once if it is already."""
         with self._lock:
             if not self._settled():
@@ -108,7 +115,7 @@ class Future(Generic[T]):
         else:
             callback(self)
 
-    def remove_done_callback(self, callback: Callable[[Future[T]], Any]) -> bool:
+    def remove_done_callback(self, callback: Callable[[Future[T]], object]) -> bool:
         """Remove one occurrence of a callback; returns whether there was one."""
         with self._lock:
             if callback not in self._callbacks:
@@ -116,7 +123,7 @@ class Future(Generic[T]):
             self._callbacks.remove(callback)
             return True
 
-    def _set_executor(self, executor: object) -> None:
+    def _set_executor(self, executor: TaskExecutor | None) -> None:
         self._executor = None if executor is None else weakref.ref(executor)
 
     def _when_settled(self, wake: Callable[[], object]) -> None:
@@ -144,7 +151,7 @@ class Future(Generic[T]):
         for wake in waiters:
             wake()
 
-    def _call(self, callback: Callable[[Future[T]], Any]) -> None:
+    def _call(self, callback: Callable[[Future[T]], object]) -> None:
         try:
             callback(self)
         except Exception as error:  # an exception of a done callback must not reach whoever settled the future
@@ -156,10 +163,10 @@ class Task(Future[T]):
 
     def __init__(
         self,
-        handler: Callable[..., Any] | Coroutine[Any, Any, T],
-        args: Any = None,
-        kwargs: dict[str, Any] | None = None,
-        executor: Any = None,
+        handler: Callable[..., object] | Coroutine[object, None, T],
+        args: Iterable[object] | None = None,
+        kwargs: Mapping[str, object] | None = None,
+        executor: TaskExecutor | None = None,
     ) -> None:
         super().__init__(executor=executor)
         self._args = args or ()

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any, TypeGuard
 
 from builtin_interfaces.msg import Time as TimeMessage
 from rclpy.clock_type import ClockType, TimeClockType
 from rclpy.constants import S_TO_NS
 from rclpy.duration import Duration
 from rclpy.impl.reexports import reexporting
+
+if TYPE_CHECKING:
+    from builtin_interfaces.msg import Time as TimeMsg
 
 MAX_NS = 2**63
 
@@ -95,26 +98,26 @@ class Time:
     def __ne__(self, other: object) -> bool:
         return not self == other
 
-    def __lt__(self, other: Any) -> bool:
+    def __lt__(self, other: object) -> bool:
         return self._nanoseconds < other._nanoseconds if self._comparable(other) else NotImplemented
 
-    def __le__(self, other: Any) -> bool:
+    def __le__(self, other: object) -> bool:
         return self._nanoseconds <= other._nanoseconds if self._comparable(other) else NotImplemented
 
-    def __gt__(self, other: Any) -> bool:
+    def __gt__(self, other: object) -> bool:
         return self._nanoseconds > other._nanoseconds if self._comparable(other) else NotImplemented
 
-    def __ge__(self, other: Any) -> bool:
+    def __ge__(self, other: object) -> bool:
         return self._nanoseconds >= other._nanoseconds if self._comparable(other) else NotImplemented
 
-    def _comparable(self, other: object) -> bool:
+    def _comparable(self, other: object) -> TypeGuard[Time]:
         if not isinstance(other, Time):
             return False
         if self._clock_type != other._clock_type:
             raise TypeError("Can't compare times with different clock types")
         return True
 
-    def to_msg(self) -> Any:
+    def to_msg(self) -> TimeMsg:
         """A `builtin_interfaces/Time`."""
         seconds, nanoseconds = self.seconds_nanoseconds()
         return TimeMessage(sec=seconds, nanosec=nanoseconds)

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import weakref
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rcl_interfaces.msg import SetParametersResult
 from rclpy.clock import ROSClock
@@ -14,6 +14,10 @@ from rclpy.impl.reexports import reexporting
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from rclpy.time import Time
+
+if TYPE_CHECKING:
+    from rclpy.node_parts.parameters import NodeParameters
+    from rclpy.subscription import Subscription
 
 CLOCK_TOPIC = "/clock"
 USE_SIM_TIME_NAME = "use_sim_time"
@@ -23,10 +27,10 @@ WRONG_TYPE = "use_sim_time parameter set to something besides a bool"
 class TimeSource:
     """The time source of a node."""
 
-    def __init__(self, *, node: object = None) -> None:
-        self._node_ref: Any = None
+    def __init__(self, *, node: NodeParameters | None = None) -> None:
+        self._node_ref: weakref.ref[NodeParameters] | None = None
         self._clocks: list[ROSClock] = []
-        self._subscription: Any = None
+        self._subscription: Subscription | None = None
         self._active = False
         self._last = Time(nanoseconds=0, clock_type=ROSClock().clock_type)
         if node is not None:
@@ -52,7 +56,7 @@ class TimeSource:
                 node.destroy_subscription(self._subscription)
             self._subscription = None
 
-    def _node(self) -> Any:
+    def _node(self) -> NodeParameters | None:
         return self._node_ref() if self._node_ref is not None else None
 
     def _subscribe(self) -> None:
@@ -63,7 +67,7 @@ class TimeSource:
             qos = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
             self._subscription = node.create_subscription(Clock, CLOCK_TOPIC, self.clock_callback, qos)
 
-    def attach_node(self, node: Any) -> None:
+    def attach_node(self, node: NodeParameters) -> None:
         """Follow the node's parameter `use_sim_time`, declaring it if necessary."""
         if self._node_ref is not None:
             self.detach_node()
@@ -101,7 +105,7 @@ class TimeSource:
         for clock in self._clocks:
             clock.set_ros_time_override(self._last)
 
-    def _on_parameter_event(self, parameters: list[Parameter]) -> Any:
+    def _on_parameter_event(self, parameters: list[Parameter]) -> SetParametersResult:
         for parameter in parameters:
             if parameter.name == USE_SIM_TIME_NAME:
                 if parameter.type_ != Parameter.Type.BOOL:

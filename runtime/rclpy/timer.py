@@ -1,10 +1,13 @@
 """Timers and rates."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING
 
 from bot_console.runtime.process import current
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
@@ -15,6 +18,12 @@ from rclpy.exceptions import ROSInterruptException
 from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import TIMER, Entity
 from rclpy.impl.reexports import reexporting
+
+if TYPE_CHECKING:
+    from rclpy.clock import Clock
+    from rclpy.context import Context
+    from rclpy.impl.entity import EntityExecutor
+    from rclpy.node_parts.base import NodeBase
 
 NANO = 1_000_000_000
 
@@ -27,12 +36,12 @@ class Timer(Entity):
 
     def __init__(
         self,
-        callback: Callable[..., Any] | None,
+        callback: Callable[..., object] | None,
         callback_group: CallbackGroup,
         timer_period_ns: int,
-        clock: Any,
+        clock: Clock,
         *,
-        context: Any = None,
+        context: Context | None = None,
         autostart: bool = True,
     ) -> None:
         super().__init__(callback_group)
@@ -55,7 +64,7 @@ class Timer(Entity):
         return Destroyable(self, self.use)
 
     @property
-    def clock(self) -> Any:
+    def clock(self) -> Clock:
         """The clock that drives the timer."""
         return self.clock_of_timer
 
@@ -106,7 +115,7 @@ class Timer(Entity):
         self.use()
         return None if self._canceled else self._next - self.clock_of_timer._now_ns()
 
-    def attach(self, sink: Any, node_order: int) -> None:
+    def attach(self, sink: EntityExecutor, node_order: int) -> None:
         """Attach the timer to an executor."""
         self._belong(sink, node_order)
         self.arm()  # without `notify`, which would run it twice in one wake
@@ -130,7 +139,7 @@ class Timer(Entity):
             self._next = now + self._period
         self.arm()
 
-    def run(self) -> Any:
+    def run(self) -> object:
         """Run the callback, and set the time of the next call."""
         self._last = now = self._now()
         period = self._period
@@ -155,7 +164,7 @@ class Timer(Entity):
 class Rate:
     """Sleeps at a frequency; made by `Node.create_rate`."""
 
-    def __init__(self, timer: Timer, *, node: Any) -> None:
+    def __init__(self, timer: Timer, *, node: NodeBase) -> None:
         context = node.context
         self._timer = timer
         self._node = node

@@ -1,11 +1,14 @@
 """The service `~/get_type_description` of a node."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 import weakref
 from collections import deque
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.rmw.bus import Bus, Thing
 from bot_console.runtime.rmw.endpoints import ServiceEndpoint
@@ -14,13 +17,16 @@ from rclpy.impl.entity import Entity
 from rclpy.parameter import Parameter
 from type_description_interfaces.srv import GetTypeDescription
 
+if TYPE_CHECKING:
+    from rclpy.node_parts.parameters import NodeParameters
+
 START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
 
 
 class TypeDescriptionService:
     """Declares the read-only parameter that enables the service, and starts the service unless it is false."""
 
-    def __init__(self, node: Any) -> None:
+    def __init__(self, node: NodeParameters) -> None:
         self._node = node
         self.service_name = f"{node.get_name()}/get_type_description"
         name = START_TYPE_DESCRIPTION_SERVICE_PARAM

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from bot_console.runtime.rosidl.message import Message, ServiceType
 from rclpy.impl.reexports import reexporting
 
@@ -13,27 +11,26 @@ HINT = (
 )
 
 
-def check_for_type_support(msg_or_srv_type: Any) -> None:
+def check_for_type_support(msg_or_srv_type: object) -> None:
     """Raise `AttributeError` for anything but a class made from an interface definition."""
     if isinstance(msg_or_srv_type, ServiceType):
         return
     if not (isinstance(msg_or_srv_type, type) and issubclass(msg_or_srv_type, Message)):
-        name = _class_name(msg_or_srv_type)
-        raise AttributeError(f"type object '{name}' has no attribute '_TYPE_SUPPORT'{HINT}")
+        raise AttributeError(f"type object '{_class_name(msg_or_srv_type)}' has no attribute '_TYPE_SUPPORT'{HINT}")
 
 
-def _class_name(value: Any) -> str:
+def _class_name(value: object) -> str:
     return type(value).__name__
 
 
-def check_is_valid_msg_type(msg_type: Any) -> None:
+def check_is_valid_msg_type(msg_type: object) -> None:
     """Raise `RuntimeError` for a service or action, `AttributeError` for anything but an interface class."""
     check_for_type_support(msg_type)
     if isinstance(msg_type, ServiceType):
         raise RuntimeError(f"The message type provided is not valid ({msg_type}), this might be a service or action")
 
 
-def check_is_valid_srv_type(srv_type: Any) -> None:
+def check_is_valid_srv_type(srv_type: object) -> None:
     """Raise `RuntimeError` for a message or action, `AttributeError` for anything but an interface class."""
     check_for_type_support(srv_type)
     parts = ("Response", "Request", "Event")
@@ -41,7 +38,7 @@ def check_is_valid_srv_type(srv_type: Any) -> None:
         raise RuntimeError(f"The service type provided is not valid ({srv_type}), this might be a message or action")
 
 
-def check_is_valid_action_type(action_type: Any) -> None:
+def check_is_valid_action_type(action_type: object) -> None:
     """Raise `RuntimeError` for a message or service, `AttributeError` for anything but an interface class."""
     check_for_type_support(action_type)
     if not all(hasattr(action_type, part) for part in ("Goal", "Result", "Feedback", "Impl")):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import sys
 import threading
 from collections.abc import Sequence
-from typing import Any
 
 from bot_console.runtime.process import ProcessLocal
 from bot_console.runtime.rmw.middleware import qos_rules
@@ -15,12 +14,12 @@ from rclpy.impl.reexports import reexporting
 NANO = 1_000_000_000
 
 
-_default_context: ProcessLocal[list[Any]] = ProcessLocal(list)
+_default_context: ProcessLocal[list[Context]] = ProcessLocal(list)
 """The default context of a process, or nothing before its first use and after its shutdown."""
 _lock = threading.Lock()
 
 
-def get_default_context(*, shutting_down: bool = False) -> Any:
+def get_default_context(*, shutting_down: bool = False) -> Context:
     """The context used by default; with `shutting_down` the next call creates a new one."""
     with _lock:
         holder = _default_context.get()
@@ -39,17 +38,17 @@ def remove_ros_args(args: Sequence[str] | None = None) -> list[str]:
     return parse_local(sys.argv if args is None else args).unparsed
 
 
-def ok(*, context: Any = None) -> bool:
+def ok(*, context: Context | None = None) -> bool:
     """Whether ROS is initialised and not shut down."""
     return (get_default_context() if context is None else context).ok()
 
 
-def shutdown(*, context: Any = None) -> None:
+def shutdown(*, context: Context | None = None) -> None:
     """Shut a context down; raises `RuntimeError` before `init`, `RCLError` if a signal has done so already."""
     (get_default_context(shutting_down=True) if context is None else context).shutdown()
 
 
-def try_shutdown(*, context: Any = None) -> None:
+def try_shutdown(*, context: Context | None = None) -> None:
     """Shut a context down unless it is already."""
     (get_default_context(shutting_down=True) if context is None else context).try_shutdown()
 

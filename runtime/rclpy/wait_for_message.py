@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import QoSProfile
 from rclpy.task import Future
 
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.message import Message
+    from rclpy.node import Node
+
 
 def wait_for_message(
-    msg_type: Any, node: Any, topic: str, *, qos_profile: QoSProfile | int = 1, time_to_wait: float = -1
+    msg_type: type[Message], node: Node, topic: str, *, qos_profile: QoSProfile | int = 1, time_to_wait: float = -1
 ) -> tuple[bool, Any]:
     """The next message of a topic: (True, message), or (False, None) after the time-out (s; negative: forever).
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rclpy.callback_groups import CallbackGroup
 
 
 class NumberOfEntities:
@@ -37,7 +40,7 @@ class NumberOfEntities:
 class Waitable:
     """The base of waitables."""
 
-    def __init__(self, callback_group: Any) -> None:
+    def __init__(self, callback_group: CallbackGroup) -> None:
         self.callback_group = callback_group
         self.callback_group.add_entity(self)
         self._futures: list[Any] = []

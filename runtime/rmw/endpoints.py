@@ -107,7 +107,7 @@ def depth(qos: Profile) -> int | None:
     return None if qos.history.name == "KEEP_ALL" else max(1, qos.depth or 10)
 
 
-def queue_for(qos: Profile) -> deque[Any]:
+def queue_for(qos: Profile) -> deque[Arrival]:
     """Return an empty queue of the length that a profile requires."""
     return deque(maxlen=depth(qos))
 
@@ -134,6 +134,13 @@ class NodeId(NamedTuple):
         """Name and namespace."""
         return self.name, self.namespace
 
+
+Arrival = tuple[Message, int, int, int, "int | None"]
+"""An entry of a subscription's queue: a message or `Held`, sent (ns), received (ns), sequence number, expiry (ns)."""
+Response = tuple[int, Message]
+"""An entry of a client's queue: the sequence number of the request, and its response."""
+Request = tuple["ClientEndpoint", int, Message]
+"""An entry of a service's queue: who asks, the sequence number, and the request."""
 
 # No dataclasses: their import and what they generate take a tenth of a short program's time.
 
@@ -170,7 +177,7 @@ class SubscriptionEndpoint:
     """
 
     def __init__(
-        self, endpoint: Endpoint, raw: bool, queue: deque[Any], notify: Notify, on_event: OnEvent = no_event
+        self, endpoint: Endpoint, raw: bool, queue: deque[Arrival], notify: Notify, on_event: OnEvent = no_event
     ) -> None:
         self.endpoint = endpoint
         self.raw = raw

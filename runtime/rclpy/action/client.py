@@ -9,7 +9,7 @@ import threading
 import uuid
 import weakref
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from action_msgs.msg import GoalStatus as GoalStatus  # programs import it from here
 from action_msgs.srv import CancelGoal
@@ -27,17 +27,25 @@ from rclpy.task import Future
 from rclpy.waitable import NumberOfEntities
 from unique_identifier_msgs.msg import UUID
 
+if TYPE_CHECKING:
+    from action_msgs.msg import GoalStatusArray
+    from bot_console.runtime.rmw.endpoints import Arrival, Response
+    from bot_console.runtime.rosidl.message import Message, ServiceType
+    from rclpy.action.client_goal_handle import GoalResponse
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.node import Node
+
 
 class ActionClient(ActionEntity):
     """Sends goals to an action server; raises `ValueError` for an invalid name."""
 
     def __init__(
         self,
-        node: Any,
-        action_type: Any,
+        node: Node,
+        action_type: ServiceType,
         action_name: str,
         *,
-        callback_group: Any = None,
+        callback_group: CallbackGroup | None = None,
         goal_service_qos_profile: QoSProfile = qos_profile_services_default,
         result_service_qos_profile: QoSProfile = qos_profile_services_default,
         cancel_service_qos_profile: QoSProfile = qos_profile_services_default,
@@ -51,7 +59,7 @@ class ActionClient(ActionEntity):
         self._logger = node.get_logger().get_child("action_client")
         self._lock = threading.Lock()
         self._goal_handles: dict[bytes, weakref.ref[ClientGoalHandle]] = {}
-        self._feedback_callbacks: dict[bytes, Callable[..., Any]] = {}
+        self._feedback_callbacks: dict[bytes, Callable[..., object]] = {}
         self._goals = PendingRequests(self._node._ros_bus)
         self._cancels = PendingRequests(self._node._ros_bus)
         self._results = PendingRequests(self._node._ros_bus)
@@ -65,7 +73,7 @@ class ActionClient(ActionEntity):
         """The number of entities: two subscriptions and three clients."""
         return NumberOfEntities(2, 0, 0, 3, 0)
 
-    def run(self) -> Any:
+    def run(self) -> object:
         """Take one response of each kind, one feedback and one status, and dispatch them.
 
         A result is preceded by all the feedback that arrived before it, as feedback is not delivered afterwards.
@@ -75,7 +83,14 @@ class ActionClient(ActionEntity):
         feedback = [take(ends.feedback.queue) for _ in range(len(ends.feedback.queue) if responses[2] else 1)]
         return self._receive(*responses, feedback, take(ends.status.queue))
 
-    async def _receive(self, goal: Any, cancel: Any, result: Any, feedback: list[Any], status: Any) -> None:
+    async def _receive(
+        self,
+        goal: Response | None,
+        cancel: Response | None,
+        result: Response | None,
+        feedback: list[Arrival | None],
+        status: Arrival | None,
+    ) -> None:
         handle = None if goal is None else self._goal_handle(*goal)
         statuses = None if status is None else own(status[0])
         if statuses is not None:
@@ -89,13 +104,13 @@ class ActionClient(ActionEntity):
         if result is not None:
             self._settle(self._results, "result", *result)
 
-    async def _receive_feedback(self, entry: Any) -> None:
+    async def _receive_feedback(self, entry: Arrival | None) -> None:
         message = None if entry is None else own(entry[0])
         callback = None if message is None else self._feedback_callbacks.get(bytes(message.goal_id.uuid))
         if callback is not None:
             await call(callback, message)
 
-    def _goal_handle(self, number: int, response: object) -> ClientGoalHandle | None:
+    def _goal_handle(self, number: int, response: GoalResponse) -> ClientGoalHandle | None:
         """The handle of a goal that was answered; None for a response that nothing waits for."""
         goal_id = self._goals.subject(number)
         if goal_id is None:
@@ -121,7 +136,7 @@ class ActionClient(ActionEntity):
             f"'{self._action_name}'"
         )
 
-    def _receive_status(self, message: Any) -> None:
+    def _receive_status(self, message: GoalStatusArray) -> None:
         for each in message.status_list:
             key = bytes(each.goal_info.goal_id.uuid)
             reference = self._goal_handles.get(key)
@@ -133,7 +148,7 @@ class ActionClient(ActionEntity):
             if handle is None or each.status in TERMINAL:
                 del self._goal_handles[key]
 
-    def send_goal(self, goal: Any, **kwargs: Any) -> Any:
+    def send_goal(self, goal: Message, **kwargs: Any) -> Any:
         """Send a goal and wait for its result; another thread has to spin.
 
         Raises `ROSInterruptException` when the context is shut down meanwhile.
@@ -141,7 +156,7 @@ class ActionClient(ActionEntity):
         return self._get_result(self._wait(self.send_goal_async(goal, **kwargs)))
 
     def send_goal_async(
-        self, goal: Any, feedback_callback: Callable[..., Any] | None = None, goal_uuid: Any = None
+        self, goal: Message, feedback_callback: Callable[..., object] | None = None, goal_uuid: UUID | None = None
     ) -> Future[Any]:
         """Send a goal; the future gets a `ClientGoalHandle` when the server has accepted or rejected it.
 
@@ -157,19 +172,19 @@ class ActionClient(ActionEntity):
             self._feedback_callbacks[bytes(request.goal_id.uuid)] = feedback_callback
         return self._goals.send(self._endpoints.goal, request, request.goal_id)
 
-    def _cancel_goal(self, goal_handle: object) -> Any:
+    def _cancel_goal(self, goal_handle: ClientGoalHandle) -> Any:
         return self._wait(self._cancel_goal_async(goal_handle))
 
-    def _cancel_goal_async(self, goal_handle: Any) -> Future[Any]:
+    def _cancel_goal_async(self, goal_handle: ClientGoalHandle) -> Future[Any]:
         self._check_handle(goal_handle)
         request = CancelGoal.Request()
         request.goal_info.goal_id = goal_handle.goal_id
         return self._cancels.send(self._endpoints.cancel, request, goal_handle.goal_id)
 
-    def _get_result(self, goal_handle: object) -> Any:
+    def _get_result(self, goal_handle: ClientGoalHandle) -> Any:
         return self._wait(self._get_result_async(goal_handle))
 
-    def _get_result_async(self, goal_handle: Any) -> Future[Any]:
+    def _get_result_async(self, goal_handle: ClientGoalHandle) -> Future[Any]:
         self._check_handle(goal_handle)
         request = self._action_type.Impl.GetResultService.Request()
         request.goal_id = goal_handle.goal_id
@@ -183,7 +198,7 @@ class ActionClient(ActionEntity):
             raise TypeError(f"Expected type ClientGoalHandle but received {type(goal_handle)}")
         self.use()
 
-    def awaits(self, future: Any) -> bool:
+    def awaits(self, future: object) -> bool:
         """Whether a future is that of a request that was not answered yet."""
         return any(each.awaits(future) for each in (self._goals, self._cancels, self._results))
 

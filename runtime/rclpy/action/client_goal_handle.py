@@ -1,11 +1,42 @@
 """A goal as its client sees it."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from action_msgs.msg import GoalStatus
 from rclpy.task import Future
+
+if TYPE_CHECKING:
+    from builtin_interfaces.msg import Time as TimeMsg
+    from unique_identifier_msgs.msg import UUID
+
+
+class GoalClient(Protocol):
+    """An action client as the handles of its goals know it."""
+
+    def _cancel_goal(self, goal_handle: ClientGoalHandle) -> Any: ...
+
+    def _cancel_goal_async(self, goal_handle: ClientGoalHandle) -> Future[Any]: ...
+
+    def _get_result(self, goal_handle: ClientGoalHandle) -> Any: ...
+
+    def _get_result_async(self, goal_handle: ClientGoalHandle) -> Future[Any]: ...
+
+
+class GoalResponse(Protocol):
+    """The response of `send_goal`."""
+
+    @property
+    def accepted(self) -> bool:
+        """Whether the goal was accepted."""
+
+    @property
+    def stamp(self) -> TimeMsg:
+        """When the goal was accepted."""
 
 
 class ClientGoalHandle:
@@ -13,7 +44,7 @@ class ClientGoalHandle:
 
     __module__ = "rclpy.action.client"  # as upstream, where objects print it
 
-    def __init__(self, action_client: Any, goal_id: Any, goal_response: Any) -> None:
+    def __init__(self, action_client: GoalClient, goal_id: UUID, goal_response: GoalResponse) -> None:
         self._action_client = action_client
         self._goal_id = goal_id
         self._goal_response = goal_response
@@ -31,12 +62,12 @@ class ClientGoalHandle:
         return f"ClientGoalHandle <id={self.goal_id.uuid}, accepted={self.accepted}, status={self.status}>"
 
     @property
-    def goal_id(self) -> Any:
+    def goal_id(self) -> UUID:
         """The goal's UUID."""
         return self._goal_id
 
     @property
-    def stamp(self) -> Any:
+    def stamp(self) -> TimeMsg:
         """When the server accepted the goal."""
         return self._goal_response.stamp
 

@@ -1,9 +1,12 @@
 """The three services and two topics that make up an action, with their names on the wire."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 from bot_console.runtime.rmw.bus import Bus, PublisherEndpoint
 from bot_console.runtime.rmw.endpoints import (
@@ -20,6 +23,11 @@ from bot_console.runtime.rosidl.conversion import type_name
 from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
 from rclpy.node_parts.topic_names import checked
 
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.message import ServiceType
+    from rclpy.node import Node
+    from rclpy.qos import QoSProfile
+
 GOAL, CANCEL, RESULT = "send_goal", "cancel_goal", "get_result"
 FEEDBACK, STATUS = "feedback", "status"
 
@@ -35,7 +43,7 @@ class ActionNames:
     status: str
 
 
-def action_names(node: object, action: str, side: str) -> ActionNames:
+def action_names(node: Node, action: str, side: str) -> ActionNames:
     """The names of an action's parts; raises `ValueError` for an invalid action name, with the message of rcl.
 
     `side` is "client" or "server".
@@ -57,7 +65,13 @@ class ServerEndpoints:
     """The endpoints of an action server on the bus."""
 
     def __init__(
-        self, node: Any, impl: Any, names: ActionNames, notify: Notify, feedback_qos: Any, status_qos: Any
+        self,
+        node: Node,
+        impl: ServiceType,
+        names: ActionNames,
+        notify: Notify,
+        feedback_qos: QoSProfile,
+        status_qos: QoSProfile,
     ) -> None:
         self._bus: Bus = node._ros_bus
         self.goal = self._service(node, names.goal, impl.SendGoalService, notify)
@@ -66,12 +80,12 @@ class ServerEndpoints:
         self.feedback = self._publisher(node, names.feedback, impl.FeedbackMessage, feedback_qos)
         self.status = self._publisher(node, names.status, impl.GoalStatusMessage, status_qos)
 
-    def _service(self, node: Any, name: str, kind: Any, notify: Notify) -> ServiceEndpoint:
+    def _service(self, node: Node, name: str, kind: type, notify: Notify) -> ServiceEndpoint:
         endpoint = ServiceEndpoint(node._ros_id, name, type_name(kind), notify, kind)
         self._bus.create_service(endpoint)
         return endpoint
 
-    def _publisher(self, node: Any, name: str, kind: Any, qos: Any) -> PublisherEndpoint:
+    def _publisher(self, node: Node, name: str, kind: type, qos: QoSProfile) -> PublisherEndpoint:
         endpoint = Endpoint(node._ros_id, name, type_name(kind), qos, new_gid(), kind)
         return self._bus.create_publisher(endpoint, no_event)
 
@@ -89,7 +103,13 @@ class ClientEndpoints:
     """The endpoints of an action client on the bus."""
 
     def __init__(
-        self, node: Any, impl: Any, names: ActionNames, notify: Notify, feedback_qos: Any, status_qos: Any
+        self,
+        node: Node,
+        impl: ServiceType,
+        names: ActionNames,
+        notify: Notify,
+        feedback_qos: QoSProfile,
+        status_qos: QoSProfile,
     ) -> None:
         self._bus: Bus = node._ros_bus
         self.goal = self._client(node, names.goal, impl.SendGoalService, notify)
@@ -98,12 +118,12 @@ class ClientEndpoints:
         self.feedback = self._subscription(node, names.feedback, impl.FeedbackMessage, feedback_qos, notify)
         self.status = self._subscription(node, names.status, impl.GoalStatusMessage, status_qos, notify)
 
-    def _client(self, node: Any, name: str, kind: Any, notify: Notify) -> ClientEndpoint:
+    def _client(self, node: Node, name: str, kind: type, notify: Notify) -> ClientEndpoint:
         endpoint = ClientEndpoint(node._ros_id, name, type_name(kind), notify, kind)
         self._bus.create_client(endpoint)
         return endpoint
 
-    def _subscription(self, node: Any, name: str, kind: Any, qos: Any, notify: Notify) -> SubscriptionEndpoint:
+    def _subscription(self, node: Node, name: str, kind: type, qos: QoSProfile, notify: Notify) -> SubscriptionEndpoint:
         endpoint = Endpoint(node._ros_id, name, type_name(kind), qos, new_gid(), kind)
         subscription = SubscriptionEndpoint(endpoint, False, queue_for(qos), notify)
         self._bus.create_subscription(subscription)

@@ -1,10 +1,13 @@
 """The common part of action servers and clients, as entities that an executor serves."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rclpy._rclpy_pybind11 import InvalidHandle
 from rclpy.impl.callables import is_coroutine_function
@@ -12,13 +15,18 @@ from rclpy.impl.entity import DESTROYED, WAITABLE, Entity
 from rclpy.type_support import check_is_valid_action_type
 from rclpy.waitable import Waitable
 
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.message import ServiceType
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.node import Node
+
 
 class ActionEntity(Entity, Waitable):
     """A waitable over several endpoints: each wake takes one item from every endpoint that has any."""
 
     KIND = WAITABLE
 
-    def __init__(self, node: Any, action_type: Any, callback_group: Any) -> None:
+    def __init__(self, node: Node, action_type: ServiceType, callback_group: CallbackGroup | None) -> None:
         group = node.default_callback_group if callback_group is None else callback_group
         Entity.__init__(self, group)
         Waitable.__init__(self, group)
@@ -42,7 +50,7 @@ class ActionEntity(Entity, Waitable):
         """Whether anything has arrived."""
         return not self.destroyed and self._endpoints.pending()
 
-    def interfaces(self) -> Sequence[Any]:
+    def interfaces(self) -> Sequence[type]:
         """The action, and those of its interfaces that have their own type hashes in the graph."""
         impl = self._action_type.Impl
         return (self._action_type, impl.SendGoalService, impl.GetResultService, impl.FeedbackMessage)
@@ -66,7 +74,7 @@ def take(queue: deque[Any]) -> Any:
         return None
 
 
-async def call(callback: Callable[..., Any], *args: object) -> Any:
+async def call(callback: Callable[..., object], *args: object) -> Any:
     """Call a function, or await the coroutine of a coroutine function."""
     if is_coroutine_function(callback):
         return await callback(*args)

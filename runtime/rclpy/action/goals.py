@@ -5,12 +5,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from action_msgs.msg import GoalStatus, GoalStatusArray
 from action_msgs.srv import CancelGoal
 from rclpy.action.goal_state import is_cancelable
 from rclpy.action.server_goal_handle import ServerGoalHandle
+
+if TYPE_CHECKING:
+    from builtin_interfaces.msg import Time as TimeMsg
 
 NANO = 1_000_000_000
 ANY_GOAL = bytes(16)
@@ -36,7 +39,7 @@ class Goals:
         """Add an accepted goal."""
         self._handles[uuid] = handle
 
-    def status_array(self) -> Any:
+    def status_array(self) -> GoalStatusArray:
         """The message of the status topic, with each goal that is still kept."""
         return GoalStatusArray(
             status_list=[
@@ -44,7 +47,7 @@ class Goals:
             ]
         )
 
-    def to_cancel(self, request: Any) -> tuple[list[ServerGoalHandle], int]:
+    def to_cancel(self, request: CancelGoal.Request) -> tuple[list[ServerGoalHandle], int]:
         """The goals that a cancel request selects, and the return code of the response.
 
         A UUID alone selects that goal; a time stamp selects all goals accepted up to then (and the one of the UUID);
@@ -84,5 +87,5 @@ class Goals:
             each.destroy()
 
 
-def _ns(stamp: Any) -> int:
+def _ns(stamp: TimeMsg) -> int:
     return stamp.sec * NANO + stamp.nanosec

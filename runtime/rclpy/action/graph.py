@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from rclpy._rclpy_pybind11 import NodeNameNonExistentError, RCLError
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
 
 NamesAndTypes = list[tuple[str, list[str]]]
 
@@ -22,7 +25,7 @@ def _actions(topics: NamesAndTypes) -> NamesAndTypes:
 
 
 def get_action_client_names_and_types_by_node(
-    node: Any, remote_node_name: str, remote_node_namespace: str
+    node: Node, remote_node_name: str, remote_node_namespace: str
 ) -> NamesAndTypes:
     """The actions that a node calls; raises `RCLError` for an unknown node."""
     try:
@@ -32,7 +35,7 @@ def get_action_client_names_and_types_by_node(
 
 
 def get_action_server_names_and_types_by_node(
-    node: Any, remote_node_name: str, remote_node_namespace: str
+    node: Node, remote_node_name: str, remote_node_namespace: str
 ) -> NamesAndTypes:
     """The actions that a node serves; raises `RCLError` for an unknown node."""
     try:
@@ -41,6 +44,6 @@ def get_action_server_names_and_types_by_node(
         raise RCLError(f"Failed to get action server names and type: {error}") from None
 
 
-def get_action_names_and_types(node: Any) -> NamesAndTypes:
+def get_action_names_and_types(node: Node) -> NamesAndTypes:
     """All actions with their types, by name."""
     return _actions(node.get_topic_names_and_types())

@@ -6,11 +6,15 @@
 from __future__ import annotations
 
 import threading
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.endpoints import ClientEndpoint
 from rclpy.task import Future
+
+if TYPE_CHECKING:
+    from rclpy.task import TaskExecutor
+    from unique_identifier_msgs.msg import UUID
 
 
 class PendingRequests:
@@ -20,9 +24,9 @@ class PendingRequests:
         self._bus = bus
         self._lock = threading.Lock()
         self._number = 0
-        self._waiting: dict[int, tuple[Future[Any], Any]] = {}
+        self._waiting: dict[int, tuple[Future[Any], UUID]] = {}
 
-    def send(self, endpoint: ClientEndpoint, request: object, goal_id: object) -> Future[Any]:
+    def send(self, endpoint: ClientEndpoint, request: object, goal_id: UUID) -> Future[Any]:
         """Send a request; its future is completed by `settle`, and dropped if it is cancelled before."""
         future: Future[Any] = Future()
         with self._lock:
@@ -33,18 +37,18 @@ class PendingRequests:
         self._bus.request(endpoint, number, request)
         return future
 
-    def subject(self, number: int) -> Any:
+    def subject(self, number: int) -> UUID | None:
         """The goal that a request concerns; None for a request that is not pending."""
         with self._lock:
             found = self._waiting.get(number)
         return None if found is None else found[1]
 
-    def awaits(self, future: Future[Any]) -> bool:
+    def awaits(self, future: object) -> bool:
         """Whether a future is that of a pending request."""
         with self._lock:
             return any(each is future for each, _ in self._waiting.values())
 
-    def settle(self, number: int, result: object, executor: object) -> bool:
+    def settle(self, number: int, result: object, executor: TaskExecutor | None) -> bool:
         """Complete a request, with done callbacks run by `executor`; returns whether the request was pending."""
         found = self._forget(number)
         if found is None:
@@ -56,6 +60,6 @@ class PendingRequests:
     def _discard(self, number: int) -> None:
         self._forget(number)
 
-    def _forget(self, number: int) -> tuple[Future[Any], Any] | None:
+    def _forget(self, number: int) -> tuple[Future[Any], UUID] | None:
         with self._lock:
             return self._waiting.pop(number, None)

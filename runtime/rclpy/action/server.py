@@ -10,7 +10,7 @@ import threading
 import traceback
 from collections.abc import Callable
 from enum import Enum
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from action_msgs.msg import GoalInfo, GoalStatus
 from bot_console.runtime.process import current
@@ -24,6 +24,14 @@ from rclpy.impl.logging_severity import LoggingSeverity
 from rclpy.impl.reexports import reexporting
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
 from rclpy.waitable import NumberOfEntities
+
+if TYPE_CHECKING:
+    from bot_console.runtime.rmw.endpoints import ClientEndpoint, Request
+    from bot_console.runtime.rosidl.message import Message, ServiceType
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.impl.entity import EntityExecutor
+    from rclpy.node import Node
+    from rclpy.task import Future
 
 NANO = 1_000_000_000
 RESULT_TIMEOUT = 900
@@ -50,7 +58,7 @@ def default_handle_accepted_callback(goal_handle: ServerGoalHandle) -> None:
     goal_handle.execute()
 
 
-def default_goal_callback(goal_request: Any) -> GoalResponse:
+def default_goal_callback(goal_request: Message) -> GoalResponse:
     """Accept every goal."""
     return GoalResponse.ACCEPT
 
@@ -70,15 +78,15 @@ class ActionServer(ActionEntity):
 
     def __init__(
         self,
-        node: Any,
-        action_type: Any,
+        node: Node,
+        action_type: ServiceType,
         action_name: str,
-        execute_callback: Callable[..., Any] | None = None,
+        execute_callback: Callable[..., object] | None = None,
         *,
-        callback_group: Any = None,
-        goal_callback: Callable[..., Any] = default_goal_callback,
-        handle_accepted_callback: Callable[..., Any] = default_handle_accepted_callback,
-        cancel_callback: Callable[..., Any] = default_cancel_callback,
+        callback_group: CallbackGroup | None = None,
+        goal_callback: Callable[..., object] = default_goal_callback,
+        handle_accepted_callback: Callable[..., object] = default_handle_accepted_callback,
+        cancel_callback: Callable[..., object] = default_cancel_callback,
         goal_service_qos_profile: QoSProfile = qos_profile_services_default,
         result_service_qos_profile: QoSProfile = qos_profile_services_default,
         cancel_service_qos_profile: QoSProfile = qos_profile_services_default,
@@ -91,7 +99,7 @@ class ActionServer(ActionEntity):
         self.register_handle_accepted_callback(handle_accepted_callback)
         self.register_goal_callback(goal_callback)
         self.register_cancel_callback(cancel_callback)
-        self._execute_callback: Callable[..., Any] | None = None
+        self._execute_callback: Callable[..., object] | None = None
         if execute_callback is not None:
             self.register_execute_callback(execute_callback)
         self._check("server")
@@ -109,23 +117,23 @@ class ActionServer(ActionEntity):
         self._join()
 
     @property
-    def action_type(self) -> Any:
+    def action_type(self) -> ServiceType:
         """The action's class."""
         return self._action_type
 
-    def register_handle_accepted_callback(self, handle_accepted_callback: Callable[..., Any] | None) -> None:
+    def register_handle_accepted_callback(self, handle_accepted_callback: Callable[..., object] | None) -> None:
         """Set the callback that gets the handle of each accepted goal; None executes goals at once."""
         self._handle_accepted_callback = handle_accepted_callback or default_handle_accepted_callback
 
-    def register_goal_callback(self, goal_callback: Callable[..., Any] | None) -> None:
+    def register_goal_callback(self, goal_callback: Callable[..., object] | None) -> None:
         """Set the callback that accepts or rejects goals; None accepts all."""
         self._goal_callback = goal_callback or default_goal_callback
 
-    def register_cancel_callback(self, cancel_callback: Callable[..., Any] | None) -> None:
+    def register_cancel_callback(self, cancel_callback: Callable[..., object] | None) -> None:
         """Set the callback that accepts or rejects cancel requests; None rejects all."""
         self._cancel_callback = cancel_callback or default_cancel_callback
 
-    def register_execute_callback(self, execute_callback: Callable[..., Any]) -> None:
+    def register_execute_callback(self, execute_callback: Callable[..., object]) -> None:
         """Set the callback that executes goals; raises `TypeError` if it is not callable."""
         if not callable(execute_callback):
             raise TypeError("Failed to register goal execution callback: not callable")
@@ -139,12 +147,12 @@ class ActionServer(ActionEntity):
         """Whether a request has come or a result has expired."""
         return super().pending() or (not self.destroyed and self._expired())
 
-    def run(self) -> Any:
+    def run(self) -> object:
         """Take one request of each kind and serve them."""
         ends = self._endpoints
         return self._serve(take(ends.goal.queue), take(ends.cancel.queue), take(ends.result.queue), self._expired())
 
-    async def _serve(self, goal: Any, cancel: Any, result: Any, expired: bool) -> None:
+    async def _serve(self, goal: Request | None, cancel: Request | None, result: Request | None, expired: bool) -> None:
         if goal is not None:
             await self._serve_goal(*goal)
         if cancel is not None:
@@ -155,7 +163,7 @@ class ActionServer(ActionEntity):
             self._goals.expire(self._now_ns())
             self.arm()
 
-    async def _serve_goal(self, client: Any, number: int, request: Any) -> None:
+    async def _serve_goal(self, client: ClientEndpoint, number: int, request: Any) -> None:
         uuid = bytes(request.goal_id.uuid)
         handle = await self._accepted(request, uuid)
         response = self._action_type.Impl.SendGoalService.Response()
@@ -190,10 +198,10 @@ class ActionServer(ActionEntity):
             self._goals.add(uuid, handle)
         return handle
 
-    async def _serve_cancel(self, client: Any, number: int, request: Any) -> None:
+    async def _serve_cancel(self, client: ClientEndpoint, number: int, request: Any) -> None:
         self._debug("Cancel request received: {}", request)
         handles, code = self._goals.to_cancel(request)
-        canceling: list[Any] = []
+        canceling: list[GoalInfo] = []
         for handle in handles:
             if await call(self._cancel_callback, handle) is not CancelResponse.ACCEPT:
                 continue
@@ -208,7 +216,7 @@ class ActionServer(ActionEntity):
         response.goals_canceling = canceling
         self._node._ros_bus.respond(client, number, response)
 
-    def _serve_result(self, client: Any, number: int, request: Any) -> None:
+    def _serve_result(self, client: ClientEndpoint, number: int, request: Any) -> None:
         self._debug("Result request received for goal with ID: {}", request.goal_id.uuid)
         handle = self._goals.get(bytes(request.goal_id.uuid))
         if handle is None:
@@ -220,18 +228,19 @@ class ActionServer(ActionEntity):
         handle._result_future._set_executor(self.sink)
         handle._result_future.add_done_callback(functools.partial(self._send_result, client, number))
 
-    def _send_result(self, client: Any, number: int, future: Any) -> None:
+    def _send_result(self, client: ClientEndpoint, number: int, future: Future[Any]) -> None:
         self._node._ros_bus.respond(client, number, future.result())
 
-    def notify_execute(self, goal_handle: ServerGoalHandle, execute_callback: Callable[..., Any] | None) -> None:
+    def notify_execute(self, goal_handle: ServerGoalHandle, execute_callback: Callable[..., object] | None) -> None:
         """Schedule a callback, the server's own by default, for a goal in the node's executor; none without either."""
         callback = self._execute_callback if execute_callback is None else execute_callback
         if callback is None:
             return
         goal_handle._is_run_by_callback = True
-        self._node.executor.create_task(self._execute_goal, callback, goal_handle)
+        executor: Any = self._node.executor  # without one it fails, as upstream
+        executor.create_task(self._execute_goal, callback, goal_handle)
 
-    async def _execute_goal(self, callback: Callable[..., Any], handle: ServerGoalHandle) -> None:
+    async def _execute_goal(self, callback: Callable[..., object], handle: ServerGoalHandle) -> None:
         uuid = handle.goal_id.uuid
         self._debug("Executing goal with ID {}", uuid)
         try:
@@ -248,7 +257,7 @@ class ActionServer(ActionEntity):
         self._debug("Goal with ID {} finished with state {}", uuid, handle.status)
         handle._set_result(result)
 
-    def _warn_of_result(self, callback: Callable[..., Any], result: Any) -> None:
+    def _warn_of_result(self, callback: Callable[..., object], result: object) -> None:
         """Warn of a result of a wrong type; upstream fails only at a request for it, without naming the callback."""
         code = getattr(callback, "__code__", None)
         place = f" ({code.co_filename}:{code.co_firstlineno})" if code else ""
@@ -266,7 +275,7 @@ class ActionServer(ActionEntity):
         self._may_publish("Failed get goal status array")
         self._endpoints.status.publish(self._goals.status_array())
 
-    def _publish_feedback(self, message: Any) -> None:
+    def _publish_feedback(self, message: Message) -> None:
         self._may_publish("Failed to publish feedback with an action server")
         self._endpoints.feedback.publish(message)
 
@@ -276,7 +285,7 @@ class ActionServer(ActionEntity):
             current().deliver_signals()  # as in a publisher: an interrupt takes precedence over this error
             raise RCLError(f"{refused}: feedback publisher is invalid")
 
-    def _debug(self, text: str, *values: Any) -> None:
+    def _debug(self, text: str, *values: object) -> None:
         if self._logger.is_enabled_for(LoggingSeverity.DEBUG):
             self._logger.debug(text.format(*values))
 
@@ -298,7 +307,7 @@ class ActionServer(ActionEntity):
         elif self.pending():
             self.notify()
 
-    def attach(self, sink: Any, node_order: int) -> None:
+    def attach(self, sink: EntityExecutor, node_order: int) -> None:
         """Attach the server to an executor."""
         super().attach(sink, node_order)
         self.arm()

@@ -1,13 +1,41 @@
 """A goal as its server's callbacks see it."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 import threading
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from rclpy.action.goal_state import ACCEPTED, ACTIVE, CANCELING, GoalEvent, GoalStatus, next_status
 from rclpy.task import Future
+
+if TYPE_CHECKING:
+    from action_msgs.msg import GoalInfo
+    from bot_console.runtime.rosidl.message import Message, ServiceType
+    from unique_identifier_msgs.msg import UUID
+
+
+class GoalServer(Protocol):
+    """An action server as the handles of its goals know it."""
+
+    @property
+    def action_type(self) -> ServiceType:
+        """The action's class."""
+
+    def notify_execute(self, goal_handle: ServerGoalHandle, execute_callback: Callable[..., object] | None) -> None:
+        """Schedule a callback for a goal."""
+
+    def notify_goal_done(self) -> None:
+        """Start the expiry of an ended goal's result."""
+
+    def _publish_status(self) -> None: ...
+
+    def _publish_feedback(self, message: Message) -> None: ...
+
+    def _now_ns(self) -> int: ...
 
 
 class ServerGoalHandle:
@@ -18,7 +46,7 @@ class ServerGoalHandle:
 
     __module__ = "rclpy.action.server"  # as upstream, where objects print it
 
-    def __init__(self, action_server: Any, goal_info: Any, goal_request: Any) -> None:
+    def __init__(self, action_server: GoalServer, goal_info: GoalInfo, goal_request: Any) -> None:
         self._action_server = action_server
         self._goal_info = goal_info
         self._goal_request = goal_request
@@ -45,7 +73,7 @@ class ServerGoalHandle:
         return self._goal_request
 
     @property
-    def goal_id(self) -> Any:
+    def goal_id(self) -> UUID:
         """The goal's UUID."""
         return self._goal_info.goal_id
 
@@ -74,7 +102,7 @@ class ServerGoalHandle:
                 self.terminal_ns = self._action_server._now_ns()
                 self._action_server.notify_goal_done()
 
-    def execute(self, execute_callback: Callable[..., Any] | None = None) -> None:
+    def execute(self, execute_callback: Callable[..., object] | None = None) -> None:
         """Schedule the execute callback, the server's own by default, in the executor.
 
         A goal that is being cancelled keeps its state: the callback then has to end it.
@@ -87,7 +115,7 @@ class ServerGoalHandle:
         if not self.is_cancel_requested:
             self._update_state(GoalEvent.EXECUTE)
 
-    def publish_feedback(self, feedback: Any) -> None:
+    def publish_feedback(self, feedback: Message) -> None:
         """Send feedback to the clients; raises `TypeError` for anything but the action's `Feedback`."""
         if not isinstance(feedback, self._action_server.action_type.Feedback):
             raise TypeError
@@ -99,24 +127,24 @@ class ServerGoalHandle:
             message.feedback = feedback
             self._action_server._publish_feedback(message)
 
-    def succeed(self, response: Any = None) -> None:
+    def succeed(self, response: Message | None = None) -> None:
         """Mark the goal as reached; `response` is its result, as is what an execute callback returns."""
         self._end(GoalEvent.SUCCEED, response)
 
-    def abort(self, response: Any = None) -> None:
+    def abort(self, response: Message | None = None) -> None:
         """Mark the goal as aborted by the server; `response` is its result."""
         self._end(GoalEvent.ABORT, response)
 
-    def canceled(self, response: Any = None) -> None:
+    def canceled(self, response: Message | None = None) -> None:
         """Mark the goal as cancelled at its client's request; `response` is its result."""
         self._end(GoalEvent.CANCELED, response)
 
-    def _end(self, event: GoalEvent, response: Any) -> None:
+    def _end(self, event: GoalEvent, response: Message | None) -> None:
         self._update_state(event)
         if response is not None or not self._is_run_by_callback:
             self._set_result(self._action_server.action_type.Result() if response is None else response)
 
-    def _set_result(self, result: Any) -> None:
+    def _set_result(self, result: Message | None) -> None:
         """Send the result to whoever requests it; the first one counts."""
         if self._result_future.done():
             return

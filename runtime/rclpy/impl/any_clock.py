@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Protocol
+
+
+class Nanoseconds(Protocol):
+    """A time."""
+
+    @property
+    def nanoseconds(self) -> int:
+        """Nanoseconds since the clock's zero."""
 
 
 class AnyClock:
     """Base of `rclpy.clock.Clock`, by which a logger recognises a clock without importing that module."""
 
-    def now(self) -> Any:
+    def now(self) -> Nanoseconds:
         """The current time, an object with `nanoseconds`."""
         raise NotImplementedError

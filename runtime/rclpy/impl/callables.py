@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Coroutine
 from types import CoroutineType, FunctionType, MethodType
-from typing import Any, TypeGuard
+from typing import TypeGuard
 
 VARARGS = 0x04
 """The flag `inspect.CO_VARARGS`."""
@@ -15,12 +15,12 @@ COROUTINE = 0x80
 """The flag `inspect.CO_COROUTINE`."""
 
 
-def is_coroutine(value: object) -> TypeGuard[CoroutineType[Any, Any, Any]]:
+def is_coroutine(value: object) -> TypeGuard[CoroutineType[object, None, object]]:
     """Whether a value was returned by an `async def` function."""
     return isinstance(value, CoroutineType)
 
 
-def is_coroutine_function(callback: object) -> TypeGuard[Callable[..., Coroutine[Any, Any, Any]]]:
+def is_coroutine_function(callback: object) -> TypeGuard[Callable[..., Coroutine[object, None, object]]]:
     """Whether a callback is an `async def` function, or is marked to count as one."""
     function = _plain(callback)
     if function is not None:
@@ -30,7 +30,7 @@ def is_coroutine_function(callback: object) -> TypeGuard[Callable[..., Coroutine
     return inspect.iscoroutinefunction(callback)
 
 
-def takes(callback: Callable[..., Any], count: int) -> bool:
+def takes(callback: Callable[..., object], count: int) -> bool:
     """Whether a callback can be called with `count` positional arguments; raises `ValueError` if that is not known."""
     function = _plain(callback)
     if function is not None:

@@ -1,13 +1,22 @@
 """The base of everything an executor serves: timers, subscriptions, guard conditions, clients, services, waitables."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from rclpy._rclpy_pybind11 import InvalidHandle
 from rclpy.impl.callables import is_coroutine_function
+
+if TYPE_CHECKING:
+    from collections import deque
+    from collections.abc import Callable, Sequence
+
+    from bot_console.runtime.process.clock_source import Wakeup
 
 WAITABLE, TIMER, SUBSCRIPTION, GUARD, CLIENT, SERVICE = range(6)
 """Kinds, in the order in which one wake of an executor serves them."""
@@ -16,22 +25,70 @@ DESTROYED = "cannot use Destroyable because destruction was requested"
 _creation = itertools.count()
 
 
+class EntityGroup(Protocol):
+    """A callback group as its entities know it."""
+
+    @property
+    def own_rules(self) -> bool:
+        """Whether it is a program's own class."""
+
+    @property
+    def blocked(self) -> Sequence[Entity] | None:
+        """Entities that are ready and have to wait for the group, or nothing."""
+
+    def add_entity(self, entity: Entity) -> None:
+        """Add an entity to the group."""
+
+    def block(self, entity: Entity) -> None:
+        """Register an entity that may not run now."""
+
+    def unblock(self) -> None:
+        """Notify waiting entities that they may try again."""
+
+    def can_execute(self, entity: Entity) -> bool:
+        """Whether the entity's callback may run now."""
+
+    def beginning_execution(self, entity: Entity) -> bool:
+        """Mark the entity's callback as running, if that is allowed; returns whether it was."""
+
+    def ending_execution(self, entity: Entity) -> None:
+        """Mark the entity's callback as ended."""
+
+
+class EntityExecutor(Protocol):
+    """An executor as the entities that it serves know it."""
+
+    receives_in_one_thread: bool
+    _ready: deque[Entity]
+    _waiting: int
+    _wakeup: Wakeup
+
+    def arm(self, timer: Entity, deadline: int) -> None:
+        """Set the steady time (ns) at which an entity is due."""
+
+    def ask_again(self, entity: Entity) -> None:
+        """Retry an entity that may not begin now at the next wake."""
+
+    def create_task(self, callback: Callable[..., object], *args: object) -> object:
+        """Schedule a function in the executor."""
+
+
 class Entity:
     """Something that becomes ready and whose callback an executor then runs."""
 
     KIND = WAITABLE
-    marked: Any = None
+    marked: EntityExecutor | None = None
     """The executor whose queue of ready entities contains it."""
     destroyed = False
-    sink: Any = None
+    sink: EntityExecutor | None = None
     """The executor that serves the entity's node."""
-    heap: Any = None
+    heap: object = None
     heap_deadline = 0
     due_at = 0
     arms_itself = False
     """Whether it tells the executor its next due time before its callback begins, and need not be asked afterwards."""
 
-    def __init__(self, callback_group: Any) -> None:
+    def __init__(self, callback_group: EntityGroup) -> None:
         self.callback_group = callback_group
         self.order = next(_creation)
         self.key: tuple[int, int, int] = (0, self.KIND, self.order)
@@ -50,31 +107,35 @@ class Entity:
         """Whether there is something to do."""
         raise NotImplementedError
 
-    def awaits(self, future: Any) -> bool:
+    def awaits(self, future: object) -> bool:
         """Whether it is what arrives for the entity that settles a future."""
         return False
 
     def arm(self) -> None:
         """Tell the executor when the entity will be ready, if that depends on time."""
 
-    def run(self) -> Any:
+    def run(self) -> object:
         """Do one piece of work; the executor drives a returned coroutine."""
         raise NotImplementedError
 
-    def interfaces(self) -> Sequence[Any]:
+    def interfaces(self) -> Sequence[type]:
         """The interface classes that the entity uses beyond its node's topics and services."""
         return ()
 
-    def attach(self, sink: Any, node_order: int) -> None:
+    def attach(self, sink: EntityExecutor, node_order: int) -> None:
         """Attach the entity to an executor."""
         self._belong(sink, node_order)
         if self.pending():
             self.notify()
 
-    def _belong(self, sink: Any, node_order: int) -> None:
+    def _belong(self, sink: EntityExecutor, node_order: int) -> None:
         # Upstream's executor checks waitables before everything else, whichever node they belong to.
         self.key = (-1 if self.KIND == WAITABLE else node_order, self.KIND, self.order)
         self.sink = sink
+
+    def destroy(self) -> None:
+        """Leave the graph, and the executor."""
+        raise NotImplementedError
 
     def detach(self) -> None:
         """Detach the entity from its executor."""

@@ -1,9 +1,12 @@
 """Handlers of publisher and subscription events: matches, incompatible profiles, deadlines, liveliness."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.bus import Publisher
@@ -11,6 +14,9 @@ from bot_console.runtime.rmw.endpoints import Event
 from rclpy._rclpy_pybind11 import rmw_qos_policy_kind_t
 from rclpy.impl.entity import WAITABLE, Entity
 from rclpy.impl.qos_policies import QoSPolicyKind
+
+if TYPE_CHECKING:
+    from rclpy.impl.entity import EntityExecutor, EntityGroup
 
 
 class EventHandler(Entity):
@@ -20,7 +26,9 @@ class EventHandler(Entity):
     kinds: tuple[Event, ...] = ()
     """The events of the bus that it listens to."""
 
-    def __init__(self, info_type: Any, callback: Callable[[Any], Any], callback_group: Any) -> None:
+    def __init__(
+        self, info_type: Callable[..., object], callback: Callable[..., object], callback_group: EntityGroup
+    ) -> None:
         super().__init__(callback_group)
         self.callback = callback
         self._info_type = info_type
@@ -34,7 +42,7 @@ class EventHandler(Entity):
         self._reported = True
         self.notify()
 
-    def _info(self) -> Any:
+    def _info(self) -> object:
         """The callback's argument; resets the changes."""
         raise NotImplementedError
 
@@ -42,7 +50,7 @@ class EventHandler(Entity):
         """Whether an event is to be reported."""
         return self._reported
 
-    def run(self) -> Any:
+    def run(self) -> object:
         """Run the callback."""
         # Before the callback: events during it are reported by the next one.
         self._reported = False
@@ -69,7 +77,7 @@ class MatchedHandler(EventHandler):
         self._change += what
         self._report()
 
-    def _info(self) -> Any:
+    def _info(self) -> object:
         info = self._info_type(self._total, self._new, self._now, self._change)
         self._new = self._change = 0
         return info
@@ -89,7 +97,7 @@ class IncompatibleHandler(EventHandler):
         self._policy = QoSPolicyKind[what]
         self._report()
 
-    def _info(self) -> Any:
+    def _info(self) -> object:
         info = self._info_type(self._total, self._new, rmw_qos_policy_kind_t(self._policy.value))
         self._new = 0
         return info
@@ -107,7 +115,7 @@ class LostHandler(EventHandler):
         self._new += what
         self._report()
 
-    def _info(self) -> Any:
+    def _info(self) -> object:
         info = self._info_type(self._total, self._new)
         self._new = 0
         return info
@@ -116,7 +124,9 @@ class LostHandler(EventHandler):
 class TimedHandler(EventHandler):
     """Base of handlers of events that occur when something does not happen in time."""
 
-    def __init__(self, info_type: Any, callback: Callable[[Any], Any], callback_group: Any) -> None:
+    def __init__(
+        self, info_type: Callable[..., object], callback: Callable[..., object], callback_group: EntityGroup
+    ) -> None:
         super().__init__(info_type, callback, callback_group)
         self._clock = current().clock
 
@@ -129,7 +139,7 @@ class TimedHandler(EventHandler):
         if sink is not None and due is not None:
             sink.arm(self, due)
 
-    def attach(self, sink: Any, node_order: int) -> None:
+    def attach(self, sink: EntityExecutor, node_order: int) -> None:
         """Attach the handler to an executor."""
         super().attach(sink, node_order)
         self._arm()
@@ -139,7 +149,7 @@ class TimedHandler(EventHandler):
         due = self._due()
         return self._reported or (due is not None and self._clock.steady_ns() >= due)
 
-    def run(self) -> Any:
+    def run(self) -> object:
         """Count what did not happen, and run the callback."""
         self._expire(self._clock.steady_ns())
         self._arm()
@@ -156,7 +166,13 @@ class MissedHandler(TimedHandler):
     _total = _new = 0
 
     def __init__(
-        self, info_type: Any, callback: Callable[[Any], Any], callback_group: Any, period: int, *, again: bool
+        self,
+        info_type: Callable[..., object],
+        callback: Callable[..., object],
+        callback_group: EntityGroup,
+        period: int,
+        *,
+        again: bool,
     ) -> None:
         super().__init__(info_type, callback, callback_group)
         self._period = period
@@ -177,7 +193,7 @@ class MissedHandler(TimedHandler):
             self._new += 1
             self._next = self._next + self._period if self._again else None
 
-    def _info(self) -> Any:
+    def _info(self) -> object:
         info = self._info_type(self._total, self._new)
         self._new = 0
         return info
@@ -188,7 +204,9 @@ class LivelinessHandler(TimedHandler):
 
     kinds = ("alive", "gone", "asserted")
 
-    def __init__(self, info_type: Any, callback: Callable[[Any], Any], callback_group: Any) -> None:
+    def __init__(
+        self, info_type: Callable[..., object], callback: Callable[..., object], callback_group: EntityGroup
+    ) -> None:
         super().__init__(info_type, callback, callback_group)
         self._alive: dict[Publisher, int | None] = {}
         self._silent: set[Publisher] = set()
@@ -217,7 +235,7 @@ class LivelinessHandler(TimedHandler):
                 del self._alive[publisher]
                 self._silent.add(publisher)
 
-    def _info(self) -> Any:
+    def _info(self) -> object:
         before, self._before = self._before, (len(self._alive), len(self._silent))
         changes = (now - then for now, then in zip(self._before, before, strict=True))
         return self._info_type(*self._before, *changes)

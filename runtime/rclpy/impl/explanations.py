@@ -89,7 +89,7 @@ def spun_twice() -> ValueError:
     return ValueError("generator already executing")
 
 
-def invalid_result(callback: Callable[..., Any], result: object) -> str:
+def invalid_result(callback: Callable[..., object], result: object) -> str:
     """Return what a parameter callback should have returned, with its file and line; empty unless a person reads it."""
     if not is_read():
         return ""

@@ -6,17 +6,43 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Protocol
 
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import Owner
 from rclpy._rclpy_pybind11 import RCLError
 
+if TYPE_CHECKING:
+    from bot_console.runtime.rmw.bus import Bus
+
+
+class ContextState(Protocol):
+    """A context that may have ended."""
+
+    @property
+    def ended(self) -> bool:
+        """Whether it was shut down."""
+
+    def ok(self) -> bool:
+        """Whether it is valid; raises a pending interrupt."""
+
+
+class NodeInGraph(Protocol):
+    """A node as far as waiting for the graph needs it."""
+
+    @property
+    def _ros_bus(self) -> Bus: ...
+
+    @property
+    def context(self) -> ContextState:
+        """The context that the node belongs to."""
+
+
 NANO = 1_000_000_000
 POLL = NANO // 4
 
 
-def require_valid(context: Any, what: str) -> None:
+def require_valid(context: ContextState, what: str) -> None:
     """Raise `RCLError` if the context was shut down, as the graph is unknown then.
 
     This ends loops that poll for an endpoint, which would never end otherwise.
@@ -25,7 +51,7 @@ def require_valid(context: Any, what: str) -> None:
         raise RCLError(f"{what}: rcl node's context is invalid")
 
 
-def wait_until_there(node: Any, is_there: Callable[[], bool], timeout_sec: float | None) -> bool:
+def wait_until_there(node: NodeInGraph, is_there: Callable[[], bool], timeout_sec: float | None) -> bool:
     """Block until `is_there()`, a time-out (s) or the context's shutdown; returns the last `is_there()`."""
     clock = current().clock
     deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * float(NANO))

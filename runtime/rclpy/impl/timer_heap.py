@@ -1,9 +1,15 @@
 """The deadline queue of an executor: its timers by the steady time at which they are due."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 from heapq import heappop, heappush, heapreplace
-from typing import Any
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rclpy.impl.entity import Entity
 
 
 class TimerHeap:
@@ -14,9 +20,9 @@ class TimerHeap:
     """
 
     def __init__(self) -> None:
-        self.entries: list[tuple[int, int, Any]] = []
+        self.entries: list[tuple[int, int, Entity]] = []
 
-    def push(self, deadline: int, timer: Any) -> None:
+    def push(self, deadline: int, timer: Entity) -> None:
         """Set the steady time (ns) at which a timer is due, replacing its previous deadline."""
         timer.due_at = deadline
         if timer.heap is self and timer.heap_deadline <= deadline:
@@ -36,9 +42,9 @@ class TimerHeap:
             self._put_right(entry, sink)
         return None
 
-    def pop_due(self, now: int, sink: object) -> list[Any]:
+    def pop_due(self, now: int, sink: object) -> list[Entity]:
         """Remove and return the timers that are due."""
-        due: list[Any] = []
+        due: list[Entity] = []
         entries = self.entries
         while entries and entries[0][0] <= now:
             entry = entries[0]
@@ -51,7 +57,7 @@ class TimerHeap:
                 self._put_right(entry, sink)
         return due
 
-    def _put_right(self, entry: tuple[int, int, Any], sink: object) -> None:
+    def _put_right(self, entry: tuple[int, int, Entity], sink: object) -> None:
         """Remove the outdated first entry, or move it to its timer's deadline."""
         deadline, order, timer = entry
         # A stale entry: the timer has gone to another executor, or was pushed again for an earlier time.

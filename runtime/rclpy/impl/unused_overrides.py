@@ -1,10 +1,13 @@
 """Values of the command line and of files that no node declares a parameter for: ROS 2 says nothing of them."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Protocol
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
@@ -12,25 +15,54 @@ from bot_console.runtime.programs.hints import at, is_read, not_declared
 from bot_console.runtime.rmw.parameter_places import place_of
 from bot_console.runtime.rmw.parameter_precedence import COMMAND_LINE, key_matches
 
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from bot_console.runtime.rmw.arguments import Arguments
+
+
+class OverriddenNode(Protocol):
+    """A node as far as its declared and given parameters."""
+
+    @property
+    def _allow_undeclared_parameters(self) -> bool: ...
+
+    @property
+    def _parameters(self) -> Mapping[str, object]: ...
+
+    @property
+    def _ros_arguments(self) -> Sequence[Arguments]: ...
+
+    def get_fully_qualified_name(self) -> str:
+        """Namespace and name."""
+
+
+class OverridingContext(Protocol):
+    """A context as far as its nodes."""
+
+    def tracked_nodes(self) -> Sequence[OverriddenNode]:
+        """The nodes in this context."""
+
+
 BY_PUBLISHERS = "qos_overrides."
 """Parameters with such names are declared when a publisher or a subscription is made."""
 WRITTEN_BY_LAUNCH = "launch_params_"
 """How the names of files begin that launch has written for one node."""
 
 
-def report_unused_overrides(context: Any) -> None:
+def report_unused_overrides(context: OverridingContext) -> None:
     """Give a notice of each value that sets nothing, where a person reads it: to be called when spinning begins."""
     if is_read():
         for line in unused_overrides(context.tracked_nodes()):
             notify(current(), line)
 
 
-def unused_overrides(nodes: Iterable[Any]) -> Iterator[str]:
+def unused_overrides(nodes: Iterable[OverriddenNode]) -> Iterator[str]:
     """Yield a line for each value that is given to some of the nodes and declared by none.
 
     Values below a wildcard of a file are left out: they are for many nodes, each of which may need but some.
     """
-    given: dict[tuple[str, str], list[Any]] = {}
+    given: dict[tuple[str, str], list[OverriddenNode]] = {}
     declared: set[str] = set()
     for node in nodes:
         if node._allow_undeclared_parameters:
@@ -46,7 +78,7 @@ def unused_overrides(nodes: Iterable[Any]) -> Iterator[str]:
             yield at(place_of(source, names[0], name), f"{what} {not_declared(names, name, declared)}")
 
 
-def _meant_for(node: Any) -> Iterator[tuple[str, str]]:
+def _meant_for(node: OverriddenNode) -> Iterator[tuple[str, str]]:
     """Name and source of each value that is meant for this very node."""
     full = node.get_fully_qualified_name()
     for arguments in node._ros_arguments:

@@ -7,9 +7,12 @@ import threading
 import weakref
 from collections import deque
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import ProcessKilled, current
+
+if TYPE_CHECKING:
+    from bot_console.runtime.process.clock_source import Wakeup
 
 
 class WorkerPool:
@@ -19,8 +22,8 @@ class WorkerPool:
         self._size = size
         self._name = name
         self._clock = current().clock
-        self._work: deque[Callable[[], Any]] = deque()
-        self._idle: deque[Any] = deque()
+        self._work: deque[Callable[[], object]] = deque()
+        self._idle: deque[Wakeup] = deque()
         self._lock = threading.Lock()
         self._threads = 0
         self._serving: set[int] = set()
@@ -30,7 +33,7 @@ class WorkerPool:
         self._closed = False
         current().end_with_main(self)
 
-    def submit(self, work: Callable[[], Any]) -> None:
+    def submit(self, work: Callable[[], object]) -> None:
         """Run `work()` in one of the threads; it must not raise. After `shutdown` the call has no effect."""
         with self._lock:
             if self._closed:

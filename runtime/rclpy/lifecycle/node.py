@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import traceback
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 from bot_console.runtime.distribution import distribution
 from lifecycle_msgs.msg import State, Transition
@@ -17,6 +17,11 @@ from rclpy.lifecycle.services import LifecycleServices
 from rclpy.lifecycle.state_machine import LifecycleStateMachine
 from rclpy.lifecycle.transition_callback_return import TransitionCallbackReturnType as TransitionCallbackReturn
 from rclpy.node import Node
+
+if TYPE_CHECKING:
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.impl.rcutils_logger import RcutilsLogger
+    from rclpy.node import Node
 
 _SHUTDOWNS = {
     "unconfigured": Transition.TRANSITION_UNCONFIGURED_SHUTDOWN,
@@ -31,9 +36,11 @@ class LifecycleNodeMixin(ManagedEntity):
     The default transition callbacks call those of the managed entities, up to the first that does not return SUCCESS.
     """
 
-    _logger: Any
+    _logger: RcutilsLogger
 
-    def __init__(self, *, enable_communication_interface: bool = True, callback_group: object = None) -> None:
+    def __init__(
+        self, *, enable_communication_interface: bool = True, callback_group: CallbackGroup | None = None
+    ) -> None:
         self._callbacks: dict[int, Callable[[LifecycleState], TransitionCallbackReturn]] = {
             State.TRANSITION_STATE_CONFIGURING: self.on_configure,
             State.TRANSITION_STATE_CLEANINGUP: self.on_cleanup,
@@ -43,9 +50,10 @@ class LifecycleNodeMixin(ManagedEntity):
             State.TRANSITION_STATE_ERRORPROCESSING: self.on_error,
         }
         self._managed_entities: dict[ManagedEntity, None] = {}
-        self._state_machine = LifecycleStateMachine(self, enable_communication_interface)
+        node = cast("Node", self)
+        self._state_machine = LifecycleStateMachine(node, enable_communication_interface)
         if enable_communication_interface:
-            services = LifecycleServices(self, self._state_machine, self.__change_state, callback_group)
+            services = LifecycleServices(node, self._state_machine, self.__change_state, callback_group)
             self._service_change_state = services.change_state
             self._service_get_state = services.get_state
             self._service_get_available_states = services.get_available_states

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rclpy.impl.reexports import reexporting
 from rclpy.lifecycle.managed_entity import SimpleManagedEntity
 from rclpy.publisher import Publisher
+
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.message import Message
 
 
 class LifecyclePublisher(SimpleManagedEntity, Publisher):
@@ -17,7 +20,7 @@ class LifecyclePublisher(SimpleManagedEntity, Publisher):
         Publisher.__init__(self, *args, **kwargs)
 
     @SimpleManagedEntity.when_enabled
-    def publish(self, msg: object) -> None:
+    def publish(self, msg: Message | bytes) -> None:
         """Publish a message, or its serialized bytes, if the node is active."""
         Publisher.publish(self, msg)
 

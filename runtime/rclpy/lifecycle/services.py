@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING
 
 from bot_console.runtime.distribution import distribution
 from bot_console.runtime.process import current
@@ -14,16 +14,22 @@ from rclpy._rclpy_pybind11 import RCLError
 from rclpy.lifecycle.state_machine import Described, LifecycleStateMachine
 from rclpy.lifecycle.transition_callback_return import TransitionCallbackReturnType as TransitionCallbackReturn
 
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.message import ServiceType
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.node import Node
+    from rclpy.service import Service
+
 
 class LifecycleServices:
     """Serves `~/change_state`, `~/get_state` and the three that list states and transitions."""
 
     def __init__(
         self,
-        node: object,
+        node: Node,
         machine: LifecycleStateMachine,
         change_state: Callable[[int], TransitionCallbackReturn],
-        group: object,
+        group: CallbackGroup | None,
     ) -> None:
         self._machine = machine
         self._change_state = change_state
@@ -39,7 +45,7 @@ class LifecycleServices:
             node, GetAvailableTransitions, "get_transition_graph", self._on_get_transition_graph, group
         )
 
-    def _on_change_state(self, request: Any, response: Any) -> Any:
+    def _on_change_state(self, request: ChangeState.Request, response: ChangeState.Response) -> ChangeState.Response:
         """Serve a request: a label precedes an id; an unknown label fails, an invalid id raises out of spin."""
         transition = request.transition.id
         if request.transition.label:
@@ -64,32 +70,40 @@ class LifecycleServices:
             "~/get_available_transitions lists them"
         )
 
-    def _on_get_state(self, request: Any, response: Any) -> Any:
+    def _on_get_state(self, request: GetState.Request, response: GetState.Response) -> GetState.Response:
         number, label = self._machine.current_state
         response.current_state = State(id=number, label=label)
         return response
 
-    def _on_get_available_states(self, request: Any, response: Any) -> Any:
+    def _on_get_available_states(
+        self, request: GetAvailableStates.Request, response: GetAvailableStates.Response
+    ) -> GetAvailableStates.Response:
         response.available_states = [State(id=number, label=label) for number, label in self._machine.available_states]
         return response
 
-    def _on_get_available_transitions(self, request: Any, response: Any) -> Any:
+    def _on_get_available_transitions(
+        self, request: GetAvailableTransitions.Request, response: GetAvailableTransitions.Response
+    ) -> GetAvailableTransitions.Response:
         response.available_transitions = [_message(each) for each in self._machine.available_transitions]
         return response
 
-    def _on_get_transition_graph(self, request: Any, response: Any) -> Any:
+    def _on_get_transition_graph(
+        self, request: GetAvailableTransitions.Request, response: GetAvailableTransitions.Response
+    ) -> GetAvailableTransitions.Response:
         response.available_transitions = [_message(each) for each in self._machine.transition_graph]
         return response
 
 
-def _serve(node: Any, kind: Any, name: str, callback: Callable[..., Any], group: Any) -> Any:
+def _serve(
+    node: Node, kind: ServiceType, name: str, callback: Callable[..., object], group: CallbackGroup | None
+) -> Service:
     service = node.create_service(kind, f"~/{name}", callback, callback_group=group)
     # Upstream creates these in rcl, where only the full name is known.
     service.srv_name = service.service_name
     return service
 
 
-def _message(transition: Described) -> Any:
+def _message(transition: Described) -> TransitionDescription:
     number, label, start, start_label, goal, goal_label = transition
     return TransitionDescription(
         transition=Transition(id=number, label=label),

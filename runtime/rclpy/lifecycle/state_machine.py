@@ -1,9 +1,12 @@
 """The state machine of a managed node, with its services and its topic."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.endpoints import Endpoint, new_gid, no_event
@@ -15,6 +18,9 @@ from rclpy.logging import get_logger
 from rclpy.node_parts.topic_names import checked
 from rclpy.qos import QoSProfile
 
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
 Described = tuple[int, str, int, str, int, str]
 """A transition: id and label of itself, of its start and of its goal."""
 
@@ -22,7 +28,7 @@ Described = tuple[int, str, int, str, int, str]
 class LifecycleStateMachine:
     """Holds the current state, and publishes each change on the topic `~/transition_event`."""
 
-    def __init__(self, node: Any, enable_com_interface: bool) -> None:
+    def __init__(self, node: Node, enable_com_interface: bool) -> None:
         if not isinstance(enable_com_interface, bool):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
             raise TypeError(f"enable_communication_interface must be a bool, not {type(enable_com_interface)}")
         self._state: int = State.PRIMARY_STATE_UNCONFIGURED

@@ -5,16 +5,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.endpoints import (
     ClientEndpoint,
     Endpoint,
     Event,
-    NodeId,
     OnEvent,
     ServiceEndpoint,
     SubscriptionEndpoint,
@@ -27,6 +25,7 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.client import Client
 from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
 from rclpy.guard_condition import GuardCondition
+from rclpy.node_parts.base import NodeBase
 from rclpy.node_parts.topic_names import checked
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile, qos_profile_services_default
@@ -36,29 +35,29 @@ from rclpy.subscription_content_filter_options import ContentFilterOptions
 from rclpy.timer import Rate, Timer
 from rclpy.type_support import check_is_valid_msg_type, check_is_valid_srv_type
 
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.message import Message, ServiceType
+    from rclpy.callback_groups import CallbackGroup
+    from rclpy.clock import Clock
+    from rclpy.impl.entity import Entity, EntityExecutor, EntityGroup
+    from rclpy.impl.event_handlers import EventHandler
+    from rclpy.node_parts.rosout import Rosout
+    from rclpy.qos_overriding_options import QoSOverridingOptions
+    from rclpy.waitable import Waitable
+
 NANO = 1_000_000_000
 MAX_SERVICE_QUEUE = 1000
 
 
-class NodeEntities:
+class NodeEntities(NodeBase):
     """Factories of `Node`."""
 
-    _ros_bus: Bus
-    _ros_id: NodeId
-    _ros_sink: Any
-    _ros_order: int
-    _ros_entities: dict[Any, None]
-    _ros_publishers: dict[Any, None]
-    _ros_waitables: dict[Any, None]
-    _ros_rates: dict[Any, Any]
-    _ros_rosout: Any
-    _ros_use: Callable[[], None]
-    context: Any
-    default_callback_group: Any
-    get_clock: Callable[[], Any]
-    get_logger: Callable[[], Any]
+    _ros_publishers: dict[Publisher, None]
+    _ros_waitables: dict[Waitable, None]
+    _ros_rates: dict[Rate, Timer]
+    _ros_rosout: Rosout | None
 
-    def _ros_attach(self, executor: object, order: int) -> None:
+    def _ros_attach(self, executor: EntityExecutor, order: int) -> None:
         self._ros_sink, self._ros_order = executor, order
         for entity in [*self._ros_entities]:
             entity.attach(executor, order)
@@ -68,14 +67,14 @@ class NodeEntities:
         for entity in [*self._ros_entities]:
             entity.detach()
 
-    def _ros_enter(self, entity: Any, group: Any) -> None:
+    def _ros_enter(self, entity: Entity, group: EntityGroup) -> None:
         """Register a new entity with this node, its callback group, and the node's executor."""
         self._ros_entities[entity] = None
         group.add_entity(entity)
         if self._ros_sink is not None:
             entity.attach(self._ros_sink, self._ros_order)
 
-    def _ros_group(self, group: object) -> Any:
+    def _ros_group(self, group: CallbackGroup | None) -> CallbackGroup:
         return self.default_callback_group if group is None else group
 
     def _ros_may_create(self, what: str) -> None:
@@ -95,13 +94,13 @@ class NodeEntities:
 
     def create_publisher(
         self,
-        msg_type: Any,
+        msg_type: type[Message],
         topic: str,
         qos_profile: QoSProfile | int,
         *,
-        callback_group: Any = None,
+        callback_group: CallbackGroup | None = None,
         event_callbacks: PublisherEventCallbacks | None = None,
-        qos_overriding_options: Any = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
         publisher_class: type[Publisher] = Publisher,
     ) -> Publisher:
         """Create a publisher; an integer as QoS is a history depth."""
@@ -124,14 +123,14 @@ class NodeEntities:
 
     def create_subscription(
         self,
-        msg_type: Any,
+        msg_type: type[Message],
         topic: str,
-        callback: Callable[..., Any],
+        callback: Callable[..., object],
         qos_profile: QoSProfile | int,
         *,
-        callback_group: Any = None,
+        callback_group: CallbackGroup | None = None,
         event_callbacks: SubscriptionEventCallbacks | None = None,
-        qos_overriding_options: Any = None,
+        qos_overriding_options: QoSOverridingOptions | None = None,
         raw: bool = False,
         content_filter_options: ContentFilterOptions | None = None,
     ) -> Subscription:
@@ -164,7 +163,9 @@ class NodeEntities:
         self._ros_bus.create_subscription(subscription.endpoint)
         return subscription
 
-    def _ros_overridden(self, qos: QoSProfile, name: str, options: Any, *, publisher: bool) -> QoSProfile:
+    def _ros_overridden(
+        self, qos: QoSProfile, name: str, options: QoSOverridingOptions | None, *, publisher: bool
+    ) -> QoSProfile:
         if options is None:
             return qos
         from copy import copy
@@ -177,12 +178,12 @@ class NodeEntities:
 
     def create_service(
         self,
-        srv_type: Any,
+        srv_type: ServiceType,
         srv_name: str,
-        callback: Callable[..., Any],
+        callback: Callable[..., object],
         *,
         qos_profile: QoSProfile = qos_profile_services_default,
-        callback_group: Any = None,
+        callback_group: CallbackGroup | None = None,
     ) -> Service:
         """Create a service server; the callback takes (request, response) and returns a response."""
         group = self._ros_group(callback_group)
@@ -198,11 +199,11 @@ class NodeEntities:
 
     def create_client(
         self,
-        srv_type: Any,
+        srv_type: ServiceType,
         srv_name: str,
         *,
         qos_profile: QoSProfile = qos_profile_services_default,
-        callback_group: Any = None,
+        callback_group: CallbackGroup | None = None,
     ) -> Client:
         """Create a service client."""
         group = self._ros_group(callback_group)
@@ -219,9 +220,9 @@ class NodeEntities:
     def create_timer(
         self,
         timer_period_sec: float,
-        callback: Callable[..., Any] | None,
-        callback_group: object = None,
-        clock: object = None,
+        callback: Callable[..., object] | None,
+        callback_group: CallbackGroup | None = None,
+        clock: Clock | None = None,
         autostart: bool = True,
     ) -> Timer:
         """Create a timer with a period (s) of a clock, the node's own by default."""
@@ -233,7 +234,7 @@ class NodeEntities:
         return timer
 
     def create_guard_condition(
-        self, callback: Callable[[], Any] | None, callback_group: object = None
+        self, callback: Callable[[], object] | None, callback_group: CallbackGroup | None = None
     ) -> GuardCondition:
         """Create a guard condition."""
         group = self._ros_group(callback_group)
@@ -242,7 +243,7 @@ class NodeEntities:
         self._ros_enter(guard, group)
         return guard
 
-    def create_rate(self, frequency: float, clock: object = None) -> Rate:
+    def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
         """Create a rate (Hz); it ticks while another thread spins the node."""
         if frequency <= 0:
             raise ValueError("frequency must be > 0")
@@ -251,11 +252,11 @@ class NodeEntities:
         self._ros_rates[rate] = timer
         return rate
 
-    def add_waitable(self, waitable: object) -> None:
+    def add_waitable(self, waitable: Waitable) -> None:
         """Add a waitable to the node."""
         self._ros_waitables[waitable] = None
 
-    def remove_waitable(self, waitable: object) -> None:
+    def remove_waitable(self, waitable: Waitable) -> None:
         """Remove a waitable from the node."""
         self._ros_waitables.pop(waitable, None)
 
@@ -269,7 +270,7 @@ class NodeEntities:
         publisher.destroy()
         return True
 
-    def _ros_destroy(self, entity: Any, kind: type) -> bool:
+    def _ros_destroy(self, entity: Entity, kind: type) -> bool:
         if entity not in self._ros_entities or not isinstance(entity, kind):
             return False
         del self._ros_entities[entity]
@@ -310,38 +311,38 @@ class NodeEntities:
         return [each for each in self._ros_entities if isinstance(each, kind)]
 
     @property
-    def publishers(self) -> Any:
+    def publishers(self) -> Iterator[Publisher]:
         """The node's publishers, except that of `/rosout`."""
         rosout = None if self._ros_rosout is None else self._ros_rosout.publisher
         yield from [each for each in self._ros_publishers if each is not rosout]
 
     @property
-    def subscriptions(self) -> Any:
+    def subscriptions(self) -> Iterator[Subscription]:
         """The node's subscriptions."""
         yield from self._ros_of(Subscription)
 
     @property
-    def clients(self) -> Any:
+    def clients(self) -> Iterator[Client]:
         """The node's service clients."""
         yield from self._ros_of(Client)
 
     @property
-    def services(self) -> Any:
+    def services(self) -> Iterator[Service]:
         """The node's service servers."""
         yield from self._ros_of(Service)
 
     @property
-    def timers(self) -> Any:
+    def timers(self) -> Iterator[Timer]:
         """The node's timers."""
         yield from self._ros_of(Timer)
 
     @property
-    def guards(self) -> Any:
+    def guards(self) -> Iterator[GuardCondition]:
         """The node's guard conditions."""
         yield from self._ros_of(GuardCondition)
 
     @property
-    def waitables(self) -> Any:
+    def waitables(self) -> Iterator[Waitable]:
         """The node's waitables."""
         yield from list(self._ros_waitables)
 
@@ -352,7 +353,7 @@ def _check_service_qos(profile: object) -> None:
         raise AttributeError(f"'{type(profile).__name__}' object has no attribute 'get_c_qos_profile'")
 
 
-def _event_reporter(handlers: list[Any]) -> OnEvent:
+def _event_reporter(handlers: list[EventHandler]) -> OnEvent:
     """A function that passes an event of the bus to the handlers of its kind."""
 
     def report(kind: Event, what: object) -> None:
@@ -363,13 +364,13 @@ def _event_reporter(handlers: list[Any]) -> OnEvent:
     return report
 
 
-def _listener(handlers: list[Any]) -> Callable[[], None] | None:
+def _listener(handlers: list[EventHandler]) -> Callable[[], None] | None:
     """A function that passes a message event to its handlers; None without any, as messages are frequent."""
     watching = [handler for handler in handlers if "message" in handler.kinds]
     return partial(_event_reporter(watching), "message", None) if watching else None
 
 
-def _notifier(subscription: Subscription, handlers: list[Any]) -> Callable[[], None]:
+def _notifier(subscription: Subscription, handlers: list[EventHandler]) -> Callable[[], None]:
     heard = _listener(handlers)
     if heard is None:
         return subscription.notify

@@ -1,5 +1,8 @@
 """Graph queries of a node."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
@@ -7,7 +10,6 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from bot_console.runtime.rmw import names
-from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.endpoints import Endpoint, NodeId, Owner
 from bot_console.runtime.rmw.graph_tables import NamesAndTypes, collect
 from bot_console.runtime.rmw.qos import Period, Policy, Profile
@@ -15,6 +17,7 @@ from rclpy._rclpy_pybind11 import NodeNameNonExistentError, RCLError
 from rclpy.duration import Duration, Infinite
 from rclpy.impl.graph_wait import require_valid, wait_until_there
 from rclpy.impl.qos_policies import QoSPolicyEnum
+from rclpy.node_parts.base import NodeBase
 from rclpy.node_parts.topic_names import expand_name, remapped, resolve
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
 
@@ -23,11 +26,8 @@ if TYPE_CHECKING:
     from rclpy.type_hash import TypeHash
 
 
-class NodeGraph:
+class NodeGraph(NodeBase):
     """Graph queries of `Node`."""
-
-    _ros_bus: Bus
-    context: Any
 
     def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
         """Return all topics with their types, by name; raises `RCLError` after a shutdown of the context.

@@ -9,7 +9,7 @@ import gc
 import math
 import warnings
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
@@ -20,7 +20,12 @@ from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent, ParameterVal
 from rclpy.exceptions import ParameterNotDeclaredException
 from rclpy.impl.explanations import DECLARED, invalid_result
 from rclpy.impl.parameter_values import FIELDS
+from rclpy.node_parts.entities import NodeEntities
 from rclpy.parameter import Parameter
+
+if TYPE_CHECKING:
+    from rclpy.clock import Clock
+    from rclpy.publisher import Publisher
 
 EMPTIED = (
     "parameter list cannot be empty, this might be due to pre_set_parameters_callback "
@@ -54,20 +59,16 @@ def _refused(reason: str) -> SetParametersResult:
     return SetParametersResult(successful=False, reason=reason)
 
 
-class ParameterSetting:
+class ParameterSetting(NodeEntities):
     """Methods of `Node` that change values. Callbacks added last are called first."""
 
     PARAM_REL_TOL: float
-    _parameters: dict[str, Parameter]
-    _descriptors: dict[str, ParameterDescriptor]
-    _allow_undeclared_parameters: bool
     _pre_set_parameters_callbacks: list[Setter]
     _on_set_parameters_callbacks: list[Setter]
     _post_set_parameters_callbacks: list[Setter]
-    _parameter_event_publisher: Any
-    _clock: Any
+    _parameter_event_publisher: Publisher
+    _clock: Clock
     _ros_event_node_name: str
-    _ros_use: Callable[[], None]
 
     def set_parameters(self, parameter_list: Sequence[Parameter]) -> list[SetParametersResult]:
         """Set parameters one after the other; returns one result for each.

@@ -34,12 +34,6 @@ if TYPE_CHECKING:
 class NodeParameters(ParameterSetting):
     """Methods of `Node` that declare and read parameters."""
 
-    if TYPE_CHECKING:
-
-        def get_fully_qualified_name(self) -> str:
-            """Namespace and name, implemented by `Node`."""
-            ...
-
     def _ros_init_parameters(
         self,
         arguments: Sequence[Any],

@@ -5,19 +5,34 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Protocol
 
 from rclpy import logging
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.message import Message
+    from rclpy.impl.rcutils_logger import RcutilsLogger
+    from rclpy.publisher import Publisher
 
 NANO = 1_000_000_000
 ROSOUT = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
+class LoggingNode(Protocol):
+    """A node as far as its log lines are published."""
+
+    def get_logger(self) -> RcutilsLogger:
+        """The node's logger."""
+
+    def create_publisher(self, msg_type: type[Message], topic: str, qos_profile: QoSProfile) -> Publisher:
+        """Create a publisher."""
+
+
 class Rosout:
     """Publishes a node's log lines."""
 
-    def __init__(self, node: Any) -> None:
+    def __init__(self, node: LoggingNode) -> None:
         from rcl_interfaces.msg import Log
 
         self._log = Log

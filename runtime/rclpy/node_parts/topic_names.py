@@ -1,15 +1,21 @@
 """Topic and service names as a node uses them: expanded, remapped, validated."""
 
+# pyright: reportPrivateUsage=false
+# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from bot_console.runtime.rmw import names, remapping
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
 
+if TYPE_CHECKING:
+    from rclpy.node_parts.base import NodeBase
 
-def checked(node: object, name: str, *, service: bool = False) -> str:
+
+def checked(node: NodeBase, name: str, *, service: bool = False) -> str:
     """The full, remapped name of an entity to be created.
 
     Raises `InvalidTopicNameException` or `InvalidServiceNameException`, and `ValueError` for an unknown substitution.
@@ -25,7 +31,7 @@ def checked(node: object, name: str, *, service: bool = False) -> str:
     return full
 
 
-def expand_name(node: object, name: str, *, service: bool = False) -> str:
+def expand_name(node: NodeBase, name: str, *, service: bool = False) -> str:
     """The full name of an existing topic or service, not remapped.
 
     Raises `ValueError` as upstream's counts do, and the exceptions of `checked` for invalid full names.
@@ -41,14 +47,14 @@ def expand_name(node: object, name: str, *, service: bool = False) -> str:
     return full
 
 
-def _expanded(node: Any, name: str) -> str:
+def _expanded(node: NodeBase, name: str) -> str:
     try:
         return names.expand(name, node.get_name(), node.get_namespace())
     except ValueError as error:
         raise ValueError(f"topic name '{name}' is invalid: {error}") from None
 
 
-def resolve(node: Any, name: str, *, only_expand: bool, service: bool = False) -> str:
+def resolve(node: NodeBase, name: str, *, only_expand: bool, service: bool = False) -> str:
     """Return the full name, remapped unless only expansion is requested; raises `RCLError`."""
     problem = names.validate_topic_name(name)
     if problem:
@@ -64,7 +70,7 @@ def resolve(node: Any, name: str, *, only_expand: bool, service: bool = False) -
     return full
 
 
-def remapped(node: Any, full: str, service: bool = False) -> str:
+def remapped(node: NodeBase, full: str, service: bool = False) -> str:
     """A full name with the node's remap rules applied."""
     rules = node._ros_remap_rules
     if not rules:
