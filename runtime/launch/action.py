@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.condition import Condition
 from launch.launch_description_entity import LaunchDescriptionEntity
@@ -28,7 +28,7 @@ class Action(LaunchDescriptionEntity):
         return self.__condition
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, object]]:
         """Return class and keyword arguments of an action in XML or YAML."""
         condition = parser.parse_condition(entity) if hasattr(parser, "parse_condition") else None
         return cls, {"condition": condition} if condition is not None else {}

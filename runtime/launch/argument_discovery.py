@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from launch.launch_description_entity import LaunchDescriptionEntity
 
 Includes = list[Any] | None
 
@@ -20,7 +23,7 @@ class ResetsConfigurations:
     """Base class of the action that resets all launch configurations."""
 
 
-def discover(entities: Iterable[Any], conditional: bool) -> list[tuple[Any, Includes]]:
+def discover(entities: Iterable[LaunchDescriptionEntity], conditional: bool) -> list[tuple[Any, Includes]]:
     """Return the arguments, each with the includes that may give it a value; None for the description's own.
 
     An action that resets all configurations ends its own list of entities, not the enclosing ones. An argument is
@@ -36,7 +39,7 @@ class _Walk:
         self.found: list[tuple[Any, Includes]] = []
         self._names: set[str] = set()
 
-    def entities(self, entities: Iterable[Any], includes: Includes, conditional: bool) -> None:
+    def entities(self, entities: Iterable[LaunchDescriptionEntity], includes: Includes, conditional: bool) -> None:
         """Walk entities in order; below the first include, all includes share one list."""
         for entity in entities:
             kind: type = entity.__class__

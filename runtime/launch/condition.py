@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 class Condition:
     """A predicate over a context."""
 
-    def __init__(self, *, predicate: Callable[[Any], bool] | None = None) -> None:
+    def __init__(self, *, predicate: Callable[[LaunchContext], bool] | None = None) -> None:
         self._predicate = predicate
         self.__last: bool | None = None
 

@@ -12,13 +12,15 @@ from launch.events.process import SignalProcess
 from launch.utilities import perform_substitutions
 
 if TYPE_CHECKING:
+    from logging import Logger
+
     from launch.launch_context import LaunchContext
 
 
 class Escalation:
     """Timers that send a process stronger signals until it has ended."""
 
-    def __init__(self, action: Any, context: LaunchContext, logger: Any) -> None:
+    def __init__(self, action: Any, context: LaunchContext, logger: Logger) -> None:
         self._action = action
         self._context = context
         self._logger = logger
@@ -48,6 +50,6 @@ class Escalation:
         self._emit(now)
 
     def _emit(self, name: str) -> None:
-        number: Any = name if name == "SIGKILL" else signal.Signals[name]
+        number: int | str = name if name == "SIGKILL" else signal.Signals[name]
         event = SignalProcess(signal_number=number, process_matcher=matches_action(self._action))
         self._context.emit_event_sync(event)

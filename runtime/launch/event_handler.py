@@ -8,18 +8,19 @@ from typing import TYPE_CHECKING, Any
 from launch.some_entities_type import SomeEntitiesType, check_entities
 
 if TYPE_CHECKING:
+    from launch.event import Event
     from launch.launch_context import LaunchContext
 
 
 class BaseEventHandler:
     """Decides whether it handles an event, and which entities are visited for it."""
 
-    kind_of_events: type[Any] | None = None
+    kind_of_events: type[Event] | None = None
     """The class that all matching events have; None: any."""
-    target_of_events: Any = None
+    target_of_events: object = None
     """The only action whose events match; None: any."""
 
-    def __init__(self, *, matcher: Callable[[Any], bool], handle_once: bool = False) -> None:
+    def __init__(self, *, matcher: Callable[[Event], bool], handle_once: bool = False) -> None:
         self.__matcher = matcher
         self.__handle_once = handle_once
 
@@ -38,7 +39,7 @@ class BaseEventHandler:
         """A description of the matching events."""
         return "{}"
 
-    def matches(self, event: object) -> bool:
+    def matches(self, event: Event) -> bool:
         """Whether the handler handles the event."""
         return self.__matcher(event)
 
@@ -59,7 +60,7 @@ class EventHandler(BaseEventHandler):
     """Visits given entities for each matching event."""
 
     def __init__(
-        self, *, matcher: Callable[[Any], bool], entities: SomeEntitiesType | None = None, handle_once: bool = False
+        self, *, matcher: Callable[[Event], bool], entities: SomeEntitiesType | None = None, handle_once: bool = False
     ) -> None:
         super().__init__(matcher=matcher, handle_once=handle_once)
         self.__entities = entities

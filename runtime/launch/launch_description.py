@@ -41,7 +41,7 @@ class LaunchDescription(LaunchDescriptionEntity):
         """Add an entity at the end."""
         self.__entities.append(entity)
 
-    def add_action(self, action: Any) -> None:
+    def add_action(self, action: LaunchDescriptionEntity) -> None:
         """Add an action at the end."""
         self.add_entity(action)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -16,11 +16,11 @@ class LaunchDescriptionEntity:
         """Return a short description."""
         return self.__repr__()
 
-    def describe_sub_entities(self) -> list[Any]:
+    def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the entities below that are always visited with this one."""
         return []
 
-    def describe_conditional_sub_entities(self) -> list[Any]:
+    def describe_conditional_sub_entities(self) -> list[tuple[str, list[LaunchDescriptionEntity]]]:
         """Return pairs of a condition, as text, and the entities visited if it occurs."""
         return []
 

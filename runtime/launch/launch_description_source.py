@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.launch_description import LaunchDescription
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class LaunchDescriptionSource:
@@ -15,8 +17,8 @@ class LaunchDescriptionSource:
 
     def __init__(
         self,
-        launch_description: object = None,
-        location: object = "",
+        launch_description: LaunchDescription | None = None,
+        location: SomeSubstitutionsType = "",
         method: str = "unspecified mechanism from a script",
     ) -> None:
         self.__launch_description = launch_description
@@ -36,7 +38,7 @@ class LaunchDescriptionSource:
             return self.__expanded_location
         return " + ".join(each.describe() for each in self.__location)
 
-    def try_get_launch_description_without_context(self) -> Any:
+    def try_get_launch_description_without_context(self) -> LaunchDescription | None:
         """Return the description if it can be read without a context, else None."""
         from launch.launch_context import LaunchContext
 
@@ -50,7 +52,7 @@ class LaunchDescriptionSource:
         self.__expanded_location = location
         return self.__launch_description
 
-    def get_launch_description(self, context: LaunchContext) -> Any:
+    def get_launch_description(self, context: LaunchContext) -> LaunchDescription:
         """Return the description, reading the file the first time."""
         location = perform_substitutions(context, self.__location)
         if self.__launch_description is None or self.__expanded_location != location:
@@ -58,7 +60,7 @@ class LaunchDescriptionSource:
             self.__launch_description = self._get_launch_description(location)
         return self.__launch_description
 
-    def _get_launch_description(self, location: str) -> Any:
+    def _get_launch_description(self, location: str) -> LaunchDescription:
         """Read the description; this base class has only a given one, and raises `RuntimeError` without it."""
         if self.__launch_description is None:
             raise RuntimeError(

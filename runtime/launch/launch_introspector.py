@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from launch.actions import EmitEvent, ExecuteProcess, LogInfo, RegisterEventHandler
 from launch.launch_description import LaunchDescription
 from launch.utilities import normalize_to_list_of_substitutions
-from launch.utilities.type_utils import is_normalized_substitution
+
+if TYPE_CHECKING:
+    from launch.launch_description_entity import LaunchDescriptionEntity
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class LaunchIntrospector:
@@ -19,7 +22,7 @@ class LaunchIntrospector:
         return "\n".join([f"{launch_description!r}", *_tree(launch_description.entities)])
 
 
-def _tree(entities: Sequence[Any]) -> list[str]:
+def _tree(entities: Sequence[LaunchDescriptionEntity]) -> list[str]:
     lines: list[str] = []
     for number, entity in enumerate(entities):
         last = number == len(entities) - 1
@@ -54,6 +57,5 @@ def _process(action: ExecuteProcess) -> str:
     return f"ExecuteProcess(cmd=[{words}], cwd={cwd}, env={shown}, shell={action.shell})"
 
 
-def _described(value: Iterable[Any] | str) -> str:
-    subs: Any = list(value) if is_normalized_substitution(value) else normalize_to_list_of_substitutions(value)
-    return " + ".join(each.describe() for each in subs)
+def _described(value: SomeSubstitutionsType) -> str:
+    return " + ".join(each.describe() for each in normalize_to_list_of_substitutions(value))

@@ -11,7 +11,7 @@ import threading
 import traceback
 from collections.abc import Coroutine, Generator, Iterable
 from concurrent.futures import Future
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import launch.logging
 from bot_console.runtime.process.stepping.event_loop import new_event_loop
@@ -22,6 +22,9 @@ from launch.launch_context import LaunchContext
 from launch.pending_entities import PendingEntities
 from launch.user_interrupt import UserInterrupt
 from launch.utilities import visit_all_entities_and_collect_futures
+
+if TYPE_CHECKING:
+    from launch.launch_description_entity import LaunchDescriptionEntity
 
 
 class LaunchService:
@@ -46,7 +49,7 @@ class LaunchService:
         self.__loop: asyncio.AbstractEventLoop | None = None
         self.__task: asyncio.Task[int] | None = None
         self.__guard = threading.Lock()
-        self.__on_their_way: dict[Future[None], Any] = {}
+        self.__on_their_way: dict[Future[None], object] = {}
         self.__stop_wanted: str | None = None
         self.__failure: Exception | None = None
 
@@ -71,7 +74,7 @@ class LaunchService:
         return self.__failure
 
     @property
-    def pending(self) -> list[Any]:
+    def pending(self) -> list[LaunchDescriptionEntity]:
         """The entities that were started and are not done, including processes and timers (not upstream)."""
         return self.__pending.entities
 
@@ -79,7 +82,7 @@ class LaunchService:
         """Include a description, before the service runs or while it does."""
         self.emit_event(IncludeLaunchDescription(launch_description))
 
-    def emit_event(self, event: object) -> None:
+    def emit_event(self, event: NamedEvent) -> None:
         """Queue an event; while the service runs, block until its loop has taken it.
 
         Raises `RuntimeError` in the thread of that loop, where upstream blocks for ever.
@@ -225,7 +228,7 @@ class LaunchService:
         self.__context._set_is_shutdown(True)
         self.__context.emit_event_sync(Shutdown(reason=reason, due_to_sigint=due_to_sigint))
 
-    def shutdown(self, force_sync: bool = False) -> Coroutine[Any, Any, None] | None:
+    def shutdown(self, force_sync: bool = False) -> Coroutine[object, None, None] | None:
         """Shut down, from any thread; before the service runs, this ends it as soon as it starts.
 
         Returns a coroutine unless `force_sync` is set; the request is made either way.
@@ -246,7 +249,7 @@ class LaunchService:
 class _Done(Coroutine[Any, Any, None]):
     """A coroutine that has nothing to do: it may be awaited, made a task, or dropped without a warning."""
 
-    def __await__(self) -> Generator[Any, Any, None]:
+    def __await__(self) -> Generator[object, None, None]:
         return
         yield
 

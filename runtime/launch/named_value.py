@@ -11,18 +11,19 @@ from launch.utilities import normalize_to_list_of_substitutions
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class NamedValue(Action):
     """An action with a name and a value, in Python and as attributes."""
 
-    def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
+    def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.__name = normalize_to_list_of_substitutions(name)
         self.__value = normalize_to_list_of_substitutions(value)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[NamedValue], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[NamedValue], dict[str, object]]:
         """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))

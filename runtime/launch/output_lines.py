@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import codecs
-from typing import Any
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from logging import Logger
+
+    from launch.action import Action
 
 
 class OutputLines:
     """Collects the text of one stream and logs each line when it is complete."""
 
-    def __init__(self, action: Any, logger: Any, output_format: str) -> None:
+    def __init__(self, action: Action, logger: Logger, output_format: str) -> None:
         self._action = action
         self._logger = logger
         self._format = output_format

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import asyncio
 from collections import deque
-from typing import Any
+from typing import TYPE_CHECKING
 
 from launch.launch_place import report_visited
+
+if TYPE_CHECKING:
+    from launch.launch_description_entity import LaunchDescriptionEntity
 
 
 class PendingEntities:
     """Futures of entities that are not done, and a wait for any change, at constant cost."""
 
     def __init__(self) -> None:
-        self._futures: dict[asyncio.Future[Any], Any] = {}
+        self._futures: dict[asyncio.Future[None], LaunchDescriptionEntity] = {}
         self._failures: deque[BaseException] = deque()
         self._waiter: asyncio.Future[None] | None = None
         self._woken = False
@@ -22,11 +25,11 @@ class PendingEntities:
         return bool(self._futures or self._failures)
 
     @property
-    def entities(self) -> list[Any]:
+    def entities(self) -> list[LaunchDescriptionEntity]:
         """The entities that are not done; may be read in any thread."""
         return list(self._futures.values())
 
-    def add(self, future: asyncio.Future[Any], entity: object) -> None:
+    def add(self, future: asyncio.Future[None], entity: LaunchDescriptionEntity) -> None:
         """Add the future of an entity."""
         if future not in self._futures:
             self._futures[future] = entity
@@ -53,7 +56,7 @@ class PendingEntities:
                 self._waiter = None
         self._woken = False
 
-    def _done(self, future: asyncio.Future[Any], entity: object) -> None:
+    def _done(self, future: asyncio.Future[None], entity: LaunchDescriptionEntity) -> None:
         self._futures.pop(future, None)
         if not future.cancelled():
             error = future.exception()

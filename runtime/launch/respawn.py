@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import asyncio
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.utilities.type_utils import perform_typed_substitution
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class Respawn:
     """Respawns after any exit, until the launch ends or the retries are used up (-1: no limit)."""
 
-    def __init__(self, wanted: Any, delay: float | None, max_retries: Any) -> None:
+    def __init__(self, wanted: bool | SomeSubstitutionsType, delay: float | None, max_retries: int) -> None:
         self._wanted = wanted
         self.delay = delay
         self._max_retries = max_retries

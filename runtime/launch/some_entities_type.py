@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
 
 from launch.launch_description_entity import LaunchDescriptionEntity
 
@@ -12,7 +11,7 @@ SomeEntitiesType = LaunchDescriptionEntity | Iterable[LaunchDescriptionEntity]
 SomeEntitiesType_types_tuple = (LaunchDescriptionEntity, Iterable)
 
 
-def check_entities(entities: Any) -> list[LaunchDescriptionEntity]:
+def check_entities(entities: SomeEntitiesType | None) -> list[LaunchDescriptionEntity]:
     """Return a list of entities from one, several or None."""
     if entities is None:
         return []

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_action("append_env")
@@ -22,14 +23,19 @@ class AppendEnvironmentVariable(NamedValue):
     """Appends to an environment variable, or prepends to it."""
 
     def __init__(
-        self, name: object, value: object, prepend: object = False, separator: object = os.pathsep, **kwargs: object
+        self,
+        name: SomeSubstitutionsType,
+        value: SomeSubstitutionsType,
+        prepend: object = False,
+        separator: SomeSubstitutionsType = os.pathsep,
+        **kwargs: object,
     ) -> None:
         super().__init__(name, value, **kwargs)
         self.__prepend = normalize_typed_substitution(prepend, bool)
         self.__separator = normalize_to_list_of_substitutions(separator)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[AppendEnvironmentVariable], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[AppendEnvironmentVariable], dict[str, object]]:
         """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         prepend = entity.get_attr("prepend", optional=True, data_type=bool, can_be_str=True)

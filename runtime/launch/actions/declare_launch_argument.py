@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_action("arg")
@@ -26,7 +27,7 @@ class DeclareLaunchArgument(Action, DeclaresArgument):
         self,
         name: str,
         *,
-        default_value: Any = None,
+        default_value: SomeSubstitutionsType | None = None,
         description: str | None = None,
         choices: Iterable[str] | None = None,
         **kwargs: Any,
@@ -42,7 +43,7 @@ class DeclareLaunchArgument(Action, DeclaresArgument):
         self._conditionally_included = False
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[DeclareLaunchArgument], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[DeclareLaunchArgument], dict[str, object]]:
         """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.escape_characters(entity.get_attr("name"))

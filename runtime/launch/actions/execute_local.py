@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 import traceback
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import launch.logging
@@ -36,7 +37,14 @@ from launch.utilities import create_future, normalize_to_list_of_substitutions, 
 from launch.utilities.type_utils import normalize_typed_substitution
 
 if TYPE_CHECKING:
+    from launch.event import Event
+    from launch.event_handler import BaseEventHandler
+    from launch.events import Shutdown
+    from launch.events.process import ProcessIO, SignalProcess
     from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchDescriptionEntity
+    from launch.some_entities_type import SomeEntitiesType
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class ExecuteLocal(Action):
@@ -47,17 +55,17 @@ class ExecuteLocal(Action):
         *,
         process_description: Executable,
         shell: bool = False,
-        sigterm_timeout: Any = None,
-        sigkill_timeout: Any = None,
+        sigterm_timeout: SomeSubstitutionsType | None = None,
+        sigkill_timeout: SomeSubstitutionsType | None = None,
         emulate_tty: bool = False,
-        output: Any = "log",
+        output: SomeSubstitutionsType = "log",
         output_format: str = "[{this.process_description.final_name}] {line}",
         cached_output: bool = False,
         log_cmd: bool = False,
-        on_exit: Any = None,
-        respawn: Any = False,
+        on_exit: SomeEntitiesType | Callable[..., SomeEntitiesType | None] | None = None,
+        respawn: bool | SomeSubstitutionsType = False,
         respawn_delay: float | None = None,
-        respawn_max_retries: Any = -1,
+        respawn_max_retries: int = -1,
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
@@ -81,7 +89,7 @@ class ExecuteLocal(Action):
         self.__cache: dict[int, list[bytes]] = {1: [], 2: []}
         self.__lines: dict[int, OutputLines] = {}
         self.__executed = False
-        self.__registered: list[Any] = []
+        self.__registered: list[BaseEventHandler] = []
         self.__exits_to_report = 0
         self.__completed: asyncio.Future[None] | None = None
         self.__shutdown: asyncio.Future[None] | None = None
@@ -131,7 +139,7 @@ class ExecuteLocal(Action):
         return self.__return_code
 
     @property
-    def on_exit(self) -> Any:
+    def on_exit(self) -> SomeEntitiesType | Callable[..., SomeEntitiesType | None] | None:
         """The actions or callable for the process's exit."""
         return self.__on_exit
 
@@ -161,9 +169,9 @@ class ExecuteLocal(Action):
             )
         return b"".join(self.__cache[stream]).decode("utf-8", "replace")
 
-    def get_sub_entities(self) -> list[Any]:
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the actions for the process's exit."""
-        on_exit: Any = self.__on_exit
+        on_exit: SomeEntitiesType | Callable[..., SomeEntitiesType | None] | None = self.__on_exit
         if isinstance(on_exit, (list, tuple)):
             return [*on_exit]
         return [self.__on_exit] if isinstance(self.__on_exit, Action) else []
@@ -197,7 +205,7 @@ class ExecuteLocal(Action):
         """Return the argument list for the program, or for the system if there is none."""
         return command
 
-    def execute(self, context: LaunchContext) -> list[Any] | None:
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Schedule the start of the process in the event loop."""
         self.prepare(context)
         name = self.__process_description.final_name
@@ -222,7 +230,7 @@ class ExecuteLocal(Action):
         context.asyncio_loop.create_task(self.__run(context))
         return None
 
-    def __handlers(self) -> list[Any]:
+    def __handlers(self) -> list[BaseEventHandler]:
         return [
             self.__when(ProcessExited, self.__on_data),  # handlers run newest first, so this one runs last
             OnTargetedProcess(ShutdownProcess, self, lambda event, context: self._shutdown_process(context, True)),
@@ -233,23 +241,25 @@ class ExecuteLocal(Action):
             self.__when(ProcessExited, self.__flush),
         ]
 
-    def __when(self, kind: type[Any], what: object) -> OnActionEventBase:
+    def __when(
+        self, kind: type[Event], what: SomeEntitiesType | Callable[..., SomeEntitiesType | None]
+    ) -> OnActionEventBase:
         """Return a handler like `OnProcessExit`, which cannot be imported here as it depends on this class."""
         return OnActionEventBase(action_matcher=self, on_event=what, target_event_cls=kind, target_action_cls=Action)
 
-    def __on_io(self, event: Any, context: LaunchContext) -> None:
+    def __on_io(self, event: ProcessIO, context: LaunchContext) -> None:
         if event.from_stdin:
             self.__on_stdin(event)
         else:
             self.__on_text(event)
 
-    def __on_text(self, event: Any) -> None:
+    def __on_text(self, event: ProcessIO) -> None:
         fd = 1 if event.from_stdout else 2
         if self.__cached_output:
             self.__cache[fd].append(event.text)
         self.__lines[fd].feed(event.text)
 
-    def __on_stdin(self, event: Any) -> None:
+    def __on_stdin(self, event: ProcessIO) -> None:
         if self.__child is not None:
             self.__child.write(event.text)
 
@@ -269,7 +279,7 @@ class ExecuteLocal(Action):
             context.unregister_event_handler(handler)
         self.__registered = []
 
-    def __on_signal(self, event: Any, context: LaunchContext) -> None:
+    def __on_signal(self, event: SignalProcess, context: LaunchContext) -> None:
         name = self.__process_description.final_name
         if self.__child is None:
             raise RuntimeError("Signal event received before execution.")
@@ -282,7 +292,7 @@ class ExecuteLocal(Action):
         except ProcessLookupError:
             self.__logger.debug(f"signal '{event.signal_name}' not sent to '{name}' because it has already ended")
 
-    def __on_shutdown(self, event: Any, context: LaunchContext) -> None:
+    def __on_shutdown(self, event: Shutdown, context: LaunchContext) -> None:
         self._shutdown_process(context, not event.due_to_sigint or context.noninteractive)
 
     def _shutdown_process(self, context: LaunchContext, send_sigint: bool) -> None:

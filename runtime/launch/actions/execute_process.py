@@ -13,6 +13,7 @@ from launch.substitution import Substitution
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_action("executable")
@@ -22,19 +23,21 @@ class ExecuteProcess(ExecuteLocal):
     def __init__(
         self,
         *,
-        cmd: Iterable[Any],
-        prefix: Any = None,
-        name: Any = None,
-        cwd: Any = None,
-        env: dict[Any, Any] | None = None,
-        additional_env: dict[Any, Any] | None = None,
+        cmd: Iterable[SomeSubstitutionsType],
+        prefix: SomeSubstitutionsType | None = None,
+        name: SomeSubstitutionsType | None = None,
+        cwd: SomeSubstitutionsType | None = None,
+        env: dict[SomeSubstitutionsType, SomeSubstitutionsType] | None = None,
+        additional_env: dict[SomeSubstitutionsType, SomeSubstitutionsType] | None = None,
         **kwargs: Any,
     ) -> None:
         executable = Executable(cmd=cmd, prefix=prefix, name=name, cwd=cwd, env=env, additional_env=additional_env)
         super().__init__(process_description=executable, **kwargs)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser, ignore: Iterable[str] | None = None) -> tuple[Any, dict[str, Any]]:
+    def parse(
+        cls, entity: Entity, parser: Parser, ignore: Iterable[str] | None = None
+    ) -> tuple[Any, dict[str, object]]:
         """Parse the element in XML or YAML."""
         from launch.frontend.process_attributes import parse_process
 
@@ -42,7 +45,7 @@ class ExecuteProcess(ExecuteLocal):
         return cls, parse_process(entity, parser, kwargs, frozenset(ignore or ()))
 
     @classmethod
-    def _parse_cmdline(cls, cmd: str, parser: object) -> list[list[Substitution]]:
+    def _parse_cmdline(cls, cmd: str, parser: Parser) -> list[list[Substitution]]:
         """Split a command line into words, for third-party subclasses that need it."""
         from launch.frontend.process_attributes import parse_command_line
 

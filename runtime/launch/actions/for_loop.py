@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 import launch.logging
@@ -14,6 +14,9 @@ if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchDescriptionEntity
+    from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
 
 
 @expose_action("for_each")
@@ -22,35 +25,41 @@ class ForEach(Action):
 
     SEPARATOR = ";"
 
-    def __init__(self, input_values: Any, *, function: Callable[..., Any], **kwargs: Any) -> None:
+    def __init__(
+        self,
+        input_values: SomeSubstitutionsType,
+        *,
+        function: Callable[..., Iterable[LaunchDescriptionEntity] | None],
+        **kwargs: Any,
+    ) -> None:
         super().__init__(**kwargs)
         self._input_values = normalize_to_list_of_substitutions(input_values)
         self._function = function
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, object]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["input_values"] = parser.parse_substitution(entity.get_attr("values"))
         iteration = _children_function(entity, parser)
 
-        def function(**values: object) -> Any:
+        def function(**values: object) -> list[LaunchDescriptionEntity]:
             return iteration(values)
 
         kwargs["function"] = function
         return cls, kwargs
 
     @property
-    def input_values(self) -> list[Any]:
+    def input_values(self) -> list[Substitution]:
         """The values, as a text."""
         return self._input_values
 
     @property
-    def function(self) -> Callable[..., Any]:
+    def function(self) -> Callable[..., Iterable[LaunchDescriptionEntity] | None]:
         """The function called with the values of each iteration."""
         return self._function
 
-    def execute(self, context: LaunchContext) -> list[Any]:
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Call the function for each iteration; raises `SyntaxError` for values that are not a YAML map."""
         import yaml
 
@@ -59,7 +68,7 @@ class ForEach(Action):
         ]
         if not texts:
             launch.logging.get_logger("launch.actions.for_loop").warning("no input values: will not iterate")
-        found: list[Any] = []
+        found: list[LaunchDescriptionEntity] = []
         for text in texts:
             values = yaml.safe_load(text.strip())
             if values is None:
@@ -74,14 +83,21 @@ class ForEach(Action):
 class ForLoop(Action):
     """Visits the entities that a function of `i` returns, for each number from 0 below a length."""
 
-    def __init__(self, length: Any, *, function: Callable[..., Any], name: str | None = None, **kwargs: Any) -> None:
+    def __init__(
+        self,
+        length: SomeSubstitutionsType,
+        *,
+        function: Callable[..., Iterable[LaunchDescriptionEntity] | None],
+        name: str | None = None,
+        **kwargs: Any,
+    ) -> None:
         super().__init__(**kwargs)
         self._length = normalize_to_list_of_substitutions(str(length) if isinstance(length, int) else length)
         self._function = function
         self._name = name
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, object]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["length"] = parser.parse_substitution(entity.get_attr("len"))
@@ -89,19 +105,19 @@ class ForLoop(Action):
         kwargs["name"] = name
         iteration = _children_function(entity, parser)
 
-        def function(i: object) -> Any:
+        def function(i: object) -> list[LaunchDescriptionEntity]:
             return iteration({name: i})
 
         kwargs["function"] = function
         return cls, kwargs
 
     @property
-    def length(self) -> list[Any]:
+    def length(self) -> list[Substitution]:
         """The number of iterations, as a text."""
         return self._length
 
     @property
-    def function(self) -> Callable[..., Any]:
+    def function(self) -> Callable[..., Iterable[LaunchDescriptionEntity] | None]:
         """The function called with each number."""
         return self._function
 
@@ -110,10 +126,10 @@ class ForLoop(Action):
         """The name that `$(index name)` uses for the number."""
         return self._name
 
-    def execute(self, context: LaunchContext) -> list[Any]:
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Call the function for each number; raises `ValueError` for a length that is not an integer."""
         length = int(perform_substitutions(context, self._length))
-        found: list[Any] = []
+        found: list[LaunchDescriptionEntity] = []
         for number in range(length):
             found += self._function(i=number) or ()
         return found
@@ -122,7 +138,7 @@ class ForLoop(Action):
 class _WithLocals(Action):
     """Sets locals for the entities visited next, or drops them."""
 
-    def __init__(self, values: dict[str, Any] | None) -> None:
+    def __init__(self, values: dict[str, object] | None) -> None:
         super().__init__()
         self._values = values
 
@@ -134,10 +150,10 @@ class _WithLocals(Action):
             context.extend_locals(self._values)
 
 
-def _children_function(entity: Entity, parser: Parser) -> Callable[[dict[str, Any]], list[Any]]:
+def _children_function(entity: Entity, parser: Parser) -> Callable[[dict[str, object]], list[LaunchDescriptionEntity]]:
     children = entity.children
 
-    def iteration(values: dict[str, Any]) -> list[Any]:
+    def iteration(values: dict[str, object]) -> list[LaunchDescriptionEntity]:
         return [_WithLocals(values), *(parser.parse_action(each) for each in children), _WithLocals(None)]
 
     for each in children:

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchDescriptionEntity
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_action("group")
@@ -31,18 +33,20 @@ class GroupAction(Action):
         *,
         scoped: bool = True,
         forwarding: bool = True,
-        launch_configurations: Mapping[Any, Any] | None = None,
+        launch_configurations: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None,
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
         self.__actions = actions
         self.__scoped = scoped
         self.__forwarding = forwarding
-        self.__configurations: Mapping[Any, Any] = {} if launch_configurations is None else launch_configurations
-        self.__to_return: list[Any] | None = None
+        self.__configurations: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] = (
+            {} if launch_configurations is None else launch_configurations
+        )
+        self.__to_return: list[LaunchDescriptionEntity] | None = None
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[GroupAction], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[GroupAction], dict[str, object]]:
         """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         for name in ("scoped", "forwarding"):
@@ -55,23 +59,23 @@ class GroupAction(Action):
         kwargs["actions"] = [parser.parse_action(each) for each in entity.children if each.type_name != "keep"]
         return cls, kwargs
 
-    def get_sub_entities(self) -> list[Any]:
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the actions, enclosed by those that create and end the scope."""
         if self.__to_return is None:
             self.__to_return = self._with_scope(list(self.__actions))
         return self.__to_return
 
-    def _with_scope(self, actions: list[Any]) -> list[Any]:
+    def _with_scope(self, actions: list[Action]) -> list[LaunchDescriptionEntity]:
         values = [SetLaunchConfiguration(name, value) for name, value in self.__configurations.items()]
         if not self.__scoped:
             return [*values, *actions]
-        begin: list[Any] = [PushLaunchConfigurations(), PushEnvironment()]
+        begin: list[Action] = [PushLaunchConfigurations(), PushEnvironment()]
         end = [PopEnvironment(), PopLaunchConfigurations()]
         if self.__forwarding:
             return [*begin, *values, *actions, *end]
         begin += [ResetEnvironment(), ResetLaunchConfigurations(self.__configurations)]
         return [*begin, *actions, *end]
 
-    def execute(self, context: LaunchContext) -> list[Any]:
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Return the actions to visit."""
         return self.get_sub_entities()

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
+    from launch.launch_description import LaunchDescription
+    from launch.launch_description_entity import LaunchDescriptionEntity
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 Pair = tuple[Any, Any]
 
@@ -28,7 +31,11 @@ class IncludeLaunchDescription(Action, IncludesDescription):
     """Includes another launch file, in the same scope: its configurations remain visible afterwards."""
 
     def __init__(
-        self, launch_description_source: Any, *, launch_arguments: Iterable[Pair] | None = None, **kwargs: Any
+        self,
+        launch_description_source: LaunchDescriptionSource | SomeSubstitutionsType,
+        *,
+        launch_arguments: Iterable[Pair] | None = None,
+        **kwargs: Any,
     ) -> None:
         from launch.launch_description_sources import AnyLaunchDescriptionSource
 
@@ -40,7 +47,7 @@ class IncludeLaunchDescription(Action, IncludesDescription):
         self.__logger = launch.logging.get_logger(__name__)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[IncludeLaunchDescription], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[IncludeLaunchDescription], dict[str, object]]:
         """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["launch_description_source"] = parser.parse_substitution(entity.get_attr("file"))
@@ -68,7 +75,7 @@ class IncludeLaunchDescription(Action, IncludesDescription):
         """Return a short description."""
         return f"IncludeLaunchDescription({self.__source.location})"
 
-    def get_sub_entities(self) -> list[Any]:
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the description if it can be read without a context."""
         try:
             description = self.__source.try_get_launch_description_without_context()
@@ -76,7 +83,7 @@ class IncludeLaunchDescription(Action, IncludesDescription):
             return []
         return [] if description is None else [description]
 
-    def execute(self, context: LaunchContext) -> list[Any]:
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Read the file, check its required arguments, and return its entities to visit."""
         description = self.__source.get_launch_description(context)
         self._set_locals(context)
@@ -90,7 +97,7 @@ class IncludeLaunchDescription(Action, IncludesDescription):
             _LeaveInclude(),
         ]
 
-    def _check_required(self, description: Any, given: list[str]) -> None:
+    def _check_required(self, description: LaunchDescription, given: list[str]) -> None:
         """Raise `RuntimeError` for a required argument not given; names given by nested includes accumulate."""
         for argument, below in description.get_launch_arguments_with_include_launch_description_actions():
             if argument._conditionally_included or argument.default_value is not None:

@@ -13,6 +13,7 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 LEVELS = {name: getattr(logging, name) for name in ("NOTSET", "DEBUG", "INFO", "WARNING", "ERROR", "CRITICAL")}
 
@@ -22,7 +23,7 @@ __all__ = ["Log", "LogDebug", "LogError", "LogInfo", "LogWarning"]
 class Log(Message):
     """Logs a message at a level, such as `debug` or `WARNING`."""
 
-    def __init__(self, *, msg: object, level: object, **kwargs: object) -> None:
+    def __init__(self, *, msg: SomeSubstitutionsType, level: SomeSubstitutionsType, **kwargs: object) -> None:
         super().__init__(msg=msg, **kwargs)
         self.__level = normalize_to_list_of_substitutions(level)
 
@@ -44,7 +45,7 @@ class Log(Message):
 class LogDebug(Log):
     """Logs a message shown only with `--debug`."""
 
-    def __init__(self, *, msg: object, **kwargs: object) -> None:
+    def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: object) -> None:
         super().__init__(msg=msg, level="DEBUG", **kwargs)
 
 
@@ -52,7 +53,7 @@ class LogDebug(Log):
 class LogWarning(Log):
     """Logs a warning."""
 
-    def __init__(self, *, msg: object, **kwargs: object) -> None:
+    def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: object) -> None:
         super().__init__(msg=msg, level="WARNING", **kwargs)
 
 
@@ -60,5 +61,5 @@ class LogWarning(Log):
 class LogError(Log):
     """Logs an error."""
 
-    def __init__(self, *, msg: object, **kwargs: object) -> None:
+    def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: object) -> None:
         super().__init__(msg=msg, level="ERROR", **kwargs)

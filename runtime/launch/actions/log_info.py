@@ -14,17 +14,18 @@ if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class Message(Action):
     """Base class of actions that log a message."""
 
-    def __init__(self, *, msg: Any, **kwargs: Any) -> None:
+    def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.__msg = normalize_to_list_of_substitutions(msg)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Message], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Message], dict[str, object]]:
         """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["msg"] = parser.parse_substitution(entity.get_attr("message"))
@@ -41,7 +42,7 @@ class Message(Action):
 class LogInfo(Message):
     """Logs a message."""
 
-    def __init__(self, *, msg: object, **kwargs: object) -> None:
+    def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: object) -> None:
         super().__init__(msg=msg, **kwargs)
         self.__logger = launch.logging.get_logger("launch.user")
 

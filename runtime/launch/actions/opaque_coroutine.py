@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Coroutine, Iterable
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Coroutine, Iterable, Mapping
+from typing import TYPE_CHECKING
 
 from launch.action import Action
 from launch.event_handlers import OnShutdown
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.launch_context import LaunchContext
 
 
@@ -19,11 +20,11 @@ class OpaqueCoroutine(Action):
     def __init__(
         self,
         *,
-        coroutine: Callable[..., Coroutine[Any, Any, Any]],
-        args: Iterable[Any] | None = None,
-        kwargs: dict[str, Any] | None = None,
+        coroutine: Callable[..., Coroutine[object, None, None]],
+        args: Iterable[object] | None = None,
+        kwargs: Mapping[str, object] | None = None,
         ignore_context: bool = False,
-        **left_over_kwargs: Any,
+        **left_over_kwargs: Condition | None,
     ) -> None:
         super().__init__(**left_over_kwargs)
         if not asyncio.iscoroutinefunction(coroutine):
@@ -32,9 +33,9 @@ class OpaqueCoroutine(Action):
         self.__args = list(args or ())
         self.__kwargs = kwargs or {}
         self.__ignore_context = ignore_context
-        self.__future: asyncio.Future[Any] | None = None
+        self.__future: asyncio.Future[None] | None = None
 
-    def get_asyncio_future(self) -> asyncio.Future[Any] | None:
+    def get_asyncio_future(self) -> asyncio.Future[None] | None:
         """Return a future that is done when the coroutine is."""
         return self.__future
 

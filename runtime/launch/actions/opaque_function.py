@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING
 
 from launch.action import Action
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchDescriptionEntity
 
 
 class OpaqueFunction(Action):
@@ -17,16 +19,16 @@ class OpaqueFunction(Action):
     def __init__(
         self,
         *,
-        function: Callable[..., Any],
-        args: Iterable[Any] | None = None,
-        kwargs: dict[str, Any] | None = None,
-        **left_over_kwargs: Any,
+        function: Callable[..., list[LaunchDescriptionEntity] | None],
+        args: Iterable[object] | None = None,
+        kwargs: Mapping[str, object] | None = None,
+        **left_over_kwargs: Condition | None,
     ) -> None:
         super().__init__(**left_over_kwargs)
         self.__function = function
         self.__args = () if args is None else args
-        self.__kwargs = {} if kwargs is None else kwargs
+        self.__kwargs: Mapping[str, object] = {} if kwargs is None else kwargs
 
-    def execute(self, context: LaunchContext) -> Any:
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Call the function and return its entities."""
         return self.__function(context, *self.__args, **self.__kwargs)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.action import Action
 from launch.frontend.expose import expose_action
@@ -18,7 +18,7 @@ class ResetEnvironment(Action):
     """Resets the environment to that of the launch's start."""
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[ResetEnvironment], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[ResetEnvironment], dict[str, object]]:
         """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         return cls, kwargs

@@ -14,18 +14,23 @@ if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_action("reset")
 class ResetLaunchConfigurations(Action, ResetsConfigurations):
     """Clears all launch configurations except those given, whose values are evaluated first."""
 
-    def __init__(self, launch_configurations: Mapping[Any, Any] | None = None, **kwargs: Any) -> None:
+    def __init__(
+        self, launch_configurations: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None, **kwargs: Any
+    ) -> None:
         super().__init__(**kwargs)
-        self.__kept: Mapping[Any, Any] = {} if launch_configurations is None else launch_configurations
+        self.__kept: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] = (
+            {} if launch_configurations is None else launch_configurations
+        )
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[ResetLaunchConfigurations], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[ResetLaunchConfigurations], dict[str, object]]:
         """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["launch_configurations"] = parse_kept(entity, parser)
@@ -43,9 +48,9 @@ class ResetLaunchConfigurations(Action, ResetsConfigurations):
         context.launch_configurations.update(kept)
 
 
-def parse_kept(entity: Entity, parser: Parser) -> dict[Any, Any]:
+def parse_kept(entity: Entity, parser: Parser) -> dict[SomeSubstitutionsType, SomeSubstitutionsType]:
     """Parse the names and values of `keep` elements."""
-    kept: dict[Any, Any] = {}
+    kept: dict[SomeSubstitutionsType, SomeSubstitutionsType] = {}
     for each in entity.get_attr("keep", data_type=list, optional=True) or ():
         name = tuple(parser.parse_substitution(each.get_attr("name")))
         kept[name] = parser.parse_substitution(each.get_attr("value"))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import launch.logging
 from launch.actions.emit_event import EmitEvent
@@ -15,18 +15,19 @@ if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_action("shutdown")
 class Shutdown(EmitEvent):
     """Shuts the launch down; as the handler of a process exit, it reports that the process was required."""
 
-    def __init__(self, *, reason: object = "reason not given", **kwargs: object) -> None:
+    def __init__(self, *, reason: SomeSubstitutionsType = "reason not given", **kwargs: object) -> None:
         super().__init__(event=ShutdownEvent(reason=reason if isinstance(reason, str) else ""), **kwargs)
         self.__reason = normalize_to_list_of_substitutions(reason)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Shutdown], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Shutdown], dict[str, object]]:
         """Parse the element in XML or YAML."""
         from launch.action import Action
 

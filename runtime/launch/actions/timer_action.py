@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchDescriptionEntity
+    from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
 
 
 @expose_action("timer")
@@ -33,7 +36,12 @@ class TimerAction(Action):
     """
 
     def __init__(
-        self, *, period: Any, actions: Iterable[Action], cancel_on_shutdown: Any = True, **kwargs: Any
+        self,
+        *,
+        period: float | SomeSubstitutionsType,
+        actions: Iterable[Action],
+        cancel_on_shutdown: bool | SomeSubstitutionsType = True,
+        **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
         if isinstance(period, str):
@@ -46,14 +54,14 @@ class TimerAction(Action):
         self.__period = normalize_typed_substitution(period, float)
         self.__actions = actions
         self.__cancel_on_shutdown = normalize_typed_substitution(cancel_on_shutdown, bool)
-        self.__locals: dict[str, Any] = {}
-        self.__configurations: dict[str, Any] = {}
+        self.__locals: dict[str, object] = {}
+        self.__configurations: dict[str, object] = {}
         self.__canceled = False
         self._completed_future: asyncio.Future[None] | None = None
         self._handle: asyncio.TimerHandle | None = None
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[TimerAction], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[TimerAction], dict[str, object]]:
         """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["period"] = parser.parse_if_substitutions(entity.get_attr("period", data_type=float, can_be_str=True))
@@ -64,7 +72,7 @@ class TimerAction(Action):
         return cls, kwargs
 
     @property
-    def period(self) -> Any:
+    def period(self) -> float | list[Substitution]:
         """The period (s)."""
         return self.__period
 
@@ -114,14 +122,14 @@ class TimerAction(Action):
         event = TimerEvent(timer_action=self)
         self._handle = context.asyncio_loop.call_later(period, context.emit_event_sync, event)
 
-    def _handle_fired(self, event: object, context: LaunchContext) -> list[Any]:
+    def _handle_fired(self, event: object, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         if self._completed_future is None or self._completed_future.done():
             return []
         context.unregister_event_handler(self._handler)
         self._completed_future.set_result(None)
         return self.handle(context)
 
-    def handle(self, context: LaunchContext) -> list[Any]:
+    def handle(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Return the actions, in a scope with the locals and configurations of the timer's start."""
         context.extend_locals(self.__locals)
         restore = OpaqueFunction(function=self._restore_configurations)
@@ -139,6 +147,6 @@ class TimerAction(Action):
             self._completed_future.set_result(None)
 
 
-def _copied(configurations: Mapping[str, Any]) -> dict[str, Any]:
+def _copied(configurations: Mapping[str, object]) -> dict[str, object]:
     """A copy that shares no list: launch_ros appends to those of `SetParameter` and `SetRemap`."""
     return {name: copy(value) for name, value in configurations.items()}

@@ -7,18 +7,19 @@ from typing import TYPE_CHECKING, Any
 from launch.action import Action
 
 if TYPE_CHECKING:
+    from launch.event_handler import BaseEventHandler
     from launch.launch_context import LaunchContext
 
 
 class UnregisterEventHandler(Action):
     """Unregisters an event handler."""
 
-    def __init__(self, event_handler: Any, **kwargs: Any) -> None:
+    def __init__(self, event_handler: BaseEventHandler, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.__event_handler = event_handler
 
     @property
-    def event_handler(self) -> Any:
+    def event_handler(self) -> BaseEventHandler:
         """The handler."""
         return self.__event_handler
 

@@ -13,18 +13,19 @@ if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_action("unset_env")
 class UnsetEnvironmentVariable(Action):
     """Unsets an environment variable for processes visited later."""
 
-    def __init__(self, name: Any, **kwargs: Any) -> None:
+    def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.__name = normalize_to_list_of_substitutions(name)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[UnsetEnvironmentVariable], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[UnsetEnvironmentVariable], dict[str, object]]:
         """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 
 class News(NamedTuple):
@@ -16,7 +16,7 @@ class News(NamedTuple):
     kind: str
     """`notice` (a text), `uncaught` (an exception: text, frames), `crash` (in C code: text), `declared` and `given`
     (parameters of a node and where their values come from), ..."""
-    facts: Mapping[str, Any]
+    facts: Mapping[str, object]
 
 
 Hook = Callable[[News], None]
@@ -68,7 +68,7 @@ class NewsReader:
             return
         self._report(kind, facts)
 
-    def _report(self, kind: str, facts: Mapping[str, Any]) -> None:
+    def _report(self, kind: str, facts: Mapping[str, object]) -> None:
         report_news(News(self.pid, self._process, kind, facts))
         if not _hooks and kind == "notice":
             self._unheard(f"[WARN] [{self._process}]: {facts.get('text', '')}\n")

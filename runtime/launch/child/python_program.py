@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from bot_console.runtime.process.fork_server import function_named
 
@@ -13,7 +13,7 @@ class PythonProgram(NamedTuple):
 
     function: str
     """`package.module:function`"""
-    arguments: tuple[Any, ...]
+    arguments: tuple[object, ...]
     """Numbers, strings, lists, None."""
     is_ours: bool = False
     """Whether it is part of the runtime or its robot, rather than a user's."""

@@ -7,7 +7,6 @@ import operator
 import os
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from typing import Any
 
 from bot_console.runtime.children.own_processes import MEMBER_PROGRAM
 from bot_console.runtime.process.fork_server import Job, Report
@@ -53,7 +52,7 @@ class SteppedChild(ForkedChild):
             self._in_loop(self.reported, self._exit_report)
         self._in_loop(self.all_reported)
 
-    def _in_loop(self, callback: Callable[..., Any], *arguments: Any) -> None:
+    def _in_loop(self, callback: Callable[..., object], *arguments: object) -> None:
         try:
             self._loop.call_soon_threadsafe(callback, *arguments)
         except RuntimeError:  # the launch is over, so nobody needs the callback

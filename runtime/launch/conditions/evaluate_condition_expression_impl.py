@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.conditions.invalid_condition_expression_error import InvalidConditionExpressionError
 from launch.utilities import perform_substitutions
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.substitution import Substitution
 
 VALID_TRUE_EXPRESSIONS = ["true", "1"]
 VALID_FALSE_EXPRESSIONS = ["false", "0"]
 
 
-def evaluate_condition_expression(context: LaunchContext, expression: list[Any]) -> bool:
+def evaluate_condition_expression(context: LaunchContext, expression: list[Substitution]) -> bool:
     """Return the value of an expression; raises `InvalidConditionExpressionError` unless it is true, 1, false or 0."""
     expanded = perform_substitutions(context, expression).strip().lower()
     if expanded in VALID_TRUE_EXPRESSIONS:

@@ -10,12 +10,13 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class LaunchConfigurationEquals(Condition):
     """True when a launch configuration has a value; an unset one equals None."""
 
-    def __init__(self, launch_configuration_name: str, expected_value: object) -> None:
+    def __init__(self, launch_configuration_name: str, expected_value: SomeSubstitutionsType | None) -> None:
         name = type(self).__name__
         substitution = name.replace("LaunchConfiguration", "") + "Substitution"
         warnings.warn(

@@ -10,12 +10,13 @@ from launch.utilities import normalize_to_list_of_substitutions
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class UnlessCondition(Condition):
     """True when an expression evaluates to false."""
 
-    def __init__(self, predicate_expression: object) -> None:
+    def __init__(self, predicate_expression: SomeSubstitutionsType) -> None:
         self.__expression = normalize_to_list_of_substitutions(predicate_expression)
         super().__init__(predicate=self._predicate_func)
 

@@ -7,7 +7,7 @@ import os
 import re
 import shlex
 from collections.abc import Iterable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from bot_console.runtime.process import ProcessLocal
 from launch.substitution import Substitution
@@ -16,6 +16,7 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 _numbers: ProcessLocal[Iterator[int]] = ProcessLocal(lambda: itertools.count(1))
 
@@ -26,13 +27,13 @@ class Executable:
     def __init__(
         self,
         *,
-        cmd: Iterable[Any],
-        prefix: object = None,
-        name: object = None,
-        cwd: object = None,
-        env: Mapping[Any, Any] | None = None,
-        additional_env: Mapping[Any, Any] | None = None,
-        arguments: Iterable[Any] | None = None,
+        cmd: Iterable[SomeSubstitutionsType],
+        prefix: SomeSubstitutionsType | None = None,
+        name: SomeSubstitutionsType | None = None,
+        cwd: SomeSubstitutionsType | None = None,
+        env: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None,
+        additional_env: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None,
+        arguments: Iterable[SomeSubstitutionsType] | None = None,
     ) -> None:
         self.__cmd = [normalize_to_list_of_substitutions(each) for each in cmd]
         self.__cmd += [normalize_to_list_of_substitutions(each) for each in arguments or ()]
@@ -133,7 +134,9 @@ class Executable:
         return found
 
 
-def _pairs(values: Mapping[Any, Any] | None) -> list[tuple[list[Substitution], list[Substitution]]] | None:
+def _pairs(
+    values: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None,
+) -> list[tuple[list[Substitution], list[Substitution]]] | None:
     if values is None:
         return None
     normalize = normalize_to_list_of_substitutions

@@ -9,7 +9,10 @@ from launch.event_handler import BaseEventHandler
 from launch.launch_description_entity import LaunchDescriptionEntity
 
 if TYPE_CHECKING:
+    from launch.action import Action
+    from launch.event import Event
     from launch.launch_context import LaunchContext
+    from launch.some_entities_type import SomeEntitiesType
 
 
 class OnActionEventBase(BaseEventHandler):
@@ -18,10 +21,10 @@ class OnActionEventBase(BaseEventHandler):
     def __init__(
         self,
         *,
-        action_matcher: Any,
-        on_event: Any,
-        target_event_cls: type[Any],
-        target_action_cls: type[Any],
+        action_matcher: Action | Callable[[Action], bool] | None,
+        on_event: SomeEntitiesType | Callable[..., SomeEntitiesType | None],
+        target_event_cls: type[Event],
+        target_action_cls: type[Action],
         handle_once: bool = False,
         **kwargs: Any,
     ) -> None:
@@ -34,7 +37,7 @@ class OnActionEventBase(BaseEventHandler):
         self.kind_of_events = target_event_cls
         self.target_of_events = action_matcher if isinstance(action_matcher, target_action_cls) else None
         self.__entities: list[LaunchDescriptionEntity] | None = None
-        self.__callback: Callable[..., Any] | None = None
+        self.__callback: Callable[..., SomeEntitiesType | None] | None = None
         if callable(on_event) and not isinstance(on_event, LaunchDescriptionEntity):
             self.__callback = on_event
         else:
@@ -42,14 +45,15 @@ class OnActionEventBase(BaseEventHandler):
         super().__init__(matcher=self._matches, handle_once=handle_once, **kwargs)
 
     def _matches(self, event: Any) -> bool:
-        if not isinstance(event, self.__target_event_cls):
+        kind: type = self.__target_event_cls
+        if not isinstance(event, kind):
             return False
-        wanted = self.__action_matcher
+        wanted: Any = self.__action_matcher
         if wanted is None or event.action is wanted:
             return True
         return self.target_of_events is None and bool(wanted(event.action))
 
-    def handle(self, event: Any, context: LaunchContext) -> Any:
+    def handle(self, event: Any, context: LaunchContext) -> SomeEntitiesType | None:
         """Return the entities, or the callable's result."""
         super().handle(event, context)
         if self.__entities is not None:
@@ -57,7 +61,9 @@ class OnActionEventBase(BaseEventHandler):
         assert self.__callback is not None
         return self._call(self.__callback, event, context)
 
-    def _call(self, callback: Callable[..., Any], event: Any, context: LaunchContext) -> Any:
+    def _call(
+        self, callback: Callable[..., SomeEntitiesType | None], event: Any, context: LaunchContext
+    ) -> SomeEntitiesType | None:
         return callback(event, context)
 
     def describe(self) -> tuple[str, list[Any]]:
@@ -80,7 +86,7 @@ class OnActionEventBase(BaseEventHandler):
         return f"event == {name} and event.action == {self.__action_matcher!r}"
 
 
-def _checked(on_event: Any) -> list[LaunchDescriptionEntity]:
+def _checked(on_event: object) -> list[LaunchDescriptionEntity]:
     if isinstance(on_event, LaunchDescriptionEntity):
         return [on_event]
     if not isinstance(on_event, Iterable):

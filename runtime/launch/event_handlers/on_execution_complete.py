@@ -2,16 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 from launch.event_handlers.on_action_event_base import OnActionEventBase
 from launch.events.execution_complete import ExecutionComplete
+
+if TYPE_CHECKING:
+    from launch.action import Action
+    from launch.some_entities_type import SomeEntitiesType
 
 
 class OnExecutionComplete(OnActionEventBase):
     """Handles the completion of an action."""
 
-    def __init__(self, *, target_action: Any = None, on_completion: Any, **kwargs: Any) -> None:
+    def __init__(
+        self,
+        *,
+        target_action: Action | Callable[[Action], bool] | None = None,
+        on_completion: SomeEntitiesType | Callable[..., SomeEntitiesType | None],
+        **kwargs: Any,
+    ) -> None:
         from launch.action import Action
 
         super().__init__(

@@ -10,6 +10,7 @@ from launch.utilities import is_a_subclass
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_entities_type import SomeEntitiesType
 
 
 class OnIncludeLaunchDescription(BaseEventHandler):
@@ -20,7 +21,7 @@ class OnIncludeLaunchDescription(BaseEventHandler):
     def __init__(self, **kwargs: Any) -> None:
         super().__init__(matcher=lambda event: is_a_subclass(event, IncludeLaunchDescription), **kwargs)
 
-    def handle(self, event: Any, context: LaunchContext) -> Any:
+    def handle(self, event: Any, context: LaunchContext) -> SomeEntitiesType | None:
         """Return the description to visit."""
         super().handle(event, context)
         return event.launch_description

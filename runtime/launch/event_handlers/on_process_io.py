@@ -9,7 +9,10 @@ from launch.event_handlers.on_action_event_base import OnActionEventBase
 from launch.events.process import ProcessIO
 
 if TYPE_CHECKING:
+    from launch.action import Action
+    from launch.events.process import ProcessIO
     from launch.launch_context import LaunchContext
+    from launch.some_entities_type import SomeEntitiesType
 
 
 class OnProcessIO(OnActionEventBase):
@@ -18,15 +21,15 @@ class OnProcessIO(OnActionEventBase):
     def __init__(
         self,
         *,
-        target_action: Any = None,
-        on_stdin: Callable[[Any], Any] | None = None,
-        on_stdout: Callable[[Any], Any] | None = None,
-        on_stderr: Callable[[Any], Any] | None = None,
+        target_action: Action | Callable[[Action], bool] | None = None,
+        on_stdin: Callable[[ProcessIO], SomeEntitiesType | None] | None = None,
+        on_stdout: Callable[[ProcessIO], SomeEntitiesType | None] | None = None,
+        on_stderr: Callable[[ProcessIO], SomeEntitiesType | None] | None = None,
         **kwargs: Any,
     ) -> None:
         from launch.actions.execute_local import ExecuteLocal
 
-        def on_io(event: Any, context: LaunchContext) -> Any:
+        def on_io(event: Any, context: LaunchContext) -> SomeEntitiesType | None:
             for is_it, callback in (
                 (event.from_stdout, on_stdout),
                 (event.from_stderr, on_stderr),

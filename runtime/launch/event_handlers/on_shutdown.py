@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from launch.event_handler import BaseEventHandler
@@ -11,6 +12,7 @@ from launch.utilities import is_a_subclass
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_entities_type import SomeEntitiesType
 
 
 class OnShutdown(BaseEventHandler):
@@ -18,11 +20,13 @@ class OnShutdown(BaseEventHandler):
 
     kind_of_events = Shutdown
 
-    def __init__(self, *, on_shutdown: Any, **kwargs: Any) -> None:
+    def __init__(
+        self, *, on_shutdown: SomeEntitiesType | Callable[..., SomeEntitiesType | None], **kwargs: Any
+    ) -> None:
         super().__init__(matcher=lambda event: is_a_subclass(event, Shutdown), **kwargs)
         self.__on_shutdown = on_shutdown
 
-    def handle(self, event: object, context: LaunchContext) -> Any:
+    def handle(self, event: object, context: LaunchContext) -> SomeEntitiesType | None:
         """Return the entities to visit."""
         super().handle(event, context)
         if callable(self.__on_shutdown) and not isinstance(self.__on_shutdown, LaunchDescriptionEntity):

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from launch.event import Event
 
 
@@ -16,6 +14,6 @@ class ExecutionComplete(Event):
         self.__action = action
 
     @property
-    def action(self) -> Any:
+    def action(self) -> object:
         """The action."""
         return self.__action

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from launch.action import Action
 
 
-def matches_action(target_action: object) -> Callable[[Any], bool]:
+def matches_action(target_action: object) -> Callable[[Action], bool]:
     """Return a predicate: whether an action is this one."""
 
     def matches(action: object) -> bool:

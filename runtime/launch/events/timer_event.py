@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from launch.event import Event
 
 
@@ -16,6 +14,6 @@ class TimerEvent(Event):
         self.__timer_action = timer_action
 
     @property
-    def timer_action(self) -> Any:
+    def timer_action(self) -> object:
         """The timer action."""
         return self.__timer_action

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import re
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from launch.frontend.expose import substitution_parse_methods
+
+if TYPE_CHECKING:
+    from launch.substitution import Substitution
 
 NAME = re.compile(r"[a-zA-Z0-9_\-]+")
 
@@ -33,7 +36,7 @@ def replace_escaped_characters(data: str) -> str:
     return re.sub(r"\\(.)", r"\1", data)
 
 
-def parse_substitution(string_value: str) -> list[Any]:
+def parse_substitution(string_value: str) -> list[Substitution]:
     """Parse a text into substitutions; raises `ValueError` if it is malformed."""
     from launch.substitutions.text_substitution import TextSubstitution
 
@@ -73,7 +76,7 @@ def _parsed_if_needed(value: object) -> Any:
     return found[0].text if len(found) == 1 and isinstance(found[0], TextSubstitution) else found
 
 
-def _substitution(name: str, arguments: list[Any]) -> Any:
+def _substitution(name: str, arguments: list[list[Substitution]]) -> Substitution:
     method = substitution_parse_methods.get(name)
     if method is None:
         raise RuntimeError(f"Unknown substitution: {name}")
@@ -89,11 +92,11 @@ class _Reader:
         self.deepest = 0
         """The deepest nesting of substitutions read so far."""
 
-    def pieces(self, ends: str, quote: str = "") -> list[Any]:
+    def pieces(self, ends: str, quote: str = "") -> list[Substitution]:
         """Read texts and substitutions up to one of the characters, or to the end; `quote` is the enclosing quote."""
         from launch.substitutions.text_substitution import TextSubstitution
 
-        found: list[Any] = []
+        found: list[Substitution] = []
         plain = ""
         while self._at < len(self._text) and self._text[self._at] not in ends:
             if self._text.startswith("$(", self._at):
@@ -109,13 +112,13 @@ class _Reader:
             found.append(TextSubstitution(text=replace_escaped_characters(plain)))
         return found
 
-    def _substitution(self, quote: str) -> Any:
+    def _substitution(self, quote: str) -> Substitution:
         self._at += len("$(")
         name = NAME.match(self._text, self._at)
         if name is None:
             raise self._unexpected("the name of a substitution")
         self._at = name.end()
-        arguments: list[Any] = []
+        arguments: list[list[Substitution]] = []
         self._depth += 1
         self.deepest = max(self.deepest, self._depth)
         while not self._take(")"):
@@ -128,7 +131,7 @@ class _Reader:
         except Exception as error:  # a substitution's own message, under upstream's heading
             raise VisitError(error) from error
 
-    def _quoted_argument(self) -> list[Any]:
+    def _quoted_argument(self) -> list[Substitution]:
         from launch.substitutions.text_substitution import TextSubstitution
 
         for quote in "\"'":
@@ -139,7 +142,7 @@ class _Reader:
                 return found or [TextSubstitution(text="")]
         return self._plain_argument("\"'")
 
-    def _plain_argument(self, quotes: str) -> list[Any]:
+    def _plain_argument(self, quotes: str) -> list[Substitution]:
         """Read an argument up to a space or parenthesis; quotes other than the enclosing ones are plain text."""
         found = self.pieces(f" (){quotes}", quotes if len(quotes) == 1 else "")
         if not found:

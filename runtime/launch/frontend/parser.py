@@ -6,7 +6,7 @@ import importlib
 import io
 import os
 from functools import lru_cache
-from typing import Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
 from launch.frontend.entity import Entity
 from launch.frontend.expose import action_parse_methods
@@ -17,6 +17,12 @@ from launch.frontend.parse_substitution import (
 )
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_place import report_place
+
+if TYPE_CHECKING:
+    from launch.action import Action
+    from launch.condition import Condition
+    from launch.launch_description import LaunchDescription
+    from launch.substitution import Substitution
 
 PARSERS = ("launch_xml", "launch_yaml")
 EXTENSIONS = ("launch_ros",)
@@ -93,7 +99,7 @@ class Parser:
 
         return sorted(cls.load_parser_implementations().values(), key=lambda parser: not knows(parser))
 
-    def parse_action(self, entity: Entity) -> Any:
+    def parse_action(self, entity: Entity) -> Action:
         """Create the action of an element; raises whatever is wrong with it."""
         try:
             return self._parse_action(entity)
@@ -101,7 +107,7 @@ class Parser:
             report_place(error, self.path, entity.line or None)
             raise
 
-    def _parse_action(self, entity: Entity) -> Any:
+    def _parse_action(self, entity: Entity) -> Action:
         method = action_parse_methods.get(entity.type_name)
         if method is None:
             raise RuntimeError(f"Unrecognized entity of the type: {entity.type_name}")
@@ -111,7 +117,7 @@ class Parser:
         action.origin = f"{self.path}:{entity.line}" if entity.line else self.path
         return action
 
-    def parse_substitution(self, value: str) -> Any:
+    def parse_substitution(self, value: str) -> list[Substitution]:
         """Parse a text into substitutions."""
         return parse_substitution(value)
 
@@ -119,7 +125,7 @@ class Parser:
         """Parse a text, or texts in a list, into substitutions; other values are returned as they are."""
         return parse_if_substitutions(value)
 
-    def parse_condition(self, entity: Entity) -> Any:
+    def parse_condition(self, entity: Entity) -> Condition | None:
         """Parse the condition of an element; None if it has none."""
         from launch.conditions import IfCondition, UnlessCondition
 
@@ -131,7 +137,7 @@ class Parser:
             return IfCondition(self.parse_substitution(if_text))
         return None if unless_text is None else UnlessCondition(self.parse_substitution(unless_text))
 
-    def parse_description(self, entity: Entity) -> Any:
+    def parse_description(self, entity: Entity) -> LaunchDescription:
         """Create the launch description of a root element."""
         from launch.launch_description import LaunchDescription
 

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
+    from launch.substitution import Substitution
 
 TEXTS = ("output", "cwd", "name")
 DURATIONS = {"sigkill_timeout": str, "sigterm_timeout": str, "respawn_delay": float}
 
 
-def parse_process(entity: Entity, parser: Parser, kwargs: dict[str, Any], ignore: frozenset[str]) -> dict[str, Any]:
+def parse_process(
+    entity: Entity, parser: Parser, kwargs: dict[str, object], ignore: frozenset[str]
+) -> dict[str, object]:
     """Add keyword arguments of `ExecuteProcess`, except the ignored ones, which the caller parses."""
     if "cmd" not in ignore:
         kwargs["cmd"] = parse_command_line(entity.get_attr("cmd"), parser)
@@ -37,7 +40,7 @@ def parse_process(entity: Entity, parser: Parser, kwargs: dict[str, Any], ignore
     return kwargs
 
 
-def _parse_duration(entity: Any, name: str, form: Callable[[float], Any], kwargs: dict[str, Any]) -> None:
+def _parse_duration(entity: Entity, name: str, form: Callable[[float], object], kwargs: dict[str, object]) -> None:
     """Parse a number of seconds; a text with substitutions cannot be compared and raises `TypeError`."""
     value = entity.get_attr(name, data_type=float, optional=True)
     if value is None:
@@ -48,7 +51,7 @@ def _parse_duration(entity: Any, name: str, form: Callable[[float], Any], kwargs
 
 
 def _set(
-    kwargs: dict[str, Any], name: str, entity: Entity, parser: Parser, ignore: frozenset[str], keyword: str = ""
+    kwargs: dict[str, object], name: str, entity: Entity, parser: Parser, ignore: frozenset[str], keyword: str = ""
 ) -> None:
     keyword = keyword or name
     if name not in ignore and keyword not in ignore:
@@ -57,7 +60,7 @@ def _set(
             kwargs[keyword] = parser.parse_substitution(value)
 
 
-def _parse_on_exit(entity: Any, kwargs: dict[str, Any]) -> None:
+def _parse_on_exit(entity: Entity, kwargs: dict[str, object]) -> None:
     from launch.actions.shutdown_action import Shutdown
 
     on_exit = entity.get_attr("on_exit", optional=True)
@@ -71,7 +74,7 @@ def _parse_on_exit(entity: Any, kwargs: dict[str, Any]) -> None:
     kwargs["on_exit"] = [Shutdown()]
 
 
-def _parse_env(entity: Entity, parser: Parser, kwargs: dict[str, Any]) -> None:
+def _parse_env(entity: Entity, parser: Parser, kwargs: dict[str, object]) -> None:
     elements = entity.get_attr("env", data_type=list, optional=True)
     if elements is None:
         return
@@ -83,15 +86,15 @@ def _parse_env(entity: Entity, parser: Parser, kwargs: dict[str, Any]) -> None:
         each.assert_entity_completely_parsed()
 
 
-def parse_command_line(text: str, parser: Any) -> list[list[Any]]:
+def parse_command_line(text: str, parser: Parser) -> list[list[Substitution]]:
     """Split a command line into words as a shell does; the values of substitutions are not split.
 
     A piece of only whitespace ends a word, even an empty one; an empty text is one empty word.
     """
     from launch.substitutions.text_substitution import TextSubstitution
 
-    words: list[list[Any]] = []
-    word: list[Any] = []
+    words: list[list[Substitution]] = []
+    word: list[Substitution] = []
     for piece in parser.parse_substitution(text):
         if not isinstance(piece, TextSubstitution):
             word.append(piece)

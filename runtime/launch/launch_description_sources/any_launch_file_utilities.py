@@ -4,13 +4,21 @@ from __future__ import annotations
 
 import os
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING
 
 from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_place import report_place
 
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
-def get_launch_description_from_frontend_launch_file(launch_file_path: str, *, parser: Any = None) -> Any:
+    from launch.frontend.parser import Parser
+    from launch.launch_description import LaunchDescription
+
+
+def get_launch_description_from_frontend_launch_file(
+    launch_file_path: str, *, parser: type[Parser] | None = None
+) -> LaunchDescription:
     """Return the description in an XML or YAML launch file."""
     from launch.frontend import Parser
 
@@ -23,14 +31,16 @@ def get_launch_description_from_frontend_launch_file(launch_file_path: str, *, p
         raise
 
 
-def get_launch_description_from_any_launch_file(launch_file_path: str, *, parser: object = None) -> Any:
+def get_launch_description_from_any_launch_file(
+    launch_file_path: str, *, parser: type[Parser] | None = None
+) -> LaunchDescription:
     """Return the description in a launch file; raises `InvalidLaunchFileError` with the error of each reader."""
     from launch.launch_description_sources.python_launch_file_utilities import (
         get_launch_description_from_python_launch_file,
     )
 
     extension = os.path.splitext(launch_file_path)[1].removeprefix(".")
-    readers: list[Any] = [
+    readers: list[Callable[[str], LaunchDescription]] = [
         partial(get_launch_description_from_frontend_launch_file, parser=parser),
         get_launch_description_from_python_launch_file,
     ]

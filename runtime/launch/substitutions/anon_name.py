@@ -6,7 +6,8 @@ import os
 import random
 import re
 import socket
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
@@ -15,18 +16,19 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_substitution("anon")
 class AnonName(Substitution):
     """A unique name; always the same one for the same prefix."""
 
-    def __init__(self, name: object) -> None:
+    def __init__(self, name: SomeSubstitutionsType) -> None:
         super().__init__()
         self.__name = normalize_to_list_of_substitutions(name)
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[AnonName], dict[str, Any]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[AnonName], dict[str, object]]:
         """Parse `$(anon name)`."""
         if len(data) != 1:
             raise TypeError("anon substitution expects 1 argument")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
@@ -11,18 +12,19 @@ from launch.utilities import normalize_to_list_of_substitutions
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_substitution("not")
 class NotSubstitution(Substitution):
     """The negation of a truth value."""
 
-    def __init__(self, value: object) -> None:
+    def __init__(self, value: SomeSubstitutionsType) -> None:
         super().__init__()
         self.__value = normalize_to_list_of_substitutions(value)
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[NotSubstitution], dict[str, Any]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[NotSubstitution], dict[str, object]]:
         """Parse `$(not value)`."""
         if len(data) != 1:
             raise TypeError("not substitution expects 1 argument")
@@ -47,13 +49,13 @@ class _TwoSided(Substitution):
 
     _name = ""
 
-    def __init__(self, left: object, right: object) -> None:
+    def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
         super().__init__()
         self.__left = normalize_to_list_of_substitutions(left)
         self.__right = normalize_to_list_of_substitutions(right)
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[_TwoSided], dict[str, Any]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[_TwoSided], dict[str, object]]:
         """Parse two arguments."""
         if len(data) != 2:
             raise TypeError(f"{cls._name} substitution expects 2 arguments")
@@ -101,12 +103,12 @@ class OrSubstitution(_TwoSided):
 
 
 class _ManySided(Substitution):
-    def __init__(self, *args: object) -> None:
+    def __init__(self, *args: SomeSubstitutionsType) -> None:
         super().__init__()
         self.__args = [normalize_to_list_of_substitutions(each) for each in args]
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[Any, dict[str, Any]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[Any, dict[str, object]]:
         """Parse any number of arguments."""
 
         def made(args: Any) -> Any:

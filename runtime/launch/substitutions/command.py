@@ -5,7 +5,8 @@ from __future__ import annotations
 import os
 import shlex
 import subprocess
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import launch.logging
 from launch.frontend.expose import expose_substitution
@@ -16,6 +17,7 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 WORDS = ("fail", "ignore", "warn", "capture")
 
@@ -24,13 +26,13 @@ WORDS = ("fail", "ignore", "warn", "capture")
 class Command(Substitution):
     """The standard output of a command, run without a shell."""
 
-    def __init__(self, command: object, *, on_stderr: object = "fail") -> None:
+    def __init__(self, command: SomeSubstitutionsType, *, on_stderr: SomeSubstitutionsType = "fail") -> None:
         super().__init__()
         self.__command = normalize_to_list_of_substitutions(command)
         self.__on_stderr = normalize_to_list_of_substitutions(on_stderr)
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[Command], dict[str, Any]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[Command], dict[str, object]]:
         """Parse `$(command 'words' on_stderr)`."""
         if not 1 <= len(data) <= 2:
             raise ValueError("command substitution expects 1 or 2 arguments")

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
@@ -12,19 +13,20 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_substitution("env")
 class EnvironmentVariable(Substitution):
     """The value of an environment variable, or a default."""
 
-    def __init__(self, name: object, *, default_value: object = None) -> None:
+    def __init__(self, name: SomeSubstitutionsType, *, default_value: SomeSubstitutionsType | None = None) -> None:
         super().__init__()
         self.__name = normalize_to_list_of_substitutions(name)
         self.__default = None if default_value is None else normalize_to_list_of_substitutions(default_value)
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[EnvironmentVariable], dict[str, Any]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[EnvironmentVariable], dict[str, object]]:
         """Parse `$(env NAME default)`."""
         if not 1 <= len(data) <= 2:
             raise TypeError("env substitution expects 1 or 2 arguments")

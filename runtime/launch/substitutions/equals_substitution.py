@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
@@ -12,11 +13,12 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 TRUTH = {"true": True, "1": True, "false": False, "0": False}
 
 
-def _pieces(value: object) -> list[Substitution]:
+def _pieces(value: SomeSubstitutionsType | float | None) -> list[Substitution]:
     """Normalize any value to substitutions; None becomes the empty text."""
     if value is None:
         return normalize_to_list_of_substitutions("")
@@ -48,13 +50,13 @@ class EqualsSubstitution(Substitution):
 
     _name = "equals"
 
-    def __init__(self, left: object, right: object) -> None:
+    def __init__(self, left: SomeSubstitutionsType | float | None, right: SomeSubstitutionsType | float | None) -> None:
         super().__init__()
         self.__left = _pieces(left)
         self.__right = _pieces(right)
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[EqualsSubstitution], dict[str, Any]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[EqualsSubstitution], dict[str, object]]:
         """Parse `$(equals a b)`."""
         if len(data) != 2:
             raise TypeError(f"{cls._name} substitution expects 2 arguments")

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
@@ -13,6 +14,7 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_substitution("file-content")
@@ -21,12 +23,12 @@ class FileContent(Substitution):
 
     name = "FileContent"
 
-    def __init__(self, path: object) -> None:
+    def __init__(self, path: SomeSubstitutionsType) -> None:
         super().__init__()
         self.__path = normalize_to_list_of_substitutions(path)
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[FileContent], dict[str, Any]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[FileContent], dict[str, object]]:
         """Parse `$(file-content path)`."""
         if len(data) != 1:
             raise AttributeError("file-content substitution expects 1 argument")

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import shutil
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
@@ -14,18 +15,19 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_substitution("find-exec")
 class FindExecutable(Substitution):
     """The absolute path of a program on the PATH."""
 
-    def __init__(self, *, name: object) -> None:
+    def __init__(self, *, name: SomeSubstitutionsType) -> None:
         super().__init__()
         self.__name = normalize_to_list_of_substitutions(name)
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[FindExecutable], dict[str, Any]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[FindExecutable], dict[str, object]]:
         """Parse `$(find-exec name)`."""
         if len(data) != 1:
             raise AttributeError("find-exec substitution expects 1 argument")

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
@@ -12,19 +13,20 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_substitution("for-var")
 class ForEachVar(Substitution):
     """A named value of the current iteration of a `ForEach`."""
 
-    def __init__(self, name: object, *, default_value: object = None) -> None:
+    def __init__(self, name: SomeSubstitutionsType, *, default_value: SomeSubstitutionsType | None = None) -> None:
         super().__init__()
         self._name = normalize_to_list_of_substitutions(name)
         self._default = None if default_value is None else normalize_to_list_of_substitutions(default_value)
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[ForEachVar], dict[str, Any]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[ForEachVar], dict[str, object]]:
         """Parse `$(for-var name default)`."""
         if not 1 <= len(data) <= 2:
             raise ValueError(f"{cls.__name__} substitution expects 1 or 2 arguments")
@@ -55,7 +57,7 @@ class ForLoopIndex(ForEachVar):
     """The index of the current iteration of a `ForLoop`."""
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[ForLoopIndex], dict[str, Any]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[ForLoopIndex], dict[str, object]]:
         """Parse `$(index name)`."""
         if len(data) != 1:
             raise ValueError(f"{cls.__name__} substitution expects 1 argument")

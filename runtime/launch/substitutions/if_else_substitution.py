@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
@@ -11,13 +12,19 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_substitution("if")
 class IfElseSubstitution(Substitution):
     """One of two values, by a condition; raises `RuntimeError` when both are empty."""
 
-    def __init__(self, condition: object, if_value: object = "", else_value: object = "") -> None:
+    def __init__(
+        self,
+        condition: SomeSubstitutionsType,
+        if_value: SomeSubstitutionsType = "",
+        else_value: SomeSubstitutionsType = "",
+    ) -> None:
         super().__init__()
         if if_value == else_value == "":
             raise RuntimeError("One of if_value and else_value must be specified")
@@ -26,7 +33,7 @@ class IfElseSubstitution(Substitution):
         self._else_value = normalize_to_list_of_substitutions(else_value)
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[IfElseSubstitution], dict[str, Any]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[IfElseSubstitution], dict[str, object]]:
         """Parse `$(if condition value other)`."""
         if not 2 <= len(data) <= 3:
             raise TypeError("if substitution expects from 2 or 3 arguments")

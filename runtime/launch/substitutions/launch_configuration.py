@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
 from launch.frontend.expose import expose_substitution
@@ -12,19 +12,20 @@ from launch.utilities import normalize_to_list_of_substitutions
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_substitution("var")
 class LaunchConfiguration(Substitution):
     """The value of a launch configuration, or a default."""
 
-    def __init__(self, variable_name: object, *, default: object = None) -> None:
+    def __init__(self, variable_name: SomeSubstitutionsType, *, default: object = None) -> None:
         super().__init__()
         self.__variable_name = normalize_to_list_of_substitutions(variable_name)
         self.__default = None if default is None else _pieces(default)
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[LaunchConfiguration], dict[str, Any]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[LaunchConfiguration], dict[str, object]]:
         """Parse `$(var name default)`."""
         if not 1 <= len(data) <= 2:
             raise TypeError("var substitution expects 1 or 2 arguments")

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import launch.logging
 from launch.frontend.expose import expose_substitution
@@ -11,6 +12,7 @@ from launch.substitutions.path_join_substitution import PathJoinSubstitution
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_substitution("launch_log_dir")
@@ -19,13 +21,13 @@ class LaunchLogDir(Substitution):
     """The folder of this run's log files."""
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[LaunchLogDir], dict[str, Any]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[LaunchLogDir], dict[str, object]]:
         """Parse `$(log_dir)`."""
         if len(data) != 0:
             raise TypeError("launch_log_dir/log_dir substitution doesn't expect arguments")
         return cls, {}
 
-    def __truediv__(self, additional_path: object) -> PathJoinSubstitution:
+    def __truediv__(self, additional_path: SomeSubstitutionsType) -> PathJoinSubstitution:
         """Return a path below."""
         return PathJoinSubstitution([self, additional_path])
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
@@ -13,19 +13,20 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_substitution("eval")
 class PythonExpression(Substitution):
     """The value of a Python expression as text; names of the modules can be used with and without the module's name."""
 
-    def __init__(self, expression: object, python_modules: object = ("math",)) -> None:
+    def __init__(self, expression: SomeSubstitutionsType, python_modules: object = ("math",)) -> None:
         super().__init__()
         self.__expression = normalize_to_list_of_substitutions(expression)
         self.__modules = [normalize_to_list_of_substitutions(each) for each in _each(python_modules)]
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[PythonExpression], dict[str, Any]]:
+    def parse(cls, data: Sequence[Any]) -> tuple[type[PythonExpression], dict[str, object]]:
         """Parse `$(eval 'expression' 'module, module')`."""
         if not 1 <= len(data) <= 2:
             raise TypeError("eval substitution expects 1 or 2 arguments")

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
@@ -12,18 +12,19 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_substitution("string-join")
 class StringJoinSubstitution(Substitution):
     """Texts joined with a delimiter."""
 
-    def __init__(self, substitutions: Iterable[Any], delimiter: object = "") -> None:
+    def __init__(self, substitutions: Iterable[SomeSubstitutionsType], delimiter: SomeSubstitutionsType = "") -> None:
         self.__parts = [normalize_to_list_of_substitutions(each) for each in substitutions]
         self.__delimiter = normalize_to_list_of_substitutions(delimiter)
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[StringJoinSubstitution], dict[str, Any]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[StringJoinSubstitution], dict[str, object]]:
         """Parse `$(string-join delimiter a b c)`."""
         if len(data) < 2:
             raise TypeError("string-join substitution expects at least 2 arguments")

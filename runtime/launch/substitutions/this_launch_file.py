@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
@@ -10,6 +11,7 @@ from launch.substitutions.substitution_failure import SubstitutionFailure
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_substitution("filename")
@@ -17,7 +19,7 @@ class ThisLaunchFile(Substitution):
     """The path of the launch file that is being visited."""
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[ThisLaunchFile], dict[str, Any]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[ThisLaunchFile], dict[str, object]]:
         """Parse `$(filename)`."""
         if len(data) != 0:
             raise TypeError("filename substitution doesn't expect arguments")

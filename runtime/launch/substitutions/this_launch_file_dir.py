@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
@@ -10,6 +11,7 @@ from launch.substitutions.substitution_failure import SubstitutionFailure
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_substitution("dirname")
@@ -17,13 +19,13 @@ class ThisLaunchFileDir(Substitution):
     """The folder of the launch file that is being visited."""
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[ThisLaunchFileDir], dict[str, Any]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[ThisLaunchFileDir], dict[str, object]]:
         """Parse `$(dirname)`."""
         if len(data) != 0:
             raise TypeError("dirname substitution doesn't expect arguments")
         return cls, {}
 
-    def __truediv__(self, additional_path: object) -> Any:
+    def __truediv__(self, additional_path: SomeSubstitutionsType) -> Any:
         """Return a path below."""
         from launch.substitutions.path_join_substitution import PathJoinSubstitution
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import inspect
-from typing import Any
 
 
 def isclassinstance(obj: object) -> bool:
@@ -11,11 +10,11 @@ def isclassinstance(obj: object) -> bool:
     return not inspect.isclass(obj) and not inspect.isroutine(obj)
 
 
-def is_a(obj: object, entity_type: Any) -> bool:
+def is_a(obj: object, entity_type: type) -> bool:
     """Whether an object is an instance of a class."""
     return isinstance(obj, entity_type)
 
 
-def is_a_subclass(obj: object, entity_type: Any) -> bool:
+def is_a_subclass(obj: object, entity_type: type) -> bool:
     """Whether an object is an instance of a class, or itself a subclass of it."""
     return isinstance(obj, entity_type) or (inspect.isclass(obj) and issubclass(obj, entity_type))

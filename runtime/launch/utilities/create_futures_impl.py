@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-from typing import Any
 
 
-def create_future(loop: asyncio.AbstractEventLoop | None) -> asyncio.Future[Any]:
+def create_future(loop: asyncio.AbstractEventLoop | None) -> asyncio.Future[None]:
     """Return a new future; raises `RuntimeError` if no loop is running."""
     return (asyncio.get_running_loop() if loop is None else loop).create_future()

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from launch.substitution import Substitution
 
+if TYPE_CHECKING:
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
-def normalize_to_list_of_substitutions(subs: Any) -> list[Substitution]:
+
+def normalize_to_list_of_substitutions(subs: SomeSubstitutionsType) -> list[Substitution]:
     """Return a list of substitutions; raises `TypeError` for anything but texts and substitutions."""
     from launch.substitutions.text_substitution import TextSubstitution
 

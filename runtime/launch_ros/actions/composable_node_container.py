@@ -22,7 +22,7 @@ class ComposableNodeContainer(Node):
         self.__descriptions = composable_node_descriptions
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser, ignore: Any = None) -> tuple[Any, dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser, ignore: Any = None) -> tuple[Any, dict[str, object]]:
         """Parse the element in XML or YAML."""
         from launch_ros.actions.load_composable_nodes import parse_composable_nodes
 

@@ -27,7 +27,7 @@ class LifecycleNode(Node):
         self.__manager: LifecycleEventManager | None = None
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser, ignore: Any = None) -> tuple[Any, dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser, ignore: Any = None) -> tuple[Any, dict[str, object]]:
         """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser, ignore)
         autostart = entity.get_attr("autostart", data_type=bool, optional=True)

@@ -15,6 +15,7 @@ from launch_ros.events.lifecycle import ChangeState
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 GOALS = {1: "inactive", 2: "unconfigured", 3: "active", 4: "inactive", 5: "finalized", 6: "finalized", 7: "finalized"}
 """The final state of each public transition, by its number in `lifecycle_msgs/msg/Transition`."""
@@ -61,7 +62,7 @@ class LifecycleTransition(Action):
         return [*handlers, change(numbers[0])]
 
 
-def _number(context: LaunchContext, transition: object) -> int:
+def _number(context: LaunchContext, transition: SomeSubstitutionsType) -> int:
     if isinstance(transition, int):
         return transition
     return int(perform_substitutions(context, normalize_to_list_of_substitutions(transition)))

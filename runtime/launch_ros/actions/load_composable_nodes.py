@@ -57,7 +57,7 @@ class LoadComposableNodes(Action):
         self.__logger = launch.logging.get_logger(__name__)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[Any, dict[str, object]]:
         """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["target_container"] = parser.parse_substitution(entity.get_attr("target"))

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 LOCALS = "ros_specific_arguments"
 
@@ -92,7 +93,9 @@ class Node(ExecuteProcess):
         self.__logger = launch.logging.get_logger(__name__)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser, ignore: Iterable[str] | None = None) -> tuple[Any, dict[str, Any]]:
+    def parse(
+        cls, entity: Entity, parser: Parser, ignore: Iterable[str] | None = None
+    ) -> tuple[Any, dict[str, object]]:
         """Parse the element in XML or YAML."""
         from launch_ros.actions.parse_node import parse_node
 
@@ -255,7 +258,7 @@ class Node(ExecuteProcess):
         return os_command(self.__package_text, command, prefix) if program is None else command[prefix:]
 
 
-def _performed(context: LaunchContext, text: object) -> str:
+def _performed(context: LaunchContext, text: SomeSubstitutionsType) -> str:
     return perform_substitutions(context, normalize_to_list_of_substitutions(text))
 
 

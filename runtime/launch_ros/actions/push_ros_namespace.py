@@ -29,7 +29,7 @@ class PushROSNamespace(Action):
         self.__namespace = normalize_to_list_of_substitutions(namespace)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[PushROSNamespace], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[PushROSNamespace], dict[str, object]]:
         """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["namespace"] = parser.parse_substitution(entity.get_attr("namespace"))

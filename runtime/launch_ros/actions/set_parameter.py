@@ -27,7 +27,7 @@ class SetParameter(Action):
         self.__param_dict = normalize_parameter_dict({_key(name): value})
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetParameter], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetParameter], dict[str, object]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
@@ -62,7 +62,7 @@ class SetParametersFromFile(Action):
         self.__file = normalize_to_list_of_substitutions(filename)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetParametersFromFile], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetParametersFromFile], dict[str, object]]:
         """From XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["filename"] = parser.parse_substitution(entity.get_attr("filename"))

@@ -24,7 +24,7 @@ class SetRemap(Action):
         self.__target = normalize_to_list_of_substitutions(dst)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetRemap], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetRemap], dict[str, object]]:
         """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["src"] = parser.parse_substitution(entity.get_attr("from"))

@@ -25,7 +25,7 @@ class SetROSLogDir(Action):
         self.__log_dir = normalize_to_list_of_substitutions(new_log_dir)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetROSLogDir], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetROSLogDir], dict[str, object]]:
         """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["new_log_dir"] = parser.parse_substitution(entity.get_attr("new_log_dir"))

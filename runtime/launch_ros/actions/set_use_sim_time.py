@@ -24,7 +24,7 @@ class SetUseSimTime(Action):
         self.__value = normalize_typed_substitution(value, bool)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetUseSimTime], dict[str, Any]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetUseSimTime], dict[str, object]]:
         """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))

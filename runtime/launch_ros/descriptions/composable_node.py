@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.utilities import normalize_to_list_of_substitutions
+
+if TYPE_CHECKING:
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class ComposableNode:
@@ -14,10 +17,10 @@ class ComposableNode:
     def __init__(
         self,
         *,
-        package: object,
-        plugin: object,
-        name: object = None,
-        namespace: object = None,
+        package: SomeSubstitutionsType,
+        plugin: SomeSubstitutionsType,
+        name: SomeSubstitutionsType | None = None,
+        namespace: SomeSubstitutionsType | None = None,
         parameters: object = None,
         remappings: Iterable[Any] | None = None,
         extra_arguments: object = None,
@@ -35,7 +38,7 @@ class ComposableNode:
         self.__condition = condition
 
     @classmethod
-    def parse(cls, parser: Any, entity: Any) -> tuple[type[ComposableNode], dict[str, Any]]:
+    def parse(cls, parser: Parser, entity: Entity) -> tuple[type[ComposableNode], dict[str, Any]]:
         """Parse the element in XML or YAML."""
         from launch_ros.actions.parse_parameters import parse_nested_parameters, parse_remappings
 

@@ -9,12 +9,13 @@ from launch_ros.descriptions.parameter_value import ParameterValue
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class Parameter:
     """A parameter, passed as `-p name:=value`."""
 
-    def __init__(self, name: object, value: object, *, value_type: object = None) -> None:
+    def __init__(self, name: SomeSubstitutionsType, value: object, *, value_type: object = None) -> None:
         self.__name = normalize_to_list_of_substitutions(name)
         self.__value = ParameterValue(value, value_type=value_type)
         self.__evaluated_name: str | None = None

@@ -13,6 +13,7 @@ from launch.utilities.type_utils import normalize_typed_substitution, perform_ty
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 PREFIX = "launch_params_"
 
@@ -20,7 +21,7 @@ PREFIX = "launch_params_"
 class ParameterFile:
     """A parameter file, whose text may contain substitutions if `allow_substs` is set."""
 
-    def __init__(self, param_file: object, *, allow_substs: object = False) -> None:
+    def __init__(self, param_file: SomeSubstitutionsType, *, allow_substs: object = False) -> None:
         self.__param_file = normalize_to_list_of_substitutions(param_file)
         self.__allow_substs = normalize_typed_substitution(allow_substs, data_type=bool)
         self.__evaluated: Path | None = None

@@ -17,19 +17,20 @@ from launch_ros.node_program import container_path
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_substitution("exec-in-pkg")
 class ExecutableInPackage(Substitution):
     """The path of a package's executable; if it was never built, where its build would install it."""
 
-    def __init__(self, executable: object, package: object) -> None:
+    def __init__(self, executable: SomeSubstitutionsType, package: SomeSubstitutionsType) -> None:
         super().__init__()
         self.__executable = normalize_to_list_of_substitutions(executable)
         self.__package = normalize_to_list_of_substitutions(package)
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[ExecutableInPackage], dict[str, Any]]:
+    def parse(cls, data: Any) -> tuple[type[ExecutableInPackage], dict[str, object]]:
         """From `$(exec-in-pkg executable package)`."""
         if len(data) != 2:
             raise AttributeError("exec-in-pkg substitution expects 2 arguments")

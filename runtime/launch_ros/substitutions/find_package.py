@@ -14,17 +14,18 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class FindPackage(Substitution):
     """A folder of a package; `/` appends a path."""
 
-    def __init__(self, package: object) -> None:
+    def __init__(self, package: SomeSubstitutionsType) -> None:
         super().__init__()
         self.__package = normalize_to_list_of_substitutions(package)
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[FindPackage], dict[str, Any]]:
+    def parse(cls, data: Any) -> tuple[type[FindPackage], dict[str, object]]:
         """From `$(find-pkg-share name)`."""
         if len(data) != 1:
             raise AttributeError("find package substitutions expect 1 argument")
@@ -35,7 +36,7 @@ class FindPackage(Substitution):
         """The package's name."""
         return self.__package
 
-    def __truediv__(self, additional_path: object) -> PathJoinSubstitution:
+    def __truediv__(self, additional_path: SomeSubstitutionsType) -> PathJoinSubstitution:
         """Return a path below."""
         return PathJoinSubstitution([self, additional_path])
 

@@ -12,19 +12,20 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_substitution("param")
 class Parameter(Substitution):
     """The value set by `SetParameter`, or a default."""
 
-    def __init__(self, name: object, *, default: object = None) -> None:
+    def __init__(self, name: SomeSubstitutionsType, *, default: SomeSubstitutionsType | None = None) -> None:
         super().__init__()
         self.__name = normalize_to_list_of_substitutions(name)
         self.__default = None if default is None else normalize_to_list_of_substitutions(default)
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[Parameter], dict[str, Any]]:
+    def parse(cls, data: Any) -> tuple[type[Parameter], dict[str, object]]:
         """From `$(param name)` or `$(param name default)`."""
         if len(data) not in (1, 2):
             raise AttributeError("param substitutions expect 1 or 2 arguments")

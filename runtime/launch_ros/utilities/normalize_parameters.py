@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from launch.some_substitutions_type import SomeSubstitutionsType_types_tuple
 from launch.substitution import Substitution
 from launch.substitutions import TextSubstitution
 from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions
 from launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
+
+if TYPE_CHECKING:
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 Key = tuple[Substitution, ...]
 SCALARS = (bool, int, float, str, bytes)
@@ -24,7 +27,7 @@ def normalize_parameters(parameters: object) -> list[Any]:
     return [_entry(each) for each in given]
 
 
-def _entry(entry: object) -> Any:
+def _entry(entry: Any) -> Any:
     if isinstance(entry, Mapping):
         values = cast("Mapping[Any, Any]", entry)
         return normalize_parameter_dict(values)
@@ -49,7 +52,7 @@ def normalize_parameter_dict(parameters: Mapping[Any, Any], *, _prefix: Any = No
     return found
 
 
-def _key(name: object, prefix: Key | None) -> Key:
+def _key(name: SomeSubstitutionsType, prefix: Key | None) -> Key:
     pieces = normalize_to_list_of_substitutions(name)
     return tuple(pieces) if prefix is None else (*prefix, TextSubstitution(text="."), *pieces)
 

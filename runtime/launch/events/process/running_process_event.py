@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from launch.event import Event
+
+if TYPE_CHECKING:
+    from launch.action import Action
 
 
 class RunningProcessEvent(Event):
@@ -15,7 +18,7 @@ class RunningProcessEvent(Event):
     def __init__(
         self,
         *,
-        action: object,
+        action: Action,
         name: str,
         cmd: list[str],
         cwd: str | None,
@@ -31,12 +34,12 @@ class RunningProcessEvent(Event):
         self.__pid = pid
 
     @property
-    def action(self) -> Any:
+    def action(self) -> Action:
         """The action that runs the process."""
         return self.__action
 
     @property
-    def execute_process_action(self) -> Any:
+    def execute_process_action(self) -> Action:
         """The action, by its old name."""
         return self.__action
 
