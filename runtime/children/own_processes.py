@@ -9,7 +9,6 @@ from __future__ import annotations
 import os
 import threading
 from collections.abc import Callable, Sequence
-from typing import Any
 
 from bot_console.runtime.process.fork_server import ForkServer, function_named
 
@@ -46,7 +45,7 @@ def close_fork_server() -> None:
         each.close()
 
 
-def begun(joins: bool, function: str, arguments: Sequence[Any]) -> Callable[[], object]:
+def begun(joins: bool, function: str, arguments: Sequence[object]) -> Callable[[], object]:
     """In the child process: return what to run, after joining the domain if the program `joins` it."""
     if joins:
         function_named(SHARE)()

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.some_entities_type import SomeEntitiesType, check_entities
 
 if TYPE_CHECKING:
     from launch.event import Event
     from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchDescriptionEntity
 
 
 class BaseEventHandler:
@@ -43,7 +44,7 @@ class BaseEventHandler:
         """Whether the handler handles the event."""
         return self.__matcher(event)
 
-    def describe(self) -> tuple[str, list[Any]]:
+    def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
         """Return a description and the entities below."""
         what = f"matcher='{self.matcher_description}', handler='{self.handler_description}'"
         return f"{type(self).__name__}({what}, handle_once={self.handle_once})", []
@@ -70,7 +71,7 @@ class EventHandler(BaseEventHandler):
         """The entities to visit."""
         return self.__entities
 
-    def describe(self) -> tuple[str, list[Any]]:
+    def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
         """A text and the entities."""
         return super().describe()[0], check_entities(self.__entities)
 

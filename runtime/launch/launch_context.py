@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any, Protocol
 
 import launch.logging
@@ -28,9 +28,9 @@ class LaunchContext:
         self._event_queue = EventQueue()
         self._event_handlers = HandlerRegistry()
         self._completion_futures: list[asyncio.Future[None]] = []
-        self.__globals: dict[str, Any] = {}
-        self.__locals_stack: list[dict[str, Any]] = []
-        self.__locals: dict[str, Any] = {}
+        self.__globals: dict[str, object] = {}
+        self.__locals_stack: list[dict[str, object]] = []
+        self.__locals: dict[str, object] = {}
         self.__configurations_stack: list[dict[str, Any]] = []
         self.__configurations: dict[str, Any] = {}
         self.__environment_stack: list[dict[str, str]] = []
@@ -87,11 +87,11 @@ class LaunchContext:
         """The locals as attributes."""
         return _Locals(self.get_locals_as_dict())
 
-    def extend_globals(self, extensions: dict[str, Any]) -> None:
+    def extend_globals(self, extensions: Mapping[str, object]) -> None:
         """Add globals, visible to every entity."""
         self.__globals.update(extensions)
 
-    def extend_locals(self, extensions: dict[str, Any]) -> None:
+    def extend_locals(self, extensions: Mapping[str, object]) -> None:
         """Add locals, visible to entities visited from here on."""
         self.__locals.update(extensions)
 

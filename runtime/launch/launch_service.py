@@ -24,6 +24,7 @@ from launch.user_interrupt import UserInterrupt
 from launch.utilities import visit_all_entities_and_collect_futures
 
 if TYPE_CHECKING:
+    from launch.event import Event
     from launch.launch_description_entity import LaunchDescriptionEntity
 
 
@@ -49,7 +50,7 @@ class LaunchService:
         self.__loop: asyncio.AbstractEventLoop | None = None
         self.__task: asyncio.Task[int] | None = None
         self.__guard = threading.Lock()
-        self.__on_their_way: dict[Future[None], object] = {}
+        self.__on_their_way: dict[Future[None], Event] = {}
         self.__stop_wanted: str | None = None
         self.__failure: Exception | None = None
 
@@ -82,7 +83,7 @@ class LaunchService:
         """Include a description, before the service runs or while it does."""
         self.emit_event(IncludeLaunchDescription(launch_description))
 
-    def emit_event(self, event: NamedEvent) -> None:
+    def emit_event(self, event: Event) -> None:
         """Queue an event; while the service runs, block until its loop has taken it.
 
         Raises `RuntimeError` in the thread of that loop, where upstream blocks for ever.
@@ -186,7 +187,7 @@ class LaunchService:
         futures[:] = [each for each in futures if not each.done()]
         return not self.__pending and not futures and self.__context._event_queue.empty()
 
-    def __handle(self, event: object) -> None:
+    def __handle(self, event: Any) -> None:
         self.__logger.debug("processing event: '%s'", event)
         for handler in self.__context._event_handlers.matching(event):
             if handler not in self.__context._event_handlers:

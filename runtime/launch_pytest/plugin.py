@@ -7,10 +7,14 @@ tests use the fixture, too, the part after the `yield` is a separate test, which
 from __future__ import annotations
 
 import inspect
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from launch_pytest.fixture import RUNNING, options_of
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+    from launch.launch_service import LaunchService
 
 _AFTER = pytest.StashKey[bool]()
 _FIRST = pytest.StashKey[Any]()
@@ -28,7 +32,7 @@ def _is_generator(function: object) -> bool:
     return inspect.isgeneratorfunction(function) or inspect.isasyncgenfunction(function)
 
 
-def _running(item: Any) -> Any:
+def _running(item: pytest.Item) -> Any:
     mark = item.get_closest_marker("launch")
     return RUNNING.get(options_of(mark.kwargs.get("fixture"))[0]) if mark else None
 
@@ -51,14 +55,14 @@ def pytest_pycollect_makeitem(collector: Any, name: str, obj: Any) -> Any:
     return [*items, *_second_halves(collector, name, obj, items)] if scope != "function" else items
 
 
-def _skipped(items: list[Any]) -> list[Any]:
+def _skipped(items: list[pytest.Item]) -> list[pytest.Item]:
     for item in items:
         item.warn(LaunchTestWarning(NO_FIXTURE))
         item.add_marker(pytest.mark.skip(NO_FIXTURE))
     return items
 
 
-def _second_halves(collector: Any, name: str, obj: Any, items: list[Any]) -> list[Any]:
+def _second_halves(collector: Any, name: str, obj: Any, items: list[pytest.Item]) -> list[pytest.Item]:
     if not _is_generator(obj):
         return []
     halves = list(collector._genfunctions(name, obj))
@@ -69,7 +73,7 @@ def _second_halves(collector: Any, name: str, obj: Any, items: list[Any]) -> lis
     return halves
 
 
-def pytest_collection_modifyitems(items: list[Any]) -> None:
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Move tests that run after the shutdown to the end of their class or module."""
     places: dict[Any, int] = {}
     for item in items:
@@ -129,7 +133,7 @@ def _finish(running: object, generator: object) -> None:
     pytest.fail(f"launch tests using {kind} function must stop iteration after yielding once", pytrace=False)
 
 
-def _part(request: Any) -> Any:
+def _part(request: pytest.FixtureRequest) -> Any:
     found = _running(request.node)
     if found is None:
         raise RuntimeError("this fixture is for tests that are marked launch(fixture=...)")
@@ -137,23 +141,23 @@ def _part(request: Any) -> Any:
 
 
 @pytest.fixture
-def launch_service(request: object) -> Any:
+def launch_service(request: pytest.FixtureRequest) -> LaunchService:
     """The launch service of the running launch."""
     return _part(request).service
 
 
 @pytest.fixture
-def launch_context(launch_service: Any) -> Any:
+def launch_context(launch_service: LaunchService) -> LaunchContext:
     """Its context."""
     return launch_service.context
 
 
 @pytest.fixture
-def event_loop(request: object) -> Any:
+def event_loop(request: pytest.FixtureRequest) -> Any:
     """The loop of the running launch."""
     return _part(request).loop
 
 
-def pytest_configure(config: Any) -> None:
+def pytest_configure(config: pytest.Config) -> None:
     """Register the marker."""
     config.addinivalue_line("markers", "launch(fixture, shutdown=False): run beside a launch description, or after it")

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import importlib
 import re
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import rclpy
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
+
+if TYPE_CHECKING:
+    from composition_interfaces.srv import ListNodes, LoadNode, UnloadNode
+    from rclpy.executors import Executor
 
 EXECUTABLES = ("component_container", "component_container_mt", "component_container_isolated")
 PACKAGE = "rclcpp_components"
@@ -36,13 +40,13 @@ def main(*, threads: int | None = 1) -> None:
 class ComponentContainer:
     """The services of a container, and the nodes it has loaded."""
 
-    def __init__(self, node: Any, executor: Any) -> None:
+    def __init__(self, node: Node, executor: Executor) -> None:
         # The rclpy of PyPI comes without these interfaces, and launch_ros loads this module for every launch file.
         from composition_interfaces.srv import ListNodes, LoadNode, UnloadNode
 
         self._node = node
         self._executor = executor
-        self._loaded: dict[int, Any] = {}
+        self._loaded: dict[int, Node] = {}
         self._count = 0
         for kind, name, callback in (
             (LoadNode, "load_node", self._load),
@@ -57,7 +61,7 @@ class ComponentContainer:
             each.destroy_node()
         self._loaded.clear()
 
-    def _load(self, request: Any, response: Any) -> Any:
+    def _load(self, request: LoadNode.Request, response: LoadNode.Response) -> LoadNode.Response:
         try:
             made = make_component(request)
         except Exception as error:  # the component is the user's code
@@ -73,7 +77,7 @@ class ComponentContainer:
         response.full_node_name = made.get_fully_qualified_name()
         return response
 
-    def _unload(self, request: Any, response: Any) -> Any:
+    def _unload(self, request: UnloadNode.Request, response: UnloadNode.Response) -> UnloadNode.Response:
         node = self._loaded.pop(request.unique_id, None)
         response.success = node is not None
         if node is None:
@@ -83,13 +87,13 @@ class ComponentContainer:
         node.destroy_node()
         return response
 
-    def _list(self, request: Any, response: Any) -> Any:
+    def _list(self, request: ListNodes.Request, response: ListNodes.Response) -> ListNodes.Response:
         response.unique_ids = list(self._loaded)
         response.full_node_names = [each.get_fully_qualified_name() for each in self._loaded.values()]
         return response
 
 
-def make_component(request: Any) -> Any:
+def make_component(request: Any) -> Node:
     """Create the requested node; raises `LookupError` for a class that is not Python, and whatever the class raises."""
     arguments = ["--ros-args"]
     if request.node_name:

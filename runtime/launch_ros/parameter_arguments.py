@@ -66,7 +66,7 @@ def _rule(name: str, value: object) -> str:
     return f"{name}:={yaml.dump(value)}"
 
 
-def write_parameters(parameters: Mapping[str, Any], node_name: str | None, origin: str = "") -> str:
+def write_parameters(parameters: Mapping[str, object], node_name: str | None, origin: str = "") -> str:
     """Write a new parameter file and return its path. Lists get a tag that parameter parsers ignore, as upstream.
 
     Where a person reads hints, it begins with a comment that names the `origin` of the values in a launch file.

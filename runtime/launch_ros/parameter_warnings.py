@@ -38,7 +38,9 @@ def _keys_of(path: str) -> tuple[tuple[str, int], ...]:
         return ()
 
 
-def warn_of_values(context: LaunchContext, given: Mapping[Any, Any], evaluated: Mapping[str, Any], origin: str) -> None:
+def warn_of_values(
+    context: LaunchContext, given: Mapping[Any, object], evaluated: Mapping[str, object], origin: str
+) -> None:
     """Warn of values of a dict whose type changes on the way to the node."""
     for (_, entry), (name, found) in zip(given.items(), evaluated.items(), strict=False):
         value: Any = entry.given if isinstance(entry, ParameterValue) and entry.value_type is None else entry

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import threading
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import rclpy
 from launch.event_handlers import OnShutdown
@@ -12,6 +12,9 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from rclpy.context import Context
+    from rclpy.executors import Executor
+    from rclpy.node import Node
 
 KEY = "ros_adapter"
 
@@ -47,17 +50,17 @@ class ROSAdapter:
         rclpy.try_shutdown(context=self._context)
 
     @property
-    def ros_node(self) -> Any:
+    def ros_node(self) -> Node:
         """The node."""
         return self._node
 
     @property
-    def ros_context(self) -> Any:
+    def ros_context(self) -> Context:
         """Its context."""
         return self._context
 
     @property
-    def ros_executor(self) -> Any:
+    def ros_executor(self) -> Executor:
         """Its executor."""
         return self._executor
 
@@ -77,6 +80,6 @@ def get_ros_adapter(context: LaunchContext) -> ROSAdapter:
     return found
 
 
-def get_ros_node(context: LaunchContext) -> Any:
+def get_ros_node(context: LaunchContext) -> Node:
     """Return a launch's node."""
     return get_ros_adapter(context).ros_node

@@ -4,32 +4,36 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch_testing.asserts.output import assertInStream
 from launch_testing.util import NoMatchingProcessException, resolveProcesses
+
+if TYPE_CHECKING:
+    from launch.action import Action
+    from launch.events.process import ProcessIO
 
 
 class IoHandler:
     """Keeps all output, by process and in order."""
 
     def __init__(self) -> None:
-        self._sequence: list[Any] = []
-        self._by_name: dict[str, list[Any]] = {}
+        self._sequence: list[ProcessIO] = []
+        self._by_name: dict[str, list[ProcessIO]] = {}
 
     def track(self, process_name: str) -> None:
         """Register a process without output."""
         self._by_name.setdefault(process_name, [])
 
-    def append(self, process_io: Any) -> None:
+    def append(self, process_io: ProcessIO) -> None:
         """Add a chunk of output."""
         self._sequence.append(process_io)
         self._by_name.setdefault(process_io.process_name, []).append(process_io)
 
-    def __iter__(self) -> Iterator[Any]:
+    def __iter__(self) -> Iterator[ProcessIO]:
         return iter(list(self._sequence))
 
-    def processes(self) -> list[Any]:
+    def processes(self) -> list[Action]:
         """The processes that have written something."""
         return [pieces[0].action for pieces in list(self._by_name.values()) if pieces]
 
@@ -37,7 +41,7 @@ class IoHandler:
         """The names of all known processes."""
         return list(self._by_name)
 
-    def __getitem__(self, process: Any) -> list[Any]:
+    def __getitem__(self, process: Any) -> list[ProcessIO]:
         """Return the output of a process, by its action or its full name; raises `KeyError` for an unknown one."""
         name = process if isinstance(process, str) else process.process_details["name"]
         return list(self._by_name[name])
@@ -60,7 +64,7 @@ class ActiveIoHandler(IoHandler):
         with self._changed:
             super().track(process_name)
 
-    def append(self, process_io: object) -> None:
+    def append(self, process_io: ProcessIO) -> None:
         """Add a chunk, and notify those who wait."""
         with self._changed:
             super().append(process_io)

@@ -13,15 +13,15 @@ class TimedResult(unittest.TextTestResult):
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
-        self.seconds: dict[Any, float] = {}
+        self.seconds: dict[unittest.TestCase, float] = {}
         self._begin = 0.0
 
-    def startTest(self, test: Any) -> None:
+    def startTest(self, test: unittest.TestCase) -> None:
         """Note the start of a test."""
         self._begin = time.monotonic()
         super().startTest(test)
 
-    def stopTest(self, test: Any) -> None:
+    def stopTest(self, test: unittest.TestCase) -> None:
         """Note the end of a test."""
         self.seconds[test] = time.monotonic() - self._begin
         super().stopTest(test)

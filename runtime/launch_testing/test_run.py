@@ -7,7 +7,7 @@ import inspect
 import threading
 import unittest
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from launch.actions import IncludeLaunchDescription, RegisterEventHandler
 from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
@@ -19,6 +19,9 @@ from launch_testing.proc_info_handler import ActiveProcInfoHandler
 
 from launch import LaunchDescription, LaunchDescriptionSource, LaunchService
 
+if TYPE_CHECKING:
+    from types import ModuleType
+
 START_TIMEOUT_S = 15.0
 """Seconds within which the processes under test have to be ready, as upstream."""
 DESCRIPTION = "generate_test_description"
@@ -29,7 +32,7 @@ class TestRun:
 
     __test__ = False
 
-    def __init__(self, module: Any, description: Any, parameters: Mapping[str, Any]) -> None:
+    def __init__(self, module: ModuleType, description: Any, parameters: Mapping[str, Any]) -> None:
         self.parameters = dict(parameters)
         self._module = module
         self._description = description
@@ -172,7 +175,7 @@ def _given(method: Any, known: Mapping[str, Any]) -> Any:
     return functools.partial(method, **{each: known[each] for each in wanted}) if wanted else method
 
 
-def test_runs(module: Any) -> list[TestRun]:
+def test_runs(module: ModuleType) -> list[TestRun]:
     """Return the runs that a test module describes; none if it has no `generate_test_description`."""
     description = getattr(module, DESCRIPTION, None)
     if description is None:

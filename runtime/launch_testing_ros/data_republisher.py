@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.message import Message
+    from rclpy.node import Node
 
 
 class DataRepublisher:
     """Receives messages of one topic, and publishes the result of a function for each on another; None drops it."""
 
     def __init__(
-        self, node: Any, listen_topic: str, publish_topic: str, msg_type: Any, transform_fn: Callable[[Any], Any]
+        self,
+        node: Node,
+        listen_topic: str,
+        publish_topic: str,
+        msg_type: type[Message],
+        transform_fn: Callable[[Any], Any],
     ) -> None:
         self.__node = node
         self.__transform = transform_fn

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import threading
+from typing import TYPE_CHECKING
 
 from rclpy.executors import SingleThreadedExecutor
+
+if TYPE_CHECKING:
+    from rclpy.context import Context
+    from rclpy.node import Node
 
 
 class MessagePump:
     """Spins a node in a separate thread, between `start` and `stop`; also as a context manager."""
 
-    def __init__(self, node: object, context: object = None) -> None:
+    def __init__(self, node: Node, context: Context | None = None) -> None:
         self._node = node
         self._context = context
         self._running = False

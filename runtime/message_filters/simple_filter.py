@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
+
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.message import Message
 
 
 class SimpleFilter:
     """Passes messages on to callbacks."""
 
     def __init__(self) -> None:
-        self.callbacks: dict[int, tuple[Callable[..., Any], tuple[Any, ...]]] = {}
+        self.callbacks: dict[int, tuple[Callable[..., object], tuple[object, ...]]] = {}
 
-    def registerCallback(self, cb: Callable[..., Any], *args: object) -> int:
+    def registerCallback(self, cb: Callable[..., object], *args: object) -> int:
         """Call `cb(message..., *args)` with each output; returns a number for the callback."""
         number = len(self.callbacks)
         self.callbacks[number] = (cb, args)
@@ -30,7 +33,7 @@ class SimpleFilter:
 class Subscriber(SimpleFilter):
     """Passes on the messages of a topic: `Subscriber(node, type, topic, **options of create_subscription)`."""
 
-    def __init__(self, node: Node, msg_type: Any, topic: str, *args: Any, **kwargs: Any) -> None:
+    def __init__(self, node: Node, msg_type: type[Message], topic: str, *args: Any, **kwargs: Any) -> None:
         super().__init__()
         self.node = node
         self.topic = topic

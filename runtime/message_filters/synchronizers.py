@@ -17,13 +17,13 @@ Queue = dict[int, Any]
 class TimeSynchronizer(SimpleFilter):
     """Passes on one message of each filter if all have exactly the same time."""
 
-    def __init__(self, fs: list[Any], queue_size: int) -> None:
+    def __init__(self, fs: list[SimpleFilter], queue_size: int) -> None:
         super().__init__()
         self.connectInput(fs)
         self.queue_size = queue_size
         self.lock = threading.RLock()
 
-    def connectInput(self, fs: list[Any]) -> None:
+    def connectInput(self, fs: list[SimpleFilter]) -> None:
         """Connect to the outputs of filters."""
         self.queues: list[Queue] = [{} for _ in fs]
         self.input_connections = [
@@ -58,7 +58,7 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
 
     def __init__(
         self,
-        fs: list[Any],
+        fs: list[SimpleFilter],
         queue_size: int,
         slop: float,
         allow_headerless: bool = False,

@@ -37,6 +37,7 @@ class NodeOfContext(Protocol):
 
     def get_fully_qualified_name(self) -> str:
         """Namespace and name."""
+        ...
 
     def _ros_leave_graph(self) -> None: ...
 

@@ -95,14 +95,14 @@ class ParameterAlreadyDeclaredException(ParameterException):
 class InvalidParameterException(ParameterException):
     """A parameter name is invalid."""
 
-    def __init__(self, parameter: Any, *args: Any) -> None:
+    def __init__(self, parameter: Any, *args: object) -> None:
         ParameterException.__init__(self, "Invalid parameter name", parameter, *args)
 
 
 class InvalidParameterTypeException(ParameterException):
     """A parameter was given a value of another type than its own."""
 
-    def __init__(self, parameter: Any, expected_type: str, *args: Any) -> None:
+    def __init__(self, parameter: Any, expected_type: str, *args: object) -> None:
         ParameterException.__init__(
             self,
             f"Trying to set parameter '{parameter.name}' to '{parameter.value}' of type '{parameter.type_.name}', "

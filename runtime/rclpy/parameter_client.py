@@ -19,6 +19,14 @@ from rclpy.task import Future
 if TYPE_CHECKING:
     from bot_console.runtime.rosidl.message import Message, ServiceType
     from rcl_interfaces.msg import Parameter as ParameterMsg
+    from rcl_interfaces.srv import (
+        DescribeParameters,
+        GetParameters,
+        GetParameterTypes,
+        ListParameters,
+        SetParameters,
+        SetParametersAtomically,
+    )
     from rclpy.callback_groups import CallbackGroup
     from rclpy.client import Client
     from rclpy.event_handler import SubscriptionEventCallbacks
@@ -85,47 +93,51 @@ class AsyncParameterClient:
 
     def list_parameters(
         self, prefixes: list[str] | None = None, depth: int | None = None, callback: Callback | None = None
-    ) -> Future[Any]:
+    ) -> Future[ListParameters.Response]:
         """List the names below prefixes, at most `depth` levels deep."""
         client = self._list_parameter_client
         return _ask(client, client.srv_type.Request(prefixes=prefixes or [], depth=depth or 0), callback)
 
-    def get_parameters(self, names: list[str], callback: Callback | None = None) -> Future[Any]:
+    def get_parameters(self, names: list[str], callback: Callback | None = None) -> Future[GetParameters.Response]:
         """Read parameters."""
         client = self._get_parameter_client
         return _ask(client, client.srv_type.Request(names=names), callback)
 
     def set_parameters(
         self, parameters: Sequence[Parameter | ParameterMsg], callback: Callback | None = None
-    ) -> Future[Any]:
+    ) -> Future[SetParameters.Response]:
         """Set parameters one by one."""
         client = self._set_parameter_client
         return _ask(client, client.srv_type.Request(parameters=_messages(parameters)), callback)
 
     def set_parameters_atomically(
         self, parameters: Sequence[Parameter | ParameterMsg], callback: Callback | None = None
-    ) -> Future[Any]:
+    ) -> Future[SetParametersAtomically.Response]:
         """Set all parameters or none."""
         client = self._set_parameters_atomically_client
         return _ask(client, client.srv_type.Request(parameters=_messages(parameters)), callback)
 
-    def describe_parameters(self, names: list[str], callback: Callback | None = None) -> Future[Any]:
+    def describe_parameters(
+        self, names: list[str], callback: Callback | None = None
+    ) -> Future[DescribeParameters.Response]:
         """Read the descriptors of parameters."""
         client = self._describe_parameters_client
         return _ask(client, client.srv_type.Request(names=names), callback)
 
-    def get_parameter_types(self, names: list[str], callback: Callback | None = None) -> Future[Any]:
+    def get_parameter_types(
+        self, names: list[str], callback: Callback | None = None
+    ) -> Future[GetParameterTypes.Response]:
         """Read the types of parameters."""
         client = self._get_parameter_types_client
         return _ask(client, client.srv_type.Request(names=names), callback)
 
-    def delete_parameters(self, names: list[str], callback: Callback | None = None) -> Future[Any]:
+    def delete_parameters(self, names: list[str], callback: Callback | None = None) -> Future[SetParameters.Response]:
         """Delete parameters, which must have dynamic typing."""
         return self.set_parameters([Parameter(name) for name in names], callback)
 
     def load_parameter_file(
         self, parameter_file: str, use_wildcard: bool = False, callback: Callback | None = None
-    ) -> Future[Any]:
+    ) -> Future[SetParameters.Response]:
         """Set the parameters of a file one by one, those under all its node names.
 
         Raises `RuntimeError` for a file without parameters, `OSError` and `yaml.YAMLError`.
@@ -135,7 +147,7 @@ class AsyncParameterClient:
 
     def load_parameter_file_atomically(
         self, parameter_file: str, use_wildcard: bool = False, callback: Callback | None = None
-    ) -> Future[Any]:
+    ) -> Future[SetParametersAtomically.Response]:
         """Set all parameters of a file or none; raises what `load_parameter_file` raises."""
         parameters = parameter_dict_from_yaml_file(parameter_file, use_wildcard)
         return self.set_parameters_atomically(list(parameters.values()), callback)

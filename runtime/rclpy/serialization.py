@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.rosidl import cdr
 from rclpy._rclpy_pybind11 import RMWError
 from rclpy.type_support import check_is_valid_msg_type
 
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.message import Message
 
-def serialize_message(message: object) -> bytes:
+
+def serialize_message(message: Message) -> bytes:
     """Serialize a message as a middleware does: CDR version 1, little endian.
 
     Raises `TypeError` if a field holds a value that cannot be serialized.

@@ -38,6 +38,7 @@ class Introspected(Protocol):
     @property
     def service_name(self) -> str:
         """The fully qualified name."""
+        ...
 
     def use(self) -> None:
         """Raise `InvalidHandle` if the entity was destroyed."""

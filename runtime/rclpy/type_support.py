@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from bot_console.runtime.rosidl.message import Message, ServiceType
 from rclpy.impl.reexports import reexporting
 
@@ -11,7 +13,7 @@ HINT = (
 )
 
 
-def check_for_type_support(msg_or_srv_type: object) -> None:
+def check_for_type_support(msg_or_srv_type: Any) -> None:
     """Raise `AttributeError` for anything but a class made from an interface definition."""
     if isinstance(msg_or_srv_type, ServiceType):
         return
@@ -19,7 +21,7 @@ def check_for_type_support(msg_or_srv_type: object) -> None:
         raise AttributeError(f"type object '{_class_name(msg_or_srv_type)}' has no attribute '_TYPE_SUPPORT'{HINT}")
 
 
-def _class_name(value: object) -> str:
+def _class_name(value: Any) -> str:
     return type(value).__name__
 
 

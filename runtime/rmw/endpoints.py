@@ -5,10 +5,13 @@ from __future__ import annotations
 import itertools
 from collections import deque
 from collections.abc import Callable
-from typing import Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 from bot_console.runtime.rmw.names import full_name
 from bot_console.runtime.rmw.qos import Profile
+
+if TYPE_CHECKING:
+    pass
 
 Notify = Callable[[], None]
 """Called, from any thread, when an endpoint has received something."""

@@ -7,7 +7,7 @@ import contextlib
 import os
 from collections.abc import Callable, Generator
 from types import TracebackType
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import rclpy
 from bot_console.runtime.programs.exit_messages import is_read
@@ -21,6 +21,9 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.parameter import Parameter
 from ros2cli.advice import advise
+
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.message import Message, ServiceType
 
 HIDDEN = "_"
 HINT_POLLS = 4
@@ -188,7 +191,7 @@ class NoAnswer(RuntimeError):
 
 
 def call(
-    node: Node, kind: object, service: str, request: object, timeout: float | None = None, missing: str = ""
+    node: Node, kind: ServiceType, service: str, request: Message, timeout: float | None = None, missing: str = ""
 ) -> Any:
     """Call a service and wait for the answer, as `answer` does.
 

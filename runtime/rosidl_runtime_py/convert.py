@@ -7,10 +7,13 @@ from array import array
 from collections import OrderedDict
 from collections.abc import Iterable, Mapping
 from functools import cache
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from rosidl_parser.definition import AbstractString, AbstractWString, Array, BasicType, BoundedSequence
 from rosidl_runtime_py.block_yaml import block_yaml
+
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.message import Message
 
 
 class Shortening(NamedTuple):
@@ -26,7 +29,7 @@ class Shortening(NamedTuple):
 
 
 def message_to_yaml(
-    msg: object,
+    msg: Message,
     *,
     truncate_length: int | None = None,
     no_arr: bool = False,
@@ -64,13 +67,13 @@ def _dumper() -> Any:
 
 
 def message_to_csv(
-    msg: object, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
+    msg: Message, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
 ) -> str:
     """Return the values of a message separated by commas."""
     return _csv(msg, Shortening(truncate_length, no_arr, no_str))
 
 
-def _csv(msg: Any, short: Shortening) -> str:
+def _csv(msg: Message, short: Shortening) -> str:
     types = zip(msg.get_fields_and_field_types(), msg.SLOT_TYPES, strict=False)
     return _joined(_csv_value(getattr(msg, name), kind, short) for name, kind in types)
 
@@ -102,13 +105,13 @@ def _csv_value(value: Any, kind: Any, short: Shortening) -> str:
 
 
 def message_to_ordereddict(
-    msg: object, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
+    msg: Message, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
 ) -> OrderedDict[str, Any]:
     """Return the fields of a message in their order, nested ones as dictionaries, too."""
     return _ordered(msg, Shortening(truncate_length, no_arr, no_str))
 
 
-def _ordered(msg: Any, short: Shortening) -> OrderedDict[str, Any]:
+def _ordered(msg: Message, short: Shortening) -> OrderedDict[str, Any]:
     types = zip(msg.get_fields_and_field_types(), msg.SLOT_TYPES, strict=False)
     return OrderedDict((name, _plain(getattr(msg, name, None), kind, short)) for name, kind in types)
 
@@ -167,6 +170,6 @@ def _item_words(kind: Any) -> str:
     return "wstring" if isinstance(kind, AbstractWString) else "/".join(kind.namespaced_name())
 
 
-def get_message_slot_types(msg: Any) -> OrderedDict[str, Any]:
+def get_message_slot_types(msg: Message) -> OrderedDict[str, Any]:
     """Return the types of a message's fields by name, as in `rosidl_parser.definition`."""
     return OrderedDict(zip((slot[1:] for slot in msg.__slots__), msg.SLOT_TYPES, strict=False))

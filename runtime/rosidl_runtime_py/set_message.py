@@ -6,17 +6,20 @@ import copy
 from array import array
 from collections.abc import Callable
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rosidl_parser.definition import AbstractNestedType, NamespacedType
 from rosidl_runtime_py.convert import get_message_slot_types
 from rosidl_runtime_py.import_message import import_message_from_namespaced_type
 
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.message import Message
+
 Setter = Callable[[Any], None]
 
 
 def set_message_fields(
-    msg: object, values: dict[str, Any], expand_header_auto: bool = False, expand_time_now: bool = False
+    msg: Message, values: dict[str, Any], expand_header_auto: bool = False, expand_time_now: bool = False
 ) -> list[Setter]:
     """Set fields by name; return functions that set the times given as `auto` or `now`.
 
@@ -32,7 +35,7 @@ class _Filling:
         self._auto, self._now = auto, now
         self.times: list[Setter] = []
 
-    def fill(self, msg: Any, values: Any) -> None:
+    def fill(self, msg: Message, values: Any) -> None:
         values = copy.deepcopy(values)
         if not hasattr(values, "items"):
             kind = type(values).__name__
@@ -42,7 +45,7 @@ class _Filling:
             if not self._is_time(msg, name, field, value):
                 self._set(msg, name, field, value)
 
-    def _is_time(self, msg: object, name: str, field: object, value: object) -> bool:
+    def _is_time(self, msg: Message, name: str, field: object, value: object) -> bool:
         """Whether the value means the current time; then it is set later."""
         kind = f"{type(field).__module__}.{type(field).__name__}"
         if self._auto and value == "auto" and kind == "std_msgs.msg._header.Header":
@@ -53,7 +56,7 @@ class _Filling:
             return False
         return True
 
-    def _set(self, msg: Any, name: str, field: Any, value: Any) -> None:
+    def _set(self, msg: Message, name: str, field: Any, value: Any) -> None:
         value = self._converted(field, value)
         kind = get_message_slot_types(msg)[name]
         if isinstance(kind, AbstractNestedType) and isinstance(kind.value_type, NamespacedType):

@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 import time as wall
 from collections.abc import Callable
-from typing import Any
 
 from geometry_msgs.msg import TransformStamped
 from rclpy.clock import ClockChange, JumpHandle, JumpThreshold, TimeJump
@@ -55,7 +54,7 @@ class Buffer(BufferCore, BufferInterface):
         get_logger("tf2_buffer").warning(f"Detected {what}. Clearing tf buffer.")
         self.clear()
 
-    def __get_frames(self, request: Any, response: Any) -> Any:
+    def __get_frames(self, request: FrameGraph.Request, response: FrameGraph.Response) -> FrameGraph.Response:
         response.frame_yaml = self.all_frames_as_yaml()
         return response
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from tf_transformations.quaternions import quaternion_about_axis, quaternion_matrix, quaternion_multiply
@@ -62,7 +63,7 @@ def euler_matrix(ai: float, aj: float, ak: float, axes: str = "sxyz") -> np.ndar
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
 
-def euler_from_quaternion(quaternion: object, axes: str = "sxyz") -> tuple[float, float, float]:
+def euler_from_quaternion(quaternion: Sequence[float] | np.ndarray, axes: str = "sxyz") -> tuple[float, float, float]:
     """Return a quaternion as three angles (rad)."""
     return euler_from_matrix(quaternion_matrix(quaternion), axes)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from functools import reduce
 from typing import Any
 
@@ -16,7 +17,7 @@ def identity_matrix() -> np.ndarray:
     return np.identity(4)
 
 
-def translation_matrix(direction: Any) -> np.ndarray:
+def translation_matrix(direction: Sequence[float] | np.ndarray) -> np.ndarray:
     """Return the translation by a vector."""
     matrix = np.identity(4)
     matrix[:3, 3] = direction[:3]
@@ -28,7 +29,7 @@ def translation_from_matrix(matrix: object) -> np.ndarray:
     return np.array(matrix)[:3, 3].copy()
 
 
-def _about(matrix: np.ndarray, point: Any) -> np.ndarray:
+def _about(matrix: np.ndarray, point: Sequence[float] | np.ndarray | None) -> np.ndarray:
     """Return the same with a fixed point."""
     if point is not None:
         place = np.asarray(point[:3], dtype=np.float64)
@@ -36,7 +37,9 @@ def _about(matrix: np.ndarray, point: Any) -> np.ndarray:
     return matrix
 
 
-def rotation_matrix(angle: float, direction: object, point: object = None) -> np.ndarray:
+def rotation_matrix(
+    angle: float, direction: Sequence[float] | np.ndarray, point: Sequence[float] | np.ndarray | None = None
+) -> np.ndarray:
     """Return the rotation by an angle (rad) about an axis, through a point if one is given."""
     return _about(quaternion_matrix(quaternion_about_axis(angle, direction)), point)
 
@@ -65,7 +68,7 @@ def _fixed_vector(m: np.ndarray) -> np.ndarray:
     return np.real(vectors[:, fixed[-1]])
 
 
-def reflection_matrix(point: Any, normal: Any) -> np.ndarray:
+def reflection_matrix(point: Sequence[float] | np.ndarray, normal: Sequence[float] | np.ndarray) -> np.ndarray:
     """Return the reflection at a plane through a point."""
     direction = unit_vector(normal[:3])
     matrix = np.identity(4)
@@ -87,7 +90,11 @@ def reflection_from_matrix(matrix: object) -> tuple[np.ndarray, np.ndarray]:
     return point, normal
 
 
-def scale_matrix(factor: float, origin: Any = None, direction: Any = None) -> np.ndarray:
+def scale_matrix(
+    factor: float,
+    origin: Sequence[float] | np.ndarray | None = None,
+    direction: Sequence[float] | np.ndarray | None = None,
+) -> np.ndarray:
     """Return the scaling about a point, in all directions or in one."""
     matrix = np.identity(4)
     if direction is None:
@@ -116,7 +123,11 @@ def scale_from_matrix(matrix: object) -> tuple[float, np.ndarray, np.ndarray | N
 
 
 def projection_matrix(
-    point: Any, normal: Any, direction: Any = None, perspective: Any = None, pseudo: bool = False
+    point: Sequence[float] | np.ndarray,
+    normal: Sequence[float] | np.ndarray,
+    direction: Sequence[float] | np.ndarray | None = None,
+    perspective: Any = None,
+    pseudo: bool = False,
 ) -> np.ndarray:
     """Return the projection onto a plane: orthogonal, along a direction, or towards a point of view."""
     place, across = np.asarray(point[:3], dtype=np.float64), unit_vector(normal[:3])
@@ -137,7 +148,12 @@ def projection_matrix(
     return _about(matrix, place)
 
 
-def shear_matrix(angle: float, direction: Any, point: Any, normal: Any) -> np.ndarray:
+def shear_matrix(
+    angle: float,
+    direction: Sequence[float] | np.ndarray,
+    point: Sequence[float] | np.ndarray,
+    normal: Sequence[float] | np.ndarray,
+) -> np.ndarray:
     """Return the shear by an angle (rad) along a direction in a plane; raises `ValueError` if it is not in the
     plane.
     """

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy as np
 TINY = np.finfo(float).eps * 4.0
 
 
-def quaternion_about_axis(angle: float, axis: Any) -> np.ndarray:
+def quaternion_about_axis(angle: float, axis: Sequence[float] | np.ndarray) -> np.ndarray:
     """Return the rotation by an angle (rad) about an axis of any length."""
     direction = np.asarray(axis[:3], dtype=np.float64)
     length = float(np.linalg.norm(direction))
@@ -19,7 +20,9 @@ def quaternion_about_axis(angle: float, axis: Any) -> np.ndarray:
     return np.append(direction * (math.sin(angle / 2.0) / length), math.cos(angle / 2.0))
 
 
-def quaternion_multiply(quaternion1: Any, quaternion0: Any) -> np.ndarray:
+def quaternion_multiply(
+    quaternion1: Sequence[float] | np.ndarray, quaternion0: Sequence[float] | np.ndarray
+) -> np.ndarray:
     """Return the second rotation followed by the first."""
     x1, y1, z1, w1 = quaternion1
     x0, y0, z0, w0 = quaternion0
@@ -33,18 +36,18 @@ def quaternion_multiply(quaternion1: Any, quaternion0: Any) -> np.ndarray:
     )
 
 
-def quaternion_conjugate(quaternion: Any) -> np.ndarray:
+def quaternion_conjugate(quaternion: Sequence[float] | np.ndarray) -> np.ndarray:
     """Return the quaternion with its axis reversed."""
     x, y, z, w = quaternion
     return np.array([-x, -y, -z, w])
 
 
-def quaternion_inverse(quaternion: Any) -> np.ndarray:
+def quaternion_inverse(quaternion: Sequence[float] | np.ndarray) -> np.ndarray:
     """Return the inverse."""
     return quaternion_conjugate(quaternion) / np.dot(quaternion, quaternion)
 
 
-def quaternion_matrix(quaternion: Any) -> np.ndarray:
+def quaternion_matrix(quaternion: Sequence[float] | np.ndarray) -> np.ndarray:
     """Return the rotation as a 4x4 matrix; a quaternion of length 0 gives the identity."""
     x, y, z, w = (float(each) for each in quaternion)
     square = x * x + y * y + z * z + w * w
@@ -78,7 +81,13 @@ def quaternion_from_matrix(matrix: object) -> np.ndarray:
     return -found if found[3] < 0.0 else found
 
 
-def quaternion_slerp(quat0: Any, quat1: Any, fraction: float, spin: int = 0, shortestpath: bool = True) -> np.ndarray:
+def quaternion_slerp(
+    quat0: Sequence[float] | np.ndarray,
+    quat1: Sequence[float] | np.ndarray,
+    fraction: float,
+    spin: int = 0,
+    shortestpath: bool = True,
+) -> np.ndarray:
     """Interpolate between two rotations at a fraction of the arc; `spin` adds half turns."""
     first, second = (np.asarray(each, dtype=np.float64) / np.linalg.norm(each) for each in (quat0, quat1))
     if fraction == 0.0:

@@ -50,7 +50,7 @@ def _lines(texts: Iterable[str]) -> str:
     return "\n".join(texts)
 
 
-def _table(names: list[str], profiles: list[Mapping[str, Any]]) -> str:
+def _table(names: list[str], profiles: list[Mapping[str, object]]) -> str:
     keys = list(dict.fromkeys(key for values in profiles for key in values))
     head = [f"| parameter | {' | '.join(names)} |", "|" + " --- |" * (len(names) + 1)]
     return _lines(
@@ -58,8 +58,8 @@ def _table(names: list[str], profiles: list[Mapping[str, Any]]) -> str:
     )
 
 
-def _flat(tree: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    found: dict[str, Any] = {}
+def _flat(tree: Mapping[str, object], prefix: str = "") -> dict[str, Any]:
+    found: dict[str, object] = {}
     for key, value in tree.items():
         path = prefix if key == "ros__parameters" else f"{prefix}{'.' if prefix else ''}{key}"
         found.update(_flat(cast("dict[str, Any]", value), path) if isinstance(value, dict) else {path: value})

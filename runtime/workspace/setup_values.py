@@ -49,7 +49,7 @@ class Values:
 
     def of(self, node: ast.expr) -> Any:
         """The value; raises `Unreadable`."""
-        method: Callable[[Any], Any] | None = getattr(self, f"_{type(node).__name__.lower()}", None)
+        method: Callable[[ast.expr], object] | None = getattr(self, f"_{type(node).__name__.lower()}", None)
         if method is None:
             raise Unreadable(f"line {node.lineno}: {ast.unparse(node)}")
         try:
@@ -59,16 +59,16 @@ class Values:
                 raise
             raise Unreadable(f"line {node.lineno}: {ast.unparse(node)}: {error}") from None
 
-    def _constant(self, node: ast.Constant) -> Any:
+    def _constant(self, node: ast.Constant) -> object:
         return node.value
 
-    def _name(self, node: ast.Name) -> Any:
+    def _name(self, node: ast.Name) -> object:
         if node.id not in self.names:
             raise Unreadable(f"line {node.lineno}: {node.id}")
         return self.names[node.id]
 
-    def _list(self, node: ast.List) -> list[Any]:
-        found: list[Any] = []
+    def _list(self, node: ast.List) -> list[object]:
+        found: list[object] = []
         for each in node.elts:
             if isinstance(each, ast.Starred):
                 found += self.of(each.value)
@@ -76,19 +76,19 @@ class Values:
                 found.append(self.of(each))
         return found
 
-    def _tuple(self, node: ast.Tuple) -> tuple[Any, ...]:
+    def _tuple(self, node: ast.Tuple) -> tuple[object, ...]:
         return tuple(self.of(each) for each in node.elts)
 
-    def _dict(self, node: ast.Dict) -> dict[Any, Any]:
+    def _dict(self, node: ast.Dict) -> dict[object, object]:
         return {self.of(key): self.of(value) for key, value in zip(node.keys, node.values, strict=True) if key}
 
     def _joinedstr(self, node: ast.JoinedStr) -> str:
         return "".join(str(self.of(each)) for each in node.values)
 
-    def _formattedvalue(self, node: ast.FormattedValue) -> Any:
+    def _formattedvalue(self, node: ast.FormattedValue) -> object:
         return self.of(node.value)
 
-    def _binop(self, node: ast.BinOp) -> Any:
+    def _binop(self, node: ast.BinOp) -> object:
         left, right = self.of(node.left), self.of(node.right)
         if isinstance(node.op, ast.Add):
             return left + right
@@ -98,7 +98,7 @@ class Values:
             return Path(left) / right
         raise Unreadable(f"line {node.lineno}: {ast.unparse(node)}")
 
-    def _listcomp(self, node: ast.ListComp) -> list[Any]:
+    def _listcomp(self, node: ast.ListComp) -> list[object]:
         if len(node.generators) != 1 or not isinstance(node.generators[0].target, ast.Name):
             raise Unreadable(f"line {node.lineno}: {ast.unparse(node)}")
         name, found = node.generators[0].target.id, list[Any]()
@@ -110,7 +110,7 @@ class Values:
 
     _generatorexp = _listcomp
 
-    def _unaryop(self, node: ast.UnaryOp) -> Any:
+    def _unaryop(self, node: ast.UnaryOp) -> object:
         if isinstance(node.op, ast.Not):
             return not self.of(node.operand)
         if isinstance(node.op, ast.USub):
@@ -127,19 +127,19 @@ class Values:
             raise Unreadable(f"line {node.lineno}: {ast.unparse(node)}")
         return compare(self.of(node.left), self.of(node.comparators[0]))
 
-    def _subscript(self, node: ast.Subscript) -> Any:
+    def _subscript(self, node: ast.Subscript) -> object:
         if isinstance(node.slice, ast.Slice):
             ends = (self.of(each) if each else None for each in (node.slice.lower, node.slice.upper, node.slice.step))
             return self.of(node.value)[slice(*ends)]
         return self.of(node.value)[self.of(node.slice)]
 
-    def _attribute(self, node: ast.Attribute) -> Any:
+    def _attribute(self, node: ast.Attribute) -> object:
         value = self.of(node.value)
         if isinstance(value, Path) and node.attr in ("name", "stem", "suffix", "parent"):
             return getattr(value, node.attr)
         raise Unreadable(f"line {node.lineno}: {ast.unparse(node)}")
 
-    def _call(self, node: ast.Call) -> Any:
+    def _call(self, node: ast.Call) -> object:
         name = called(node)
         if name == "join" and isinstance(node.func, ast.Attribute) and ast.unparse(node.func).endswith("path.join"):
             return os.path.join(*(str(self.of(each)) for each in node.args))

@@ -12,6 +12,7 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
@@ -28,7 +29,7 @@ class AppendEnvironmentVariable(NamedValue):
         value: SomeSubstitutionsType,
         prepend: object = False,
         separator: SomeSubstitutionsType = os.pathsep,
-        **kwargs: object,
+        **kwargs: Condition | None,
     ) -> None:
         super().__init__(name, value, **kwargs)
         self.__prepend = normalize_typed_substitution(prepend, bool)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import launch.logging
 from launch.action import Action
@@ -13,6 +13,7 @@ from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
@@ -30,7 +31,7 @@ class DeclareLaunchArgument(Action, DeclaresArgument):
         default_value: SomeSubstitutionsType | None = None,
         description: str | None = None,
         choices: Iterable[str] | None = None,
-        **kwargs: Any,
+        **kwargs: Condition | None,
     ) -> None:
         super().__init__(**kwargs)
         self.__name = name

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import launch.logging
 from launch.action import Action
@@ -11,6 +11,7 @@ from launch.frontend.expose import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
@@ -30,7 +31,7 @@ class ForEach(Action):
         input_values: SomeSubstitutionsType,
         *,
         function: Callable[..., Iterable[LaunchDescriptionEntity] | None],
-        **kwargs: Any,
+        **kwargs: Condition | None,
     ) -> None:
         super().__init__(**kwargs)
         self._input_values = normalize_to_list_of_substitutions(input_values)
@@ -89,7 +90,7 @@ class ForLoop(Action):
         *,
         function: Callable[..., Iterable[LaunchDescriptionEntity] | None],
         name: str | None = None,
-        **kwargs: Any,
+        **kwargs: Condition | None,
     ) -> None:
         super().__init__(**kwargs)
         self._length = normalize_to_list_of_substitutions(str(length) if isinstance(length, int) else length)

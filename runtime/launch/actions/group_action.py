@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.action import Action
 from launch.actions.pop_environment import PopEnvironment
@@ -16,6 +16,7 @@ from launch.actions.set_launch_configuration import SetLaunchConfiguration
 from launch.frontend.expose import expose_action
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
@@ -34,7 +35,7 @@ class GroupAction(Action):
         scoped: bool = True,
         forwarding: bool = True,
         launch_configurations: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None,
-        **kwargs: Any,
+        **kwargs: Condition | None,
     ) -> None:
         super().__init__(**kwargs)
         self.__actions = actions

@@ -16,6 +16,7 @@ from launch.launch_description_source import LaunchDescriptionSource
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
@@ -35,7 +36,7 @@ class IncludeLaunchDescription(Action, IncludesDescription):
         launch_description_source: LaunchDescriptionSource | SomeSubstitutionsType,
         *,
         launch_arguments: Iterable[Pair] | None = None,
-        **kwargs: Any,
+        **kwargs: Condition | None,
     ) -> None:
         from launch.launch_description_sources import AnyLaunchDescriptionSource
 

@@ -12,6 +12,7 @@ from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
@@ -23,7 +24,7 @@ __all__ = ["Log", "LogDebug", "LogError", "LogInfo", "LogWarning"]
 class Log(Message):
     """Logs a message at a level, such as `debug` or `WARNING`."""
 
-    def __init__(self, *, msg: SomeSubstitutionsType, level: SomeSubstitutionsType, **kwargs: object) -> None:
+    def __init__(self, *, msg: SomeSubstitutionsType, level: SomeSubstitutionsType, **kwargs: Condition | None) -> None:
         super().__init__(msg=msg, **kwargs)
         self.__level = normalize_to_list_of_substitutions(level)
 
@@ -45,7 +46,7 @@ class Log(Message):
 class LogDebug(Log):
     """Logs a message shown only with `--debug`."""
 
-    def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: object) -> None:
+    def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: Condition | None) -> None:
         super().__init__(msg=msg, level="DEBUG", **kwargs)
 
 
@@ -53,7 +54,7 @@ class LogDebug(Log):
 class LogWarning(Log):
     """Logs a warning."""
 
-    def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: object) -> None:
+    def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: Condition | None) -> None:
         super().__init__(msg=msg, level="WARNING", **kwargs)
 
 
@@ -61,5 +62,5 @@ class LogWarning(Log):
 class LogError(Log):
     """Logs an error."""
 
-    def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: object) -> None:
+    def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: Condition | None) -> None:
         super().__init__(msg=msg, level="ERROR", **kwargs)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import launch.logging
 from launch.action import Action
@@ -11,6 +11,7 @@ from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 class Message(Action):
     """Base class of actions that log a message."""
 
-    def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: Any) -> None:
+    def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: Condition | None) -> None:
         super().__init__(**kwargs)
         self.__msg = normalize_to_list_of_substitutions(msg)
 
@@ -42,7 +43,7 @@ class Message(Action):
 class LogInfo(Message):
     """Logs a message."""
 
-    def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: object) -> None:
+    def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: Condition | None) -> None:
         super().__init__(msg=msg, **kwargs)
         self.__logger = launch.logging.get_logger("launch.user")
 

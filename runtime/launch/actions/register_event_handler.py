@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.action import Action
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.event_handler import BaseEventHandler
     from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchDescriptionEntity
 
 
 class RegisterEventHandler(Action):
     """Registers an event handler."""
 
-    def __init__(self, event_handler: BaseEventHandler, **kwargs: Any) -> None:
+    def __init__(self, event_handler: BaseEventHandler, **kwargs: Condition | None) -> None:
         super().__init__(**kwargs)
         self.__event_handler = event_handler
 
@@ -27,7 +29,7 @@ class RegisterEventHandler(Action):
         """Register the handler."""
         context.register_event_handler(self.__event_handler)
 
-    def describe_conditional_sub_entities(self) -> list[tuple[str, list[Any]]]:
+    def describe_conditional_sub_entities(self) -> list[tuple[str, list[LaunchDescriptionEntity]]]:
         """Return the handler's description and entities."""
         _, entities = self.__event_handler.describe()
         return [(f"{self.__event_handler}", entities)] if entities else []

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.action import Action
 from launch.argument_discovery import ResetsConfigurations
@@ -11,6 +11,7 @@ from launch.frontend.expose import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
@@ -22,7 +23,9 @@ class ResetLaunchConfigurations(Action, ResetsConfigurations):
     """Clears all launch configurations except those given, whose values are evaluated first."""
 
     def __init__(
-        self, launch_configurations: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None, **kwargs: Any
+        self,
+        launch_configurations: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None,
+        **kwargs: Condition | None,
     ) -> None:
         super().__init__(**kwargs)
         self.__kept: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] = (

@@ -12,6 +12,7 @@ from launch.frontend.expose import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 class Shutdown(EmitEvent):
     """Shuts the launch down; as the handler of a process exit, it reports that the process was required."""
 
-    def __init__(self, *, reason: SomeSubstitutionsType = "reason not given", **kwargs: object) -> None:
+    def __init__(self, *, reason: SomeSubstitutionsType = "reason not given", **kwargs: Condition | None) -> None:
         super().__init__(event=ShutdownEvent(reason=reason if isinstance(reason, str) else ""), **kwargs)
         self.__reason = normalize_to_list_of_substitutions(reason)
 

@@ -6,7 +6,7 @@ import asyncio
 import warnings
 from collections.abc import Iterable, Mapping
 from copy import copy
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.action import Action
 from launch.actions.opaque_function import OpaqueFunction
@@ -20,6 +20,7 @@ from launch.utilities import create_future, normalize_to_list_of_substitutions
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
@@ -41,7 +42,7 @@ class TimerAction(Action):
         period: float | SomeSubstitutionsType,
         actions: Iterable[Action],
         cancel_on_shutdown: bool | SomeSubstitutionsType = True,
-        **kwargs: Any,
+        **kwargs: Condition | None,
     ) -> None:
         super().__init__(**kwargs)
         if isinstance(period, str):
@@ -85,7 +86,7 @@ class TimerAction(Action):
         """Return a short description."""
         return f"TimerAction(period={self.__period}, actions=<actions>)"
 
-    def describe_conditional_sub_entities(self) -> list[tuple[str, list[Any]]]:
+    def describe_conditional_sub_entities(self) -> list[tuple[str, list[LaunchDescriptionEntity]]]:
         """Return the actions, with their condition."""
         return [(f"{self.__period} seconds pass without being canceled", list(self.__actions))]
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.action import Action
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.event_handler import BaseEventHandler
     from launch.launch_context import LaunchContext
 
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
 class UnregisterEventHandler(Action):
     """Unregisters an event handler."""
 
-    def __init__(self, event_handler: BaseEventHandler, **kwargs: Any) -> None:
+    def __init__(self, event_handler: BaseEventHandler, **kwargs: Condition | None) -> None:
         super().__init__(**kwargs)
         self.__event_handler = event_handler
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.action import Action
 from launch.substitution import Substitution
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
 
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 class UnsetLaunchConfiguration(Action):
     """Unsets a launch configuration, if it is set."""
 
-    def __init__(self, name: SomeSubstitutionsType, **kwargs: Any) -> None:
+    def __init__(self, name: SomeSubstitutionsType, **kwargs: Condition | None) -> None:
         super().__init__(**kwargs)
         self.__name = normalize_to_list_of_substitutions(name)
 

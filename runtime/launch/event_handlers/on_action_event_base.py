@@ -26,7 +26,7 @@ class OnActionEventBase(BaseEventHandler):
         target_event_cls: type[Event],
         target_action_cls: type[Action],
         handle_once: bool = False,
-        **kwargs: Any,
+        **kwargs: bool,
     ) -> None:
         if action_matcher is not None and not (
             isinstance(action_matcher, target_action_cls) or callable(action_matcher)
@@ -66,7 +66,7 @@ class OnActionEventBase(BaseEventHandler):
     ) -> SomeEntitiesType | None:
         return callback(event, context)
 
-    def describe(self) -> tuple[str, list[Any]]:
+    def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
         """Return a description and the entities."""
         if self.__entities is not None:
             return super().describe()[0], list(self.__entities)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.event_handlers.on_action_event_base import OnActionEventBase
 from launch.events.execution_complete import ExecutionComplete
@@ -21,7 +21,7 @@ class OnExecutionComplete(OnActionEventBase):
         *,
         target_action: Action | Callable[[Action], bool] | None = None,
         on_completion: SomeEntitiesType | Callable[..., SomeEntitiesType | None],
-        **kwargs: Any,
+        **kwargs: bool,
     ) -> None:
         from launch.action import Action
 

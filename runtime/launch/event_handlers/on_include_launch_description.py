@@ -18,7 +18,7 @@ class OnIncludeLaunchDescription(BaseEventHandler):
 
     kind_of_events = IncludeLaunchDescription
 
-    def __init__(self, **kwargs: Any) -> None:
+    def __init__(self, **kwargs: bool) -> None:
         super().__init__(matcher=lambda event: is_a_subclass(event, IncludeLaunchDescription), **kwargs)
 
     def handle(self, event: Any, context: LaunchContext) -> SomeEntitiesType | None:

@@ -25,7 +25,7 @@ class OnProcessIO(OnActionEventBase):
         on_stdin: Callable[[ProcessIO], SomeEntitiesType | None] | None = None,
         on_stdout: Callable[[ProcessIO], SomeEntitiesType | None] | None = None,
         on_stderr: Callable[[ProcessIO], SomeEntitiesType | None] | None = None,
-        **kwargs: Any,
+        **kwargs: bool,
     ) -> None:
         from launch.actions.execute_local import ExecuteLocal
 

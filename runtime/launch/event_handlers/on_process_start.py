@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.event_handlers.on_action_event_base import OnActionEventBase
 from launch.events.process import ProcessStarted
@@ -21,7 +21,7 @@ class OnProcessStart(OnActionEventBase):
         *,
         target_action: Action | Callable[[Action], bool] | None = None,
         on_start: SomeEntitiesType | Callable[..., SomeEntitiesType | None],
-        **kwargs: Any,
+        **kwargs: bool,
     ) -> None:
         from launch.actions.execute_local import ExecuteLocal
 

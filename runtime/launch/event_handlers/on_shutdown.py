@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.event_handler import BaseEventHandler
 from launch.events.shutdown import Shutdown
@@ -21,7 +21,7 @@ class OnShutdown(BaseEventHandler):
     kind_of_events = Shutdown
 
     def __init__(
-        self, *, on_shutdown: SomeEntitiesType | Callable[..., SomeEntitiesType | None], **kwargs: Any
+        self, *, on_shutdown: SomeEntitiesType | Callable[..., SomeEntitiesType | None], **kwargs: bool
     ) -> None:
         super().__init__(matcher=lambda event: is_a_subclass(event, Shutdown), **kwargs)
         self.__on_shutdown = on_shutdown

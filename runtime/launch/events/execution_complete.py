@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from launch.event import Event
 
 
@@ -14,6 +16,6 @@ class ExecutionComplete(Event):
         self.__action = action
 
     @property
-    def action(self) -> object:
+    def action(self) -> Any:
         """The action."""
         return self.__action

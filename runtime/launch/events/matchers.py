@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from launch.action import Action
+from typing import Any
 
 
-def matches_action(target_action: object) -> Callable[[Action], bool]:
+def matches_action(target_action: object) -> Callable[[Any], bool]:
     """Return a predicate: whether an action is this one."""
 
     def matches(action: object) -> bool:

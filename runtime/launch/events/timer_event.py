@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from launch.event import Event
 
 
@@ -14,6 +16,6 @@ class TimerEvent(Event):
         self.__timer_action = timer_action
 
     @property
-    def timer_action(self) -> object:
+    def timer_action(self) -> Any:
         """The timer action."""
         return self.__timer_action

@@ -19,7 +19,6 @@ from launch.invalid_launch_file_error import InvalidLaunchFileError
 from launch.launch_place import report_place
 
 if TYPE_CHECKING:
-    from launch.action import Action
     from launch.condition import Condition
     from launch.launch_description import LaunchDescription
     from launch.substitution import Substitution
@@ -99,7 +98,7 @@ class Parser:
 
         return sorted(cls.load_parser_implementations().values(), key=lambda parser: not knows(parser))
 
-    def parse_action(self, entity: Entity) -> Action:
+    def parse_action(self, entity: Entity) -> Any:
         """Create the action of an element; raises whatever is wrong with it."""
         try:
             return self._parse_action(entity)
@@ -107,7 +106,7 @@ class Parser:
             report_place(error, self.path, entity.line or None)
             raise
 
-    def _parse_action(self, entity: Entity) -> Action:
+    def _parse_action(self, entity: Entity) -> Any:
         method = action_parse_methods.get(entity.type_name)
         if method is None:
             raise RuntimeError(f"Unrecognized entity of the type: {entity.type_name}")

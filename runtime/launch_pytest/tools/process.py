@@ -9,18 +9,22 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from launch.actions.execute_process import ExecuteProcess
+    from launch.launch_context import LaunchContext
 
 _Check = Callable[[str], Any]
 _POLL_S = 0.02
 """Seconds between two polls."""
 
 
-def _started(action: Any) -> bool:
+def _started(action: ExecuteProcess) -> bool:
     return "pid" in (action.process_details or {})
 
 
-def _ended(action: Any) -> bool:
+def _ended(action: ExecuteProcess) -> bool:
     return action.return_code is not None
 
 
@@ -53,63 +57,79 @@ async def _wait(condition: Callable[[], bool], timeout: float | None) -> bool:
     return True
 
 
-def wait_for_start_sync(context: object, action: object, timeout: float | None = None) -> bool:
+def wait_for_start_sync(context: LaunchContext, action: ExecuteProcess, timeout: float | None = None) -> bool:
     """Return whether the process starts in time."""
     return _wait_sync(lambda: _started(action), timeout)
 
 
-async def wait_for_start(context: object, action: object, timeout: float | None = None) -> bool:
+async def wait_for_start(context: LaunchContext, action: ExecuteProcess, timeout: float | None = None) -> bool:
     """Return whether the process starts in time."""
     return await _wait(lambda: _started(action), timeout)
 
 
-def wait_for_exit_sync(context: object, action: object, timeout: float | None = None) -> bool:
+def wait_for_exit_sync(context: LaunchContext, action: ExecuteProcess, timeout: float | None = None) -> bool:
     """Return whether the process ends in time."""
     return _wait_sync(lambda: _ended(action), timeout)
 
 
-async def wait_for_exit(context: object, action: object, timeout: float | None = None) -> bool:
+async def wait_for_exit(context: LaunchContext, action: ExecuteProcess, timeout: float | None = None) -> bool:
     """Return whether the process ends in time."""
     return await _wait(lambda: _ended(action), timeout)
 
 
-def wait_for_output_sync(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> bool:
+def wait_for_output_sync(
+    context: LaunchContext, action: ExecuteProcess, validate: _Check, timeout: float | None = None
+) -> bool:
     """Return whether the output passes the check in time; at the end an assertion error of the check is raised."""
     return _wait_sync(lambda: _fits(validate, action.get_stdout), timeout) or _accepts(validate, action.get_stdout())
 
 
-async def wait_for_output(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> bool:
+async def wait_for_output(
+    context: LaunchContext, action: ExecuteProcess, validate: _Check, timeout: float | None = None
+) -> bool:
     """Return whether the output passes the check in time; at the end an assertion error of the check is raised."""
     fits = await _wait(lambda: _fits(validate, action.get_stdout), timeout)
     return fits or _accepts(validate, action.get_stdout())
 
 
-def wait_for_stderr_sync(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> bool:
+def wait_for_stderr_sync(
+    context: LaunchContext, action: ExecuteProcess, validate: _Check, timeout: float | None = None
+) -> bool:
     """Return the same for the standard error."""
     return _wait_sync(lambda: _fits(validate, action.get_stderr), timeout) or _accepts(validate, action.get_stderr())
 
 
-async def wait_for_stderr(context: Any, action: Any, validate: _Check, timeout: float | None = None) -> bool:
+async def wait_for_stderr(
+    context: LaunchContext, action: ExecuteProcess, validate: _Check, timeout: float | None = None
+) -> bool:
     """Return the same for the standard error."""
     fits = await _wait(lambda: _fits(validate, action.get_stderr), timeout)
     return fits or _accepts(validate, action.get_stderr())
 
 
-def assert_output_sync(context: object, action: object, validate: _Check, timeout: float | None = None) -> None:
+def assert_output_sync(
+    context: LaunchContext, action: ExecuteProcess, validate: _Check, timeout: float | None = None
+) -> None:
     """Assert `wait_for_output_sync`."""
     assert wait_for_output_sync(context, action, validate, timeout), "waiting for output timed out"
 
 
-async def assert_output(context: object, action: object, validate: _Check, timeout: float | None = None) -> None:
+async def assert_output(
+    context: LaunchContext, action: ExecuteProcess, validate: _Check, timeout: float | None = None
+) -> None:
     """Assert `wait_for_output`."""
     assert await wait_for_output(context, action, validate, timeout), "waiting for output timed out"
 
 
-def assert_stderr_sync(context: object, action: object, validate: _Check, timeout: float | None = None) -> None:
+def assert_stderr_sync(
+    context: LaunchContext, action: ExecuteProcess, validate: _Check, timeout: float | None = None
+) -> None:
     """Assert `wait_for_stderr_sync`."""
     assert wait_for_stderr_sync(context, action, validate, timeout), "waiting for stderr timed out"
 
 
-async def assert_stderr(context: object, action: object, validate: _Check, timeout: float | None = None) -> None:
+async def assert_stderr(
+    context: LaunchContext, action: ExecuteProcess, validate: _Check, timeout: float | None = None
+) -> None:
     """Assert `wait_for_stderr`."""
     assert await wait_for_stderr(context, action, validate, timeout), "waiting for stderr timed out"

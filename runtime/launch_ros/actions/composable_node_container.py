@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend import expose_action
@@ -11,13 +12,23 @@ if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchDescriptionEntity
+    from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch_ros.descriptions.composable_node import ComposableNode
 
 
 @expose_action("node_container")
 class ComposableNodeContainer(Node):
     """Runs a container and has it load nodes."""
 
-    def __init__(self, *, name: Any, namespace: Any, composable_node_descriptions: Any = None, **kwargs: Any) -> None:
+    def __init__(
+        self,
+        *,
+        name: SomeSubstitutionsType,
+        namespace: SomeSubstitutionsType,
+        composable_node_descriptions: Iterable[ComposableNode] | None = None,
+        **kwargs: Any,
+    ) -> None:
         super().__init__(name=name, namespace=namespace, **kwargs)
         self.__descriptions = composable_node_descriptions
 
@@ -33,7 +44,7 @@ class ComposableNodeContainer(Node):
         kwargs.setdefault("namespace", "")
         return cls, kwargs
 
-    def execute(self, context: LaunchContext) -> list[Any] | None:
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Start the container, then load the nodes whose conditions hold."""
         from launch_ros.actions.load_composable_nodes import LoadComposableNodes, holds
 

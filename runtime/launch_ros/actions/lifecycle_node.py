@@ -15,13 +15,22 @@ if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchDescriptionEntity
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_action("lifecycle_node")
 class LifecycleNode(Node):
     """Runs a node whose state the launch observes (`StateTransition`) and controls (`ChangeState`)."""
 
-    def __init__(self, *, name: Any, namespace: Any, autostart: Any = False, **kwargs: Any) -> None:
+    def __init__(
+        self,
+        *,
+        name: SomeSubstitutionsType,
+        namespace: SomeSubstitutionsType,
+        autostart: bool | SomeSubstitutionsType = False,
+        **kwargs: Any,
+    ) -> None:
         super().__init__(name=name, namespace=namespace, **kwargs)
         self.__autostart = normalize_typed_substitution(autostart, bool)
         self.__manager: LifecycleEventManager | None = None
@@ -40,7 +49,7 @@ class LifecycleNode(Node):
         """Whether the node is activated as soon as it runs."""
         return self.__autostart
 
-    def execute(self, context: LaunchContext) -> list[Any] | None:
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Subscribe to the node's transitions, then start it."""
         self._perform_substitutions(context)
         self.__manager = LifecycleEventManager(self)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.action import Action
 from launch.actions import EmitEvent, RegisterEventHandler
@@ -14,7 +14,9 @@ from launch_ros.events import matches_node_name
 from launch_ros.events.lifecycle import ChangeState
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchDescriptionEntity
     from launch.some_substitutions_type import SomeSubstitutionsType
 
 GOALS = {1: "inactive", 2: "unconfigured", 3: "active", 4: "inactive", 5: "finalized", 6: "finalized", 7: "finalized"}
@@ -24,7 +26,13 @@ GOALS = {1: "inactive", 2: "unconfigured", 3: "active", 4: "inactive", 5: "final
 class LifecycleTransition(Action):
     """Drives each of several lifecycle nodes through a sequence of transitions; raises `ValueError` without any."""
 
-    def __init__(self, *, lifecycle_node_names: Iterable[Any], transition_ids: Iterable[Any], **kwargs: Any) -> None:
+    def __init__(
+        self,
+        *,
+        lifecycle_node_names: Iterable[SomeSubstitutionsType],
+        transition_ids: Iterable[int | SomeSubstitutionsType],
+        **kwargs: Condition | None,
+    ) -> None:
         super().__init__(**kwargs)
         self.__names = [normalize_to_list_of_substitutions(each) for each in lifecycle_node_names]
         self.__transitions = list(transition_ids)
@@ -33,16 +41,16 @@ class LifecycleTransition(Action):
         if not self.__transitions:
             raise ValueError("transition_ids must provide at least one lifecycle node transition id")
 
-    def execute(self, context: LaunchContext) -> list[Any]:
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
         """Request the first transition of each node, and each further one when the previous has finished."""
         numbers = [_number(context, each) for each in self.__transitions]
-        entities: list[Any] = []
+        entities: list[LaunchDescriptionEntity] = []
         for subs in self.__names:
             name = perform_substitutions(context, subs)
             entities += self._of_node(name, numbers)
         return entities
 
-    def _of_node(self, name: str, numbers: list[int]) -> list[Any]:
+    def _of_node(self, name: str, numbers: list[int]) -> list[LaunchDescriptionEntity]:
         matcher = matches_node_name(name)
 
         def change(number: int) -> EmitEvent:
@@ -62,7 +70,7 @@ class LifecycleTransition(Action):
         return [*handlers, change(numbers[0])]
 
 
-def _number(context: LaunchContext, transition: SomeSubstitutionsType) -> int:
+def _number(context: LaunchContext, transition: int | SomeSubstitutionsType) -> int:
     if isinstance(transition, int):
         return transition
     return int(perform_substitutions(context, normalize_to_list_of_substitutions(transition)))

@@ -35,6 +35,7 @@ from launch_ros.utilities import (
 )
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
@@ -46,7 +47,7 @@ SERVICE_POLL_S = 1.0
 class LoadComposableNodes(Action):
     """Has a running container load nodes, one after the other."""
 
-    def __init__(self, *, composable_node_descriptions: Any, target_container: Any, **kwargs: Any) -> None:
+    def __init__(self, *, composable_node_descriptions: Any, target_container: Any, **kwargs: Condition | None) -> None:
         ensure_argument_type(
             target_container, (*SomeSubstitutionsType_types_tuple, Node), "target_container", "LoadComposableNodes"
         )

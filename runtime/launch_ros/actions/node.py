@@ -33,7 +33,10 @@ if TYPE_CHECKING:
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchDescriptionEntity
     from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch_ros.parameters_type import SomeParameters
+    from launch_ros.remap_rule_type import SomeRemapRules
 
 LOCALS = "ros_specific_arguments"
 
@@ -48,18 +51,18 @@ class Node(ExecuteProcess):
     def __init__(
         self,
         *,
-        executable: Any,
-        package: Any = None,
-        name: Any = None,
-        namespace: Any = None,
-        exec_name: Any = None,
-        parameters: Any = None,
-        remappings: Any = None,
-        ros_arguments: Iterable[Any] | None = None,
-        arguments: Iterable[Any] | None = None,
+        executable: SomeSubstitutionsType,
+        package: SomeSubstitutionsType | None = None,
+        name: SomeSubstitutionsType | None = None,
+        namespace: SomeSubstitutionsType | None = None,
+        exec_name: SomeSubstitutionsType | None = None,
+        parameters: SomeParameters | None = None,
+        remappings: SomeRemapRules | None = None,
+        ros_arguments: Iterable[SomeSubstitutionsType] | None = None,
+        arguments: Iterable[SomeSubstitutionsType] | None = None,
         **kwargs: Any,
     ) -> None:
-        cmd: list[Any] = [
+        cmd: list[SomeSubstitutionsType] = [
             executable if package is None else ExecutableInPackage(package=package, executable=executable)
         ]
         cmd += [] if arguments is None else arguments
@@ -103,19 +106,19 @@ class Node(ExecuteProcess):
         return cls, parse_node(entity, parser, kwargs)
 
     @staticmethod
-    def parse_nested_parameters(params: object, parser: object) -> list[Any]:
+    def parse_nested_parameters(params: list[Entity], parser: Parser) -> list[Any]:
         """Parse `param` elements as a node's `parameters`, for third-party subclasses that need it."""
         from launch_ros.actions.parse_parameters import parse_nested_parameters
 
         return parse_nested_parameters(params, parser)
 
     @property
-    def node_package(self) -> Any:
+    def node_package(self) -> SomeSubstitutionsType | None:
         """The package of the executable."""
         return self.__package
 
     @property
-    def node_executable(self) -> Any:
+    def node_executable(self) -> SomeSubstitutionsType:
         """The executable's name."""
         return self.__executable
 
@@ -157,7 +160,7 @@ class Node(ExecuteProcess):
             self.UNSPECIFIED_NODE_NAME not in self.node_name and self.UNSPECIFIED_NODE_NAMESPACE not in self.node_name
         )
 
-    def execute(self, context: LaunchContext) -> list[Any] | None:
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Evaluate names, parameters and rules, then start the node."""
         self._perform_substitutions(context)
         if self.__package is not None and not may_start(context, self, self.__package_text):

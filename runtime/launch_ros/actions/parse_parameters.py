@@ -25,7 +25,7 @@ TYPES: dict[str, Any] = {
 }
 
 
-def parse_nested_parameters(params: Any, parser: Any) -> list[Any]:
+def parse_nested_parameters(params: list[Entity], parser: Parser) -> list[Any]:
     """Parse each `param` element as a dict or a `ParameterFile`."""
     return [_parameter(each, parser) for each in params]
 

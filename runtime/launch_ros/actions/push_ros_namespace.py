@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.action import Action
 from launch.frontend import expose_action
@@ -14,9 +14,11 @@ from rclpy.exceptions import InvalidNamespaceException
 from rclpy.validate_namespace import validate_namespace
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_action("push_ros_namespace")
@@ -24,7 +26,7 @@ if TYPE_CHECKING:
 class PushROSNamespace(Action):
     """Prepends a namespace to those of all subsequent nodes, until the end of the group."""
 
-    def __init__(self, namespace: Any, **kwargs: Any) -> None:
+    def __init__(self, namespace: SomeSubstitutionsType, **kwargs: Condition | None) -> None:
         super().__init__(**kwargs)
         self.__namespace = normalize_to_list_of_substitutions(namespace)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from launch.actions import TimerAction
@@ -9,14 +10,16 @@ from launch.events import TimerEvent
 from launch.frontend import expose_action
 
 if TYPE_CHECKING:
+    from launch.action import Action
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 @expose_action("ros_timer")
 class ROSTimer(TimerAction):
     """Visits actions after a period (s) of ROS time, which follows `/clock` if `SetUseSimTime` requests that."""
 
-    def __init__(self, *, period: Any, actions: Any, **kwargs: Any) -> None:
+    def __init__(self, *, period: float | SomeSubstitutionsType, actions: Iterable[Action], **kwargs: Any) -> None:
         super().__init__(period=period, actions=actions, **kwargs)
         self.__timer: Any = None
 

@@ -11,9 +11,13 @@ from launch_ros.parameter_warnings import warn_of_argument
 from launch_ros.utilities import evaluate_parameter_dict, normalize_parameter_dict
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
+    from launch_ros.utilities.normalize_parameters import Key
 
 KEY = "global_params"
 
@@ -22,7 +26,7 @@ KEY = "global_params"
 class SetParameter(Action):
     """Sets a parameter of all subsequent nodes."""
 
-    def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
+    def __init__(self, name: SomeSubstitutionsType, value: Any, **kwargs: Condition | None) -> None:
         super().__init__(**kwargs)
         self.__param_dict = normalize_parameter_dict({_key(name): value})
 
@@ -35,7 +39,7 @@ class SetParameter(Action):
         return cls, kwargs
 
     @property
-    def name(self) -> Any:
+    def name(self) -> Key:
         """The parameter's name."""
         return next(iter(self.__param_dict))
 
@@ -57,7 +61,7 @@ class SetParameter(Action):
 class SetParametersFromFile(Action):
     """Passes a parameter file to all subsequent nodes."""
 
-    def __init__(self, filename: Any, **kwargs: Any) -> None:
+    def __init__(self, filename: SomeSubstitutionsType, **kwargs: Condition | None) -> None:
         super().__init__(**kwargs)
         self.__file = normalize_to_list_of_substitutions(filename)
 
@@ -69,7 +73,7 @@ class SetParametersFromFile(Action):
         return cls, kwargs
 
     @property
-    def filename(self) -> Any:
+    def filename(self) -> list[Substitution]:
         """The path of the file."""
         return self.__file
 

@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.action import Action
 from launch.frontend import expose_action
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
 
 
 @expose_action("set_remap")
 class SetRemap(Action):
     """Passes a remap rule to all subsequent nodes."""
 
-    def __init__(self, src: Any, dst: Any, **kwargs: Any) -> None:
+    def __init__(self, src: SomeSubstitutionsType, dst: SomeSubstitutionsType, **kwargs: Condition | None) -> None:
         super().__init__(**kwargs)
         self.__source = normalize_to_list_of_substitutions(src)
         self.__target = normalize_to_list_of_substitutions(dst)
@@ -32,12 +35,12 @@ class SetRemap(Action):
         return cls, kwargs
 
     @property
-    def src(self) -> Any:
+    def src(self) -> list[Substitution]:
         """The name that the node uses."""
         return self.__source
 
     @property
-    def dst(self) -> Any:
+    def dst(self) -> list[Substitution]:
         """The name that replaces it."""
         return self.__target
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from launch.action import Action
 from launch.frontend import expose_action
@@ -11,16 +11,19 @@ from launch.utilities import normalize_to_list_of_substitutions, perform_substit
 from rclpy.logging import get_logging_directory
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
 
 
 @expose_action("set_ros_log_dir")
 class SetROSLogDir(Action):
     """Makes subsequent nodes log to another folder; a relative one is below their current log folder."""
 
-    def __init__(self, new_log_dir: Any, **kwargs: Any) -> None:
+    def __init__(self, new_log_dir: SomeSubstitutionsType, **kwargs: Condition | None) -> None:
         super().__init__(**kwargs)
         self.__log_dir = normalize_to_list_of_substitutions(new_log_dir)
 
@@ -32,7 +35,7 @@ class SetROSLogDir(Action):
         return cls, kwargs
 
     @property
-    def log_dir(self) -> Any:
+    def log_dir(self) -> list[Substitution]:
         """The folder."""
         return self.__log_dir
 

@@ -10,6 +10,7 @@ from launch.utilities.type_utils import normalize_typed_substitution, perform_ty
 from rclpy.parameter import Parameter
 
 if TYPE_CHECKING:
+    from launch.condition import Condition
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 class SetUseSimTime(Action):
     """Makes the launch's own node follow `/clock`, as needed by `ROSTimer`; started nodes are not affected."""
 
-    def __init__(self, value: Any, **kwargs: Any) -> None:
+    def __init__(self, value: Any, **kwargs: Condition | None) -> None:
         super().__init__(**kwargs)
         self.__value = normalize_typed_substitution(value, bool)
 

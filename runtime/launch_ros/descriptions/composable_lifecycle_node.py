@@ -9,12 +9,13 @@ from launch_ros.descriptions.composable_node import ComposableNode
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class ComposableLifecycleNode(ComposableNode):
     """A node class that a running container loads, and whose state the launch observes and controls."""
 
-    def __init__(self, *, autostart: Any = False, **kwargs: Any) -> None:
+    def __init__(self, *, autostart: bool | SomeSubstitutionsType = False, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.__autostart = normalize_typed_substitution(autostart, bool)
         self.__full_name: str | None = None

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from launch.utilities import normalize_to_list_of_substitutions
 
 if TYPE_CHECKING:
+    from launch.frontend.entity import Entity
+    from launch.frontend.parser import Parser
     from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
+    from launch_ros.remap_rule_type import SomeRemapRules
 
 
 class ComposableNode:
@@ -22,7 +25,7 @@ class ComposableNode:
         name: SomeSubstitutionsType | None = None,
         namespace: SomeSubstitutionsType | None = None,
         parameters: object = None,
-        remappings: Iterable[Any] | None = None,
+        remappings: SomeRemapRules | None = None,
         extra_arguments: object = None,
         condition: object = None,
     ) -> None:
@@ -74,22 +77,22 @@ class ComposableNode:
         return cls, kwargs
 
     @property
-    def package(self) -> list[Any]:
+    def package(self) -> list[Substitution]:
         """The package of the class."""
         return self.__package
 
     @property
-    def node_plugin(self) -> list[Any]:
+    def node_plugin(self) -> list[Substitution]:
         """The class."""
         return self.__plugin
 
     @property
-    def node_name(self) -> list[Any] | None:
+    def node_name(self) -> list[Substitution] | None:
         """The node's name."""
         return self.__name
 
     @property
-    def node_namespace(self) -> list[Any] | None:
+    def node_namespace(self) -> list[Substitution] | None:
         """The node's namespace."""
         return self.__namespace
 

@@ -10,6 +10,7 @@ from launch_ros.descriptions.parameter_value import ParameterValue
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from launch.some_substitutions_type import SomeSubstitutionsType
+    from launch.substitution import Substitution
 
 
 class Parameter:
@@ -21,7 +22,7 @@ class Parameter:
         self.__evaluated_name: str | None = None
 
     @property
-    def name(self) -> Any:
+    def name(self) -> list[Substitution] | str:
         """The name; evaluated once the launch runs."""
         return self.__name if self.__evaluated_name is None else self.__evaluated_name
 

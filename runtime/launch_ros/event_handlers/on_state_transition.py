@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.event_handler import EventHandler
 from launch_ros.events.lifecycle import StateTransition
+
+if TYPE_CHECKING:
+    from launch.some_entities_type import SomeEntitiesType
 
 
 class OnStateTransition(EventHandler):
@@ -17,13 +20,13 @@ class OnStateTransition(EventHandler):
     def __init__(
         self,
         *,
-        entities: Any,
+        entities: SomeEntitiesType,
         target_lifecycle_node: Any = None,
         transition: str | None = None,
         start_state: str | None = None,
         goal_state: str | None = None,
         matcher: Callable[[Any], bool] | None = None,
-        **kwargs: Any,
+        **kwargs: bool,
     ) -> None:
         if not ((matcher is None) ^ (target_lifecycle_node is None)):
             raise RuntimeError("either matcher or target_lifecycle_node must be set")

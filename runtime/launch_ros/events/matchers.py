@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from launch.action import Action
 
 
-def matches_node_name(node_name: str) -> Callable[[Any], bool]:
+def matches_node_name(node_name: str) -> Callable[[Action], bool]:
     """Return a predicate: whether an action's node has this full name."""
     name = node_name if node_name.startswith("/") else f"/{node_name}"
     return lambda action: getattr(action, "node_name", None) == name

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import shutil
-from typing import TYPE_CHECKING, Any
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 from bot_console.runtime.workspace.executables import executables
@@ -30,7 +31,7 @@ class ExecutableInPackage(Substitution):
         self.__package = normalize_to_list_of_substitutions(package)
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[ExecutableInPackage], dict[str, object]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[ExecutableInPackage], dict[str, object]]:
         """From `$(exec-in-pkg executable package)`."""
         if len(data) != 2:
             raise AttributeError("exec-in-pkg substitution expects 2 arguments")

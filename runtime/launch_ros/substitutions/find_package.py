@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ament_index_python.packages import get_package_prefix, get_package_share_directory
 from launch.frontend import expose_substitution
@@ -25,7 +26,7 @@ class FindPackage(Substitution):
         self.__package = normalize_to_list_of_substitutions(package)
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[FindPackage], dict[str, object]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[FindPackage], dict[str, object]]:
         """From `$(find-pkg-share name)`."""
         if len(data) != 1:
             raise AttributeError("find package substitutions expect 1 argument")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend import expose_substitution
@@ -25,7 +26,7 @@ class Parameter(Substitution):
         self.__default = None if default is None else normalize_to_list_of_substitutions(default)
 
     @classmethod
-    def parse(cls, data: Any) -> tuple[type[Parameter], dict[str, object]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[Parameter], dict[str, object]]:
         """From `$(param name)` or `$(param name default)`."""
         if len(data) not in (1, 2):
             raise AttributeError("param substitutions expect 1 or 2 arguments")

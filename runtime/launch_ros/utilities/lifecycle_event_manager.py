@@ -12,6 +12,9 @@ from launch_ros.ros_adapters import get_ros_node
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
+    from lifecycle_msgs.msg import TransitionEvent
+    from rclpy.client import Client
+    from rclpy.subscription import Subscription
 
 SERVICE_POLL_S = 1.0
 
@@ -22,8 +25,8 @@ class LifecycleEventManager:
     def __init__(self, lifecycle_node: Any) -> None:
         self._node = lifecycle_node
         self._logger = launch.logging.get_logger("launch_ros.actions.lifecycle_node")
-        self._client: Any = None
-        self._subscription: Any = None
+        self._client: Client
+        self._subscription: Subscription | None = None
 
     @property
     def node_name(self) -> str:
@@ -42,7 +45,7 @@ class LifecycleEventManager:
         self._client = node.create_client(ChangeStateService, f"{self.node_name}/change_state")
         context.register_event_handler(_OnChangeState(self._node, self._change_state))
 
-    def _on_transition(self, context: LaunchContext, message: Any) -> None:
+    def _on_transition(self, context: LaunchContext, message: TransitionEvent) -> None:
         from launch_ros.events.lifecycle import StateTransition
 
         event = StateTransition(action=self._node, msg=message)

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import signal
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.actions import EmitEvent, ExecuteProcess, TimerAction
 from launch.events import matches_action
 from launch.events.process import SignalProcess
 from launch.substitutions import FindExecutable
+
+if TYPE_CHECKING:
+    from launch.launch_context import LaunchContext
+    from launch.launch_description_entity import LaunchDescriptionEntity
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 class Test(ExecuteProcess):
@@ -16,16 +21,16 @@ class Test(ExecuteProcess):
 
     __test__ = False  # not to be collected by pytest
 
-    def __init__(self, *, timeout: Any = None, **kwargs: Any) -> None:
+    def __init__(self, *, timeout: float | SomeSubstitutionsType | None = None, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.__timeout = timeout
 
     @property
-    def timeout(self) -> Any:
+    def timeout(self) -> float | SomeSubstitutionsType | None:
         """Seconds, None for no limit."""
         return self.__timeout
 
-    def execute(self, context: Any) -> list[Any] | None:
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Start the process and the timeout."""
         actions = super().execute(context)
         if not self.__timeout:
@@ -37,7 +42,7 @@ class Test(ExecuteProcess):
 class GTest(Test):
     """A GTest program."""
 
-    def __init__(self, *, path: object, **kwargs: object) -> None:
+    def __init__(self, *, path: object, **kwargs: Any) -> None:
         super().__init__(cmd=[path], **kwargs)
         self.__path = path
 
@@ -50,7 +55,7 @@ class GTest(Test):
 class PyTest(Test):
     """A file of tests for pytest."""
 
-    def __init__(self, *, path: object, **kwargs: object) -> None:
+    def __init__(self, *, path: object, **kwargs: Any) -> None:
         super().__init__(cmd=[FindExecutable(name="python3"), "-m", "pytest", path], **kwargs)
         self.__path = path
 

@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.event_handlers import OnProcessIO
+
+if TYPE_CHECKING:
+    from launch.action import Action
+    from launch.launch_description_entity import LaunchDescriptionEntity
 
 
 class StdoutReadyListener(OnProcessIO):
     """Runs actions whenever a process, or any for None, prints a chunk containing a text to its standard output."""
 
-    def __init__(self, *, target_action: Any = None, ready_txt: str, actions: list[Any]) -> None:
+    def __init__(
+        self, *, target_action: Action | None = None, ready_txt: str, actions: list[LaunchDescriptionEntity]
+    ) -> None:
         def poll(event: Any) -> Any:
             return actions if ready_txt in event.text.decode() else None
 
         super().__init__(target_action=target_action, on_stdout=poll)
         self.__actions = actions
 
-    def describe(self) -> tuple[str, list[Any]]:
+    def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
         """Return a description, and the actions."""
         return super().describe()[0], self.__actions

@@ -5,11 +5,14 @@ from __future__ import annotations
 import unittest
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from launch_testing.test_run import DESCRIPTION, test_runs
 from ros2cli.launch_file import parse_launch_arguments
+
+if TYPE_CHECKING:
+    from types import ModuleType
 
 
 class LaunchTestFailure(Exception):
@@ -19,7 +22,7 @@ class LaunchTestFailure(Exception):
 class LaunchTestItem(pytest.Item):
     """All runs of a module."""
 
-    def __init__(self, *, module: Any, **kwargs: Any) -> None:
+    def __init__(self, *, module: ModuleType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._module = module
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from launch.actions import ExecuteProcess
 from launch.events import IncludeLaunchDescription, matches_action
@@ -14,6 +14,9 @@ from launch_testing.io_handler import ActiveIoHandler
 from launch_testing.proc_info_handler import ActiveProcInfoHandler
 
 from launch import LaunchDescription
+
+if TYPE_CHECKING:
+    from launch.launch_service import LaunchService
 
 
 class ProcessProxy:
@@ -117,7 +120,7 @@ class Answer:
 
 @contextmanager
 def launch_process(
-    launch_service: Any,
+    launch_service: LaunchService,
     process_action: ExecuteProcess,
     proc_info: ActiveProcInfoHandler,
     proc_output: ActiveIoHandler,

@@ -33,10 +33,12 @@ class GoalResponse(Protocol):
     @property
     def accepted(self) -> bool:
         """Whether the goal was accepted."""
+        ...
 
     @property
     def stamp(self) -> TimeMsg:
         """When the goal was accepted."""
+        ...
 
 
 class ClientGoalHandle:

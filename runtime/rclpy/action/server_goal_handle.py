@@ -24,6 +24,7 @@ class GoalServer(Protocol):
     @property
     def action_type(self) -> ServiceType:
         """The action's class."""
+        ...
 
     def notify_execute(self, goal_handle: ServerGoalHandle, execute_callback: Callable[..., object] | None) -> None:
         """Schedule a callback for a goal."""

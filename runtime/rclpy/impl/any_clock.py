@@ -11,6 +11,7 @@ class Nanoseconds(Protocol):
     @property
     def nanoseconds(self) -> int:
         """Nanoseconds since the clock's zero."""
+        ...
 
 
 class AnyClock:

@@ -43,7 +43,7 @@ class Destroyable:
 class SubscriptionHandle(Destroyable):
     """The handle of a subscription, from which messages can be taken without an executor."""
 
-    def take_message(self, pymsg_type: Any, raw: bool) -> tuple[Any, dict[str, int | None]] | None:
+    def take_message(self, pymsg_type: object, raw: bool) -> tuple[Any, dict[str, int | None]] | None:
         """Take the next message, as bytes if `raw`, with its info; None if there is none. Raises `InvalidHandle`."""
         self._use()
         taken = self._owner.take()

@@ -14,7 +14,7 @@ from rclpy.impl.callables import is_coroutine_function
 
 if TYPE_CHECKING:
     from collections import deque
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Coroutine, Sequence
 
     from bot_console.runtime.process.clock_source import Wakeup
 
@@ -31,10 +31,12 @@ class EntityGroup(Protocol):
     @property
     def own_rules(self) -> bool:
         """Whether it is a program's own class."""
+        ...
 
     @property
     def blocked(self) -> Sequence[Entity] | None:
         """Entities that are ready and have to wait for the group, or nothing."""
+        ...
 
     def add_entity(self, entity: Entity) -> None:
         """Add an entity to the group."""
@@ -47,9 +49,11 @@ class EntityGroup(Protocol):
 
     def can_execute(self, entity: Entity) -> bool:
         """Whether the entity's callback may run now."""
+        ...
 
     def beginning_execution(self, entity: Entity) -> bool:
         """Mark the entity's callback as running, if that is allowed; returns whether it was."""
+        ...
 
     def ending_execution(self, entity: Entity) -> None:
         """Mark the entity's callback as ended."""
@@ -69,8 +73,9 @@ class EntityExecutor(Protocol):
     def ask_again(self, entity: Entity) -> None:
         """Retry an entity that may not begin now at the next wake."""
 
-    def create_task(self, callback: Callable[..., object], *args: object) -> object:
+    def create_task(self, callback: Callable[..., object] | Coroutine[object, None, object], *args: object) -> object:
         """Schedule a function in the executor."""
+        ...
 
 
 class Entity:

@@ -22,9 +22,11 @@ class ContextState(Protocol):
     @property
     def ended(self) -> bool:
         """Whether it was shut down."""
+        ...
 
     def ok(self) -> bool:
         """Whether it is valid; raises a pending interrupt."""
+        ...
 
 
 class NodeInGraph(Protocol):
@@ -36,6 +38,7 @@ class NodeInGraph(Protocol):
     @property
     def context(self) -> ContextState:
         """The context that the node belongs to."""
+        ...
 
 
 NANO = 1_000_000_000

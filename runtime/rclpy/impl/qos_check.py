@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rclpy.impl.qos_policies import DurabilityPolicy, LivelinessPolicy, ReliabilityPolicy
+
+if TYPE_CHECKING:
+    from rclpy.impl.any_clock import Nanoseconds
 
 UNSURE = ("SYSTEM_DEFAULT", "UNKNOWN")
 _MISSPELT = {"durability": "durabilty"}
@@ -29,7 +32,7 @@ def errors(publisher: Any, subscription: Any) -> list[str]:
     return found
 
 
-def _duration(offered: Any, requested: Any, what: str, other: str) -> list[str]:
+def _duration(offered: Nanoseconds, requested: Nanoseconds, what: str, other: str) -> list[str]:
     if not requested.nanoseconds:
         return []
     if not offered.nanoseconds:

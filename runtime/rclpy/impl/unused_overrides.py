@@ -35,6 +35,7 @@ class OverriddenNode(Protocol):
 
     def get_fully_qualified_name(self) -> str:
         """Namespace and name."""
+        ...
 
 
 class OverridingContext(Protocol):
@@ -42,6 +43,7 @@ class OverridingContext(Protocol):
 
     def tracked_nodes(self) -> Sequence[OverriddenNode]:
         """The nodes in this context."""
+        ...
 
 
 BY_PUBLISHERS = "qos_overrides."

@@ -29,6 +29,7 @@ class NodeExecutor(EntityExecutor, Protocol):
 
     def add_node(self, node: NodeBase) -> bool:
         """Add a node; returns whether it was new."""
+        ...
 
     def remove_node(self, node: NodeBase) -> None:
         """Remove a node."""

@@ -174,9 +174,9 @@ class ParameterSetting(NodeEntities):
     ) -> ParameterEvent:
         """Store the values; returns the event made of `told(parameter)` for each."""
         stored = self._parameters
-        new: list[Any] = []
-        changed: list[Any] = []
-        deleted: list[Any] = []
+        new: list[ParameterMsg] = []
+        changed: list[ParameterMsg] = []
+        deleted: list[ParameterMsg] = []
         for parameter in parameters:
             name = parameter._name
             if parameter._type_ is NOT_SET and not keep_not_set:
@@ -226,7 +226,9 @@ INT64 = 1 << 63
 NANO = 1_000_000_000
 
 
-def parameter_event(node: str, now: int, new: list[Any], changed: list[Any], deleted: list[Any]) -> ParameterEvent:
+def parameter_event(
+    node: str, now: int, new: list[ParameterMsg], changed: list[ParameterMsg], deleted: list[ParameterMsg]
+) -> ParameterEvent:
     """The parameter event of a node (full name) at a time (ns)."""
     seconds, nanoseconds = divmod(now, NANO)
     return ParameterEvent(

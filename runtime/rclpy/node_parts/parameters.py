@@ -28,6 +28,7 @@ from rclpy.parameter import PARAMETER_SEPARATOR_STRING, Parameter
 from rclpy.validate_parameter_name import validate_parameter_name
 
 if TYPE_CHECKING:
+    from bot_console.runtime.rmw.arguments import Arguments
     from rcl_interfaces.msg import ListParametersResult
 
 
@@ -36,7 +37,7 @@ class NodeParameters(ParameterSetting):
 
     def _ros_init_parameters(
         self,
-        arguments: Sequence[Any],
+        arguments: Sequence[Arguments],
         parameter_overrides: Sequence[Parameter] | None,
         allow_undeclared: bool,
         automatic: bool,
@@ -281,7 +282,7 @@ IN_CODE = "parameter_overrides of its program"
 
 
 def report_declared(
-    node: str, declared: Iterable[tuple[str, Sequence[Any]]], values: Iterable[Any], sources: Mapping[str, str]
+    node: str, declared: Iterable[tuple[str, Sequence[object]]], values: Iterable[object], sources: Mapping[str, str]
 ) -> None:
     """Report the declarations (full name, tuple) of a node with the resulting values, if anybody listens.
 
@@ -329,7 +330,7 @@ TYPE_AND_DYNAMIC = (
 
 def read_declaration(
     index: int, declaration: Sequence[Any], namespace: str, overrides: Mapping[str, Parameter]
-) -> tuple[Parameter, Any]:
+) -> tuple[Parameter, ParameterDescriptor]:
     """The parameter, with the value of its override if there is one, and the descriptor that a tuple declares.
 
     The declared type is written into the descriptor. Raises `TypeError`, `ValueError` and
@@ -365,7 +366,7 @@ def _full_name(index: int, name: object, namespace: str) -> str:
     return name
 
 
-def _descriptor(index: int, declaration: Sequence[Any]) -> Any:
+def _descriptor(index: int, declaration: Sequence[Any]) -> ParameterDescriptor:
     if len(declaration) < 3:
         return ParameterDescriptor()
     descriptor = declaration[2]
@@ -374,7 +375,7 @@ def _descriptor(index: int, declaration: Sequence[Any]) -> Any:
     return descriptor
 
 
-def _set_type(name: str, wanted: Parameter.Type, descriptor: Any) -> None:
+def _set_type(name: str, wanted: Parameter.Type, descriptor: ParameterDescriptor) -> None:
     """Set the descriptor's type to a declared type; raises `ValueError`."""
     if wanted == Parameter.Type.NOT_SET:
         raise ValueError(f"Cannot declare parameter {{{name}}} as statically typed of type NOT_SET")
@@ -383,7 +384,7 @@ def _set_type(name: str, wanted: Parameter.Type, descriptor: Any) -> None:
     descriptor.type = wanted.value
 
 
-def _infer_type(default: Any, descriptor: Any) -> None:
+def _infer_type(default: Any, descriptor: ParameterDescriptor) -> None:
     """Set the descriptor's type to that of a default value, except with dynamic typing; raises `ValueError`."""
     if descriptor.dynamic_typing:
         return

@@ -24,9 +24,11 @@ class LoggingNode(Protocol):
 
     def get_logger(self) -> RcutilsLogger:
         """The node's logger."""
+        ...
 
     def create_publisher(self, msg_type: type[Message], topic: str, qos_profile: QoSProfile) -> Publisher:
         """Create a publisher."""
+        ...
 
 
 class Rosout:

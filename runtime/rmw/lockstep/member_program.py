@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import socket
 from collections.abc import Callable, Sequence
-from typing import Any
 
 from bot_console.runtime.process.fork_server import function_named
 from bot_console.runtime.process.lockstep.member import Member
@@ -13,7 +12,7 @@ from bot_console.runtime.rmw.lockstep.session import Link
 from bot_console.runtime.rmw.middleware import choose_middleware
 
 
-def member_program(process: int, function: str, arguments: Sequence[Any], channel: int) -> Callable[[], object]:
+def member_program(process: int, function: str, arguments: Sequence[object], channel: int) -> Callable[[], object]:
     """Join the run as process number `process` and return what it runs: the program that a function returns.
 
     `channel` is the descriptor of the connection to the coordinator.

@@ -72,7 +72,7 @@ class Session(Lifetime):
         self.lost = 0
         """Messages to this session's subscriptions that were lost, judging by their sequence numbers."""
 
-    def _open(self, settings: Mapping[str, Any], file: str = "", last: Iterable[tuple[str, str]] = ()) -> None:
+    def _open(self, settings: Mapping[str, object], file: str = "", last: Iterable[tuple[str, str]] = ()) -> None:
         """Open with these settings, which override those of `file` if given; `last` (path, JSON5) overrides both.
 
         Raises `SettingsError` and `SessionError`.

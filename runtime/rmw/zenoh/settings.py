@@ -76,10 +76,10 @@ class Serving(NamedTuple):
     """A mesh's entry for other machines: the endpoints a router listens on besides its socket, and its TLS settings."""
 
     endpoints: tuple[str, ...]
-    tls: Mapping[str, Any] = MappingProxyType({})
+    tls: Mapping[str, object] = MappingProxyType({})
 
 
-def network_link(serving: Serving) -> dict[str, Any]:
+def network_link(serving: Serving) -> dict[str, object]:
     """Return the `transport/link` settings of the sockets to other machines, by protocol."""
     return {"tcp": dict(NARROW), "tls": {**NARROW, **serving.tls}}
 
@@ -89,8 +89,8 @@ def session_settings(
     listen: str,
     connect: Iterable[str],
     serving: Serving | None = None,
-    auth: Mapping[str, Any] | None = None,
-) -> dict[str, Any]:
+    auth: Mapping[str, object] | None = None,
+) -> dict[str, object]:
     """Return the settings of a session with this id that listens on one endpoint and connects to others.
 
     `auth` holds the credentials each link must present (`transport/auth`), if the file system does not protect the
@@ -140,7 +140,7 @@ def session_settings(
     }
 
 
-def leaves(settings: Mapping[str, Any], above: str = "") -> Iterable[tuple[str, str]]:
+def leaves(settings: Mapping[str, object], above: str = "") -> Iterable[tuple[str, str]]:
     """Yield the single settings, as path and JSON."""
     for name, value in settings.items():
         if isinstance(value, Mapping) and above + name not in INSEPARABLE:

@@ -21,7 +21,7 @@ class TransientLocalPublisher:
     """
 
     def __init__(
-        self, ext: Any, session: Any, key: str, quality: Mapping[str, Any], kept: int, *, misses: bool
+        self, ext: Any, session: Any, key: str, quality: Mapping[str, object], kept: int, *, misses: bool
     ) -> None:
         """Keep the last `kept` samples; `misses` lets subscribers detect lost ones. `ext` is the module `zenoh.ext`."""
         heartbeat = ext.MissDetectionConfig(heartbeat=None, sporadic_heartbeat=0.5) if misses else None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import signal
 import sys
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from action_msgs.msg import GoalStatus
 from rclpy.action import (
@@ -33,6 +33,9 @@ from ros2cli.type_discovery import typed_class
 from ros2cli.yaml_values import read_values
 from rosidl_runtime_py import message_to_yaml, set_message_fields
 from rosidl_runtime_py.utilities import get_action
+
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.message import Message
 
 Rows = list[tuple[str, list[str]]]
 """Names, of nodes or actions, with the types of an action."""
@@ -165,7 +168,7 @@ class _Interrupt:
             raise KeyboardInterrupt
 
 
-def _follow(node: Node, client: ActionClient, goal: object, feedback: bool, interrupt: _Interrupt) -> Result:
+def _follow(node: Node, client: ActionClient, goal: Message, feedback: bool, interrupt: _Interrupt) -> Result:
     """Send the goal and wait for its result; Ctrl-C cancels the goal."""
     print("Waiting for an action server to become available...")
     spin_until(node, lambda: interrupt.came or client.server_is_ready())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ament_index_python import get_resource, has_resource
 from composition_interfaces.srv import ListNodes, LoadNode, UnloadNode
@@ -13,6 +13,9 @@ from rclpy.node import Node
 from rclpy.parameter import get_parameter_value
 from ros2cli.command import Command, Result, Verb
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, call, node_names
+
+if TYPE_CHECKING:
+    from bot_console.runtime.rosidl.message import Message, ServiceType
 
 RESOURCE = "rclcpp_components"
 """The kind of resource in which packages name their components."""
@@ -129,7 +132,7 @@ def _unload(arguments: argparse.Namespace) -> Result:
     return None
 
 
-def _asked(node: Node, kind: object, container: str, service: str, request: object) -> Any:
+def _asked(node: Node, kind: ServiceType, container: str, service: str, request: Message) -> Any:
     """The response of a container's service; raises `RuntimeError` if the service is not ready in time."""
     missing = f"No '{service}' service found for '{container}' container"
     return call(node, kind, f"{container}/_container/{service}", request, ANSWER_TIMEOUT_S, missing)

@@ -3,23 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from launch.action import Action
+from typing import Any
 
 
-def matches_pid(pid: int) -> Callable[[Action], bool]:
+def matches_pid(pid: int) -> Callable[[Any], bool]:
     """Return a predicate: whether an action's process has this pid."""
     return lambda action: _details(action).get("pid") == pid
 
 
-def matches_name(name: str) -> Callable[[Action], bool]:
+def matches_name(name: str) -> Callable[[Any], bool]:
     """Return a predicate: whether an action's process has this label."""
     return lambda action: _details(action).get("name") == name
 
 
-def matches_executable(executable: str) -> Callable[[Action], bool]:
+def matches_executable(executable: str) -> Callable[[Any], bool]:
     """Return a predicate: whether an action's command begins with this program."""
     return lambda action: (_details(action).get("cmd") or [None])[0] == executable
 

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import Any
 
 from launch.event import Event
-
-if TYPE_CHECKING:
-    from launch.action import Action
 
 
 class ProcessTargetedEvent(Event):
@@ -16,10 +13,10 @@ class ProcessTargetedEvent(Event):
 
     name = "launch.events.process.ProcessTargetedEvent"
 
-    def __init__(self, *, process_matcher: Callable[[Action], bool]) -> None:
+    def __init__(self, *, process_matcher: Callable[[Any], bool]) -> None:
         self.__process_matcher = process_matcher
 
     @property
-    def process_matcher(self) -> Callable[[Action], bool]:
+    def process_matcher(self) -> Callable[[Any], bool]:
         """The predicate over actions."""
         return self.__process_matcher

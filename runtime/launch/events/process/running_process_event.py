@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any
 
 from launch.event import Event
-
-if TYPE_CHECKING:
-    from launch.action import Action
 
 
 class RunningProcessEvent(Event):
@@ -18,7 +15,7 @@ class RunningProcessEvent(Event):
     def __init__(
         self,
         *,
-        action: Action,
+        action: object,
         name: str,
         cmd: list[str],
         cwd: str | None,
@@ -34,12 +31,12 @@ class RunningProcessEvent(Event):
         self.__pid = pid
 
     @property
-    def action(self) -> Action:
+    def action(self) -> Any:
         """The action that runs the process."""
         return self.__action
 
     @property
-    def execute_process_action(self) -> Action:
+    def execute_process_action(self) -> Any:
         """The action, by its old name."""
         return self.__action
 

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 from launch.event import Event
 from lifecycle_msgs.msg import State, Transition
+
+if TYPE_CHECKING:
+    from launch.action import Action
 
 TRANSITIONS = (
     "TRANSITION_CREATE",
@@ -37,7 +40,7 @@ class ChangeState(Event):
     valid_states: ClassVar[dict[int, str]] = {getattr(State, name): name for name in STATES}
     """Names of states, by number."""
 
-    def __init__(self, *, lifecycle_node_matcher: Callable[[Any], bool], transition_id: int) -> None:
+    def __init__(self, *, lifecycle_node_matcher: Callable[[Action], bool], transition_id: int) -> None:
         super().__init__()
         self.__lifecycle_node_matcher = lifecycle_node_matcher
         self.__transition_id = transition_id
@@ -46,7 +49,7 @@ class ChangeState(Event):
             raise ValueError(f"given transition_id of '{transition_id}', expected one of {{{known}}}")
 
     @property
-    def lifecycle_node_matcher(self) -> Callable[[Any], bool]:
+    def lifecycle_node_matcher(self) -> Callable[[Action], bool]:
         """The predicate over actions."""
         return self.__lifecycle_node_matcher
 

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from launch.event import Event
+
+if TYPE_CHECKING:
+    from launch.action import Action
+    from lifecycle_msgs.msg import TransitionEvent
 
 
 class StateTransition(Event):
@@ -12,18 +16,18 @@ class StateTransition(Event):
 
     name = "launch_ros.events.lifecycle.StateTransition"
 
-    def __init__(self, *, action: Any, msg: Any) -> None:
+    def __init__(self, *, action: Action, msg: TransitionEvent) -> None:
         super().__init__()
         self.__action = action
         self.__msg = msg
 
     @property
-    def action(self) -> Any:
+    def action(self) -> Action:
         """The action that runs the node."""
         return self.__action
 
     @property
-    def msg(self) -> Any:
+    def msg(self) -> TransitionEvent:
         """The message that reports it."""
         return self.__msg
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 import contextlib
 import os
 import sys
-from typing import Any
 
 from bot_console.runtime.rmw.zenoh.domain.file_lock import NO_LINK, open_lock, try_lock
 
@@ -56,7 +55,7 @@ def endpoint(path: str) -> str:
     return ""
 
 
-def authentication(folder: str) -> dict[str, Any]:
+def authentication(folder: str) -> dict[str, object]:
     """Return Zenoh's `transport/auth` settings, which admit only links that know the folder's secret.
 
     Creates the secret if there is none yet; to be called with the folder's lock held.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Callable, Generator, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from bot_console.runtime.rmw.qos_matching import DDS, RMW_ZENOH, QosRules
 from bot_console.runtime.rmw.zenoh.domain import loopback
@@ -79,7 +79,7 @@ class MeshSession(Session):
                 if not tries_left:
                     raise
 
-    def _open_among(self, folder: str, listen: str, auth: Mapping[str, Any] | None = None) -> None:
+    def _open_among(self, folder: str, listen: str, auth: Mapping[str, object] | None = None) -> None:
         """Open the session, listening on an endpoint and linked to all processes in the folder."""
         self.joined = tuple(each for each in live_sockets(folder) if each != self.socket)
         others = [place for each in self.joined if (place := each.endpoint())]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 from bot_console.runtime.rmw.qos_matching import RMW_ZENOH, QosRules
 from bot_console.runtime.rmw.zenoh.link_probe import LinkProbe, LinkState
@@ -52,9 +51,9 @@ def with_environment(way: Way) -> Way:
     return replace(way, file=file, override=tuple(pairs))
 
 
-def client_settings(zid: str, way: Way) -> dict[str, Any]:
+def client_settings(zid: str, way: Way) -> dict[str, object]:
     """Return a client's settings. It drops at once what a full link cannot take: nothing here waits for a network."""
-    connect: dict[str, Any] = {
+    connect: dict[str, object] = {
         "timeout_ms": round(way.timeout_s * 1000),
         "exit_on_failure": True,
         "retry": {"period_init_ms": 250, "period_max_ms": 1000, "period_increase_factor": 2},

@@ -10,7 +10,6 @@ import socket
 import ssl
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 TIMEOUT_S = 3.0
 """Timeout of each step, in seconds."""
@@ -29,9 +28,9 @@ class Tls:
     any_name: bool = False
     """Whether the name in the router's certificate may differ from the one that was dialled."""
 
-    def as_client(self) -> dict[str, Any]:
+    def as_client(self) -> dict[str, object]:
         """Return the settings for connecting."""
-        given: dict[str, Any] = {}
+        given: dict[str, object] = {}
         if self.ca:
             given["root_ca_certificate"] = os.path.abspath(self.ca)
         if self.certificate:
@@ -44,9 +43,9 @@ class Tls:
             given["verify_name_on_connect"] = False
         return given
 
-    def as_listener(self) -> dict[str, Any]:
+    def as_listener(self) -> dict[str, object]:
         """Return the settings for listening; with an authority, clients need a certificate signed by it."""
-        given: dict[str, Any] = {}
+        given: dict[str, object] = {}
         if self.certificate:
             given.update(
                 listen_certificate=os.path.abspath(self.certificate), listen_private_key=os.path.abspath(self.key)

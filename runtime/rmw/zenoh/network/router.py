@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from bot_console.runtime.rmw.zenoh.session import Session, SessionError
 from bot_console.runtime.rmw.zenoh.settings import ROOM_OF_A_NETWORK, SMALL_BATCH, Serving, network_link
 
 
-def router_settings(zid: str, serving: Serving) -> dict[str, Any]:
+def router_settings(zid: str, serving: Serving) -> dict[str, object]:
     """Return a router's settings as rmw_zenoh nodes expect: they discover each other through it, then link directly."""
     return {
         "mode": "router",
