@@ -132,8 +132,10 @@ WRITER = """
 import sys
 from bot_console.runtime.importer import install
 install()
+from bot_console_robot.safety import stop_file
 from bot_console_robot.safety.lock import Lock, Stop
 from bot_console_robot.safety.stop_file import StopFile
+stop_file.TURN_TIMEOUT_S = 60.0  # A busy machine may give the other writer no time for longer than a robot could wait.
 for number in range(20):
     StopFile(sys.argv[1], "/").merge(Lock((Stop(f"{sys.argv[2]}{number}", sys.argv[2], turn=1),), 1))
 """
