@@ -378,7 +378,7 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("topics.plot", "p", "plot", "Plot a field", footer=True, short="Plot"),
         Key("topics.kind", "m", "kind", "Topics, services, actions", footer=True, short="Services"),
         Key("topics.freeze", "space", "freeze", "Freeze the message, or resume it", footer=True, short="Freeze"),
-        Key("topics.qos", "Q", "qos", "The QoS with which the open topic is heard: reliability, durability, ..."),
+        Key("topics.qos", "Q", "qos", "QoS with which the open topic is heard"),
         Key("topics.stop", "x", "stop", "Stop publishing at a rate; cancel the goal"),
         Key(
             "topics.expect",

@@ -23,7 +23,7 @@ from typing import Any as _Any
 import numpy as _numpy
 from numpy.typing import NDArray as _NDArray
 
-from bot_console.runtime.rosidl.message import Message as _Message
+from bot_console.runtime.rosidl.message import Message as _Message, ServiceType as _ServiceType
 '''
 """Under names that no field can have: a field named `list` would stand for the type in its class."""
 BITS = {f"{sign}int{bits}": (sign, bits) for sign in ("", "u") for bits in (8, 16, 32, 64)}
@@ -78,7 +78,11 @@ def _module(interface: Interface, text: str) -> Iterator[str]:
 
 
 def _holder(name: str, text: str, parts: Mapping[str, str]) -> Iterator[str]:
-    yield from ("", f"class {name}:", *_documented(text or f"{name}: {', '.join(parts)}.", "    "))
+    yield from (
+        "",
+        f"class {name}(metaclass=_ServiceType):",
+        *_documented(text or f"{name}: {', '.join(parts)}.", "    "),
+    )
     yield from (f"    {part} = {name}_{suffix}" for part, suffix in parts.items())
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, cast
 
 from launch.action import Action
 
@@ -19,7 +19,7 @@ class OpaqueFunction(Action):
     def __init__(
         self,
         *,
-        function: Callable[..., list[LaunchDescriptionEntity] | None],
+        function: Callable[..., Sequence[LaunchDescriptionEntity] | None],
         args: Iterable[object] | None = None,
         kwargs: Mapping[str, object] | None = None,
         **left_over_kwargs: Condition | None,
@@ -31,4 +31,5 @@ class OpaqueFunction(Action):
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Call the function and return its entities."""
-        return self.__function(context, *self.__args, **self.__kwargs)
+        entities = self.__function(context, *self.__args, **self.__kwargs)
+        return cast("list[LaunchDescriptionEntity] | None", entities)

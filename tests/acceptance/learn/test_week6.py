@@ -474,7 +474,7 @@ def chapter_16(at: Student) -> None:
     up, prefix = at.lines("drive-with-it")
     at.reads("waiting for: pkg prefix intelligent_robot")
     two.run(up, prefix.replace("intelligent", "inteligent"))
-    at.reads("it ended with exit code 1")
+    at.reads("waiting for: pkg prefix intelligent_robot")
     two.run(prefix)
     at.does("drive-with-it")
 

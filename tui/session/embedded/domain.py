@@ -6,7 +6,6 @@ versa.
 
 from __future__ import annotations
 
-import atexit
 import os
 import sys
 from collections.abc import Mapping, Sequence
@@ -83,6 +82,7 @@ def isolate_from_domain() -> None:
 
     The program has joined its domain before.
     """
+    import atexit
     import shutil
     import tempfile
 

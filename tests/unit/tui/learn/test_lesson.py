@@ -123,7 +123,7 @@ SPEED = parameter("/robot", "speed", 1.0)
         (
             "saw-refused speed",
             seen(changes=[change("speed", 9.0)]),
-            "waiting for: a value of speed that is refused; 9.0 was accepted: to refuse",
+            "waiting for: a value of speed that is refused; 9.0 was accepted: a callback refuses it by",
         ),
         ("saw-refused speed", seen(commands=[refused("speed", "too fast")]), ""),
         ("saw-refused speed fast", seen(commands=[refused("speed", "too fast")]), ""),

@@ -181,7 +181,7 @@ def test_key_that_is_no_character_stops_in_a_text_field_too() -> None:
 
 @pytest.mark.usefixtures("with_own_key")
 def test_escape_and_own_key_that_arrive_as_one_key_stop() -> None:
-    remap({"app.stop": "Q"})
+    remap({"app.stop": "Q", "topics.qos": "f12"})
     rig = Rig()
     both = rig.press("alt+shift+q", "Q", alone=False)
     parted = [events.Key("escape", "\x1b"), events.Key("Q", "Q")]
@@ -192,7 +192,7 @@ def test_escape_and_own_key_that_arrive_as_one_key_stop() -> None:
 
 @pytest.mark.usefixtures("with_own_key")
 def test_alt_with_own_key_that_means_something_else_is_withdrawn() -> None:
-    remap({"app.stop": "Q"})
+    remap({"app.stop": "Q", "topics.qos": "f12"})
     rig = Rig()
     assert not rig.early.has_acted(rig.press("alt+shift+q", "Q", alone=False))
     assert rig.asked == [("hold", "1"), ("withdraw", "1")]
