@@ -526,7 +526,7 @@ def chapter_18(at: Student) -> None:
         at.write(f"{PACKAGE}/config/{name}_config.yaml", student_robot.CONFIG.format(speed=speed))
     wrong = student_robot.CONFIG.format(speed=1.5).replace("ros__", "ros_")
     at.write(f"{PACKAGE}/config/warehouse_config.yaml", wrong)
-    at.reads("warehouse_config.yaml:2: ros_parameters has one underscore")
+    at.reads("yaml:2: ros_parameters has one underscore")
     at.write(f"{PACKAGE}/config/warehouse_config.yaml", wrong.replace("ros_", "ros__"))
     at.does("three-environments")
 

@@ -40,7 +40,7 @@ class LessonPane(Pane):
     LessonPane { border: round $surface-lighten-2; }
     LessonPane:focus-within { border: round $primary; }
     LessonPane VerticalScroll { height: 1fr; scrollbar-size-vertical: 1; }
-    LessonPane #lesson-text { height: auto; padding: 0 1; color: $text; text-wrap: wrap; }
+    LessonPane #lesson-text { height: auto; padding: 0 1; color: $text; text-wrap: wrap; text-overflow: fold; }
     LessonPane #lesson-line { height: 2; display: none; }
     LessonPane.-short VerticalScroll { display: none; }
     LessonPane.-short #lesson-line { display: block; }
