@@ -91,6 +91,13 @@ class Output(Protocol):
     """All that it has written."""
 
 
+def last_screen(program: Output) -> str:
+    """What the screen shows after all output so far."""
+    screen = Emulator(120, 40)
+    screen.feed(program.output.decode(errors="replace"))
+    return "\n".join(screen.lines())
+
+
 def screen_of(program: Output) -> Callable[..., bool]:
     """Whether the screen shows all of some texts; its output is differences between frames, so bytes would not do."""
     screen, fed = Emulator(120, 40), 0

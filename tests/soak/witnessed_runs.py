@@ -51,7 +51,7 @@ def witnessed(group: str, ways: Sequence[str], runs: int, robot: LiveRobot) -> d
         try:
             went_on[way].append(round(GROUPS[group][way](robot), 3))
         except (AssertionError, subprocess.TimeoutExpired) as error:
-            failed.append(f"run {number}, {way}: {str(error)[:300]}")
+            failed.append(f"run {number}, {way}: {str(error)[-1500:]}")
             traceback.print_exc()
             robot.typed("release", "--all")
         print(f"{group}: {number + 1} of {runs}, {len(failed)} failed", file=sys.stderr, flush=True)

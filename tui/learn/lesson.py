@@ -50,6 +50,8 @@ class CourseLesson:
         self._steps = course.steps()
         self._at = next((n for n, each in enumerate(self._steps) if each.id == self.progress.at), 0)
         self._judge()
+        if self.is_done(self._steps[self._at]):
+            self._at = self._next_open()
 
     def observe(self, snapshot: ConsoleSnapshot, changes: Iterable[Change], screen: OnScreen) -> Sequence[str]:
         """Take in what has happened, and return the titles of the steps that this has completed.
@@ -106,10 +108,13 @@ class CourseLesson:
         if by:
             self._at = max(0, min(len(self._steps) - 1, self._at + by))
         else:
-            order = [*range(self._at + 1, len(self._steps)), *range(self._at + 1)]
-            self._at = next((each for each in order if not self.is_done(self._steps[each])), self._at)
+            self._at = self._next_open()
         self.progress.at = self._steps[self._at].id
         self.progress.save()
+
+    def _next_open(self) -> int:
+        order = [*range(self._at + 1, len(self._steps)), *range(self._at + 1)]
+        return next((each for each in order if not self.is_done(self._steps[each])), self._at)
 
     def _judge(self) -> None:
         names = {**self.course.defaults, **self.progress.names}

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 
-from emulator import screen_of
+from emulator import last_screen, screen_of
 
 from processes.live_robot import DRIVER, MOVING, RESTING, TIMEOUT_S, LiveRobot
 from processes.losses import BRAKING, CONSOLE, WATCHED, Terminal, console, is_alive
@@ -103,7 +103,7 @@ def _stop_and_release(robot: LiveRobot, person: Terminal) -> None:
     _until_rests(robot, person)
     deadline = time.monotonic() + TIMEOUT_S
     while not any(speed > MOVING for _, speed in robot.speeds(time.monotonic() - 0.5)):
-        assert time.monotonic() < deadline, f"it is not released: {person.output[-800:]!r}"
+        assert time.monotonic() < deadline, f"it does not drive again:\n{last_screen(person)}"
         if shows("! releases"):
             person.type("!")
         wait(person, WATCHED)

@@ -259,6 +259,16 @@ def test_steps_may_be_done_in_any_order(tmp_path: Path) -> None:
     assert (held.view().title, held.view().done) == ("A", 1)
 
 
+def test_course_is_resumed_at_a_step_that_is_open(tmp_path: Path) -> None:
+    held = lesson(tmp_path, TWO)
+    held.go(1)
+    held.observe(snapshot(), [change("speed", 2.0)], OnScreen())
+    assert lesson(tmp_path, TWO).view().title == "B"
+    held.go(-1)
+    (tmp_path / "a.txt").touch()
+    assert lesson(tmp_path, TWO).view().title == "B"
+
+
 def test_deeds_are_kept_in_the_workspace(tmp_path: Path) -> None:
     lesson(tmp_path, TWO).observe(snapshot(parameter("/b", "x", 1)), [change("speed", 2.0)], OnScreen())
     assert [held for held, _ in lesson(tmp_path, TWO).view().waits] == [True, False]
