@@ -31,7 +31,9 @@ from rclpy.node import Node
 from rclpy.qos import qos_profile_parameter_events
 
 RELIST = 5.0
-"""Seconds between checks for undeclared parameters, which no event reports."""
+"""Seconds between checks for what no event has reported: undeclared parameters, and the values of a node that was
+restarted so quickly that it was never missed, and whose first event was sent before anybody could receive it.
+"""
 
 Reading = Callable[[str], Coroutine[Any, Any, None]]
 """Queries a node."""
@@ -156,8 +158,9 @@ class ParameterMirror:
         request = DescribeParameters.Request(names=list(names))
         described = await self._calls.ask(DescribeParameters, f"{node}/describe_parameters", request)
         values = await self._values(node, names)
+        before = None if node in self._left else self.trees.get(node)  # A restarted node has a new start value.
         return [
-            self._provenance.applied(info(node, value, descriptor, self.get(node, descriptor.name)))
+            self._provenance.applied(info(node, value, descriptor, before.get(descriptor.name) if before else None))
             for descriptor, value in zip(described.descriptors, values, strict=False)
         ]
 
@@ -190,7 +193,8 @@ class ParameterMirror:
             self._queue(self._relist, node)
 
     async def _relist(self, node: str) -> None:
-        """Read a node again when its list of names has changed, or when it could not be read before."""
+        """Read a node again when its names or values are others than reported, or when it could not be read before."""
+        differs = False
         try:
             listed = await self._calls.ask(ListParameters, f"{node}/list_parameters", ListParameters.Request())
             tree = self.trees.get(node)
@@ -199,12 +203,35 @@ class ParameterMirror:
                 or bool(tree.problem)
                 or {each.name for each in tree.parameters} != set(listed.result.names)
             )
+            differs = not stale and await self._differs(node, list(listed.result.names))
         except NoAnswer as error:
             stale = False
             if node in self.trees and not self.trees[node].problem:
                 self._publish({**self.trees, node: replace(self.trees[node], problem=str(error))})
-        if stale and node in self.trees:
+        before = self.trees.get(node)
+        if before is not None and (stale or differs):
+            if differs:
+                self._left[node] = before
             await self._read(node)
+
+    async def _differs(self, node: str, names: Sequence[str]) -> bool:
+        """Whether a node has other values than were reported, twice the same: an event may still be on its way."""
+        wrong: dict[str, Value] | None = None
+        for _ in range(2):
+            tree = self.trees.get(node)
+            if not names or tree is None or any(each.value is None for each in tree.parameters):
+                return False  # Uninitialised parameters would have to be read one by one.
+            values = await self._values(node, names)
+            known = {each.name: each.value for each in self.trees.get(node, tree).parameters}
+            read = {name: from_message(value) for name, value in zip(names, values, strict=False)}
+            wrong = {
+                name: value
+                for name, value in read.items()
+                if not same(value, known.get(name)) and (wrong is None or same(value, wrong.get(name)))
+            }
+            if not wrong:
+                return False
+        return True
 
     def _on_event(self, event: ParameterEvent) -> None:
         tree = self.trees.get(event.node)

@@ -121,7 +121,8 @@ def test_a_silent_node_does_not_affect_values_of_others(names):
         node.poll_again()
         await finished(asked)
         assert not any(tree.problem for tree in mirror.trees.values())
-        assert {asked.times[name] for name in names[1::5]} == {1}  # only asked whether the names are still the same
+        # The others are asked only whether names and values are still the same.
+        assert {asked.times[name] for name in names[1::5]} == {2}
 
     asyncio.run(scenario())
 
@@ -152,7 +153,7 @@ def test_a_node_that_leaves_while_waiting_is_not_queried(names):
     asyncio.run(scenario())
 
 
-@pytest.mark.parametrize("seen", [True, False], ids=["seen gone", "too quick to be seen gone"])
+@pytest.mark.parametrize("seen", ["gone", "by its event", "by its value alone"])
 def test_the_value_after_a_restart_is_the_start_value_set_by_nobody(seen):
     async def scenario():
         asked, node, changed, on_restart = Asked(), StubNode(), [], []
@@ -168,9 +169,11 @@ def test_the_value_after_a_restart_is_the_start_value_set_by_nobody(seen):
         node.event(ParameterEvent(node="/n", changed_parameters=[speed(4.0)]))
         assert mirror.get("/n", "speed").origin.startswith("set here")
         asked.value, asked.description = 2.5, "in m/s"
-        if seen:
+        if seen == "gone":
             mirror.follow(graph_of([]))
             mirror.follow(graph_of(["/n"]))
+        elif seen == "by its value alone":
+            node.poll_again()
         else:
             node.event(ParameterEvent(node="/n", new_parameters=[speed(2.5)]))
         await finished(asked)
