@@ -35,12 +35,11 @@ class _Origin(NamedTuple):
     pid: int
 
 
-class _Found:
+class _Found(NamedTuple):
     """A process that was found."""
 
-    def __init__(self, origin: _Origin, usage: Usage | None) -> None:
-        self.origin = origin
-        self.usage = usage
+    origin: _Origin
+    usage: Usage | None
 
 
 class Elsewhere:
@@ -157,8 +156,8 @@ def _title(words: Sequence[str]) -> str:
             rest = rest[1:]
         if rest[0] == "-m" and len(rest) > 1:
             rest = [PYTHON_MODULES.get(rest[1], rest[1]), *rest[2:]]
-    text = " ".join(os.path.basename(each) if os.path.isabs(each) else each for each in [os.path.basename(rest[0]),
-                                                                                          *rest[1:]])  # fmt: skip
+    arguments = (os.path.basename(each) if os.path.isabs(each) else each for each in rest[1:])
+    text = " ".join((os.path.basename(rest[0]), *arguments))
     return text if len(text) <= MAX_TITLE else f"{text[: MAX_TITLE - 1]}…"
 
 

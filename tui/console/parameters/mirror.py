@@ -31,8 +31,8 @@ from rclpy.node import Node
 from rclpy.qos import qos_profile_parameter_events
 
 RELIST = 5.0
-"""Seconds between checks for what no event has reported: undeclared parameters, and the values of a node that was
-restarted so quickly that it was never missed, and whose first event was sent before anybody could receive it.
+"""Seconds between checks for what no event has reported: undeclared parameters, and the values of a node that
+restarted before its absence was noticed and whose first event was lost.
 """
 
 Reading = Callable[[str], Coroutine[Any, Any, None]]
@@ -193,7 +193,7 @@ class ParameterMirror:
             self._queue(self._relist, node)
 
     async def _relist(self, node: str) -> None:
-        """Read a node again when its names or values are others than reported, or when it could not be read before."""
+        """Read a node again when its names or values differ from those reported, or when it could not be read."""
         differs = False
         try:
             listed = await self._calls.ask(ListParameters, f"{node}/list_parameters", ListParameters.Request())
@@ -215,7 +215,7 @@ class ParameterMirror:
             await self._read(node)
 
     async def _differs(self, node: str, names: Sequence[str]) -> bool:
-        """Whether a node has other values than were reported, twice the same: an event may still be on its way."""
+        """Whether two readings agree on a value that was not reported; after one, an event may still be on its way."""
         wrong: dict[str, Value] | None = None
         for _ in range(2):
             tree = self.trees.get(node)
