@@ -6,18 +6,18 @@ import itertools
 import os
 import shutil
 import signal
-import socket
 import sys
 import tempfile
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from weakref import WeakKeyDictionary
 
 import pytest
 from bot_console.runtime.importer import install
 from bot_console.tui.session.machine.console_needs import provide_missing
 from hypothesis import settings
 from hypothesis.internal.conjecture import providers
+
+pytest_plugins = ["second_tries"]
 
 TESTS = Path(__file__).absolute().parent
 
@@ -108,17 +108,6 @@ def pytest_configure(config: pytest.Config) -> None:
         config.args = [str(each) for each in (*files[first:], *files[:first])]
 
 
-def pytest_sessionstart(session: pytest.Session) -> None:
-    """Each test's count of its tries goes over a socket at once.
-
-    pytest-rerunfailures writes a line that has no answer and then a question: TCP would hold the question back until
-    the line is acknowledged, for 40 ms at each short test.
-    """
-    link = getattr(getattr(session.config, "failures_db", None), "sock", None)
-    if link is not None:  # there is none without workers
-        link.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-
-
 def pytest_collection_finish() -> None:
     """What was imported and collected stays: to look it through took a quarter of the time of a screen's test."""
     gc.collect()
@@ -149,18 +138,13 @@ COMPUTING = ("pilot", "project", "property", "snapshot")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """One order, however they were read; and each test is tried twice.
+    """One order, however they were read.
 
     Files that wait and files that compute alternate: workers that all wait at the same time leave processors idle, and
     many programs that start at the same time delay each other.
-
-    On a busy machine a part of what a test waits for may come too late. The summary counts what needed its second try
-    (`rerun`) and shows what failed in the first; a fault fails both.
     """
     turns = _turns(sorted({each.path for each in items}))
     items.sort(key=lambda each: turns[each.path])
-    for item in items:
-        item.add_marker(pytest.mark.flaky(reruns=1))
 
 
 def _turns(files: Sequence[Path]) -> dict[Path, tuple[float, Path]]:
@@ -171,35 +155,3 @@ def _turns(files: Sequence[Path]) -> dict[Path, tuple[float, Path]]:
         those = [each for each in files if folders[each] in kind]
         turns |= {each: (index / len(those), each) for index, each in enumerate(those)}
     return turns
-
-
-@pytest.hookimpl(wrapper=True)
-def pytest_fixture_setup(
-    fixturedef: pytest.FixtureDef[object], request: pytest.FixtureRequest
-) -> Generator[None, object, object]:
-    """Notes which fixtures of the module are in use, for a second try."""
-    if fixturedef.scope == "module":
-        _module_fixtures[fixturedef] = request
-    return (yield)
-
-
-_module_fixtures: WeakKeyDictionary[pytest.FixtureDef[object], pytest.FixtureRequest] = WeakKeyDictionary()
-
-
-@pytest.hookimpl(tryfirst=True)
-def pytest_runtest_setup(item: pytest.Item) -> None:
-    """A second try gets new fixtures of its module: it would fail again with a system that the first has broken."""
-    if getattr(item, "execution_count", 1) > 1:
-        for fixture, request in tuple(_module_fixtures.items()):
-            if request.path == item.path:
-                fixture.finish(request)
-
-
-def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """A first try that failed is shown though the second passed: a fault that is rare would never be seen else."""
-    for report in terminalreporter.getreports("rerun"):
-        terminalreporter.write_sep("_", f"first try of {report.nodeid}")
-        terminalreporter.write_line(report.longreprtext)
-        for name, text in report.sections:
-            terminalreporter.write_sep("-", name)
-            terminalreporter.write_line(text)

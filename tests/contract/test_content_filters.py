@@ -8,10 +8,11 @@ from typing import Any
 
 import pytest
 import rclpy
+from domains import unused_domain
 from geometry_msgs.msg import Twist, Vector3
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.node import Node
-from rigs import is_embedded_rclpy, next_domain
+from rigs import is_embedded_rclpy
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool, Float64, Int32, String
 
@@ -89,7 +90,7 @@ REFUSED: list[tuple[Any, str, list[str]]] = [
 
 @pytest.fixture(scope="module")
 def node() -> Iterator[Node]:
-    rclpy.init(domain_id=next_domain())
+    rclpy.init(domain_id=unused_domain())
     yield rclpy.create_node("filtering")
     rclpy.shutdown()
 

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.workspace.exporting import NAME, export
-from rigs import is_embedded_rclpy, next_domain
+from domains import unused_domain
+from rigs import is_embedded_rclpy
 
 pytestmark = [
     pytest.mark.ros,
@@ -149,7 +150,7 @@ def test_each_node_runs_with_the_profile_and_a_stop_holds_until_it_is_released(
         [sys.executable, "-c", DRIVEN, str(config), "robot", *nodes],
         env={**os.environ, "PYTHONPATH": str(installed / "lib"), "AMENT_PREFIX_PATH": prefixes,
              "BOT_CONSOLE_STOP_FILE": str(tmp_path / "stops.json"), "ROS_LOG_DIR": str(tmp_path),
-             "ROS_DOMAIN_ID": str(next_domain())},
+             "ROS_DOMAIN_ID": str(unused_domain())},
         capture_output=True, text=True, check=False,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr[-3000:]

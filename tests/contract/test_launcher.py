@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
+from domains import unused_domain
 from launcher_bench import TIMEOUT_S
-from rigs import next_domain
 from scenes.launcher_rigs import DECLARED, AttachedRig, FakeRig, HostedRig, LauncherRig, MachineRig, RosRig
 
 WAYS = [
@@ -24,7 +24,7 @@ WAYS = [
 @pytest.fixture(params=WAYS)
 def rig(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[LauncherRig]:
     """A launcher with one launch file."""
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(next_domain()))
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
     made = request.param(tmp_path)
     yield made

@@ -14,9 +14,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from domains import unused_domain
 from helpers.recorded.cases import GIVEN, NOT_GIVEN, RECORDINGS, recorded_areas
 from helpers.recorded.releases import LIVE, PYPI_TYPES, absent_types, as_recorded
-from rigs import is_embedded_rclpy, next_domain
+from rigs import is_embedded_rclpy
 
 pytestmark = [
     pytest.mark.ros,
@@ -46,7 +47,7 @@ def differing(folder: Path, *which: str) -> dict[str, Any]:
 def test_area_is_replayed_as_recorded(
     area: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest
 ) -> None:
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(next_domain()))
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     known = json.loads((LIVE / f"{DISTRO}.json").read_text("utf-8"))
     found = differing(tmp_path, area)
     doubtful = [case for case in found if case not in known and not absent_types(found[case])]

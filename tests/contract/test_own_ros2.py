@@ -9,7 +9,8 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.session.machine.ros2_command_line import MachineCommandLine, printed_by
-from rigs import is_embedded_rclpy, next_domain, until
+from domains import unused_domain
+from rigs import is_embedded_rclpy, until
 
 pytestmark = [
     pytest.mark.ros,
@@ -52,7 +53,7 @@ def peer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """A node in another process, on a machine whose PATH has no `ros2`."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("PATH", str(Path(sys.executable).parent))
-        patch.setenv("ROS_DOMAIN_ID", str(next_domain()))
+        patch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
         with subprocess.Popen([sys.executable, "-c", PEER], stdout=subprocess.PIPE) as process:
             assert process.stdout is not None and process.stdout.readline() == b"ready\n"
             yield

@@ -11,8 +11,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from domains import unused_domain
 from helpers.recorded.programs import differing, names, outcome, recorded
-from rigs import is_embedded_rclpy, next_domain
+from rigs import is_embedded_rclpy
 
 EACH_RUN = 20
 """Of so many programs one is in the default run, the others run with `-m soak`."""
@@ -27,7 +28,7 @@ def programs(mark: pytest.MarkDecorator) -> list[object]:
 @pytest.mark.skipif(not is_embedded_rclpy(), reason="about our rclpy")
 @pytest.mark.parametrize("name", programs(pytest.mark.soak))
 def test_program_ends_as_on_the_real_rclpy(name: str) -> None:
-    ours, real = outcome(OURS, name, next_domain()), recorded()[name]
+    ours, real = outcome(OURS, name, unused_domain()), recorded()[name]
     if name in differing():
         assert ours != real, f"{name} no longer differs: remove it from programs.yaml"
     else:
@@ -39,7 +40,7 @@ def test_program_ends_as_on_the_real_rclpy(name: str) -> None:
 @pytest.mark.skipif(os.environ.get("BOT_CONSOLE_TESTS_DISTRO", "jazzy") != "jazzy", reason="recorded on Jazzy")
 @pytest.mark.parametrize("name", names())
 def test_program_ends_as_recorded(name: str) -> None:
-    assert outcome([sys.executable], name, next_domain()) == recorded()[name]
+    assert outcome([sys.executable], name, unused_domain()) == recorded()[name]
 
 
 def test_every_program_is_recorded_and_every_difference_has_a_reason() -> None:

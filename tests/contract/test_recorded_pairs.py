@@ -14,8 +14,9 @@ from typing import Any
 
 import pytest
 from bot_console.tui.console.robot import robot_drive
+from domains import unused_domain
 from rclpy.parameter import Parameter
-from rigs import Rig, RosRig, machine_rig, mesh_rig, network_rig, next_domain
+from rigs import Rig, RosRig, machine_rig, mesh_rig, network_rig
 from scenes.launcher_rigs import HostedRig, LauncherRig, MachineRig
 from scenes.scene import play, play_launch
 
@@ -34,7 +35,7 @@ LAUNCHERS = [
 
 @pytest.fixture
 def rig(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(next_domain()))
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
     if request.param is RosRig:
         monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)

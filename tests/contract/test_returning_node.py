@@ -13,7 +13,8 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
-from rigs import is_embedded_rclpy, next_domain
+from domains import unused_domain
+from rigs import is_embedded_rclpy
 
 pytestmark = [
     pytest.mark.ros,
@@ -73,7 +74,7 @@ def test_killed_node_leaves_and_returns_when_it_is_restarted(tmp_path: Path) -> 
     settings = {
         **os.environ,
         **dict.fromkeys(("FASTRTPS_DEFAULT_PROFILES_FILE", "FASTDDS_DEFAULT_PROFILES_FILE"), str(profiles)),
-        "ROS_DOMAIN_ID": str(next_domain()),
+        "ROS_DOMAIN_ID": str(unused_domain()),
     }
     with running(CONSOLE, settings) as console:
         with running(NODE, settings):

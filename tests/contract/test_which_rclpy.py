@@ -12,7 +12,8 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.cli.verbs import setup
-from rigs import is_embedded_rclpy, next_domain
+from domains import unused_domain
+from rigs import is_embedded_rclpy
 
 pytestmark = [
     pytest.mark.ros,
@@ -36,7 +37,7 @@ def shell(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
     home = tmp_path_factory.mktemp("home")
     path = os.pathsep.join([str(Path(sys.executable).parent), os.defpath])
     env = {"PATH": path, "HOME": str(home), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
-    env["ROS_DOMAIN_ID"] = str(next_domain())
+    env["ROS_DOMAIN_ID"] = str(unused_domain())
     done = subprocess.run(
         ["bash", "--norc", "-c", f"{setup.evaluation('bash')}\nenv -0"],
         env=env, stdout=subprocess.PIPE, text=True, check=True, timeout=TIMEOUT_S,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -10,13 +9,12 @@ from contextlib import contextmanager
 import pytest
 from bot_console.tui.console.robot import robot_drive
 from bot_console_robot.safety.emergency_stop import ARBITER, BASE, EmergencyStop
+from domains import unused_domain
 from rclpy.clock import Clock, ClockType
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rigs import TIMEOUT_S
-
-_domains = itertools.count(8600)
 
 
 class Base:
@@ -45,7 +43,7 @@ class Base:
 @contextmanager
 def served_base(monkeypatch: pytest.MonkeyPatch) -> Iterator[Base]:
     """A base, in a domain that consoles made meanwhile join."""
-    domain = next(_domains)
+    domain = unused_domain()
     monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
     monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)
     made = Base(domain)

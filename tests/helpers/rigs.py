@@ -8,12 +8,10 @@ from __future__ import annotations
 
 import contextlib
 import inspect
-import itertools
-import os
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
 
@@ -44,6 +42,7 @@ from bot_console.tui.console.model import (
 )
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.console.ros_console import RosConsole
+from domains import unused_domain
 from fakes.console import FakeConsole
 from geometry_msgs.msg import Twist
 from processes.certificates import make_certificates
@@ -74,25 +73,6 @@ PROFILES: dict[str, tuple[str, dict[str, dict[str, Value]] | None]] = {
 }
 
 T = TypeVar("T")
-
-
-DOMAINS_PER_WORKER = 27
-"""For the three workers of `.ci/on_rclpy`, domains 20 to 100; DDS allows 101 on every system."""
-
-
-def _domains() -> Iterator[int]:
-    worker = int(os.environ.get("PYTEST_XDIST_WORKER", "gw0").removeprefix("gw"))
-    first = 20 + worker % 3 * DOMAINS_PER_WORKER
-    return itertools.cycle(range(first, first + DOMAINS_PER_WORKER))
-
-
-_free_domains = _domains()
-
-
-def next_domain() -> int:
-    """A ROS domain that is not in use: neither by the tests before this one, nor by those of other workers."""
-    return next(_free_domains)
-
 
 Sides = Callable[[str], None]
 """Called before the robot and before the console is connected: chooses how it connects."""
@@ -235,7 +215,7 @@ class RosRig:
 
     def __init__(self, folder: Path, sides: Sides = IN_ONE, **options: Any) -> None:
         """`options` are those of the console."""
-        self.domain = domain = next_domain()
+        self.domain = domain = unused_domain()
         sides("robot")
         self.received: list[tuple[float, float]] = []
         self._speed_rule = ""

@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+from domains import unused_domain
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
-
-_domains = itertools.count(500_000)
 
 
 @contextmanager
 def serving() -> Iterator[tuple[Any, SingleThreadedExecutor]]:
     """A node and the executor that serves it."""
     context = Context()
-    context.init([], domain_id=next(_domains))
+    context.init([], domain_id=unused_domain())
     executor = SingleThreadedExecutor(context=context)
     node = Node("n", context=context, enable_rosout=False, start_parameter_services=False)
     executor.add_node(node)

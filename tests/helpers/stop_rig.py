@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable
 
 from bot_console.tui.console.robot.stop_link import STATUS, StopLink
 from bot_console_robot.safety.emergency_stop import ARBITER, BASE, LATCHED, REPORT_POLLS, EmergencyStop
 from diagnostic_msgs.msg import DiagnosticStatus
+from domains import unused_domain
 from rclpy.clock import Clock, ClockType
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
-_domains = itertools.count(3300)
 LOCKS = {"safety_monitor": (ARBITER, BASE), "simulator": (BASE, ARBITER)}
 """The nodes that hold a lock, with their own topic and that of the other."""
 REQUEST = "emergency_stop/request"
@@ -26,7 +25,7 @@ class StopRig:
         """`stop_file` is the parameter of all locks."""
         self.stop_file = stop_file
         self.context = Context()
-        self.context.init(["test"], domain_id=next(_domains))
+        self.context.init(["test"], domain_id=unused_domain())
         self.executor = SingleThreadedExecutor(context=self.context)
         self.nodes: dict[str, Node] = {}
         self.locks: dict[str, EmergencyStop] = {}

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.console.model import ProcessState
+from domains import unused_domain
 from launcher_bench import ENDS, WAITS, Bench
 
 pytestmark = [pytest.mark.soak, pytest.mark.timeout(600)]
@@ -26,13 +27,12 @@ KEPT = {
     "builtins.list": "handlers and filters of those",
     "bot_console.tui.console.model.LaunchEvent": "the timeline is not full yet",
 }
-_domains = itertools.count(9000)
 
 
 @pytest.fixture
 def bench(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
     """A launcher."""
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(next(_domains)))
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
     made = Bench(tmp_path)
     yield made

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import gc
-import itertools
 import random
 import threading
 import time
@@ -13,6 +12,7 @@ from contextlib import contextmanager, suppress
 from typing import Any
 
 import pytest
+from domains import unused_domain
 from example_interfaces.srv import AddTwoInts
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 from rclpy.context import Context
@@ -29,14 +29,13 @@ MINUTE = 60.0
 BACKLOG = 2_000
 """How many messages may wait before the senders of the stress test pause."""
 KEEP_ALL = QoSProfile(history=HistoryPolicy.KEEP_ALL)
-_domains = itertools.count(900_000)
 
 
 @contextmanager
 def context() -> Iterator[Context]:
     """A context in a separate domain."""
     made = Context()
-    made.init([], domain_id=next(_domains))
+    made.init([], domain_id=unused_domain())
     yield made
     made.try_shutdown()
 

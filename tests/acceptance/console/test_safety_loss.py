@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.console.ros_console import RosConsole
+from domains import unused_domain
 from launcher_bench import TIMEOUT_S, Bench
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -16,7 +17,7 @@ ROOT = Path(__file__).resolve().parents[3]
 def test_robot_is_not_driven_until_its_safety_monitor_is_back_and_released(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv("ROS_DOMAIN_ID", "9700")
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
     bench = Bench(tmp_path)
     console = RosConsole(launch_info=bench.launcher.info)

@@ -18,6 +18,7 @@ from bot_console_robot.sensor_node import SensorHandler
 from bot_console_robot.simulator_node import Simulator
 from bot_console_robot.telemetry_node import TelemetryPublisher
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from domains import unused_domain
 from geometry_msgs.msg import PoseStamped, Twist
 from nav_msgs.msg import Odometry, Path
 from rosgraph_msgs.msg import Clock
@@ -30,7 +31,7 @@ FLOATS = tuple(each for each in NUMBERS if not math.isfinite(each) or abs(each) 
 
 @pytest.fixture(autouse=True)
 def ros() -> Iterator[None]:
-    rclpy.init(domain_id=4801)
+    rclpy.init(domain_id=unused_domain())
     yield
     rclpy.try_shutdown()
 

@@ -1,6 +1,5 @@
 """Types, ranges and events of parameters, for arbitrary values."""
 
-import itertools
 import math
 from array import array
 from collections.abc import Iterator
@@ -8,6 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
+from domains import unused_domain
 from hypothesis import given
 from hypothesis import strategies as st
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, ParameterEvent
@@ -109,13 +109,10 @@ def test_no_range_accepts_values_that_are_not_finite(one: float, other: float, s
     assert not allowed(value, doubles(one, other, step))
 
 
-_domains = itertools.count(3000)
-
-
 @pytest.fixture(scope="module")
 def context() -> Iterator[Context]:
     made = Context()
-    made.init(["test"], domain_id=next(_domains))
+    made.init(["test"], domain_id=unused_domain())
     yield made
     made.try_shutdown()
 

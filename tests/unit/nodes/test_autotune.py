@@ -11,6 +11,7 @@ from bot_console_robot.common.diagnostics import OK, status
 from bot_console_robot.common.parameters import number
 from bot_console_robot.common.running import CannotStart
 from diagnostic_msgs.msg import DiagnosticArray
+from domains import unused_domain
 from nav_msgs.msg import Odometry
 from rclpy.clock import Clock, ClockType
 from rclpy.executors import SingleThreadedExecutor
@@ -67,7 +68,7 @@ class Bench:
 
 @pytest.fixture
 def clock(monkeypatch: pytest.MonkeyPatch) -> Iterator[object]:
-    monkeypatch.setenv("ROS_DOMAIN_ID", "8391")
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     with stepped(virtual_main=True) as made:
         rclpy.init(args=[])
         yield made

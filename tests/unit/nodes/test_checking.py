@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import pytest
 import rclpy
 from bot_console_robot.safety_node import SafetyMonitor
+from domains import unused_domain
 from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
@@ -16,7 +17,7 @@ TIMEOUT_S = 60.0
 
 @pytest.fixture
 def monitor(monkeypatch: pytest.MonkeyPatch) -> Iterator[SafetyMonitor]:
-    monkeypatch.setenv("ROS_DOMAIN_ID", "8290")
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     rclpy.init(args=[])
     yield SafetyMonitor()
     rclpy.shutdown()

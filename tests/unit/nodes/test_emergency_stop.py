@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 
 import pytest
 from bot_console.runtime.rmw.local import LocalBus
 from bot_console_robot.safety.emergency_stop import ARBITER, BASE, GONE, EmergencyStop
+from domains import unused_domain
 from rclpy.clock import Clock, ClockType
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
-
-_domains = itertools.count(3500)
 
 
 class Rig:
@@ -21,7 +19,7 @@ class Rig:
 
     def __init__(self) -> None:
         self.context = Context()
-        self.context.init(["test"], domain_id=next(_domains))
+        self.context.init(["test"], domain_id=unused_domain())
         self.executor = SingleThreadedExecutor(context=self.context)
         self.monitor = self.node("safety_monitor")
         self.stops = [self.stop(self.node("simulator"), BASE, ARBITER), self.stop(self.monitor, ARBITER, BASE)]

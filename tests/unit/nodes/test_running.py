@@ -8,13 +8,14 @@ from collections.abc import Iterator
 import pytest
 import rclpy
 from bot_console_robot.common.running import CannotStart, run
+from domains import unused_domain
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.node import Node
 
 
 @pytest.fixture(autouse=True)
 def domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    monkeypatch.setenv("ROS_DOMAIN_ID", "7902")
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     before = signal.getsignal(signal.SIGINT)
     yield
     signal.signal(signal.SIGINT, before)

@@ -1,6 +1,5 @@
 """Scans of a real LIDAR, whose driver offers best effort, reach every node that subscribes to them."""
 
-import itertools
 from collections.abc import Callable, Iterator
 
 import pytest
@@ -10,15 +9,14 @@ from bot_console_robot.robot_node import RobotNavigator
 from bot_console_robot.safety_node import SafetyMonitor
 from bot_console_robot.sensor_node import SensorHandler
 from bot_console_robot.telemetry_node import TelemetryPublisher
+from domains import unused_domain
 from rclpy.node import Node
 from rclpy.qos import QoSCompatibility, qos_check_compatible, qos_profile_sensor_data, qos_profile_system_default
-
-_domains = itertools.count(3700)
 
 
 @pytest.fixture(autouse=True)
 def ros() -> Iterator[None]:
-    rclpy.init(args=["test"], domain_id=next(_domains))
+    rclpy.init(args=["test"], domain_id=unused_domain())
     yield
     rclpy.try_shutdown()
 

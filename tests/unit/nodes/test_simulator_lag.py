@@ -8,12 +8,13 @@ from typing import Any
 import pytest
 import rclpy
 from bot_console_robot.simulator_node import QUIET_NS, Simulator
+from domains import unused_domain
 
 SECOND = 1_000_000_000
 
 
 def test_lag_is_reported_once_and_again_after_a_quiet_period(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("ROS_DOMAIN_ID", "7901")
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     rclpy.init()
     try:
         node: Any = Simulator()

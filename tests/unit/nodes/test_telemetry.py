@@ -7,6 +7,7 @@ from array import array
 import pytest
 import rclpy
 from bot_console_robot.telemetry_node import TelemetryPublisher
+from domains import unused_domain
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Float64
 
@@ -18,7 +19,7 @@ def scan(*ranges: float) -> LaserScan:
 def test_nearest_obstacle_is_that_of_the_newest_scan(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setenv("ROS_DOMAIN_ID", "7902")
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     rclpy.init()
     try:
         node, reported = TelemetryPublisher(), list[float]()

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import itertools
 import time
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import pytest
 from bot_console.runtime.process.stepping.stepped_time import stepped
+from domains import unused_domain
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -16,14 +16,12 @@ from rclpy.node import Node
 LONG = 60.0
 """How long (s) a test waits for an expected event before it fails."""
 
-_domains = itertools.count(1000)
-
 
 class Ros:
     """Nodes of one domain, served by the test."""
 
     def __init__(self) -> None:
-        self.domain = next(_domains)
+        self.domain = unused_domain()
         self.context: Any = None
         self._executor: Any = None
 

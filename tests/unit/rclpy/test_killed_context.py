@@ -1,24 +1,22 @@
 """A killed process may run a little longer: what it still creates never appears in the graph."""
 
 import gc
-import itertools
 import weakref
 
 import pytest
 from bot_console.runtime.process import NodeProcess
 from bot_console.runtime.process.current import running_as
 from bot_console.runtime.rmw.local import local_bus
+from domains import unused_domain
 from rclpy.context import Context
 from rclpy.node import Node
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
-_domains = itertools.count(9500)
-
 
 @pytest.fixture
 def domain():
-    return next(_domains)
+    return unused_domain()
 
 
 @pytest.fixture

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-import itertools
 import time
 from collections.abc import Callable, Iterator
 
 import pytest
+from domains import unused_domain
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
-
-_domains = itertools.count(7000)
 
 
 @pytest.fixture
 def node() -> Iterator[Node]:
     context = Context()
-    context.init([], domain_id=next(_domains))
+    context.init([], domain_id=unused_domain())
     made = Node("frames", context=context)
     yield made
     made.destroy_node()

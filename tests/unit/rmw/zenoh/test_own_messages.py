@@ -3,6 +3,7 @@
 import time
 
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
+from domains import unused_domain
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -15,7 +16,7 @@ LATCHED = QoSProfile(depth=5, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 def test_late_subscription_gets_latched_message_of_its_own_process_once():
     share_domains()
     context = Context()
-    context.init([], domain_id=37)
+    context.init([], domain_id=unused_domain())
     node = Node("both", context=context)
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(node)

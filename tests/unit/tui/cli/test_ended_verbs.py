@@ -10,6 +10,7 @@ from bot_console.runtime.programs.exit_messages import run_and_report
 from bot_console.tui.cli.main import main
 from bot_console.tui.cli.verbs import background
 from bot_console.tui.session import reached_stop
+from domains import unused_domain
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from ros2cli.direct_node import DirectNode
@@ -28,7 +29,7 @@ def interrupted(*_: object) -> None:
 
 @pytest.fixture(autouse=True)
 def domain(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("ROS_DOMAIN_ID", "47")
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
 
 
 @pytest.mark.parametrize(("end", "code"), [(terminated, 143), (interrupted, 130)])

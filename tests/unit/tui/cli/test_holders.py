@@ -6,6 +6,7 @@ import pytest
 from bot_console.tui.cli.verbs import background, stop
 from bot_console.tui.console.robot.stop_link import FOLDER, LATCHED
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from domains import unused_domain
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.publisher import Publisher
@@ -14,9 +15,10 @@ from rclpy.publisher import Publisher
 @pytest.fixture
 def word(monkeypatch: pytest.MonkeyPatch) -> Iterator[Publisher]:
     """The publisher of a robot's emergency stop, which has published nothing yet."""
-    monkeypatch.setenv("ROS_DOMAIN_ID", "48")
+    number = unused_domain()
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
     context = Context()
-    context.init([], domain_id=48)
+    context.init([], domain_id=number)
     node = Node("monitor", context=context)
     yield node.create_publisher(DiagnosticStatus, f"{FOLDER}monitor", LATCHED)
     node.destroy_node()
@@ -38,5 +40,5 @@ def test_status_reports_robot_that_does_not_answer(
 
 
 def test_nobody_holds_a_robot_that_does_not_exist(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("ROS_DOMAIN_ID", "49")
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     assert stop.holders(to_find=0.0) == []

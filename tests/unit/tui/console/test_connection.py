@@ -2,23 +2,20 @@
 pending.
 """
 
-import itertools
-
 import pytest
 import rclpy
 from bot_console.tui.console.graph.watch import GraphWatch
 from bot_console.tui.console.robot import robot_drive
 from bot_console.tui.console.ros_console import RosConsole
+from domains import unused_domain
 from rclpy.context import Context
 from rigs import TIMEOUT_S, until
 from std_srvs.srv import Trigger
 
-_domains = itertools.count(8000)
-
 
 @pytest.fixture
 def domain(monkeypatch):
-    number = next(_domains)
+    number = unused_domain()
     monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
     monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)
     return number

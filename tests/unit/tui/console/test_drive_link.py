@@ -1,6 +1,5 @@
 """Velocity commands of the console, and what it sees of their way to the robot."""
 
-import itertools
 import math
 
 import pytest
@@ -9,6 +8,7 @@ from bot_console.tui.console.robot import drive_link
 from bot_console.tui.console.robot.drive_link import NO_ARBITER, NO_COMMAND, DriveLink
 from bot_console.tui.console.robot.robot_model import Pose, WorldInfo
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from domains import unused_domain
 from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
@@ -16,7 +16,6 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
 LATCHED = DurabilityPolicy.TRANSIENT_LOCAL
-_domains = itertools.count(3000)
 TWIST = "geometry_msgs/msg/Twist"
 
 
@@ -37,7 +36,7 @@ class Bench:
     def __init__(self, *topics: str, arbiter: bool = False) -> None:
         context = self.context = Context()
         _made.append(self)
-        context.init(["test"], domain_id=next(_domains))
+        context.init(["test"], domain_id=unused_domain())
         self.console, self.robot = Node("console", context=context), Node("robot", context=context)
         self.executor = SingleThreadedExecutor(context=context)
         for each in (self.console, self.robot):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import threading
 from collections.abc import Iterator
 
@@ -11,19 +10,18 @@ from bot_console.tui.console.graph.watch import GraphWatch
 from bot_console.tui.console.robot import robot_drive
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console_robot.safety.emergency_stop import ARBITER, BASE, EmergencyStop
+from domains import unused_domain
 from rclpy.clock import Clock, ClockType
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rigs import TIMEOUT_S, until
 
-_domains = itertools.count(8200)
-
 
 @pytest.fixture
 def console(monkeypatch: pytest.MonkeyPatch) -> Iterator[RosConsole]:
     """Connected to a base with a lock."""
-    domain = next(_domains)
+    domain = unused_domain()
     monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
     monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)
     context = Context()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 
 import pytest
@@ -10,12 +9,11 @@ from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.robot.drive_link import DriveLink
 from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
 from bot_console_robot.safety.emergency_stop import BASE, EmergencyStop
+from domains import unused_domain
 from rclpy.clock import Clock, ClockType
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
-
-_domains = itertools.count(3300)
 
 
 class Rig:
@@ -23,7 +21,7 @@ class Rig:
 
     def __init__(self) -> None:
         self.context = Context()
-        self.context.init(["test"], domain_id=next(_domains))
+        self.context.init(["test"], domain_id=unused_domain())
         self.nodes = [Node(name, context=self.context) for name in ("console", "base")]
         self.executor = SingleThreadedExecutor(context=self.context)
         for each in self.nodes:

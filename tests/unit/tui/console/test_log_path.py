@@ -1,6 +1,5 @@
 """The path of a log line, end to end: every line once, whichever way it takes, at full rate and at the end."""
 
-import itertools
 import os
 import time
 from collections import Counter
@@ -11,10 +10,10 @@ from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.model import LogFilter
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.session.composition import Launching
+from domains import unused_domain
 from launcher_bench import HEAD
 
 TIMEOUT_S = 120.0
-_domains = itertools.count(4600)
 
 WRITER = """
 import sys
@@ -39,7 +38,7 @@ node.get_logger().info(f"{name} has shut down")
 @pytest.fixture
 def console(tmp_path, monkeypatch):
     install()
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(next(_domains)))
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
     console = RosConsole()
     console.start()

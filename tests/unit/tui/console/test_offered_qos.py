@@ -1,16 +1,14 @@
 """A subscription requests the QoS offered, and less as soon as a publisher offers less."""
 
-import itertools
-
 import pytest
 from bot_console.tui.console.offered_qos import OfferedSubscription, weakest
+from domains import unused_domain
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
 
-_domains = itertools.count(3600)
 RELIABLE, BEST_EFFORT = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
 LATCHED, VOLATILE = DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE
 BEST = QoSProfile(depth=10, reliability=RELIABLE, durability=LATCHED)
@@ -20,7 +18,7 @@ WEAK = QoSProfile(depth=10, reliability=BEST_EFFORT, durability=VOLATILE)
 @pytest.fixture
 def node():
     context = Context()
-    context.init([], domain_id=next(_domains))
+    context.init([], domain_id=unused_domain())
     made = Node("console", context=context)
     made.executor_of_test = SingleThreadedExecutor(context=context)
     made.executor_of_test.add_node(made)

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 from typing import Any
 
 import pytest
 import rclpy
 from bot_console.tui.console.robot.robot_needed import drives_stamped, endpoints, robot_wanted, visible_nodes
+from domains import unused_domain
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rclpy.context import Context
 from sensor_msgs.msg import LaserScan
-
-_domains = itertools.count(3600)
 
 
 class Nodes:
@@ -22,7 +20,7 @@ class Nodes:
 
     def __init__(self) -> None:
         self._context = Context()
-        rclpy.init(args=[], context=self._context, domain_id=next(_domains))
+        rclpy.init(args=[], context=self._context, domain_id=unused_domain())
         self._made: list[Any] = []
 
     def __call__(self, name: str, *, wants: Any = (), gives: Any = (), namespace: str = "") -> Any:

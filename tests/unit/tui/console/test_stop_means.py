@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
@@ -17,6 +16,7 @@ from bot_console.tui.console.robot.stop_means.sequence import NEXT_AFTER_S
 from bot_console.tui.widgets.status_bar import status_text
 from controller_manager_msgs.srv import SwitchController
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from domains import unused_domain
 from geometry_msgs.msg import Twist
 from lifecycle_msgs.msg import State
 from lifecycle_msgs.srv import ChangeState, GetState
@@ -26,7 +26,6 @@ from rclpy.node import Node
 from std_msgs.msg import Bool
 from std_srvs.srv import SetBool, Trigger
 
-_domains = itertools.count(3700)
 TWIST, STATUS = "geometry_msgs/msg/Twist", "diagnostic_msgs/msg/DiagnosticStatus"
 LOCK = "/emergency_stop/base"
 EVERY_KIND = (
@@ -114,7 +113,7 @@ class Bench:
 
     def __init__(self) -> None:
         self.context = Context()
-        self.context.init([], domain_id=next(_domains))
+        self.context.init([], domain_id=unused_domain())
         self.executor = SingleThreadedExecutor(context=self.context)
         self.nodes = [Node(name, context=self.context) for name in ("console", "robot")]
         for each in self.nodes:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 
 import pytest
@@ -16,6 +15,7 @@ from bot_console.tui.console.robot.fleet import Fleet, steered_of
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.console.robot.world_watch import MAP, ODOMETRY, WorldWatch
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from domains import unused_domain
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rclpy.context import Context
@@ -23,7 +23,6 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
 TWIST, DIAGNOSTICS = "geometry_msgs/msg/Twist", "diagnostic_msgs/msg/DiagnosticArray"
-_domains = itertools.count(3600)
 
 
 def node(name: str, listens: str = "", publishes: str = "") -> NodeInfo:
@@ -91,7 +90,7 @@ class Robots:
 
     def __init__(self) -> None:
         self.context = Context()
-        self.context.init([], domain_id=next(_domains))
+        self.context.init([], domain_id=unused_domain())
         self.executor = SingleThreadedExecutor(context=self.context)
         self.nodes = [Node(name, context=self.context) for name in ("console", "robots")]
         console, robots = self.nodes
@@ -233,7 +232,7 @@ def test_keys_meant_for_a_robot_that_has_left_do_not_drive_the_next_one(robots: 
 
 def test_choosing_a_robot_changes_control_and_view_together() -> None:
     context = Context()
-    context.init([], domain_id=next(_domains))
+    context.init([], domain_id=unused_domain())
     ports = NodePorts(
         lambda: DriveNode(context, lambda error: None), Capabilities(), launch_info=LaunchInfo, link=LinkInfo,
         buffer=None, types=None, processes=dict,

@@ -9,6 +9,7 @@ from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
 from bot_console.tui.console.robot.world_watch import WorldWatch, grid_of
 from bot_console.tui.panes.world.view import Window, WorldDrawing, fitting, following, scale_text
 from bot_console.tui.widgets.status_bar import drive_figures, status_text
+from domains import unused_domain
 from geometry_msgs.msg import Point, Pose
 from nav_msgs.msg import MapMetaData, OccupancyGrid, Odometry
 from rclpy.context import Context
@@ -21,7 +22,7 @@ GRAPH = GraphInfo(nodes=(NodeInfo("/robot", publishers=(Endpoint("/odom", ("nav_
 
 def test_a_silent_robot_has_no_actual_speed():
     context = Context()
-    context.init([], domain_id=3900)
+    context.init([], domain_id=unused_domain())
     console, robot = Node("console", context=context), Node("robot", context=context)
     executor = SingleThreadedExecutor(context=context)
     executor.add_node(console)
@@ -61,7 +62,7 @@ EXTREMES = (math.nan, math.inf, -math.inf, 1.7e308, -1.7e308, 1e200, 5e-324, 0.0
 def watched(*, grid: OccupancyGrid | None = None, odometry: Odometry, scan: LaserScan) -> WorldInfo:
     """What a console knows after these messages."""
     context = Context()
-    context.init([], domain_id=3901)
+    context.init([], domain_id=unused_domain())
     node = Node("console", context=context)
     world = WorldWatch(node)
     if grid:
@@ -125,7 +126,7 @@ def stamped(second: float, x: float) -> Odometry:
 )
 def test_trail_and_scan_of_before_a_jump_back_in_time_are_forgotten(later: float, kept: int) -> None:
     context = Context()
-    context.init([], domain_id=3902)
+    context.init([], domain_id=unused_domain())
     node = Node("console", context=context)
     world = WorldWatch(node)
     for each in (stamped(9.0, 1.0), stamped(10.0, 2.0)):

@@ -11,6 +11,7 @@ import pytest
 from bot_console.runtime.rmw.zenoh.domain import sockets
 from bot_console.tui.cli.verbs import background
 from bot_console.tui.session.embedded import domain
+from domains import unused_domain
 from geometry_msgs.msg import Twist
 from rclpy.context import Context
 from rclpy.node import Node
@@ -20,10 +21,11 @@ from sensor_msgs.msg import LaserScan
 @pytest.fixture
 def made(monkeypatch):
     """Makes nodes in a domain in which there seems to be another process."""
-    monkeypatch.setenv("ROS_DOMAIN_ID", "47")
+    number = unused_domain()
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
     monkeypatch.setattr(domain, "others_take_part", lambda: True)
     context = Context()
-    context.init([], domain_id=47)
+    context.init([], domain_id=number)
     nodes = []
 
     def make(name):

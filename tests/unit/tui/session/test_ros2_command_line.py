@@ -15,6 +15,7 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.gate import done
 from bot_console.tui.session.embedded.ros2_command_line import Ros2CommandLine
 from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH
+from domains import unused_domain
 from fakes.launcher import FakeLauncher
 
 TIMEOUT_S = 60.0
@@ -120,7 +121,7 @@ def test_continuous_line_can_be_read_and_stopped(monkeypatch: pytest.MonkeyPatch
     import rclpy
     from std_msgs.msg import String
 
-    monkeypatch.setenv("ROS_DOMAIN_ID", "87")
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     context = rclpy.Context()
     rclpy.init(context=context)
     node = rclpy.create_node("talker", context=context)

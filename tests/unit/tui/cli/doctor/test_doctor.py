@@ -1,6 +1,5 @@
 """Each finding of the doctor reports a state and how to fix it; only failures make the exit code 1."""
 
-import itertools
 import json
 import os
 import subprocess
@@ -15,6 +14,7 @@ from bot_console.tui.cli.doctor.system import link_finding
 from bot_console.tui.cli.doctor.terminal import characters_finding, colours_finding, size_finding
 from bot_console.tui.cli.doctor.terminal import terminal_link_finding as terminal_link
 from bot_console.tui.cli.shell_python import ShellPython
+from domains import unused_domain
 from fakes.ros_installation import make_standin
 from geometry_msgs.msg import Twist
 from rclpy.context import Context
@@ -23,14 +23,12 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
 
-_domains = itertools.count(3800)
-
 
 @pytest.fixture
 def node(monkeypatch):
     monkeypatch.setattr("bot_console.tui.cli.doctor.nodes._spin", lambda *a, **k: None)
     context = Context()
-    context.init([], domain_id=next(_domains))
+    context.init([], domain_id=unused_domain())
     made = Node("base", context=context)
     yield made
     made.destroy_node()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Iterator
 
 import pytest
@@ -12,13 +11,13 @@ from bot_console.tui.console.robot.stop_link import LATCHED
 from bot_console_robot.safety.emergency_stop import ARBITER, BASE, REQUESTS, EmergencyStop
 from bot_console_robot.safety.stop_messages import request_of
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
+from domains import unused_domain
 from geometry_msgs.msg import Twist
 from rclpy.clock import Clock, ClockType
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
-_domains = itertools.count(3850)
 TURNS = 40
 """Turns of the executor for each wait of the doctor, so that no wall time is measured."""
 
@@ -28,7 +27,7 @@ class Bench:
 
     def __init__(self) -> None:
         self.context = Context()
-        self.context.init([], domain_id=next(_domains))
+        self.context.init([], domain_id=unused_domain())
         self.executor = SingleThreadedExecutor(context=self.context)
         self.nodes: list[Node] = []
         self.doctor = self.node("_doctor")

@@ -1,15 +1,12 @@
 """The console's view of the graph: polled only after an event, each topic queried once, nothing described twice."""
 
-import itertools
-
 import pytest
 import rclpy
 from bot_console.tui.console.graph.watch import GraphWatch
 from bot_console.tui.session.embedded.hooks import graph_events
+from domains import unused_domain
 from rclpy.context import Context
 from std_msgs.msg import Float64
-
-_domains = itertools.count(8600)
 
 
 class Events:
@@ -29,7 +26,7 @@ class Events:
 @pytest.fixture
 def context():
     made = Context()
-    rclpy.init(args=[], context=made, domain_id=next(_domains))
+    rclpy.init(args=[], context=made, domain_id=unused_domain())
     yield made
     made.shutdown()
 

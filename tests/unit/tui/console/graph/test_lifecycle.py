@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import threading
 from collections.abc import Iterator
 from typing import Any
@@ -12,6 +11,7 @@ import rclpy
 from bot_console.tui.console.graph.lifecycle_states import TRANSITIONS
 from bot_console.tui.console.robot import robot_drive
 from bot_console.tui.console.ros_console import RosConsole
+from domains import unused_domain
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
@@ -20,7 +20,6 @@ from rclpy.lifecycle.transition_map import TRANSITIONS as ALL_TRANSITIONS
 from rigs import TIMEOUT_S, until
 
 NAME = "/camera"
-_domains = itertools.count(9400)
 
 
 class Camera(LifecycleNode):
@@ -37,7 +36,7 @@ class Camera(LifecycleNode):
 
 @pytest.fixture
 def camera(monkeypatch: pytest.MonkeyPatch) -> Iterator[Camera]:
-    number = next(_domains)
+    number = unused_domain()
     monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
     monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)
     context = Context()

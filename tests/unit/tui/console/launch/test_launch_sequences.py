@@ -7,9 +7,9 @@ import pytest
 from bot_console.tui.console.launch import launcher
 from bot_console.tui.console.launch.process import ENDED
 from bot_console.tui.console.model import ProcessState
+from domains import unused_domain
 from launcher_bench import FAILS, TIMEOUT_S, WAITS, Bench, Spawned
 
-_domains = itertools.count(4200)
 VERBS = ("start", "stop", "restart", "kill")
 
 
@@ -29,7 +29,7 @@ class GatedBench(Bench):
 
 @pytest.fixture
 def bench(tmp_path, monkeypatch):
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(next(_domains)))
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
     made = GatedBench(tmp_path)
     yield made

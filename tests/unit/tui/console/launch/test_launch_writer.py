@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import os
 from collections.abc import Iterator
 from pathlib import Path
@@ -25,6 +24,7 @@ from bot_console.tui.console.model import (
 from bot_console.tui.console.robot import robot_drive
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.files.save_file import NotSaved
+from domains import unused_domain
 from launcher_bench import Bench
 from rigs import until
 
@@ -51,14 +51,13 @@ WORKERS = """[
     Node(executable={path!r}, name='worker', parameters=[{{'names': ['x', "it's"]}}]),
     Node(executable={path!r}, name='gone'),
 ]"""
-_domains = itertools.count(4400)
 
 
 class System:
     """A launcher in a domain of its own, and a console that sees its nodes."""
 
     def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-        monkeypatch.setenv("ROS_DOMAIN_ID", str(next(_domains)))
+        monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
         self.bench = Bench(folder)
         self.console = RosConsole(launch_info=self.bench.launcher.info)
         self.console.start()

@@ -1,18 +1,16 @@
 """The launcher over the embedded launch: processes controlled one by one, several launch files, files that fail."""
 
-import itertools
 import re
 
 import pytest
 from bot_console.tui.console.model import LaunchArgument, ProcessState, RestartPolicy, Severity
+from domains import unused_domain
 from launcher_bench import DEAF, ENDS, FAILS, TIMEOUT_S, WAITS, Bench
-
-_domains = itertools.count(4000)
 
 
 @pytest.fixture
 def bench(tmp_path, monkeypatch):
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(next(_domains)))
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
     made = Bench(tmp_path)
     yield made
@@ -22,7 +20,7 @@ def bench(tmp_path, monkeypatch):
 @pytest.fixture
 def supervising(tmp_path, monkeypatch):
     """A bench whose settings restart what fails, twice and at once."""
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(next(_domains)))
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
     made = Bench(tmp_path, policy=RestartPolicy(2, 0.0, 0.0), restarts=True)
     yield made

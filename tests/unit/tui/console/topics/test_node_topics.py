@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import threading
 from collections.abc import Iterator
 
@@ -13,6 +12,7 @@ from bot_console.tui.console.robot import robot_drive
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.console.topics.offered_topics import offered_qos
 from bot_console.tui.console.topics.port import Payload, RequestedQos
+from domains import unused_domain
 from example_interfaces.action import Fibonacci
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
@@ -24,7 +24,6 @@ from rigs import TIMEOUT_S, until
 from std_srvs.srv import SetBool
 
 TWIST, SET_BOOL, FIBONACCI = "geometry_msgs/msg/Twist", "std_srvs/srv/SetBool", "example_interfaces/action/Fibonacci"
-_domains = itertools.count(9100)
 
 
 class Robot:
@@ -74,7 +73,7 @@ class Robot:
 
 @pytest.fixture
 def robot(monkeypatch: pytest.MonkeyPatch) -> Iterator[Robot]:
-    number = next(_domains)
+    number = unused_domain()
     monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
     monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)
     made = Robot(number)

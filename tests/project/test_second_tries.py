@@ -1,0 +1,62 @@
+"""Tests that fail are tried again in a process of their own; what fails in both is a failure of the run."""
+
+import os
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+HELPERS = Path(__file__).parents[1] / "helpers"
+TESTS = """
+import os
+from pathlib import Path
+
+import pytest
+
+tried, left = Path("tried"), []
+
+
+@pytest.mark.parametrize("name", ["a b", "c::d[e]"])
+def test_too_late(name):
+    if not (Path(f"{tried}{len(name)}")).exists():
+        Path(f"{tried}{len(name)}").touch()
+        raise AssertionError("too late")
+
+
+@pytest.fixture
+def stumbling():
+    assert not left
+
+
+def test_leaves_something():
+    left.append(1)
+
+
+def test_stumbles(stumbling):
+    pass
+"""
+ALWAYS = """
+
+def test_is_wrong():
+    assert 1 == 2
+"""
+
+
+def test_only_what_fails_in_both_tries_is_a_failure(tmp_path: Path) -> None:
+    tests = tmp_path / "test_it.py"
+    tests.write_text(TESTS)
+    assert run(tmp_path, "1") == (0, "4 passed, 3 rerun")
+    cases = ElementTree.parse(tmp_path / "junit.xml").iter("testcase")
+    assert not [each for each in cases if each.find("failure") is not None or each.find("error") is not None]
+    tests.write_text(TESTS + ALWAYS)
+    assert run(tmp_path, "0") == (1, "1 failed, 4 passed, 2 rerun")
+
+
+def run(folder: Path, workers: str) -> tuple[int, str]:
+    (folder / "conftest.py").write_text('pytest_plugins = ["second_tries"]\n')
+    done = subprocess.run(
+        [sys.executable, "-m", "pytest", "-q", "-n", workers, "--junitxml=junit.xml", "-p", "no:cacheprovider", "."],
+        cwd=folder, env={**os.environ, "PYTHONPATH": str(HELPERS), "PYTEST_ADDOPTS": ""},
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    return done.returncode, done.stdout.splitlines()[-1].strip("= ").rpartition(" in ")[0]
