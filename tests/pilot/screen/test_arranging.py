@@ -85,6 +85,7 @@ def test_arrow_keys_select_and_swap_panes() -> None:
         assert seen(session)["world"] == where and session.app.current_pane.id == "plot"
         wide = seen(session)["plot"].width
         await session.press("right_square_bracket", "right_square_bracket")
+        await session.settle()
         assert seen(session)["plot"].width > wide, "nothing lies to the right: it grows to the left"
         await session.press("escape")
 
@@ -95,10 +96,12 @@ def test_growing_a_pane_shrinks_its_neighbour() -> None:
     async def play(session: Session) -> None:
         before = seen(session)
         await session.press("V", "right_square_bracket", "plus")
+        await session.settle()
         after = seen(session)
         assert after["parameters"].width > before["parameters"].width
         assert after["logs"].height < before["logs"].height
         await session.press(*["right_square_bracket"] * 40)
+        await session.settle()
         assert seen(session)["world"].width >= 20, "no pane becomes too small to be used"
 
     run(live(), play, SIZE)
