@@ -10,12 +10,10 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass
 
-from bot_console_robot.safety.lock import MAX_STOPS, NODE, OTHERS, UNNAMED, Lock, Stop, new_id
+from bot_console_robot.safety.lock import NODE, UNNAMED, Lock, Stop, new_id
+from bot_console_robot.safety.operator_silence import SILENT, SteeringHolders
 
-SILENCE_TIMEOUT_NS = 1_000_000_000
-"""Nanoseconds without a message after which a console that holds the steering counts as gone."""
 STOP, RELEASE, STEER, HAND_BACK = "stop", "release", "steer", "hand_back"
-SILENT = "held the steering and fell silent"
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +42,7 @@ class Latch:
     def __init__(self, lock: Lock | None = None) -> None:
         self._lock = lock or Lock()
         self._challenge = new_id()
-        self._steering: dict[str, tuple[str, int, str]] = {}
+        self._steering = SteeringHolders()
 
     @property
     def lock(self) -> Lock:
@@ -59,7 +57,7 @@ class Latch:
     @property
     def steered_by(self) -> str:
         """Who holds the steering; empty when nobody does."""
-        return ", ".join(sorted({holder for holder, _, _ in self._steering.values()}))
+        return self._steering.names
 
     def refusal(self, request: Request) -> str:
         """Why a request is ignored; empty if it is not."""
@@ -82,11 +80,9 @@ class Latch:
                 return False
             return self.release(self._unnamed_of(request) if request.ids is None else request.ids, request.holder)
         if request.verb == STEER:
-            key = request.key if request.key in self._steering or len(self._steering) < MAX_STOPS else OTHERS
-            steered, self._steering[key] = self.steered_by, (request.holder, now, request.id)
-            return self.steered_by != steered
+            return self._steering.renew(request.key, request.holder, request.id, now)
         if request.verb == HAND_BACK:
-            return self._steering.pop(request.key, None) is not None
+            return self._steering.hand_back(request.key)
         reason = request.reason if request.verb == STOP else f"an unknown request: {request.verb[:40]!r}"
         return self._stop(request.holder, reason, request.key, request.id, request.kept)
 
@@ -127,9 +123,8 @@ class Latch:
 
     def watch(self, now: int) -> bool:
         """Lock when a console that holds the steering has fallen silent."""
-        silent = [key for key, (_, heard, _) in self._steering.items() if now - heard > SILENCE_TIMEOUT_NS]
-        for key in silent:
-            holder, _, id = self._steering.pop(key)
+        silent = self._steering.take_silent(now)
+        for key, (holder, id, _) in silent.items():
             # Two locks that have received the same last message make the same stop. If it was released, this is another
             # silence.
             self._stop(holder, SILENT, key, new_id() if self._lock.has_released(id) else id)

@@ -11,10 +11,10 @@ from bot_console_robot.simulation.collisions import TOUCH, CollisionLog
 from bot_console_robot.simulation.figures.metrics import Metrics
 from bot_console_robot.simulation.geometry import TURN, Pose
 from bot_console_robot.simulation.lidar import Lidar, LidarSettings, Scan, Surfaces
+from bot_console_robot.simulation.motion_and_walls import FAR, Space
 from bot_console_robot.simulation.moving import MovingObstacle
 from bot_console_robot.simulation.odometry import Odometry, OdometryNoise
 from bot_console_robot.simulation.robot import DifferentialDrive, DriveLimits
-from bot_console_robot.simulation.space import FAR, Space
 from bot_console_robot.simulation.world import World, WorldError, inside, populated
 
 STEP = 0.01

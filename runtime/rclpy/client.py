@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, Any
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import ClientEndpoint
 from rclpy.deadlock import wait_until_settled
+from rclpy.impl.callback_order import CLIENT
 from rclpy.impl.destroyable import Destroyable
-from rclpy.impl.entity import CLIENT, Entity
+from rclpy.impl.entity import Entity
 from rclpy.impl.graph_wait import require_valid, wait_until_there
 from rclpy.impl.reexports import reexporting
 from rclpy.task import Future

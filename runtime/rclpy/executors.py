@@ -11,13 +11,13 @@ from _thread import allocate_lock
 from collections import deque
 from collections.abc import Callable, Coroutine, Generator
 from contextlib import contextmanager
-from operator import attrgetter
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.distribution import distribution
 from bot_console.runtime.process import current
 from rclpy.deadlock import WARNING_DELAY_NS, report_future, runs_in_callback
+from rclpy.impl.callback_order import sort_entities, sort_tasks
 from rclpy.impl.explanations import spun_twice
 from rclpy.impl.reexports import reexporting
 from rclpy.impl.timer_heap import TimerHeap
@@ -97,8 +97,7 @@ class TaskQueue:
         with self._lock:
             tasks, self._ready_tasks = self._ready_tasks, []
             if len(tasks) > 1:
-                order = {task: place for place, task in enumerate(self._tasks)}
-                tasks.sort(key=lambda task: order.get(task, 0), reverse=distribution().newest_task_first)
+                sort_tasks(tasks, self._tasks)
         return tasks
 
     def _forget(self, task: Task[Any]) -> None:
@@ -108,7 +107,6 @@ class TaskQueue:
             self._ended(entity)
 
 
-_key = attrgetter("key")
 Condition = Callable[[], bool]
 
 
@@ -353,7 +351,7 @@ class Executor(TaskQueue, ReadyCallbacks):
         if self._ready_tasks:
             batch.extend(self._collect_tasks())
         if len(entities) > 1:
-            entities.sort(key=_key)
+            sort_entities(entities)
         batch.extend(entities)
         return bool(batch)
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from rclpy.impl.callback_order import GUARD
 from rclpy.impl.destroyable import Destroyable
-from rclpy.impl.entity import GUARD, Entity
+from rclpy.impl.entity import Entity
 
 if TYPE_CHECKING:
     from rclpy.callback_groups import CallbackGroup

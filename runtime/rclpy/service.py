@@ -9,8 +9,9 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.rmw.endpoints import ServiceEndpoint
+from rclpy.impl.callback_order import SERVICE
 from rclpy.impl.destroyable import Destroyable
-from rclpy.impl.entity import SERVICE, Entity
+from rclpy.impl.entity import Entity
 from rclpy.impl.reexports import reexporting
 
 if TYPE_CHECKING:

@@ -14,8 +14,9 @@ from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import Held, SubscriptionEndpoint, own
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.impl.callables import is_coroutine_function, takes
+from rclpy.impl.callback_order import SUBSCRIPTION
 from rclpy.impl.destroyable import SubscriptionHandle
-from rclpy.impl.entity import SUBSCRIPTION, Entity
+from rclpy.impl.entity import Entity
 from rclpy.impl.reexports import reexporting
 from rclpy.subscription_content_filter_options import ContentFilterOptions
 

@@ -15,8 +15,9 @@ from rclpy.callback_groups import CallbackGroup
 from rclpy.clock_type import ClockType
 from rclpy.deadlock import WARNING_DELAY_NS, report_deadlock
 from rclpy.exceptions import ROSInterruptException
+from rclpy.impl.callback_order import TIMER
 from rclpy.impl.destroyable import Destroyable
-from rclpy.impl.entity import TIMER, Entity
+from rclpy.impl.entity import Entity
 from rclpy.impl.reexports import reexporting
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from bot_console.tui.console.logs.rosout import RosoutWatch
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.plot.watch import PlotWatch
 from bot_console.tui.console.robot.drive_node import DriveNode
-from bot_console.tui.console.robot.world_watch import WorldWatch
+from bot_console.tui.console.robot.pose_and_trail import WorldWatch
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 
 if TYPE_CHECKING:

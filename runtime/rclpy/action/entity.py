@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from rclpy._rclpy_pybind11 import InvalidHandle
 from rclpy.impl.callables import is_coroutine_function
-from rclpy.impl.entity import DESTROYED, WAITABLE, Entity
+from rclpy.impl.callback_order import WAITABLE
+from rclpy.impl.entity import DESTROYED, Entity
 from rclpy.type_support import check_is_valid_action_type
 from rclpy.waitable import Waitable
 

@@ -5,12 +5,12 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
 from rclpy._rclpy_pybind11 import InvalidHandle
 from rclpy.impl.callables import is_coroutine_function
+from rclpy.impl.callback_order import WAITABLE, OrderKey, next_creation, order_key
 
 if TYPE_CHECKING:
     from collections import deque
@@ -18,11 +18,7 @@ if TYPE_CHECKING:
 
     from bot_console.runtime.process.clock_source import Wakeup
 
-WAITABLE, TIMER, SUBSCRIPTION, GUARD, CLIENT, SERVICE = range(6)
-"""Kinds, in the order in which one wake of an executor serves them."""
-
 DESTROYED = "cannot use Destroyable because destruction was requested"
-_creation = itertools.count()
 
 
 class EntityGroup(Protocol):
@@ -95,8 +91,8 @@ class Entity:
 
     def __init__(self, callback_group: EntityGroup) -> None:
         self.callback_group = callback_group
-        self.order = next(_creation)
-        self.key: tuple[int, int, int] = (0, self.KIND, self.order)
+        self.order = next_creation()
+        self.key: OrderKey = order_key(self.KIND, 0, self.order)
 
     def notify(self) -> None:
         """Mark the entity as ready; thread-safe."""
@@ -134,8 +130,7 @@ class Entity:
             self.notify()
 
     def _belong(self, sink: EntityExecutor, node_order: int) -> None:
-        # Upstream's executor checks waitables before everything else, whichever node they belong to.
-        self.key = (-1 if self.KIND == WAITABLE else node_order, self.KIND, self.order)
+        self.key = order_key(self.KIND, node_order, self.order)
         self.sink = sink
 
     def destroy(self) -> None:

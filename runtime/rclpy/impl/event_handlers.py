@@ -12,7 +12,8 @@ from bot_console.runtime.process import current
 from bot_console.runtime.rmw.bus import Publisher
 from bot_console.runtime.rmw.endpoints import Event
 from rclpy._rclpy_pybind11 import rmw_qos_policy_kind_t
-from rclpy.impl.entity import WAITABLE, Entity
+from rclpy.impl.callback_order import WAITABLE
+from rclpy.impl.entity import Entity
 from rclpy.impl.qos_policies import QoSPolicyKind
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 
 import pytest
-from bot_console_robot.safety.latch import HAND_BACK, RELEASE, SILENCE_TIMEOUT_NS, STEER, STOP, Latch, Request
+from bot_console_robot.safety.latch import RELEASE, STEER, STOP, Latch, Request
 from bot_console_robot.safety.lock import MAX_RELEASES, MAX_STOPS, NODE, OTHERS, Lock, Release, Stop
 from bot_console_robot.safety.stop_messages import State, request_message, request_of, state_message, state_of
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
@@ -124,36 +124,6 @@ def test_request_with_unknown_verb_is_a_stop(verb: str) -> None:
     latch = Latch()
     assert latch.request(Request(verb, "anna"), 0)
     assert latch.lock.held
-
-
-def test_silence_of_a_console_with_the_steering_locks() -> None:
-    latch = Latch()
-    steer = Request(STEER, "anna", key="a")
-    assert latch.request(steer, 0) and latch.steered_by == "anna"
-    assert not latch.request(steer, SILENCE_TIMEOUT_NS)
-    assert not latch.watch(2 * SILENCE_TIMEOUT_NS)
-    assert latch.watch(2 * SILENCE_TIMEOUT_NS + 1)
-    assert latch.lock.held and latch.lock.holder == "anna" and not latch.steered_by
-
-
-def test_two_locks_make_the_same_stop_of_one_silence_and_another_of_the_next() -> None:
-    here, there = Latch(), Latch()
-    steer = Request(STEER, "anna", key="a", id="s1")
-    for latch in (here, there):
-        latch.request(steer, 0)
-        latch.watch(SILENCE_TIMEOUT_NS + 1)
-    assert here.lock == there.lock and here.lock.ids == {"s1"}
-    release(here, "s1")
-    here.request(steer, 0)
-    here.watch(SILENCE_TIMEOUT_NS + 1)
-    assert here.lock.held, "a recorded claim of the steering is no way around the silence"
-
-
-def test_returned_steering_needs_no_heartbeat() -> None:
-    latch = Latch()
-    latch.request(Request(STEER, "anna", key="a"), 0)
-    assert latch.request(Request(HAND_BACK, "anna", key="a"), 1)
-    assert not latch.watch(10 * SILENCE_TIMEOUT_NS) and not latch.lock.held
 
 
 @pytest.mark.parametrize("order", list(itertools.permutations(range(4))))

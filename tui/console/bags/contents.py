@@ -14,8 +14,8 @@ from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.model import Change, ChangeSource, ParameterInfo, ParameterTree
 from bot_console.tui.console.robot.past_poses import PastPoses
+from bot_console.tui.console.robot.pose_and_trail import PREFERRED, TRAIL, TRAIL_STEP, best, grid_of, pose_of
 from bot_console.tui.console.robot.robot_model import WorldInfo
-from bot_console.tui.console.robot.world_watch import PREFERRED, TRAIL, TRAIL_STEP, best, grid_of, pose_of
 from bot_console.tui.console.values import info
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.serialization import deserialize_message

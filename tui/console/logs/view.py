@@ -11,8 +11,8 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from bot_console.tui.console.logs.numbers import Block, Folded, Numbers
 from bot_console.tui.console.logs.port import LogFindings, LogView
+from bot_console.tui.console.logs.repeat_folding import Block, Folded, Numbers
 from bot_console.tui.console.logs.search import LogSearch
 from bot_console.tui.console.logs.store import LogSegment, LogStore
 from bot_console.tui.console.model import LogFilter

@@ -18,7 +18,7 @@ from bot_console.tui.console.robot.robot_model import DriveInfo, Pose, WorldInfo
 if TYPE_CHECKING:
     from bot_console.tui.console.robot.drive_link import DriveLink
     from bot_console.tui.console.robot.drive_node import DriveNode
-    from bot_console.tui.console.robot.world_watch import WorldWatch
+    from bot_console.tui.console.robot.pose_and_trail import WorldWatch
 
 LAST_ZERO_TIMEOUT_S = 0.15
 """Seconds allowed for the final zero Twist, or the lock, to reach the robot before anything is shut down."""

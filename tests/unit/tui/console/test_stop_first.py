@@ -17,7 +17,7 @@ from bot_console.tui.console.parameters.journal import Journal
 from bot_console.tui.console.parameters.profile_store import ProfileStore
 from bot_console.tui.console.robot.drive_link import DriveLink
 from bot_console.tui.console.robot.drive_node import DriveNode
-from bot_console.tui.console.robot.world_watch import WorldWatch
+from bot_console.tui.console.robot.pose_and_trail import WorldWatch
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.widgets.status_bar import status_text
 from diagnostic_msgs.msg import DiagnosticArray

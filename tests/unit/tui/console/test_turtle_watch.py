@@ -9,7 +9,7 @@ import pytest
 import rclpy
 from bot_console.tui.console.graph.watch import GraphWatch
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
-from bot_console.tui.console.robot.world_watch import WorldWatch
+from bot_console.tui.console.robot.pose_and_trail import WorldWatch
 from bot_console_demos.turtlesim.turtlesim_node import TurtleSim
 from geometry_msgs.msg import Twist
 from rclpy.executors import SingleThreadedExecutor

@@ -12,8 +12,8 @@ from bot_console.tui.console.node_ports import NodePorts
 from bot_console.tui.console.robot.drive_link import SILENCE, VERDICT_LIFETIME_S, DriveLink
 from bot_console.tui.console.robot.drive_node import DriveNode
 from bot_console.tui.console.robot.fleet import Fleet, steered_of
+from bot_console.tui.console.robot.pose_and_trail import MAP, ODOMETRY, WorldWatch
 from bot_console.tui.console.robot.robot_model import DriveInfo
-from bot_console.tui.console.robot.world_watch import MAP, ODOMETRY, WorldWatch
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from domains import unused_domain
 from geometry_msgs.msg import Twist

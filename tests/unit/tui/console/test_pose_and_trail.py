@@ -5,8 +5,8 @@ import math
 import pytest
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.robot.drive_link import DriveLink
+from bot_console.tui.console.robot.pose_and_trail import WorldWatch, grid_of
 from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
-from bot_console.tui.console.robot.world_watch import WorldWatch, grid_of
 from bot_console.tui.panes.world.view import Window, WorldDrawing, fitting, following, scale_text
 from bot_console.tui.widgets.status_bar import drive_figures, status_text
 from domains import unused_domain

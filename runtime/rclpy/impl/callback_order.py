@@ -1,0 +1,57 @@
+"""The order in which an executor runs callbacks that are ready together, as upstream's does.
+
+Tasks that can continue come first, the newest or the oldest one as the distribution does; then waitables, whichever
+node they belong to. Then come, node by node in the order in which the nodes were added, timers, subscriptions, guard
+conditions, clients and services; among these, the one that was created first.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable
+from operator import attrgetter
+from typing import Protocol, TypeVar
+
+from bot_console.runtime.distribution import distribution
+
+WAITABLE, TIMER, SUBSCRIPTION, GUARD, CLIENT, SERVICE = range(6)
+"""Kinds of entities, in the order in which one wake serves them."""
+
+OrderKey = tuple[int, int, int]
+"""The place of the node in its executor, the kind, and the place of the entity among all that were created."""
+
+
+class Ordered(Protocol):
+    """An entity as far as its place."""
+
+    @property
+    def key(self) -> OrderKey:
+        """What `order_key` has returned for it."""
+        ...
+
+
+EntityT = TypeVar("EntityT", bound=Ordered)
+TaskT = TypeVar("TaskT")
+_creation = itertools.count()
+_key = attrgetter("key")
+
+
+def next_creation() -> int:
+    """The place of a new entity among all that were created in this process."""
+    return next(_creation)
+
+
+def order_key(kind: int, node_order: int, creation: int) -> OrderKey:
+    """What entities are sorted by."""
+    return -1 if kind == WAITABLE else node_order, kind, creation
+
+
+def sort_entities(entities: list[EntityT]) -> None:
+    """Sort what is ready in one wake."""
+    entities.sort(key=_key)
+
+
+def sort_tasks(tasks: list[TaskT], created: Iterable[TaskT]) -> None:
+    """Sort the tasks that can continue, given all tasks in the order of their creation."""
+    places = {task: place for place, task in enumerate(created)}
+    tasks.sort(key=lambda task: places.get(task, 0), reverse=distribution().newest_task_first)
