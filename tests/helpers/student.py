@@ -133,6 +133,10 @@ def until(true: Callable[[], object], what: Callable[[], str]) -> None:
         time.sleep(0.05)
 
 
+def _without_blanks(text: str) -> str:
+    return "".join(text.split())
+
+
 class Student:
     """Works through a course; knows which of its steps should be done."""
 
@@ -176,8 +180,8 @@ class Student:
         return self._screen.lines()
 
     def lesson(self) -> str:
-        """The text of the lesson pane, as one line."""
-        return " ".join(" ".join(line[LESSON_COLUMNS].strip() for line in self.screen()).split())
+        """The text of the lesson pane without blanks: the pane breaks a line within a word that is longer than it."""
+        return _without_blanks("".join(line[LESSON_COLUMNS] for line in self.screen()))
 
     def done(self) -> set[str]:
         """The steps that are done."""
@@ -215,7 +219,8 @@ class Student:
     def reads(self, *texts: str) -> None:
         """Wait until the lesson shows these texts; none but the expected steps is done then."""
         until(
-            lambda: all(each in self.lesson() for each in texts), lambda: f"no {texts} in the lesson\n{self._state()}"
+            lambda: all(_without_blanks(each) in self.lesson() for each in texts),
+            lambda: f"no {texts} in the lesson\n{self._state()}",
         )
         assert self.done() == self.expected, self._state()
 
