@@ -15,6 +15,7 @@ from bot_console.tui.format import value_text
 from bot_console.tui.learn.conditions import Condition
 from bot_console.tui.learn.deeds import Deeds, Launched, names_of
 from bot_console.tui.learn.files import WorkspaceFiles
+from bot_console.tui.learn.wording import command_text, launch_text, node_text, pane_text
 
 
 def missing(
@@ -55,14 +56,13 @@ def _node(words: Sequence[str], deeds: Deeds, names: dict[str, str]) -> str:
         if "as" in given:
             names[given["as"]] = having[-1].lstrip("/")
         return ""
-    who = "a node" if wanted == "*" else f"node /{wanted.lstrip('/')}"
-    if not found:
-        near = (
-            "" if wanted == "*" else hints.did_you_mean(wanted.lstrip("/"), [each.lstrip("/") for each in deeds.nodes])
-        )
-        return f"waiting for: {who}{f' with a parameter {parameter}' if parameter else ''}{near}"
-    near = hints.did_you_mean(parameter, names_of({key: at for key, at in deeds.parameters.items() if key[0] in found}))
-    return f"waiting for: {who} with a parameter {parameter}{near}"
+    if found:
+        declared = names_of({key: at for key, at in deeds.parameters.items() if key[0] in found})
+        near = hints.did_you_mean(parameter, declared)
+    else:
+        nodes = [each.lstrip("/") for each in deeds.nodes]
+        near = "" if wanted == "*" else hints.did_you_mean(wanted.lstrip("/"), nodes)
+    return f"waiting for: {node_text(wanted, parameter)}{near}"
 
 
 def _parameter(words: Sequence[str], deeds: Deeds) -> str:
@@ -113,7 +113,7 @@ def _command(words: Sequence[str], deeds: Deeds) -> str:
     if any(each.works for each in ran):
         return ""
     failed = f"; it ended with exit code {ran[-1].code}" if ran and ran[-1].failed else ""
-    return f"waiting for: {' '.join(words)}{failed}"
+    return f"waiting for: the command {command_text(words)}{failed}"
 
 
 def _failure(words: Sequence[str], deeds: Deeds) -> str:
@@ -121,7 +121,7 @@ def _failure(words: Sequence[str], deeds: Deeds) -> str:
     if any(each.failed for each in ran):
         return ""
     went_on = "; it did not fail" if any(each.code is not None for each in ran) else ""
-    return f"waiting for: {' '.join(words)}, to see it fail{went_on}"
+    return f"waiting for: the command {command_text(words)}, to see it fail{went_on}"
 
 
 def _in_order(wanted: Sequence[str], given: Sequence[str]) -> bool:
@@ -140,7 +140,7 @@ def _launch(words: Sequence[str], deeds: Deeds) -> str:
         return ""
     if any(deeds.commands[each.command].failed for each in having):
         return f"waiting for: a launch of {having[-1].file} that does not fail"
-    asked = f"waiting for: a launch of {file}{f' with {argument}' if argument else ''}{f' with {text}' if text else ''}"
+    asked = f"waiting for: a launch of {launch_text(file, argument, text)}"
     return f"{asked}; {passed[-1].file} had no {text} when it was launched" if passed and not having else asked
 
 
@@ -170,7 +170,9 @@ _DEEDS: Mapping[str, Callable[[Sequence[str], Deeds], str]] = {
     "saw-failure": _failure,
     "saw-launch": _launch,
     "saw-topic": _among("topic {}", lambda deeds: deeds.topics),
-    "saw-pane": _among("the pane {}", lambda deeds: deeds.panes),
+    "saw-pane": lambda words, deeds: (
+        "" if fnmatch.filter(deeds.panes, words[0]) else f"waiting for: {pane_text(words[0])}"
+    ),
     "saw-curve": lambda words, deeds: (
         "" if any(words[0] in each for each in deeds.curves) else f"waiting for: a curve of {words[0]} in the plot"
     ),

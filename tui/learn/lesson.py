@@ -15,6 +15,7 @@ from bot_console.tui.learn.files import WorkspaceFiles
 from bot_console.tui.learn.judging import missing, with_names
 from bot_console.tui.learn.lesson_view import LessonView, OnScreen
 from bot_console.tui.learn.progress import Progress, read_progress
+from bot_console.tui.learn.wording import held_text
 
 POLL_S = 1.0
 """Seconds between two polls of the workspace's files and of the commands of other terminals."""
@@ -88,7 +89,10 @@ class CourseLesson:
         """The step to show now."""
         step = self._steps[self._at]
         waits = tuple(
-            (not why, self._named(condition.text) if not why else self._with_hint(condition, why))
+            (
+                not why,
+                self._with_hint(condition, why) if why else self._named(held_text(condition.verb, condition.words)),
+            )
             for condition, why in zip(step.conditions, self._missing[step.id], strict=True)
         )
         return LessonView(

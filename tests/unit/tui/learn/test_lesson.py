@@ -136,20 +136,28 @@ SPEED = parameter("/robot", "speed", 1.0)
         (
             "saw-command param get",
             seen(commands=[Command(("param", "get"), 2)]),
-            "waiting for: param get; it ended wit",
+            "waiting for: the command param get; it ended wit",
         ),
         ("saw-failure run * speed:=2", seen(commands=[Command(("run", "a.py", "-p", "speed:=2"), 1)]), ""),
         (
             "saw-failure run *",
             seen(commands=[Command(("run", "a.py"), 0)]),
-            "waiting for: run *, to see it fail; it di",
+            "waiting for: the command run …, to see it fail; it di",
         ),
-        ("saw-failure run *", seen(commands=[Command(("run", "a.py"), None)]), "waiting for: run *, to see it fail"),
-        ("saw-failure run *", seen(commands=[Command(("run", "a.py"), 130)]), "waiting for: run *, to see it fail; it"),
+        (
+            "saw-failure run *",
+            seen(commands=[Command(("run", "a.py"), None)]),
+            "waiting for: the command run …, to see it fail",
+        ),
+        (
+            "saw-failure run *",
+            seen(commands=[Command(("run", "a.py"), 130)]),
+            "waiting for: the command run …, to see it fail; it",
+        ),
         ("saw-command run *", seen(commands=[Command(("run", "a.py"), 130)]), ""),
         ("saw-refused speed", seen(commands=[Command(("param", "set", "/n", "speed", "9"), 130)]), "waiting for: a"),
         ("saw-launch *.launch.py a:=*", launched("a:=1"), ""),
-        ("saw-launch *.launch.py b:=*", launched("a:=1"), "waiting for: a launch of *.launch.py with b:=*"),
+        ("saw-launch *.launch.py b:=*", launched("a:=1"), "waiting for: a launch of *.launch.py with b:=…"),
         ("saw-launch *.launch.py contains Node", launched(), ""),
         (
             "saw-launch *.launch.py contains Timer",
@@ -163,7 +171,7 @@ SPEED = parameter("/robot", "speed", 1.0)
         (
             "saw-command run *",
             seen(commands=[Command(("run", "a.py"), None, settled=False)]),
-            "waiting for: run *",
+            "waiting for: the command run …",
         ),
         ("saw-curve linear", seen(curves={"/odom/twist.twist.linear.x"}), ""),
         ("saw-curve linear", seen(), "waiting for: a curve of linear in the plot"),
