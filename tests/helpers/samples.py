@@ -315,7 +315,13 @@ def faulty() -> tuple[FakeConsole, FakeLauncher]:
         parameters=MappingProxyType(trees),
         launch=launch,
         drive=replace(
-            driving(), stopped=True, stop_confirmed=True, stop_holder="this console", lockable=True, stopped_here=True
+            driving(),
+            stopped=True,
+            stop_confirmed=True,
+            stop_holder="this console",
+            lockable=True,
+            stopped_here=True,
+            own_stops=frozenset(["ours"]),
         ),
         capabilities=Capabilities(world="this system has no world"),
         world=WorldInfo(),

@@ -19,21 +19,30 @@ def stop_text(drive: DriveInfo) -> str:
     if drive.unsent:
         return f"STOP NOT SENT: {drive.unsent}"
     if drive.nothing_to_stop:
-        return "STOP REACHES NOBODY: nothing is here to stop, no robot listens for commands (! ends it)"
+        key = stop_key(drive, "ends it")
+        return f"STOP REACHES NOBODY: nothing is here to stop, no robot listens for commands ({key})"
     if not drive.lockable and drive.stop_confirmed:
-        return f"ALL STOP held by {sanitize(drive.held_by_means)} (! releases)"
+        return f"ALL STOP held by {sanitize(drive.held_by_means)} ({stop_key(drive, 'releases')})"
     if not drive.lockable:
-        return f"STOP SENT, NOT CONFIRMED: {may_move(drive)} (! ends it)"
+        return f"STOP SENT, NOT CONFIRMED: {may_move(drive)} ({stop_key(drive, 'ends it')})"
     if not drive.stop_confirmed:
         return "STOP SENT, NOT CONFIRMED: THE ROBOT MAY MOVE (! sends it again)"
-    key = "! releases" if drive.stopped_here else "! holds it too, once more releases"
-    if holder_is_gone(drive) and not drive.stopped_here:
-        key = "! twice releases"  # shorter, so that the rest is visible in 80 columns
-    if drive.refused:
-        key = "released elsewhere: read-only console"
     # The key comes first: a narrow terminal cuts off the end of the line.
     loose = f"  {may_move(drive)}" if drive.stopped_here and drive.unlocked and not drive.held_by_means else ""
-    return f"ALL STOP held ({key}){loose}{held_by(drive)}"
+    return f"ALL STOP held ({stop_key(drive, 'releases')}){loose}{held_by(drive)}"
+
+
+def stop_key(drive: DriveInfo, ends: str) -> str:
+    """What the stop key does to a stopped robot; `ends` is the word for ending this console's stop."""
+    if drive.refused:
+        return "released elsewhere: read-only console"
+    if drive.key_releases:
+        return f"! {ends}"
+    if drive.stopped_here:
+        return "! holds it again" if drive.press_waits else "being released, ! holds it again"
+    if holder_is_gone(drive):
+        return f"! twice {ends}"  # shorter, so that the rest is visible in 80 columns
+    return f"! holds it too, once more {ends}"
 
 
 def may_move(drive: DriveInfo) -> str:

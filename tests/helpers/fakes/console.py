@@ -337,8 +337,8 @@ class FakeConsole(FakeProfiles, FakeSeries):
 
     def settle_early(self, press: str, *, keep: bool) -> None:
         self.asked.append(("settle_early", press, keep))
-        if not keep:
-            self.hold([each for each in self.current.drive.stops if each.key != EARLY + press])
+        stops = [each for each in self.current.drive.stops if keep or each.key != EARLY + press]
+        self.hold([replace(each, key=press) if each.key == EARLY + press else each for each in stops])
 
     def release(self, others: Sequence[str]) -> None:
         self.asked.append(("release", *others))
@@ -355,6 +355,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
                 stop_reason=first.reason, lockable=True, stops=tuple(stops),
                 stopped_here=any(each.here for each in stops),
                 own_stops=(before or frozenset([f"stop {len(self.asked)}"])) if requested else frozenset(),
+                press_waits=any(each.key.startswith(EARLY) for each in stops),
             )
         )  # fmt: skip
 

@@ -262,7 +262,14 @@ def test_a_stop_that_is_not_acknowledged_is_not_called_held() -> None:
 def test_enter_resumes_steering_a_robot_without_lock_after_timeout() -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter")
-        stands = replace(driving(), lockable=False, stopped=True, stopped_here=True, stop_reason=DEAD_MAN)
+        stands = replace(
+            driving(),
+            lockable=False,
+            stopped=True,
+            stopped_here=True,
+            own_stops=frozenset(["ours"]),
+            stop_reason=DEAD_MAN,
+        )
         steering(session).state.disarm()
         session.console.change(drive=stands)
         await session.settle()

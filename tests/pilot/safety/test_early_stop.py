@@ -36,9 +36,12 @@ async def their_turn(session: Session) -> None:
 def test_stop_overtakes_earlier_keys_and_does_not_release_in_its_turn() -> None:
     async def play(session: Session) -> None:
         await behind(session, "3", "2", STOP)
-        assert held(session)
+        session.app.pull()
+        assert held(session) and "! holds it again" in session.text()
         await their_turn(session)
         assert held(session), "its turn released what it had held"
+        await session.settle()
+        assert "! releases" in session.text()
         await session.press(STOP)
         assert not held(session)
 

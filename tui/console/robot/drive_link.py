@@ -384,6 +384,7 @@ class DriveLink:
             stop_reason=stop.reason,
             stopped_here=stop.here or self._zeros,
             own_stops=stop.own,
+            press_waits=bool(self._early),
             stops=with_gone(stop.stops),
             lockable=stop.locks > 0,
             unlocked=tuple(each.robot for each in self._unlocked),

@@ -143,6 +143,8 @@ class DriveInfo:
     """Whether one of the stops is this console's."""
     own_stops: frozenset[str] = frozenset()
     """The ids of the stops that this console has requested, except those for key presses that are not handled yet."""
+    press_waits: bool = False
+    """Whether the robot is held for a press of the stop key that is not handled yet."""
     stops: tuple[RobotStop, ...] = ()
     """Everybody's stops that the robot has acknowledged, the oldest first."""
     lockable: bool = False
@@ -157,6 +159,14 @@ class DriveInfo:
     """Who has control, according to the robot."""
     refused: str = ""
     """Why the robot can be neither driven nor released from this console; empty if it can."""
+
+    @property
+    def key_releases(self) -> bool:
+        """Whether the stop key, pressed now, would release this console's stops; otherwise it stops the robot.
+
+        A stop is still reported while its release is on its way, and also for a key press that is not handled yet.
+        """
+        return bool(self.own_stops) and not self.press_waits
 
     @property
     def nothing_to_stop(self) -> bool:

@@ -10,7 +10,7 @@ from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.format import sanitize
 from bot_console.tui.panes.steering.plane import ASKED, ROBOT, plane
 from bot_console.tui.panes.steering.state import RATE_HZ, Steering, stands_after_steering
-from bot_console.tui.safety.stop_messages import held_by, holder_is_gone, may_move
+from bot_console.tui.safety.stop_messages import held_by, may_move, stop_key
 from bot_console.tui.widgets.picture import Line
 
 BAR = 10
@@ -98,15 +98,15 @@ def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
     if drive.refused:
         return _highlighted(drive, topic)
     if drive.stopped and not drive.lockable and stands_after_steering(drive):
-        return ((" STANDS ", "warn"), (" by zeros, having no emergency stop: enter steers on, ! ends them", ""))
+        key = stop_key(drive, "ends them")
+        return ((" STANDS ", "warn"), (f" by zeros, having no emergency stop: enter steers on, {key}", ""))
     if drive.stopped and not drive.stop_confirmed:
         return ((" STOP SENT, NOT CONFIRMED ", "error"), (_unconfirmed(drive), ""))
     if drive.stopped and stands_after_steering(drive):
-        return ((" STANDS ", "warn"), (" enter steers on, ! hands it back to its program", ""))
+        key = stop_key(drive, "hands it back to its program")
+        return ((" STANDS ", "warn"), (f" enter steers on, {key}", ""))
     if drive.stopped:
-        key = "! lets it go" if drive.stopped_here else "! holds it too, once more lets it go"
-        key = "! twice lets it go" if holder_is_gone(drive) and not drive.stopped_here else key
-        return ((" ALL STOP ", "error"), (f" {key}: held{held_by(drive)}", ""))
+        return ((" ALL STOP ", "error"), (f" {stop_key(drive, 'lets it go')}: held{held_by(drive)}", ""))
     if state.armed:
         return ((" ● ARMED ", "warn"), (f" keys drive, h hands back  {topic}", "dim"))
     return ((" ○ disarmed ", "dim"), (" enter arms  " if width >= 34 else " ", "strong"), (topic, "dim"))

@@ -8,6 +8,7 @@ import pytest
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.robot.drive_link import DriveLink
 from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
+from bot_console.tui.safety.stop_messages import stop_text
 from bot_console_robot.safety.emergency_stop import BASE, EmergencyStop
 from domains import unused_domain
 from rclpy.clock import Clock, ClockType
@@ -74,6 +75,21 @@ def test_stop_for_a_press_is_one_of_the_consoles_own_once_it_is_kept_and_each_ne
     assert rig.link.info(WorldInfo()).own_stops == frozenset()
     rig.link.stop(True, "ALL STOP")
     assert len(rig.settle().own_stops) == 1 and not first & rig.link.info(WorldInfo()).own_stops
+
+
+def test_text_says_whether_the_stop_key_would_stop_once_more_or_release(rig: Rig) -> None:
+    rig.link.hold_early("1")
+    assert "(! holds it again)" in stop_text(rig.settle()), "the first press has not had its turn"
+    rig.link.settle_early("1", keep=True)
+    assert "(! releases)" in stop_text(rig.settle())
+    rig.link.hold_early("2")
+    assert "(! holds it again)" in stop_text(rig.settle()), "the waiting press releases, the one after it does not"
+    rig.link.settle_early("2", keep=False)
+    assert "(! releases)" in stop_text(rig.settle())
+    rig.link.stop(False, "")
+    info = rig.link.info(WorldInfo())
+    assert info.stopped and "(being released, ! holds it again)" in stop_text(info), "no lock has answered yet"
+    assert not rig.settle().stopped
 
 
 def test_withdrawn_press_leaves_the_acknowledged_stop_confirmed(rig: Rig) -> None:

@@ -37,7 +37,7 @@ def test_a_stop_where_no_robot_is_reports_that_nothing_is_there_to_stop() -> Non
 def test_a_console_that_is_read_only_promises_no_release() -> None:
     held = DriveInfo(stopped=True, stop_confirmed=True, lockable=True, stopped_here=True, refused="it only looks on")
     assert "released elsewhere" in status_text(ConsoleSnapshot(drive=held))
-    assert "! releases" in status_text(ConsoleSnapshot(drive=replace(held, refused="")))
+    assert "! " not in status_text(ConsoleSnapshot(drive=replace(held, lockable=False, topic="/cmd_vel")))
 
 
 def test_silent_robot_is_distinguished_from_no_robot() -> None:
@@ -55,7 +55,9 @@ STATES = {
     ),
     "STOPPED": DriveInfo(final=(0.0, 0.0), actual=(0.0, 0.0)),
     "SILENT 5 s": DriveInfo(asked=(1.0, 0.0), silent_s=5),
-    "ALL STOP held (! releases)": DriveInfo(stopped=True, stop_confirmed=True, lockable=True, stopped_here=True),
+    "ALL STOP held (! releases)": DriveInfo(
+        stopped=True, stop_confirmed=True, lockable=True, stopped_here=True, own_stops=frozenset(["ours"])
+    ),
 }
 
 
