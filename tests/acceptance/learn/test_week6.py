@@ -571,8 +571,10 @@ def chapter_19(at: Student) -> None:
 
     launch = at.listing("with-an-environment")
     at.reads("waiting for: a launch of intelligent_robot/launch/*launch.py with an argument that contains outdoor")
-    two.run(launch.replace("outdoor_config", "outdor_config"))
+    two.start(launch.replace("outdoor_config", "outdor_config"))
+    two.shows("Parameter file path is not a file")
     at.reads("waiting for: a launch of intelligent_robot/launch/*launch.py with an argument that contains outdoor")
+    two.interrupt()
     two.start(launch)
     at.does("with-an-environment")
 
