@@ -80,13 +80,12 @@ def _parameter(words: Sequence[str], deeds: Deeds) -> str:
 
 
 def _set(words: Sequence[str], deeds: Deeds) -> str:
-    values = deeds.values_set(words[0])
-    if len(words) == 1:
-        return "" if values else f"waiting for: somebody to set {words[0]}"
-    if any(_same(each, words[1]) for each in values):
+    values, reasons = deeds.values_set(words[0]), deeds.refusals(words[0])
+    if any(len(words) == 1 or _same(each, words[1]) for each in values):
         return ""
-    other = f"; it was set to {values[-1]}" if values else ""
-    return f"waiting for: {words[0]} to be set to {words[1]}{other}"
+    other = f"; it was set to {values[-1]}" if values else f"; a value was refused: {reasons[-1]}" if reasons else ""
+    asked = f"{words[0]} to be set to {words[1]}" if len(words) > 1 else f"somebody to set {words[0]}"
+    return f"waiting for: {asked}{other}"
 
 
 def _same(one: str, other: str) -> bool:
