@@ -21,34 +21,20 @@ from bot_console.runtime.rmw.zenoh.domain.discovery_range import why_range_is_ig
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.reexports import reexporting
+from rclpy.impl.unused_overrides import OverriddenNode
 from rclpy.signals import remember_context
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from bot_console.runtime.rmw.arguments import Arguments
     from rclpy.impl.log_file import LogFile
 
 NOT_INITIALIZED = "this context has not been initialised: call rclpy.init() first"
 
 
-class NodeOfContext(Protocol):
+class NodeOfContext(OverriddenNode, Protocol):
     """A node as its context knows it."""
 
-    def get_fully_qualified_name(self) -> str:
-        """Namespace and name."""
-        ...
-
     def _ros_leave_graph(self) -> None: ...
-
-    @property
-    def _allow_undeclared_parameters(self) -> bool: ...
-
-    @property
-    def _parameters(self) -> Mapping[str, object]: ...
-
-    @property
-    def _ros_arguments(self) -> Sequence[Arguments]: ...
 
 
 class Context:

@@ -10,10 +10,10 @@ from bot_console.runtime.rmw.endpoints import (
     Endpoint,
     GraphChanged,
     Hear,
-    Message,
     NodeId,
     Notify,
     OnEvent,
+    Payload,
     ServiceEndpoint,
     SubscriptionEndpoint,
 )
@@ -40,11 +40,11 @@ class PublisherEndpoint(Publisher, Protocol):
         """The publisher's entry in the graph."""
         ...
 
-    def publish(self, message: Message) -> None:
+    def publish(self, message: Payload) -> None:
         """Send each matched subscription its own copy; raises `FieldTypeError` for a message that cannot be sent."""
         ...
 
-    def publish_own(self, message: Message) -> bool:
+    def publish_own(self, message: Payload) -> bool:
         """Publish a well-formed message that nobody else holds; it need not be copied.
 
         Returns False if the publisher is closed: then nobody receives the message.
@@ -111,11 +111,11 @@ class Bus(Protocol):
         """Remove a publisher, subscription, server or client; does nothing if it was already removed."""
         ...
 
-    def request(self, client: ClientEndpoint, number: int, request: Message) -> None:
+    def request(self, client: ClientEndpoint, number: int, request: Payload) -> None:
         """Send a request to the servers; it is lost if there are none."""
         ...
 
-    def respond(self, client: ClientEndpoint, number: int, response: Message) -> None:
+    def respond(self, client: ClientEndpoint, number: int, response: Payload) -> None:
         """Send a response to the client that made the request."""
         ...
 

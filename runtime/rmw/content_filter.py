@@ -14,14 +14,14 @@ from collections.abc import Callable, Iterable, Sequence
 from importlib import import_module
 from typing import Any
 
-from bot_console.runtime.rmw.endpoints import Held, Message
+from bot_console.runtime.rmw.endpoints import Held, Payload
 from bot_console.runtime.rosidl.cdr import CdrError, deserialize
 
 MAX_PARAMETERS = 100
 """The limit of rcl."""
 
-Read = Callable[[Message], Any]
-Accepts = Callable[[Message], bool]
+Read = Callable[[Payload], Any]
+Accepts = Callable[[Payload], bool]
 
 _TOKEN = re.compile(
     r"\s*(?:(?P<number>[+-]?(?:0[xX][0-9a-fA-F]+|\d+(?:\.\d+)?(?:[eE][+-]?\d+)?)(?![\w.]))"
@@ -244,7 +244,7 @@ def _nested(kind: str, value: object) -> Any:
 
 
 def _reader(steps: Sequence[tuple[str, int | None]]) -> Read:
-    def read(message: Message) -> Any:
+    def read(message: Payload) -> Any:
         for attribute, index in steps:
             message = getattr(message, attribute)
             if index is not None:

@@ -5,13 +5,10 @@ from __future__ import annotations
 import itertools
 from collections import deque
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from bot_console.runtime.rmw.names import full_name
 from bot_console.runtime.rmw.qos import Profile
-
-if TYPE_CHECKING:
-    pass
 
 Notify = Callable[[], None]
 """Called, from any thread, when an endpoint has received something."""
@@ -31,10 +28,12 @@ observers that a message was published or received.
 
 OnEvent = Callable[[Event, Any], None]
 
-Message = Any
-"""A message, request or response. The generated classes have no base class; `_copy_()` copies and checks a message."""
+Payload = Any
+"""A message, request or response: an instance of the class of its topic or service, or the bytes that the sender had
+serialized. Only those who made the topic know the class; `_copy_()` copies and checks an instance.
+"""
 
-Hear = Callable[["Endpoint", bytes, int, int, Message], None]
+Hear = Callable[["Endpoint", bytes, int, int, Payload], None]
 """Called, in the thread that publishes or receives, with each message that a process carries: an endpoint that gives
 topic, class and QoS, the publisher's gid, its sequence number, the time of sending (ns), and the message, or its bytes
 if it was serialized. The message must not be changed; one from another process is passed once per subscription.
@@ -56,11 +55,11 @@ class Held:
 
     __slots__ = ()
 
-    def take(self) -> Message | None:
+    def take(self) -> Payload | None:
         """Return a message that nobody else holds; None if it cannot be read, which has then been reported."""
         raise NotImplementedError
 
-    def peek(self) -> Message | None:
+    def peek(self) -> Payload | None:
         """Return the message to be read, not changed; None if it cannot be read, which has then been reported."""
         raise NotImplementedError
 
@@ -74,11 +73,11 @@ class Shared(Held):
 
     __slots__ = ("_left", "_message")
 
-    def __init__(self, message: Message, takers: int) -> None:
+    def __init__(self, message: Payload, takers: int) -> None:
         self._message = message
         self._left = takers
 
-    def take(self) -> Message:
+    def take(self) -> Payload:
         """Return a message that nobody else holds."""
         if self._left == 1:
             return self._message
@@ -87,12 +86,12 @@ class Shared(Held):
         self._left -= 1
         return copy
 
-    def peek(self) -> Message:
+    def peek(self) -> Payload:
         """Return the message to be read, not changed."""
         return self._message
 
 
-def own(message: Message) -> Message | None:
+def own(message: Payload) -> Payload | None:
     """Take a queued message; None if it cannot be read, which has then been reported."""
     return message.take() if isinstance(message, Held) else message
 
@@ -138,11 +137,11 @@ class NodeId(NamedTuple):
         return self.name, self.namespace
 
 
-Arrival = tuple[Message, int, int, int, "int | None"]
+Arrival = tuple[Payload, int, int, int, "int | None"]
 """An entry of a subscription's queue: a message or `Held`, sent (ns), received (ns), sequence number, expiry (ns)."""
-Response = tuple[int, Message]
+Response = tuple[int, Payload]
 """An entry of a client's queue: the sequence number of the request, and its response."""
-Request = tuple["ClientEndpoint", int, Message]
+Request = tuple["ClientEndpoint", int, Payload]
 """An entry of a service's queue: who asks, the sequence number, and the request."""
 
 # No dataclasses: their import and what they generate take a tenth of a short program's time.

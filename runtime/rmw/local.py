@@ -13,10 +13,10 @@ from bot_console.runtime.rmw.endpoints import (
     Endpoint,
     GraphChanged,
     Hear,
-    Message,
     NodeId,
     OnEvent,
     Owner,
+    Payload,
     ServiceEndpoint,
     SubscriptionEndpoint,
     Tap,
@@ -198,14 +198,14 @@ class LocalBus:
                 publisher.targets = tuple(each for each in publisher.targets if each is not subscription)
                 publisher.on_event("matched", -1)
 
-    def request(self, client: ClientEndpoint, number: int, request: Message) -> None:
+    def request(self, client: ClientEndpoint, number: int, request: Payload) -> None:
         """Put a copy of the request into the queue of each server of the service."""
         for server in tuple(self._services.get(client.name, ())):
             if server.type_name == client.type_name:
                 server.queue.append((client, number, request._copy_()))
                 server.notify()
 
-    def respond(self, client: ClientEndpoint, number: int, response: Message) -> None:
+    def respond(self, client: ClientEndpoint, number: int, response: Payload) -> None:
         """Put a copy of the response into the client's queue."""
         client.queue.append((number, response._copy_()))
         client.notify()

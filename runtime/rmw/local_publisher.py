@@ -11,9 +11,9 @@ from typing import Any
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import (
     Endpoint,
-    Message,
     Notify,
     OnEvent,
+    Payload,
     Shared,
     SubscriptionEndpoint,
     Tap,
@@ -21,7 +21,7 @@ from bot_console.runtime.rmw.endpoints import (
 )
 from bot_console.runtime.rmw.qos_matching import INFINITE, LATCHING
 
-Aim = tuple[tuple[SubscriptionEndpoint, ...], Callable[[Message], bytes] | None]
+Aim = tuple[tuple[SubscriptionEndpoint, ...], Callable[[Payload], bytes] | None]
 """The receivers, and the serializer if none of them needs the message object. Replaced as a whole."""
 
 
@@ -80,7 +80,7 @@ class LocalPublisher:
         in_bytes = bool(targets) and self.history is None and all(each.raw for each in targets)
         self._aim = targets, _codec().serialize if in_bytes else None
 
-    def publish(self, message: Message) -> None:
+    def publish(self, message: Payload) -> None:
         """Send the message's present content; refuses one that cannot be sent even if nobody listens.
 
         If all receivers want bytes, as other processes do, it is only serialized; otherwise it is copied.
@@ -92,7 +92,7 @@ class LocalPublisher:
             else:
                 self._give(targets, message, write(message))
 
-    def publish_own(self, message: Message) -> bool:
+    def publish_own(self, message: Payload) -> bool:
         """Publish a well-formed message that nobody else holds: it is not copied unless needed.
 
         Returns False if the publisher is closed.
@@ -108,7 +108,7 @@ class LocalPublisher:
                 self.assert_liveliness()
             self._number += 1
 
-    def _give(self, targets: tuple[SubscriptionEndpoint, ...], message: Message, data: bytes | None = None) -> None:
+    def _give(self, targets: tuple[SubscriptionEndpoint, ...], message: Payload, data: bytes | None = None) -> None:
         """Put a message, or its bytes, into each target's queue; the message then belongs to the middleware."""
         if self.lease is not None or self.on_publish is not None:
             self.assert_liveliness()

@@ -1,6 +1,7 @@
 """The limits of the style page: how much a reader has to keep in mind at once."""
 
 import ast
+import runpy
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,8 @@ ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ("tui", "runtime", "nodes", "launch", "tools")
 FILE_LIMIT = 500
 FUNCTION_LIMIT = 60
+MAX_ANY_PER_1000_LINES = 20
+"""Uses of `Any` in the runtime, rounded: what is left can be anything, or is checked when the program runs."""
 LONGER = {"tui/keymap.py": "the one key table: in two files, nobody would see which keys are taken"}
 """Files that may exceed the limit, each with the reason."""
 FILES = sorted(
@@ -41,3 +44,8 @@ def test_no_function_exceeds_the_limit(folder):
                 if lines > FUNCTION_LIMIT:
                     long[f"{path.relative_to(ROOT)}:{node.lineno} {node.name}"] = lines
     assert long == {}
+
+
+def test_runtime_does_not_use_any_more_often():
+    density = runpy.run_path(str(ROOT / "tools/figures.py"))["any_density"](ROOT)
+    assert round(density) <= MAX_ANY_PER_1000_LINES

@@ -13,9 +13,9 @@ from bot_console.runtime.rmw.endpoints import (
     Endpoint,
     GraphChanged,
     Hear,
-    Message,
     NodeId,
     OnEvent,
+    Payload,
     ServiceEndpoint,
     SubscriptionEndpoint,
 )
@@ -216,14 +216,14 @@ class ZenohBus:
             bridge = bridged.bridges.get(thing) if bridged else None
         return bridge.way if bridge else None
 
-    def request(self, client: ClientEndpoint, number: int, request: Message) -> None:
+    def request(self, client: ClientEndpoint, number: int, request: Payload) -> None:
         """Send a request to local and remote servers; it is lost if there are none."""
         self._local.request(client, number, request)
         asking = self._bridge(client)
         if isinstance(asking, Asking) and (asking.has_server or not self._local.has_server(client)):
             asking.request(number, request)
 
-    def respond(self, client: ClientEndpoint, number: int, response: Message) -> None:
+    def respond(self, client: ClientEndpoint, number: int, response: Payload) -> None:
         """Send a response to the client that made the request."""
         if isinstance(client, RemoteClient):
             client.served.respond(client, number, response)

@@ -7,7 +7,7 @@ from collections.abc import Container
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
-from bot_console.runtime.rmw.endpoints import Held, Message, SubscriptionEndpoint, Tap, depth
+from bot_console.runtime.rmw.endpoints import Held, Payload, SubscriptionEndpoint, Tap, depth
 from bot_console.runtime.rmw.zenoh.declarations import Declaration
 from bot_console.runtime.rmw.zenoh.remote_publisher import BLOCKING_TOPICS
 from bot_console.runtime.rmw.zenoh.session import Session
@@ -45,14 +45,14 @@ class Arrived(Held):
     def __init__(self, remote_subscription: RemoteSubscription, payload: bytes) -> None:
         self._remote_subscription = remote_subscription
         self._payload = payload
-        self._peeked: Message | None = None
+        self._peeked: Payload | None = None
 
-    def peek(self) -> Message | None:
+    def peek(self) -> Payload | None:
         """Return the message to be read, not changed; None if it is malformed."""
         self._peeked = self.take()
         return self._peeked
 
-    def take(self) -> Message | None:
+    def take(self) -> Payload | None:
         """Deserialize and return the message; None if it is malformed."""
         if self._peeked is not None:
             return self._peeked

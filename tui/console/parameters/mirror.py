@@ -30,7 +30,7 @@ from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters
 from rclpy.node import Node
 from rclpy.qos import qos_profile_parameter_events
 
-RELIST = 5.0
+RELIST_S = 5.0
 """Seconds between checks for what no event has reported: undeclared parameters, and the values of a node that
 restarted before its absence was noticed and whose first event was lost.
 """
@@ -78,7 +78,7 @@ class ParameterMirror:
         self._waiting: deque[tuple[Reading, str]] = deque()
         self._reading = 0
         node.create_subscription(ParameterEvent, "/parameter_events", self._on_event, qos_profile_parameter_events)
-        node.create_timer(RELIST, self._poll_again)
+        node.create_timer(RELIST_S, self._poll_again)
 
     def get(self, node: str, name: str) -> ParameterInfo | None:
         """A parameter's last known state."""
