@@ -388,8 +388,9 @@ TABLE: dict[str, tuple[Key, ...]] = {
             shown="E",
         ),
         Key("topics.hidden", "D", "hidden", "Show hidden topics and built-in services too", shown="D"),
-        Key("topics.fold", "left", "fold(True)", "Fold this line of the message"),
-        Key("topics.unfold", "right", "fold(False)", "Unfold this line of the message"),
+        Key("topics.fold", "left", "fold(True)", "Fold the namespace, or this line of the message"),
+        Key("topics.unfold", "right", "fold(False)", "Unfold it"),
+        Key("topics.fold_all", "C", "fold_all", "Fold all namespaces, or unfold them", shown="C"),
         Key("topics.copy", "y", "copy", "Copy the ros2 command"),
     ),
     "diagram": (

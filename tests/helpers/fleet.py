@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from types import MappingProxyType
 
+import samples
 from bot_console.tui.console.model import (
     Change,
     ChangeSource,
@@ -44,6 +45,19 @@ PATH, MAP, IMU, CLOCK = (
     "sensor_msgs/msg/Imu",
     "rosgraph_msgs/msg/Clock",
 )
+VALUES = {
+    **samples.VALUES,
+    BATTERY: "percentage 0.98  voltage 12.59 V",
+    CLOCK: "812.4 s",
+    CLOUD: "640 x 480",
+    IMAGE: "640 x 480 pixels  encoding rgb8",
+    IMU: "z 0.20 rad/s  x 0.10 m/s²  z 9.81 m/s²",
+    MAP: "400 x 300 cells  resolution 0.05 m/cell",
+    PATH: "poses 42",
+    POSE: "x 2.50 m  y -1.20 m",
+    TEXT: "ready",
+}
+"""What the newest message of a type says."""
 IN_ROBOT: tuple[tuple[str, str, str, tuple[str, ...], float], ...] = (
     ("lidar", "scan", SCAN, ("localization", "collision_monitor", "costmap"), 10),
     ("camera", "image", IMAGE, (), 15),
@@ -155,7 +169,8 @@ def fleet() -> tuple[FakeConsole, FakeLauncher]:
             graph=graph(), drive=drive, launch=launched(), journal=JournalState(0, 1),
         )
     )  # fmt: skip
-    for _, topic, _, _, rate in LINKS:
+    for _, topic, kind, _, rate in LINKS:
+        console.topics.values[topic] = VALUES[kind]
         console.topics.figures[topic] = Measure(rate, rate * 400, 0.5 / rate if rate else None, None, 1200)
     times = [at / 10 for at in range(150, 600)]
     for at, robot in enumerate(ROBOTS):

@@ -131,6 +131,15 @@ def figures() -> dict[str, Measure]:
     return found
 
 
+VALUES = {
+    SCAN: "ranges 0.55 .. 9.87 m",
+    ODOM: "x 2.50 m  y -1.20 m  0.60 m/s  0.20 rad/s",
+    TWIST: "0.60 m/s  0.20 rad/s",
+    FLOAT: "0.60",
+}
+"""What the newest message of a type says."""
+
+
 def odometry() -> Any:
     """A message with a header, a quaternion, units and a long array."""
     from nav_msgs.msg import Odometry
@@ -256,6 +265,7 @@ def live(parts: tuple[str, ...] = ()) -> tuple[FakeConsole, FakeLauncher]:
         Change(1, START - 5 * 10**9, "/robot_navigator", "max_speed", 1.0, 10.0, ChangeSource.EDIT, False, "too fast"),
     ]  # fmt: skip
     console.topics.figures.update(figures())
+    console.topics.values.update({topic: VALUES[kind] for source, topic, kind, _ in LINKS if source})
     console.sensors.info = diagnosed()
     console.topics.messages[ODOM_TOPIC] = (odometry(), ODOM)
     console.differences["competition"] = differences()

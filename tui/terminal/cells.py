@@ -15,8 +15,10 @@ from rich.segment import Segment
 from rich.style import Style
 from textual.strip import Strip
 
-NARROW = re.compile(r"[\x20-\x7e\xa0-\xac\xae-\u02ff\u2190-\u2199\u2500-\u25fc\u2800-\u28ff]*")
-"""Texts whose characters take one cell each in every terminal."""
+NARROW = re.compile(
+    r"[\x20-\x7e\xa0-\xac\xae-\u02ff\u2190-\u21a8\u21ab-\u21ff\u2500-\u25fc\u2713\u2717\u2718\u2800-\u28ff]*"
+)
+"""Texts whose characters take one cell each in every terminal; arrows that are emoji, too, are not among them."""
 
 ACTING = frozenset(("Cc", "Cf", "Cs"))
 """Categories of characters that terminals obey or that cannot be encoded: controls, formatting, surrogates."""

@@ -29,6 +29,8 @@ class FakeTopics:
     def __init__(self, asked: list[tuple[Any, ...]]) -> None:
         self.asked = asked
         self.figures: dict[str, Measure] = {}
+        self.values: dict[str, str] = {}
+        """The newest values of topics, as they are shown."""
         self.messages: dict[str, tuple[Any, str]] = {}
         """The message that a topic delivers, and its type."""
         self.response: Reply = Reply(True, "", 0.0042)
@@ -51,6 +53,9 @@ class FakeTopics:
 
     def measured(self) -> Mapping[str, Measure]:
         return {topic: self.figures.get(topic, Measure()) for topic in self.measuring}
+
+    def newest(self) -> Mapping[str, str]:
+        return {topic: self.values[topic] for topic in self.measuring if topic in self.values}
 
     def expect(self, path: str) -> Answer:
         self.asked.append(("expect", path))

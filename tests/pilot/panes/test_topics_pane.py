@@ -8,6 +8,7 @@ from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo, RateChe
 from bot_console.tui.console.topics.port import Field, Reply, RequestedQos
 from bot_console.tui.panes.topics.pane import TopicsPane
 from bot_console.tui.panes.topics.table import TopicRows
+from fleet import fleet
 from geometry_msgs.msg import Twist
 from piloting import Clock, Session, run
 from samples import ODOM, ODOM_TOPIC, empty, graph, live, odometry
@@ -119,6 +120,71 @@ def test_topics_are_listed_in_natural_order() -> None:
     run(live(), play, SIZE)
 
 
+def test_newest_values_are_a_column_and_follow_the_messages() -> None:
+    async def play(session: Session) -> None:
+        await opened(session)
+        assert "value" in session.text() and "x 2.50 m  y -1.20 m" in next(
+            each for each in session.lines() if "/odom" in each
+        )
+        session.console.topics.values["/odom"] = "x 3.25 m"
+        tick(session)
+        await session.settle()
+        line = next(each for each in session.lines() if "/odom" in each)
+        assert "x 3.25 m" in line and "2.50" not in line
+
+    run(live(), play, (80, 24))
+
+
+def test_namespaces_of_a_fleet_start_folded_and_unfold_one_by_one() -> None:
+    def names(session: Session) -> list[str]:
+        return [each.name for each in session.pane(TopicRows).rows]
+
+    async def play(session: Session) -> None:
+        await opened(session)
+        assert names(session) == [
+            "/clock", "/fleet", "/map", "/parameter_events", "/robot1", "/robot2", "/robot3", "/robot4", "/rosout",
+        ]  # fmt: skip
+        assert "▸ /robot2" in session.text() and "14 topics" in session.text()
+        measured = session.console.topics.measuring
+        assert "/clock" in measured and not any(each.startswith("/robot") for each in measured), "nobody sees them"
+        await at(session, "/robot2")
+        await session.press("enter")
+        assert "/robot2/odom" in names(session) and "/robot1/odom" not in names(session)
+        assert "/robot2/odom" in session.console.topics.measuring
+        await at(session, "/robot2/odom")
+        await session.press("left")
+        assert session.pane(TopicRows).current.name == "/robot2" and "/robot2/odom" not in names(session)
+        await session.press("slash", *"vel", "enter")
+        assert [each for each in names(session) if each.endswith("vel")] == [
+            f"/robot{at}/cmd_vel" for at in range(1, 5)
+        ]
+        await session.press("C")
+        assert names(session) == [f"/robot{at}" for at in range(1, 5)]
+        await session.press("escape")
+        assert "/fleet" in names(session) and "/robot2/odom" not in names(session), "as before the filter"
+        await session.press("C")
+        assert len(names(session)) > 60
+        await session.press("C", "p", "P", "y", "x", "Q")
+        assert session.pane(TopicRows).current is not None, "a key for topics does nothing on a namespace"
+
+    run(fleet(), play, SIZE)
+
+
+def test_fault_in_a_folded_namespace_is_marked_at_it() -> None:
+    topics = tuple(Endpoint(f"/arm/t{number}", ("std_msgs/msg/Float64",)) for number in range(50))
+    extra = Endpoint("/clock", ("std_msgs/msg/Float64",))
+
+    async def play(session: Session) -> None:
+        nodes = NodeInfo("/n", (*topics[1:], extra)), NodeInfo("/m", (), topics)
+        session.console.change(graph=GraphInfo(nodes, (*topics, extra)))
+        await opened(session)
+        assert "!▸ /arm" in session.text() and "!/arm" not in session.text()
+        await at(session, "/arm")
+        assert "/arm/t0: nobody publishes it" in session.text()
+
+    run(live(), play, SIZE)
+
+
 def test_only_visible_rows_are_measured() -> None:
     topics = tuple(Endpoint(f"/t{number:03}", ("std_msgs/msg/Float64",)) for number in range(300))
 
@@ -162,7 +228,8 @@ def test_newest_message_is_a_tree_that_can_be_frozen_and_folded() -> None:
 
 
 def test_names_beside_a_message_are_cut_in_the_middle() -> None:
-    deep = [f"/cell_3/perception/front/left/camera/{each}" for each in ("colour/image_raw", "depth/image_raw", "info")]
+    ends = ("colour/image_raw", "depth/image_raw", "info")
+    deep = [f"/cell_3{at}/perception/front/left/camera/{each}" for at, each in enumerate(ends)]
     topics = tuple(Endpoint(each, ("std_msgs/msg/Float64",)) for each in deep)
 
     async def play(session: Session) -> None:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 from bot_console.tui.console.bags.contents import Contents
 from bot_console.tui.console.gate import Gate
 from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.topics.headline import headline
 from bot_console.tui.console.topics.message_tree import tree
 from bot_console.tui.console.topics.node_topics import NodeTopics
 from bot_console.tui.console.topics.port import LiveMessage, Measure, RequestedQos
+
+UNREADABLE = (ImportError, AttributeError, ValueError, RuntimeError)
+"""What is raised for a message whose type is missing here, or does not match."""
 
 
 class BagTopics(NodeTopics):
@@ -22,6 +26,9 @@ class BagTopics(NodeTopics):
         self._stamp: int | None = None
         self._heard = LiveMessage()
         self._means: Mapping[str, Measure] | None = None
+        self._wanted: Collection[str] = ()
+        self._values: dict[tuple[str, int], str] = {}
+        """What the messages in view say, by topic and number."""
 
     def time_moved(self, stamp: int | None) -> None:
         """Show the messages at a time (ns since the epoch); None stands for the end."""
@@ -37,6 +44,26 @@ class BagTopics(NodeTopics):
                 for name, topic in about.topics.items()
             }
         return self._means
+
+    def measure(self, topics: Collection[str], requester: str = "") -> None:
+        """Show the values of these topics."""
+        self._wanted = topics
+
+    def newest(self) -> Mapping[str, str]:
+        """The values at the time being viewed."""
+        known, self._values = self._values, {}
+        for topic in self._wanted:
+            count = self._contents.count(topic, self._stamp) if topic in self._contents.metadata.topics else 0
+            if count:
+                at = topic, count
+                self._values[at] = known[at] if at in known else self._value(*at)
+        return {topic: text for (topic, _), text in self._values.items()}
+
+    def _value(self, topic: str, count: int) -> str:
+        try:
+            return headline(self._contents.message(topic, count - 1), self._contents.metadata.topics[topic].type)
+        except UNREADABLE:
+            return ""
 
     def listen(self, topic: str, qos: RequestedQos | None = None) -> None:
         """Show this topic."""
@@ -57,6 +84,6 @@ class BagTopics(NodeTopics):
             message = self._contents.message(topic, count - 1) if count else None
             fields = tree(message, known.type) if message is not None else ()
             self._heard = LiveMessage(topic, known.type, fields, count, problem="" if count else problem)
-        except (ImportError, AttributeError, ValueError, RuntimeError) as error:
+        except UNREADABLE as error:
             self._heard = LiveMessage(topic, known.type, (), count, problem=f"{known.type} cannot be read: {error}")
         return self._heard

@@ -1,4 +1,6 @@
-"""Rate, bandwidth, age and latency of topics, measured on serialized messages, so that none is ever deserialized."""
+"""Rate, bandwidth, age and latency of topics, measured on serialized messages; only the newest one of a topic is
+deserialized, when its value is read.
+"""
 
 from __future__ import annotations
 
@@ -9,10 +11,12 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any
 
 from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.topics.headline import headline
 from bot_console.tui.console.topics.interfaces import HEADER, fields_of, interface
 from bot_console.tui.console.topics.offered_topics import offered_qos, offered_types_of
 from bot_console.tui.console.topics.port import Measure, Payload
 from rclpy.node import Node
+from rclpy.serialization import deserialize_message
 
 WINDOW = 5.0
 """Seconds over which a rate is measured."""
@@ -27,6 +31,8 @@ METER_POLL_S = 0.25
 OTHER_CLOCK = 3600.0
 """Difference (s) from which a stamp is considered to be from another clock."""
 LITTLE, BIG = struct.Struct("<iI"), struct.Struct(">iI")
+MAX_VALUE_BYTES = 16_384
+"""Bytes of a message whose value is read; images and the like would take too long."""
 STAMP_AT = 4
 """Offset of the message after the four bytes that identify its serialization."""
 
@@ -43,6 +49,8 @@ class Meter:
         self._late = 0
         """Sum of all latencies, in ns."""
         self._first = self._last = 0.0
+        self.newest: bytes | None = None
+        """The newest message, serialized; None before the first one, empty if it is too large."""
         self._polls: deque[tuple[float, float, int, int, int, int]] = deque([(time.monotonic(), 0.0, 0, 0, 0, 0)])
 
     def take(self, data: bytes, info: Mapping[str, int | None]) -> None:
@@ -52,6 +60,7 @@ class Meter:
         now = max(time.monotonic() - waited, self._last)
         self._count += 1
         self._size += len(data)
+        self.newest = data if len(data) <= MAX_VALUE_BYTES else b""
         self._first, self._last = self._first or now, now
         if self._stamped and len(data) >= STAMP_AT + 8:
             seconds, nanoseconds = (LITTLE if data[1] & 1 else BIG).unpack_from(data, STAMP_AT)
@@ -98,6 +107,8 @@ class Meters:
     def __init__(self, node: Node) -> None:
         self._node = node
         self._meters: dict[str, tuple[Any, Meter, tuple[bool, bool]]] = {}
+        self._values: dict[str, tuple[bytes, str]] = {}
+        """The messages whose values were read last, with what they say."""
         self._resting: dict[str, Measure] = {}
         """The last measurements of topics that are waiting for their next turn, the longest wait first."""
         self._wanted: frozenset[str] = frozenset()
@@ -111,7 +122,7 @@ class Meters:
         for topic in list(self._meters):
             if topic not in self._wanted or self._meters[topic][2] != offered_qos(graph, topic).key:
                 self._detach(topic)
-        for known in (self._problems, self._resting):
+        for known in (self._problems, self._resting, self._values):
             for topic in known.keys() - self._wanted:
                 del known[topic]
         for topic in self._wanted - self._meters.keys() - self._resting.keys():
@@ -170,6 +181,22 @@ class Meters:
         found = dict(self._resting)
         found.update({topic: self._shown(topic, meter.poll()) for topic, (_, meter, _) in list(self._meters.items())})
         return {**found, **{topic: Measure(problem=why) for topic, why in list(self._problems.items())}}
+
+    def newest(self) -> Mapping[str, str]:
+        """The newest value of each topic on one line; from any thread."""
+        for topic, (subscription, meter, _) in list(self._meters.items()):
+            data, (known, _) = meter.newest, self._values.get(topic, (None, ""))
+            if data is not None and data is not known:
+                self._values[topic] = data, value_text(data, subscription.msg_type)
+        return {topic: text for topic, (_, text) in list(self._values.items())}
+
+
+def value_text(data: bytes, kind: Any) -> str:
+    """A serialized message on one line; empty if it cannot be read."""
+    try:
+        return headline(deserialize_message(data, kind), f"{kind.__module__.partition('.')[0]}/msg/{kind.__name__}")
+    except (AttributeError, OverflowError, RuntimeError, TypeError, ValueError):
+        return ""
 
 
 def in_turn(rates: Mapping[str, float], resting: Sequence[str], budget: float) -> set[str]:

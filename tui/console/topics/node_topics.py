@@ -117,6 +117,10 @@ class NodeTopics:
         """Their measurements."""
         return self._meters.measured() if self._attached else {}
 
+    def newest(self) -> Mapping[str, str]:
+        """Their newest values."""
+        return self._meters.newest() if self._attached else {}
+
     def expect(self, path: str) -> Answer:
         """Check the rates and ages that a file expects."""
         from bot_console.tui.console.graph.expected import read_file

@@ -160,6 +160,10 @@ class Topics(Protocol):
         """The measurements of those topics."""
         ...
 
+    def newest(self) -> Mapping[str, str]:
+        """The newest value of each of those topics, on one line; without those that are too large to be read."""
+        ...
+
     def expect(self, path: str) -> Answer:
         """Check all the time whether topics have the rates and ages that a file expects; the results are in
         `ConsoleSnapshot.rate_checks`. An empty path ends that.

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 
+from bot_console.tui.text.namespaces import outermost
+
 TOPIC, SERVICE, ACTION = "topic:", "service:", "action:"
 LINKS = (TOPIC, SERVICE, ACTION)
 """How the ids of items begin that stand between nodes."""
 SPACE = "namespace:"
 """Begins the id of a box that stands for all nodes of a namespace."""
-MIN_NODES = 2
-"""Nodes that a namespace has at least to be worth a box."""
 
 
 def is_link(item: str) -> bool:
@@ -21,24 +21,6 @@ def is_link(item: str) -> bool:
 def namespace_of(node: str) -> str:
     """The namespace of a node; empty for the root."""
     return node.rpartition("/")[0]
-
-
-def outermost(nodes: Iterable[str], above: str = "") -> frozenset[str]:
-    """The namespaces directly below one, or below the root, with enough nodes for a box.
-
-    A single box for everything says nothing: where one namespace holds all nodes, those in it stand for them.
-    """
-    below = [each for each in nodes if each.startswith(f"{above}/")]
-    counts: dict[str, int] = {}
-    for node in below:
-        first, deeper, _ = node.removeprefix(f"{above}/").partition("/")
-        if deeper:
-            space = f"{above}/{first}"
-            counts[space] = counts.get(space, 0) + 1
-    found = frozenset(space for space, count in counts.items() if count >= MIN_NODES)
-    if len(found) == 1 and counts[space := next(iter(found))] == len(below):
-        return outermost(below, space) or found
-    return found
 
 
 def folds_of(nodes: Sequence[str], maximum: int) -> frozenset[str]:

@@ -38,7 +38,6 @@ from bot_console.tui.panes.graph.namespaces import (
     folds_of,
     is_link,
     namespace_of,
-    outermost,
     unfolded,
 )
 from bot_console.tui.panes.graph.notes import caption, dead_ends, item_notes, nothing_drawn, summary_of
@@ -47,6 +46,7 @@ from bot_console.tui.panes.graph.view import GraphView, Mode, Shown, shown
 from bot_console.tui.panes.graph.view_state import STATE_NAME, ViewState, view_state_of
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.transitions import ask_transition
+from bot_console.tui.text.namespaces import outermost
 from bot_console.tui.widgets.diagram.chart.drawing import WIDE
 from bot_console.tui.widgets.diagram_view import LARGE, DiagramView
 from bot_console.tui.widgets.prompt.filtered import Narrowed

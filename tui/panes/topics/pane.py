@@ -16,7 +16,7 @@ from bot_console.tui.format import counted
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.topics.message import MessageRows
 from bot_console.tui.panes.topics.qos_form import changed_qos, qos_fields, unheard, wrong_qos
-from bot_console.tui.panes.topics.rows import Kind, Row, matches, rows
+from bot_console.tui.panes.topics.rows import Kind, Row, folds_at_start, grouped, matches, rows
 from bot_console.tui.panes.topics.table import TopicRows, heading
 from bot_console.tui.text.figures import age_text, rate_text
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
@@ -42,10 +42,10 @@ class TopicsPane(ListPane):
 
     TITLE = "Topics"
     HELP = (
-        "Every topic with its publishers and subscribers, rate, bandwidth, age of the newest message, latency by the\n"
-        "stamps of headers, type and offered QoS; only the rows in view are measured, and only while they are seen.\n"
-        "Enter opens the newest message as a tree that goes on living. P fills in a message and publishes it. m lists\n"
-        "services and actions, which Enter calls. What is wrong with a topic is marked ! and said below.\n"
+        "Every topic with its publishers and subscribers, rate, bandwidth, age and value of the newest message,\n"
+        "latency by the stamps of headers, type and offered QoS; only the rows in view are measured, and only while\n"
+        "they are seen. Enter opens the newest message as a tree that goes on living, or a namespace. P fills in a\n"
+        "message and publishes it. m lists services and actions, which Enter calls. What is wrong is marked !.\n"
         "E names a file of expected rates (`bot-console graph --rates` writes one); what is late is marked, too."
     )
     BINDINGS = keymap.bindings("topics")
@@ -60,8 +60,12 @@ class TopicsPane(ListPane):
         self._checks: Sequence[RateCheck] = ()
         self._kind = Kind.TOPICS
         self._query = Query()
-        self._every = 0
+        self._every = self._listed = 0
         self._hidden = False
+        self._folded: frozenset[str] | None = None
+        """The namespaces that a person has left folded; None: nobody has folded or unfolded any."""
+        self._folded_matches: frozenset[str] = frozenset()
+        """What was folded since the filter was set: its matches are listed however the list was folded before."""
         self._measuring: list[str] = []
         self._topic = ""
         """The topic whose message is open."""
@@ -123,9 +127,23 @@ class TopicsPane(ListPane):
         shown.kind = self._kind
         every = rows(self._info or GraphInfo(), self._kind, hidden=self._hidden)
         self._every = len(every)
-        shown.exchange([each for each in every if matches(self._query, each)])
+        found = [each for each in every if matches(self._query, each)]
+        shown.exchange(grouped(found, self._folds(every)))
+        self._listed = len(found)
         self._head()
         self._report()
+
+    def _folds(self, every: Sequence[Row]) -> frozenset[str]:
+        """The namespaces that are folded now."""
+        if self._query.terms:
+            return self._folded_matches
+        return folds_at_start(every) if self._folded is None else self._folded
+
+    @property
+    def _current(self) -> Row | None:
+        """The topic, service or action at the cursor; None on a namespace."""
+        row = self._list.current
+        return None if row is None or row.members else row
 
     def _head(self) -> None:
         shown = self._list
@@ -153,7 +171,10 @@ class TopicsPane(ListPane):
             self._kind, self.border_title = Kind.TOPICS, self.TITLE
             self.post_message(self.KeysChanged())
         self.set_filter("")
-        names = [each.name for each in self._list.rows]
+        space = next((each.name for each in self._list.rows if each.is_folded and name in each.members), "")
+        if space:
+            self._fold(space, closed=False)
+        names = ["" if each.members else each.name for each in self._list.rows]
         if name in names:
             self._list.cursor = names.index(name)
 
@@ -173,7 +194,7 @@ class TopicsPane(ListPane):
         shown, traffic = self._list, self.console.topics
         self._measure(shown.in_view if self._kind is Kind.TOPICS and shown.display else [])
         if self._kind is Kind.TOPICS:
-            shown.show_measured(traffic.measured(), traffic.repeated())
+            shown.show_measured(traffic.measured(), traffic.repeated(), traffic.newest())
         elif self._kind is Kind.ACTIONS:
             goals = traffic.goals()
             if {n: g.active for n, g in goals.items()} != {n: g.active for n, g in shown.goals.items()}:
@@ -211,13 +232,16 @@ class TopicsPane(ListPane):
     def _report(self) -> None:
         """What is listed, and all about the row at the cursor."""
         shown, row = self._list, self._list.current
-        self.report_filter(len(shown.rows), self._every, "hidden ones too" if self._hidden else "")
+        self.report_filter(self._listed, self._every, "hidden ones too" if self._hidden else "")
         shown.show_placeholder(FILTERED_OUT if self.words else _empty(self._kind))
         text = self._about(row) if row is not None else self._problem
         status = self.query_one("#topics-status", StaticText)
         status.show_text(text)
 
     def _about(self, row: Row) -> str:
+        if row.members:
+            fold = "unfolds" if row.is_folded else "folds"
+            return row.problem or f"{row.name}  {counted(len(row.members), self._kind.value[:-1])}; enter {fold} them"
         traffic = self.console.topics
         repeated = traffic.repeated().get(row.name) if self._kind is Kind.TOPICS else None
         if repeated:
@@ -231,8 +255,11 @@ class TopicsPane(ListPane):
         if check is not None and check.late:
             return f"{check.measured}, expected {check.expected}"
         ends = f"{' '.join(row.gives) or 'nobody'} → {' '.join(row.takes) or 'nobody'}"
+        if self._kind is not Kind.TOPICS:
+            return f"{row.type}  {' '.join(row.gives) or 'no server'}"
         expected = f"expected {check.expected}  " if check is not None else ""
-        return f"{expected}{row.type}  {ends if self._kind is Kind.TOPICS else ' '.join(row.gives) or 'no server'}"
+        qos = f"  {row.qos}" if row.qos and not self._list.columns(self._list.across).qos else ""
+        return f"{expected}{row.type}  {ends}{qos}"
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Tell of the row at the cursor."""
@@ -255,6 +282,8 @@ class TopicsPane(ListPane):
         row = self._list.current
         if self._in_message:
             self._message.fold()
+        elif row is not None and row.members:
+            self._fold(row.name, closed=not row.is_folded)
         elif row is not None and self._kind is Kind.TOPICS:
             self._open(row.name)
         else:
@@ -286,9 +315,33 @@ class TopicsPane(ListPane):
             self.set_filter("")
 
     def action_fold(self, closed: bool) -> None:
-        """Close or open what a line of the message holds."""
+        """Fold or unfold what a line of the message contains, or the namespace at the cursor."""
+        row = self._list.current
         if self._in_message:
             self._message.fold(closed)
+        elif row is not None and (row.space or row.members):
+            self._fold(row.space or row.name, closed=closed)
+
+    def action_fold_all(self) -> None:
+        """Fold all namespaces, or unfold them if all are folded."""
+        spaces = [each for each in self._list.rows if each.members]
+        is_any_open = not all(each.is_folded for each in spaces)
+        self._change_folds(frozenset(each.name for each in spaces if is_any_open))
+
+    def _fold(self, space: str, *, closed: bool) -> None:
+        rows = self._list.rows
+        folded = frozenset(each.name for each in rows if each.is_folded)
+        if closed:
+            self._list.begin_at(next(at for at, each in enumerate(rows) if each.members and each.name == space))
+        self._change_folds(folded | {space} if closed else folded - {space})
+
+    def _change_folds(self, folded: frozenset[str]) -> None:
+        if self._query.terms:
+            self._folded_matches = folded
+        else:
+            self._folded = folded
+        self._arrange()
+        self._poll(self.clock())
 
     def action_freeze(self) -> None:
         """Let the message stand still, or go on."""
@@ -298,7 +351,7 @@ class TopicsPane(ListPane):
 
     def action_qos(self) -> None:
         """Ask for the QoS with which the topic is heard."""
-        row = self._list.current
+        row = self._current
         topic = self._topic or (row.name if row is not None and self._kind is Kind.TOPICS else "")
         if topic:
             fields = qos_fields(self._qos.get(topic) or RequestedQos())
@@ -330,12 +383,12 @@ class TopicsPane(ListPane):
 
     def filter_is(self, words: str) -> None:
         """Show what passes."""
-        self._query = parse(words)
+        self._query, self._folded_matches = parse(words), frozenset()
         self._arrange()
 
     def action_plot(self) -> None:
         """Plot the field at the cursor; in the list, one of the topic's fields."""
-        row, field = self._list.current, self._message.current
+        row, field = self._current, self._message.current
         if self._in_message:
             if field is None or not field.number:
                 self.notify("Only a number can be plotted.", severity="warning")
@@ -353,7 +406,7 @@ class TopicsPane(ListPane):
 
     def action_copy(self) -> None:
         """Copy the `ros2` command that shows the same."""
-        row = self._list.current
+        row = self._current
         if row is not None:
             verb = {Kind.TOPICS: "topic echo", Kind.SERVICES: "service type", Kind.ACTIONS: "action info"}[self._kind]
             text = f"ros2 {verb} {row.name}"
@@ -362,7 +415,7 @@ class TopicsPane(ListPane):
 
     def action_stop(self) -> None:
         """Publish no more, or cancel the goal."""
-        row = self._list.current
+        row = self._current
         if row is None:
             return
         if self._kind is Kind.ACTIONS:
@@ -389,7 +442,7 @@ class TopicsPane(ListPane):
 
     def action_fill(self) -> None:
         """Fill in a message, a request or a goal, and send it."""
-        row = self._list.current
+        row = self._current
         if row is None:
             return
         if not row.type:

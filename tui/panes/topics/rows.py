@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from bot_console.tui.console.model import Endpoint, GraphInfo, IncompatiblePair, NodeInfo
 from bot_console.tui.console.query import Query
 from bot_console.tui.console.topics.port import Payload
+from bot_console.tui.text.namespaces import outermost
 from bot_console.tui.text.natural import natural_key
 
 OWN = "/_bot_console"
@@ -48,11 +49,22 @@ class Row:
     """What is offered; of several different ones the first, and a plus."""
     problem: str = ""
     """What is wrong with it, in words."""
+    space: str = ""
+    """The namespace below which it is listed; empty: none."""
+    members: tuple[str, ...] = ()
+    """The names in it, if the row is a namespace."""
+    is_folded: bool = False
+    """Whether those are not listed."""
 
     @property
     def type(self) -> str:
         """The type that counts."""
         return self.types[0] if self.types else ""
+
+    @property
+    def label(self) -> str:
+        """What is shown of its name: below a namespace the rest of it."""
+        return self.name.removeprefix(f"{self.space}/") if self.space else self.name
 
 
 class _Endpoints:
@@ -120,6 +132,40 @@ def _problem(found: _Endpoints, kind: Kind, broken: Sequence[IncompatiblePair]) 
     if found.takes and not found.gives:
         return "nobody publishes it: is the name right?" if kind is Kind.TOPICS else "no server: calls wait in vain"
     return ""
+
+
+MAX_OPEN_ROWS = 40
+"""Rows of a list that starts open; with more of them its namespaces start folded."""
+
+
+def folds_at_start(every: Sequence[Row]) -> frozenset[str]:
+    """The namespaces that are folded in a list that nobody has folded or opened yet."""
+    return outermost(each.name for each in every) if len(every) > MAX_OPEN_ROWS else frozenset()
+
+
+def grouped(every: Sequence[Row], folded: Collection[str]) -> list[Row]:
+    """The rows with one before those of each namespace with several of them, and without those of a folded one."""
+    spaces = outermost(each.name for each in every)
+    inside: dict[str, list[Row]] = {}
+    listed: list[Row | str] = []
+    for row in every:
+        space = next((each for each in spaces if row.name.startswith(f"{each}/")), "")
+        if not space:
+            listed.append(row)
+            continue
+        if space not in inside:
+            listed.append(space)
+        inside.setdefault(space, []).append(row)
+    found: list[Row] = []
+    for each in listed:
+        found += _namespace(each, inside[each], each in folded) if isinstance(each, str) else [each]
+    return found
+
+
+def _namespace(space: str, rows: Sequence[Row], is_folded: bool) -> list[Row]:
+    problem = next((f"{each.name}: {each.problem}" for each in rows if each.problem), "") if is_folded else ""
+    head = Row(space, problem=problem, members=tuple(each.name for each in rows), is_folded=is_folded)
+    return [head] if is_folded else [head, *(replace(each, space=space) for each in rows)]
 
 
 def matches(query: Query, row: Row) -> bool:

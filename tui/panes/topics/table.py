@@ -23,6 +23,12 @@ NAME = 14
 WIDE = 56
 """Cells from which all figures are shown, even if names are cut; below, only the rate where they would be."""
 QOS = 32
+VALUE, WIDE_VALUE = 12, 26
+"""Cells that the newest value has at least, and before types and QoS are shown."""
+LONG_VALUE = 50
+"""Cells of the newest value at most."""
+TYPE = 16
+"""Cells that a type has at least."""
 
 
 @dataclass(frozen=True)
@@ -37,21 +43,29 @@ class Columns:
 
     latency: bool
     qos: int
+    value: int
 
 
 def columns(rows: Sequence[Row], kind: Kind, width: int) -> Columns:
     """Share a width: names first, then figures, types, and what else has room."""
-    longest = max((cell_len(sanitize(each.name)) + 3 for each in rows), default=NAME)
+    longest = max((cell_len(_label(each)) + 3 for each in rows), default=NAME)
     figures = kind is Kind.TOPICS
     latency = figures and width >= 90
     amounts = figures and (width >= WIDE or longest <= width - ENDS - RATE - AMOUNT - AGE)
     room = width - ENDS - (RATE * figures) - (AMOUNT + AGE) * amounts - LATENCY * latency
     name = max(NAME, min(longest, room))
     left = room - name
-    types = min(max((cell_len(_short(each.type)) + 2 for each in rows), default=0), left) if left >= 12 else 0
-    qos = QOS if figures and left - types >= QOS else 0
-    rest = left - types - qos
-    return Columns(name + (0 if types else rest), types + (rest if types else 0), figures, amounts, latency, qos)
+    value = (WIDE_VALUE if left >= WIDE_VALUE else left if left >= VALUE else 0) if figures else 0
+    left -= value
+    types = min(max((cell_len(_short(each.type)) + 2 for each in rows), default=0), left) if left >= TYPE else 0
+    left -= types
+    qos = QOS if figures and left >= QOS else 0
+    left -= qos
+    wider = min(left, LONG_VALUE - value) if value else 0
+    left -= wider
+    return Columns(
+        name + (0 if types else left), types + (left if types else 0), figures, amounts, latency, qos, value + wider
+    )
 
 
 def heading(shown: Columns, kind: Kind) -> str:
@@ -64,6 +78,8 @@ def heading(shown: Columns, kind: Kind) -> str:
         text += f"{'per s':>{AMOUNT}}{'age':>{AGE}}"
     if shown.latency:
         text += f"{'latency':>{LATENCY}}"
+    if shown.value:
+        text += cut("  value", shown.value, pad=True)
     if shown.type:
         text += cut("  type", shown.type, pad=True)
     return text + ("  qos offered" if shown.qos else "")
@@ -72,6 +88,19 @@ def heading(shown: Columns, kind: Kind) -> str:
 def _short(type_name: str) -> str:
     """A type without its middle: `sensor_msgs/LaserScan`."""
     return sanitize(type_name.replace("/msg/", "/").replace("/srv/", "/").replace("/action/", "/"))
+
+
+def _type_text(type_name: str, width: int) -> str:
+    """A type in so many cells: without its package if it would be cut."""
+    short = _short(type_name)
+    return short if cell_len(short) <= width else short.rpartition("/")[2]
+
+
+def _label(row: Row) -> str:
+    """The name as it is listed: of a namespace with an arrow, of its members indented."""
+    if row.members:
+        return f"{'▸' if row.is_folded else '▾'} {sanitize(row.name)}"
+    return ("  " if row.space else "") + sanitize(row.label)
 
 
 class TopicRows(ItemList[Row]):
@@ -88,18 +117,19 @@ class TopicRows(ItemList[Row]):
         self.checks: Mapping[str, RateCheck] = {}
         """What is expected of topics."""
         self._measured: dict[str, Measure] = {}
-        self._texts: dict[str, str] = {}
+        self._values: Mapping[str, str] = {}
+        self._texts: dict[object, str] = {}
         self._columns: tuple[object, Columns] | None = None
 
     def key(self, item: Row) -> object:
-        """Its name."""
-        return item.name
+        """Its name; a namespace can be named as a topic is."""
+        return item.name, bool(item.members)
 
     @property
     def in_view(self) -> list[str]:
         """The names in view."""
         top = self.scroll_offset.y
-        return [each.name for each in self.rows[top : top + self.size.height]]
+        return [each.name for each in self.rows[top : top + self.size.height] if not each.members]
 
     def columns(self, width: int) -> Columns:
         """The columns for a width, worked out once for the same rows."""
@@ -109,18 +139,21 @@ class TopicRows(ItemList[Row]):
             known = self._columns = (key, columns(self.rows, self.kind, width))
         return known[1]
 
-    def show_measured(self, measured: Mapping[str, Measure], repeated: Mapping[str, Repeated]) -> None:
-        """Take new figures, and draw the rows that say something else now."""
+    def show_measured(
+        self, measured: Mapping[str, Measure], repeated: Mapping[str, Repeated], values: Mapping[str, str]
+    ) -> None:
+        """Take new figures and values, and draw the rows that say something else now."""
         before = self._measured
         self._measured = {topic: _steady(before.get(topic), each) for topic, each in measured.items()}
-        self.repeated = repeated
+        self.repeated, self._values = repeated, values
         top = self.scroll_offset.y
         for index in range(top, min(len(self.rows), top + self.size.height)):
-            name = self.rows[index].name
-            late = "!" if self.is_late(name) else ""
-            text = self._figures(name, amounts=True, latency=True) + self._mark(name) + late
-            if self._texts.get(name) != text:
-                self._texts[name] = text
+            row = self.rows[index]
+            late = "!" if self._is_row_late(row) else ""
+            figures = "" if row.members else self._figures(row.name, amounts=True, latency=True)
+            text = figures + self._mark(row.name) + late + values.get(row.name, "")
+            if self._texts.get(self.key(row)) != text:
+                self._texts[self.key(row)] = text
                 self.row_changed(index)
 
     def measure_of(self, name: str) -> Measure:
@@ -135,6 +168,9 @@ class TopicRows(ItemList[Row]):
         """Whether a topic is not as expected."""
         return self.kind is Kind.TOPICS and name in self.checks and self.checks[name].late is True
 
+    def _is_row_late(self, row: Row) -> bool:
+        return any(map(self.is_late, row.members if row.is_folded else (row.name,)))
+
     def _figures(self, name: str, *, amounts: bool, latency: bool) -> str:
         known = self._measured.get(name, Measure())
         text = f"{rate_text(known.rate, provisional=known.provisional):>{RATE}}"
@@ -143,26 +179,33 @@ class TopicRows(ItemList[Row]):
         return text + (f"{span_text(known.latency):>{LATENCY}}" if latency else "")
 
     def row(self, index: int, width: int) -> list[Segment]:
-        """Mark, name, publishers and subscribers, figures, type, QoS."""
+        """Mark, name, publishers and subscribers, figures, newest value, type, QoS."""
         row, shown = self.rows[index], self.columns(width)
-        late = self.is_late(row.name)
+        late = self._is_row_late(row)
         style = self._style("warn") if row.problem or late else None
         mark = self._mark(row.name)
-        open_ = row.name == self.opened
-        ends = f"{len(row.gives)}/{len(row.takes)}"
+        name = self._style("head") if row.name == self.opened or row.members else None
         segments = [
             Segment(mark, self._style("good")),
             Segment("!" if row.problem or late else " ", style),
-            Segment(cut_name(sanitize(row.name), shown.name - 2, pad=True), self._style("head") if open_ else style),
-            Segment(f"{ends:>{ENDS}}", style or (self._style("dim") if not row.takes else None)),
+            Segment(cut_name(_label(row), shown.name - 2, pad=True), style or name),
         ]
+        if row.members:
+            count = f"{len(row.members)} {self.kind.value}" if row.is_folded else ""
+            return [*segments, Segment(f"  {count}", self._style("dim"))]
+        ends = f"{len(row.gives)}/{len(row.takes)}"
+        segments.append(Segment(f"{ends:>{ENDS}}", style or (self._style("dim") if not row.takes else None)))
         if shown.figures:
             figures = self._figures(row.name, amounts=shown.amounts, latency=shown.latency)
             rates = RATE + AMOUNT * shown.amounts
             dim = self._style("dim") if self.measure_of(row.name).provisional else style if late else None
             segments += [Segment(figures[:rates], dim), Segment(figures[rates:])]
+        if shown.value:
+            value = sanitize(self._values.get(row.name, ""))
+            segments.append(Segment("  " + cut(value, shown.value - 2, pad=True)))
         if shown.type:
-            segments.append(Segment(cut("  " + _short(row.type), shown.type, pad=True), self._style("dim")))
+            kind = _type_text(row.type, shown.type - 2)
+            segments.append(Segment(cut("  " + kind, shown.type, pad=True), self._style("dim")))
         if shown.qos:
             segments.append(Segment(cut("  " + sanitize(row.qos), shown.qos), self._style("dim")))
         return segments

@@ -36,3 +36,12 @@ def test_only_escape_sequences_of_the_console_are_written(text: str) -> None:
     written = screen.update([(0, {0: Strip([Segment(text)])})], ColorSystem.TRUECOLOR)
     body = written.replace("\x1b[1H", "").replace("\x1b[m", "").replace("\x1b[0m", "")
     assert not [each for each in body if unicodedata.category(each) in ACTING], written
+
+
+@pytest.mark.parametrize("mark", "↶↷✗→▲")
+def test_signs_of_the_console_do_not_cause_the_rest_of_a_line_to_be_written_again(mark: str) -> None:
+    screen = ShownScreen()
+    screen.forget(80, 1)
+    for text in (f"{mark}0.1  indoor", f"{mark}0.2  indoor"):
+        written = screen.update([(0, {0: Strip([Segment(text)])})], ColorSystem.TRUECOLOR)
+    assert "2" in written and "indoor" not in written

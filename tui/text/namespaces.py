@@ -1,0 +1,26 @@
+"""Namespaces that are worth folding: those with several members. Pure."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+MIN_MEMBERS = 2
+"""Names that a namespace has at least to be worth folding."""
+
+
+def outermost(names: Iterable[str], above: str = "") -> frozenset[str]:
+    """The namespaces directly below one, or below the root, with enough members to be folded.
+
+    A single one for everything says nothing: where one namespace holds all names, those in it stand for them.
+    """
+    below = [each for each in names if each.startswith(f"{above}/")]
+    counts: dict[str, int] = {}
+    for name in below:
+        first, deeper, _ = name.removeprefix(f"{above}/").partition("/")
+        if deeper:
+            space = f"{above}/{first}"
+            counts[space] = counts.get(space, 0) + 1
+    found = frozenset(space for space, count in counts.items() if count >= MIN_MEMBERS)
+    if len(found) == 1 and counts[space := next(iter(found))] == len(below):
+        return outermost(below, space) or found
+    return found
