@@ -17,6 +17,8 @@ from bot_console.runtime.workspace.package import Package
 TESTS = frozenset({"test", "tests", "__pycache__"})
 SECTIONS = (("develop", "script_dir"), ("install", "install_scripts"))
 MAX_NAMED_FILES = 3
+INSTALLED = ("launch/*launch.py", "launch/*launch.xml", "launch/*launch.yaml", "config/*.yaml", "params/*.yaml")
+"""Files that other programs look for in the share folder of a package."""
 
 
 class Obstacle(NamedTuple):
@@ -39,7 +41,7 @@ def obstacles(package: Package) -> list[Obstacle]:
         found += _setup_cfg(package)
         found += _setup_name(package)
         found += _packages(package)
-        found += _data_files(package)
+        found += [*_data_files(package)] or _not_installed(package)
     found += _programs(package)
     for folder in {*package.modules.values(), *(each.parent for each in package.scripts.values())}:
         for path in sorted(folder.glob("*.py")) if folder.is_dir() else ():
@@ -152,6 +154,21 @@ def _data_files(package: Package) -> Iterator[Obstacle]:
         elif not row.files and row.written:
             yield Obstacle(path, row.line, f"{row.written} matches no file, so that {row.target} stays empty",
                            _what_is_there(package.folder, row.written))  # fmt: skip
+
+
+def _not_installed(package: Package) -> Iterator[Obstacle]:
+    """Launch and parameter files in their usual folders that no row installs."""
+    if package.setup is None or not package.setup.has_all_rows:
+        return
+    installed = {each.resolve() for _, sources in package.data_files for each in sources}
+    line = package.setup.lines.get("data_files", 0)
+    for pattern in INSTALLED:
+        for path in sorted(package.folder.glob(pattern)):
+            if path.resolve() not in installed:
+                name = path.relative_to(package.folder)
+                yield Obstacle(package.folder / "setup.py", line,
+                               f"{name} is not installed: data_files has no line for it",
+                               f"add ('share/{package.name}/{name.parent}', glob('{pattern}'))")  # fmt: skip
 
 
 def _what_is_there(folder: Path, written: str) -> str:

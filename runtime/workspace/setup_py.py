@@ -51,6 +51,8 @@ class SetupFile:
     packages: tuple[str, ...] | None = None
     """Python packages as they are listed; None if that cannot be evaluated."""
     rows: tuple[DataRow, ...] = ()
+    has_all_rows: bool = True
+    """Whether `rows` are all that `data_files` says; False if a part of it cannot be evaluated."""
     lines: Mapping[str, int] = field(default_factory=dict[str, int])
     """Where the arguments of `setup()` are, by their names."""
 
@@ -66,6 +68,7 @@ class SetupFile:
             self.name or other.name,
             self.packages if self.packages is not None else other.packages,
             self.rows + other.rows,
+            self.has_all_rows and other.has_all_rows,
             {**other.lines, **self.lines},
         )
 
@@ -107,6 +110,7 @@ class _Reader:
         self._path = folder / "setup.py"
         self._values = Values(folder, names)
         self._keywords: dict[str, ast.expr] = {}
+        self._has_all_rows = True
 
     def take(self, statement: ast.stmt) -> None:
         if isinstance(statement, ast.Assign) and len(statement.targets) == 1:
@@ -117,6 +121,7 @@ class _Reader:
             call = statement.value
             if called(call) == "setup":
                 self._keywords.update({each.arg: each.value for each in call.keywords if each.arg})
+                self._has_all_rows = all(each.arg for each in call.keywords)
             elif called(call) in ("append", "extend"):
                 self._grow(call)
 
@@ -164,6 +169,7 @@ class _Reader:
             str(self._keyword("name", "")),
             tuple(map(str, cast("Sequence[object]", listed))) if isinstance(listed, (list, tuple)) else None,
             rows,
+            self._has_all_rows,
             {name: value.lineno for name, value in self._keywords.items()},
         )
 
@@ -194,6 +200,8 @@ class _Reader:
         # Row by row, so that one unreadable row does not lose the others.
         elements = rows.elts if isinstance(rows, (ast.List, ast.Tuple)) else []
         found = [(each.lineno, self._row(each), _written_glob(each)) for each in elements]
+        if not isinstance(rows, (ast.List, ast.Tuple)) or not all(row for _, row, _ in found):
+            self._has_all_rows = False
         if not elements:
             found = [(rows.lineno, row, "") for row in self._keyword("data_files", [])]
         return tuple(

@@ -749,6 +749,9 @@ def begin(at: Student, number: int) -> None:
         three.start(SIMULATOR)
     if number == 18:
         two.start("bot-console run intelligent_robot robot_node")
+    if number == 20:
+        two.start("bot-console launch intelligent_robot robot_system.launch.py")
+        until_listed(one, "/robot_navigator/set_parameters")
 
 
 @pytest.mark.timeout(600)

@@ -120,6 +120,37 @@ def test_data_files_that_install_nothing_are_named(folder: Path, old: str, new: 
     assert only.startswith(("setup.py:8: ", "setup.py:9: ")) and message in only
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("        ('share/p/launch', glob('launch/*.launch.py')),\n", "", "launch/all.launch.py is not installed"),
+        ("launch/*.launch.py", "launch/a*.py", "launch/other.launch.xml is not installed: data_files has no line for"),
+        ("    data_files=[", "    x=[", "add ('share/p/launch', glob('launch/*launch.py'))"),
+        ("['package.xml']", "['package.xml']", "config/indoor.yaml is not installed"),
+    ],
+)
+def test_file_that_data_files_forget_is_named(folder: Path, old: str, new: str, message: str) -> None:
+    (folder / "launch/other.launch.xml").touch()
+    (folder / "config").mkdir()
+    (folder / "config/indoor.yaml").touch()
+    edit(folder, old, new)
+    assert any(message in each for each in found(folder))
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("    data_files=[", "    data_files=others() + ["),
+        ("('share/p/launch', glob('launch/*.launch.py')),", "*others(),"),
+        ("('share/p/launch', glob('launch/*.launch.py')),", "('share/p/launch', others()),"),
+        ("    data_files=[\n", "    **others(), x=[\n"),
+    ],
+)
+def test_no_file_is_called_forgotten_when_data_files_cannot_be_evaluated(folder: Path, old: str, new: str) -> None:
+    edit(folder, old, new)
+    assert found(folder) == []
+
+
 def test_another_name_in_setup_is_named(folder: Path) -> None:
     edit(folder, "name=package_name", "name='q'")
     (only,) = found(folder)
