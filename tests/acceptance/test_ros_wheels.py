@@ -46,8 +46,9 @@ def test_only_what_the_wheels_added_is_removed():
 @pytest.mark.parametrize(
     ("words", "name", "text"),
     [
-        pytest.param(["run"], "node.py", NODE, id="run"),
-        pytest.param(["launch"], "a.launch.py", LAUNCH, id="launch"),
+        pytest.param(["bot_console.tui", "run"], "node.py", NODE, id="run"),
+        pytest.param(["bot_console.tui", "launch"], "a.launch.py", LAUNCH, id="launch"),
+        pytest.param(["bot_console.runtime.programs.run"], "node.py", NODE, id="launched"),
     ],
 )
 def test_programs_of_other_environments_do_not_inherit_it(tmp_path, words, name, text):
@@ -55,7 +56,7 @@ def test_programs_of_other_environments_do_not_inherit_it(tmp_path, words, name,
     (tmp_path / "hook").mkdir()
     (tmp_path / "hook" / "sitecustomize.py").write_text(HOOK)
     path = os.pathsep.join([str(tmp_path / "hook"), os.environ.get("PYTHONPATH", "")])
-    line = [sys.executable, "-m", "bot_console.tui", *words, str(tmp_path / name)]
+    line = [sys.executable, "-m", *words, str(tmp_path / name)]
     done = subprocess.run(
         line, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True, timeout=60, check=False
     )
