@@ -19,7 +19,7 @@ READING: Mapping[str, frozenset[str]] = {
     "node": frozenset(("info", "list")),
     "param": frozenset(("describe", "get", "list")),
     "pkg": frozenset(("executables", "list", "prefix", "xml")),
-    "service": frozenset(("find", "info", "list", "type")),
+    "service": frozenset(("echo", "find", "info", "list", "type")),
     "topic": frozenset(("bw", "delay", "echo", "find", "hz", "info", "list", "type")),
 }
 """Lines that change nothing: commands with their harmless subcommands."""
@@ -34,8 +34,10 @@ class GatedLines:
         self._lines = lines
 
     def stream(self, line: str) -> Stream | None:
-        """Start a line that keeps printing; all lines of that kind only read."""
-        return self._lines.stream(line) if self._lines else None
+        """Start a line that keeps printing; None also for one that a read-only console refuses to `run`."""
+        if self._lines is None or (self._gate.read_only and _may_change(line)):
+            return None
+        return self._lines.stream(line)
 
     def commands(self) -> Sequence[str]:
         """The commands that a line may begin with."""

@@ -4,17 +4,29 @@ from __future__ import annotations
 
 import threading
 from collections import deque
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 MAX_LINES = 200
 """Lines that are kept."""
-GOING_ON = ("bw", "delay", "echo", "hz")
+GOING_ON: Mapping[str, tuple[str, ...]] = {
+    "action": ("send_goal",),
+    "service": ("echo",),
+    "topic": ("bw", "delay", "echo", "hz"),
+}
+"""Commands and their subcommands that take as long as what they are about: a goal may take the robot minutes."""
 ONCE = ("--once", "-h", "--help")
+LINE_TIMEOUT_S = 15.0
+"""Seconds after which any other line that does not end by itself is interrupted, as by Ctrl-C."""
 
 
 def goes_on(words: Sequence[str]) -> bool:
-    """Whether a `ros2` line (without that word) prints until it is interrupted."""
-    return len(words) > 2 and words[0] == "topic" and words[1] in GOING_ON and not any(each in ONCE for each in words)
+    """Whether a `ros2` line (without that word) may run for any time, printing meanwhile."""
+    return len(words) > 2 and words[1] in GOING_ON.get(words[0], ()) and not any(each in ONCE for each in words)
+
+
+def interrupted(seconds: float) -> str:
+    """What follows the output of a line that was interrupted after some time."""
+    return f"interrupted after {seconds:g} s; a line that takes longer can be run in a terminal\n"
 
 
 class RunningLine:

@@ -69,6 +69,15 @@ def test_panel_shows_the_last_lines_without_taking_focus(streams: list[Printing]
     run(live(), play, size)
 
 
+def test_commands_end_with_the_console(streams: list[Printing]) -> None:
+    async def play(session: Session) -> None:
+        await begin(session)
+        assert not streams[0].stopped
+
+    run(live(), play)
+    assert streams[0].stopped
+
+
 SIZES = [(80, 24), (120, 40)]
 
 

@@ -6,7 +6,7 @@ import shlex
 import signal
 import sys
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 
 from bot_console.runtime.process import NodeProcess
@@ -18,11 +18,9 @@ from bot_console.tui.commanding.completing import live_names
 from bot_console.tui.console.command_line import Stream
 from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.running_lines import RunningLine, goes_on
-from bot_console.tui.learn.command_log import log_for, record
+from bot_console.tui.console.running_lines import LINE_TIMEOUT_S, RunningLine, goes_on, interrupted
+from bot_console.tui.learn.command_log import log_for, record, recorded
 
-LINE_TIMEOUT_S = 15.0
-"""Seconds after which a line that should end by itself, but does not, is interrupted."""
 STARTING = 30.0
 """Seconds to wait for what a line launches; after that, the Launch pane shows the rest."""
 
@@ -108,11 +106,11 @@ class _Names:
 
 
 class _Streamed(RunningLine):
-    """A command in a node process, and the last lines it has printed."""
+    """A command in a node process, and the last lines it has printed; a lesson that is open sees it."""
 
     def __init__(self, words: Sequence[str]) -> None:
         super().__init__()
-        self._process = _start(words, self)
+        self._process = _start(words, self, _recorded)
         self._process.on_exit(lambda process: self.end())
 
     def stop(self) -> None:
@@ -125,11 +123,22 @@ def _words(line: str) -> list[str]:
     return words[1:] if words[:1] == ["ros2"] else words
 
 
-def _start(words: Sequence[str], printed: RunningLine | list[str]) -> NodeProcess:
+def _recorded(words: Sequence[str]) -> int:
+    with recorded(words) as ended:
+        return ended(_run(words))
+
+
+def _run(words: Sequence[str]) -> int:
     from ros2cli.command_line import main
 
+    return main(words)
+
+
+def _start(
+    words: Sequence[str], printed: RunningLine | list[str], run: Callable[[Sequence[str]], int] = _run
+) -> NodeProcess:
     process = NodeProcess("ros2")
-    process.start(lambda: sys.exit(main(words)), argv=["ros2", *words], stdout=printed.append, stderr=printed.append)
+    process.start(lambda: sys.exit(run(words)), argv=["ros2", *words], stdout=printed.append, stderr=printed.append)
     return process
 
 
@@ -140,4 +149,5 @@ def _printed_by(words: Sequence[str]) -> tuple[str, int]:
     code = process.wait(LINE_TIMEOUT_S)
     if code is None:
         process.stop()
+        printed.append(interrupted(LINE_TIMEOUT_S))
     return "".join(printed), 128 + signal.SIGINT if code is None else code

@@ -16,7 +16,7 @@ from bot_console.tui.cli.in_background import in_background
 from bot_console.tui.console.command_line import Stream
 from bot_console.tui.console.gate import done
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.running_lines import RunningLine, goes_on
+from bot_console.tui.console.running_lines import LINE_TIMEOUT_S, RunningLine, goes_on, interrupted
 
 COMMANDS = (
     "action",
@@ -41,8 +41,8 @@ COMMANDS = (
 )
 OWN_COMMANDS = ("action", "interface", "lifecycle", "node", "param", "service", "topic")
 """The commands that our `ros2` has without the packages of an installed ROS 2."""
-LINE_TIMEOUT_S = 15.0
-"""Seconds after which a line that does not end by itself is interrupted, as by Ctrl-C."""
+ONLY_PRINTING = ("-h", "--help", "--print", "--print-description", "--show-args", "--show-arguments")
+"""Options with which `ros2 launch`, `run` and `bag` start nothing."""
 INTERRUPT_TIMEOUT_S = 3.0
 """Seconds that it has to end after the interrupt."""
 
@@ -93,7 +93,7 @@ class MachineCommandLine:
         except ValueError:
             return None
         program = _program(words)
-        return _Streamed(program) if program and goes_on(words[1:]) else None
+        return _Streamed(program) if program and (goes_on(words[1:]) or _starts(words[1:])) else None
 
     def run(self, line: str) -> Future[str]:
         """Run a line in the background; the future has its output, or the `ValueError` of an unmatched quotation
@@ -109,19 +109,28 @@ def printed_by(line: str, limit: float = LINE_TIMEOUT_S) -> str:
     if not program:
         return _missing(words)
     process = _start(program)
+    note = ""
     for timeout_s, end in ((limit, lambda: process.send_signal(signal.SIGINT)), (INTERRUPT_TIMEOUT_S, process.kill)):
         try:
             printed, _ = process.communicate(timeout=timeout_s)
-            return printed.decode("utf-8", "replace")
+            break
         except subprocess.TimeoutExpired:
             end()
-    printed, _ = process.communicate()
-    return printed.decode("utf-8", "replace")
+            note = interrupted(limit)
+    else:
+        printed, _ = process.communicate()
+    return printed.decode("utf-8", "replace") + note
 
 
 def _words(line: str) -> list[str]:
     words = shlex.split(line)
     return words if words[:1] in (["ros2"], ["colcon"]) else ["ros2", *words]
+
+
+def _starts(words: Sequence[str]) -> bool:
+    """Whether a line (without `ros2`) starts nodes, or records or plays a bag; as typed in a terminal, until Ctrl-C."""
+    starts = words[:1] in (["launch"], ["run"]) or words[:2] in (["bag", "play"], ["bag", "record"])
+    return starts and len(words) > 1 and not any(each in ONLY_PRINTING for each in words)
 
 
 def _program(words: Sequence[str]) -> Sequence[str]:
@@ -139,5 +148,10 @@ def _missing(words: Sequence[str]) -> str:
 
 def _start(words: Sequence[str]) -> subprocess.Popen[bytes]:
     return subprocess.Popen(
-        words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True
+        words,
+        env={**os.environ, "PYTHONUNBUFFERED": "1"},  # or what is printed into a pipe appears only at the end
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        start_new_session=True,
     )

@@ -91,6 +91,11 @@ class StreamPanels(Container):
             panel.remove()
             self.poll()
 
+    def on_unmount(self) -> None:
+        """End the streams with the console."""
+        for each in self._panels:
+            each.stop()
+
     def poll(self) -> None:
         """Show new lines, after a layout if the terminal's size or the panels have changed."""
         now = (self._terminal, *((each, each.state) for each in self._panels))

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import pytest
+from bot_console.tui.console.command_line import Stream
 from bot_console.tui.console.gate import READ_ONLY, Gate
 from bot_console.tui.console.gated_lines import GatedLines
 from bot_console.tui.console.launch.gated_launcher import GatedLauncher
 from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.ros_console import RosConsole
+from bot_console.tui.console.running_lines import RunningLine
 from fakes.command_line import FakeCommandLine
 from fakes.launcher import FakeLauncher
 
@@ -67,3 +69,12 @@ def test_only_lines_that_read_are_run(line: str, runs: bool, gate: Gate) -> None
     lines = GatedLines(gate, FakeCommandLine(asked))
     answer = lines.run(line)
     assert bool(asked) is runs and (runs or READ_ONLY in answer.result(0))
+
+
+@pytest.mark.parametrize(("line", "runs"), [("topic hz /odom", True), ("action send_goal /go pkg/action/Go {}", False)])
+def test_only_lines_that_read_keep_running(line: str, runs: bool, gate: Gate) -> None:
+    class Streaming(FakeCommandLine):
+        def stream(self, line: str) -> Stream | None:
+            return cast("Stream", RunningLine())
+
+    assert bool(GatedLines(gate, Streaming([])).stream(line)) is runs

@@ -13,6 +13,9 @@ from bot_console.tui.cli.started_lines import launched_by
 from bot_console.tui.cli.verbs.colcon import answers
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.gate import done
+from bot_console.tui.learn import command_log
+from bot_console.tui.learn.command_log import read_log
+from bot_console.tui.session.embedded import ros2_command_line
 from bot_console.tui.session.embedded.ros2_command_line import Ros2CommandLine
 from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH
 from domains import unused_domain
@@ -136,6 +139,26 @@ def test_continuous_line_can_be_read_and_stopped(monkeypatch: pytest.MonkeyPatch
     until(lambda: stream.ended)
     node.destroy_node()
     rclpy.shutdown(context=context)
+
+
+def test_continuous_line_is_recorded_for_a_lesson(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    log = tmp_path / "commands"
+    log.touch()
+    monkeypatch.setenv("ROS_DOMAIN_ID", "87")
+    monkeypatch.setattr(command_log, "log_for", lambda words: str(log))
+    stream = Ros2CommandLine().stream("ros2 topic hz /nothing")
+    assert stream is not None
+    until(stream.lines)
+    assert [(each.words, each.code) for each in read_log(str(log))] == [(("topic", "hz", "/nothing"), None)]
+    stream.stop()
+    until(lambda: read_log(str(log))[0].code is not None)
+
+
+def test_line_that_waits_for_too_long_is_interrupted_and_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "87")
+    monkeypatch.setattr(ros2_command_line, "LINE_TIMEOUT_S", 0.5)
+    printed = Ros2CommandLine().run("service call /nothing std_srvs/srv/Trigger").result(TIMEOUT_S)
+    assert printed.splitlines()[-1].startswith("interrupted after 0.5 s")
 
 
 @pytest.mark.parametrize(
