@@ -50,12 +50,12 @@ while True:
 
 
 @contextlib.contextmanager
-def console(robot: LiveRobot, words: list[str] = CONSOLE) -> Iterator[Terminal]:
-    """A console attached to the robot, with the steering pane on the screen."""
+def console(robot: LiveRobot, words: list[str] = CONSOLE, wanted: str = "robot_navigator") -> Iterator[Terminal]:
+    """A console attached to the robot, whose screen shows the wanted text."""
     with _environment(robot.environment):
         terminal = Terminal(words, robot.folder)
     try:
-        terminal.read_until(lambda: b"robot_navigator" in terminal.output, "the robot's nodes")
+        terminal.read_until(lambda: wanted.encode() in terminal.output, "the robot's nodes")
         yield terminal
     finally:
         if terminal.process.poll() is None:

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from bot_console.tui.console.parameters.history import History
-from emulator import screen_of
+from emulator import last_screen, screen_of
 
 from processes.bad_link import BadLink
 from processes.kept_stops import Way, drives_after_restart, wait
@@ -149,13 +149,17 @@ def starting_again(robot: LiveRobot, person: Terminal) -> Iterator[None]:
 
 def relaunched(robot: LiveRobot, person: Terminal) -> None:
     """Another console restarts everything that was launched, from its pane Launch."""
-    with starting_again(robot, person), console(robot, [*CONSOLE, "--pane", "launch"]) as other:
-        wait(other, 1.0)
-        other.type("g")
-        wait(other, 0.3)
-        other.type("r")
-        wait(other, 1.5)
+    with (
+        starting_again(robot, person),
+        console(robot, [*CONSOLE, "--pane", "launch"]) as other,
+    ):
+        shows, deadline = screen_of(other), time.monotonic() + TIMEOUT_S
+        while not shows("Restart ", " processes"):
+            assert time.monotonic() < deadline, f"no question:\n{last_screen(other)}"
+            other.type("gr")
+            wait(other, WATCHED)
         other.type("y")
+        other.read_until(lambda: not shows("Restart ", " processes"), "the end of the question")
         wait(other, 3.0)
 
 
@@ -163,10 +167,10 @@ def another_world(robot: LiveRobot, person: Terminal) -> None:
     """Another console applies another profile and resets the simulator into its world."""
     before = _world(robot, person)
     name = "outdoor" if "warehouse" in before else "warehouse"
-    with console(robot, [*CONSOLE, "--pane", "profiles"]) as other:
+    with console(robot, [*CONSOLE, "--pane", "profiles"], name) as other:
         deadline = time.monotonic() + TIMEOUT_S
         while name not in _world(robot, other):
-            assert time.monotonic() < deadline, f"no other world: {other.output[-800:]!r}"
+            assert time.monotonic() < deadline, f"no other world:\n{last_screen(other)}"
             for keys in (ESCAPE, f"/{name}\r", "w", "y"):  # yes to the question whether limits may be raised
                 other.type(keys)
                 wait(other, 1.0)
