@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import contextlib
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 
 from emulator import last_screen, screen_of
 
-from processes.live_robot import DRIVER, MOVING, RESTING, TIMEOUT_S, LiveRobot
-from processes.losses import BRAKING, CONSOLE, WATCHED, Terminal, console, is_alive
+from processes.live_robot import MOVING, RESTING, TIMEOUT_S, LiveRobot
+from processes.losses import BRAKING, WATCHED, Terminal, console, is_alive
 
 Disturbance = Callable[[LiveRobot, Terminal], AbstractContextManager[None]]
 """What happens to a stopped robot; inside the block it has begun, after the block it is over."""
@@ -28,9 +28,9 @@ def press(robot: LiveRobot, person: Terminal) -> None:
 
 
 @contextlib.contextmanager
-def unchanged(robot: LiveRobot) -> Iterator[list[str]]:
+def unchanged(robot: LiveRobot) -> Iterator[Sequence[str]]:
     """A robot as it is, and a console on this machine; yields the console's arguments."""
-    yield CONSOLE
+    yield robot.attach
 
 
 @contextlib.contextmanager
@@ -50,7 +50,7 @@ class Way:
 
     name: str
     disturb: Disturbance
-    prepare: Callable[[LiveRobot], AbstractContextManager[list[str]]] = unchanged
+    prepare: Callable[[LiveRobot], AbstractContextManager[Sequence[str]]] = unchanged
     beside_earlier_stop: Callable[[LiveRobot], AbstractContextManager[None]] = unrecorded
     stop: Callable[[LiveRobot, Terminal], None] = press
     releases_within: bool = False
@@ -61,7 +61,7 @@ def held_through(way: Way, robot: LiveRobot) -> float:
     """How long (s) the robot went on after the stop; raises if it moves later, or if a released stop comes back."""
     with contextlib.ExitStack() as ended_last:
         words = ended_last.enter_context(way.prepare(robot))
-        driver = robot.program(DRIVER, "cmd_vel")
+        driver = robot.second_driver()
         ended_last.callback(driver.wait)
         ended_last.callback(driver.kill)
         robot.drives()

@@ -8,7 +8,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 MOVING, RESTING = 0.1, 0.02
@@ -57,7 +57,7 @@ rclpy.init()
 node = rclpy.create_node("second_driver")
 publisher = node.create_publisher(Twist, sys.argv[1], 10)
 command = Twist()
-command.linear.x, command.angular.z = 0.5, 0.8
+command.linear.x, command.angular.z = map(float, sys.argv[2:] or (0.5, 0.8))
 node.create_timer(0.01, lambda: publisher.publish(command))
 rclpy.spin(node)
 """
@@ -102,6 +102,11 @@ def generate_launch_description():
 
 class LiveRobot:
     """A base, a safety monitor, other nodes and the witness, each in a separate process."""
+
+    attach: Sequence[str] = ("-m", "bot_console.tui", "attach")
+    """The arguments of Python for a console on this robot."""
+    circle: Sequence[str] = ()
+    """The velocities (m/s, rad/s) of a second program that drives it, unless they are the usual ones."""
 
     def __init__(self, folder: Path, environment: Mapping[str, str]) -> None:
         self.folder = folder
@@ -157,6 +162,10 @@ class LiveRobot:
         file = self.folder / f"program{len(self._started)}.py"
         file.write_text(text)
         return self.console("run", str(file), *words, stdout=stdout)
+
+    def second_driver(self) -> subprocess.Popen[bytes]:
+        """Start a program that publishes on the base's own topic, a hundred times a second."""
+        return self.program(DRIVER, "cmd_vel", *self.circle)
 
     def start_base(self) -> subprocess.Popen[bytes]:
         """Start the simulator, at the start of its world."""

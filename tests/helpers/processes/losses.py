@@ -11,10 +11,10 @@ import os
 import signal
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
-from processes.live_robot import BLIND, DRIVER, MOVING, TIMEOUT_S, LiveRobot
+from processes.live_robot import BLIND, MOVING, TIMEOUT_S, LiveRobot
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "acceptance" / "console"))
 from terminal import Terminal
@@ -27,7 +27,6 @@ BRAKING = 2.0
 """Seconds that locking and braking may take on a busy machine."""
 WATCHED = 2.0
 """Seconds for which the robot at rest is watched."""
-CONSOLE = ["-m", "bot_console.tui", "attach"]
 
 SSH = """
 import os, pty, sys
@@ -50,10 +49,10 @@ while True:
 
 
 @contextlib.contextmanager
-def console(robot: LiveRobot, words: list[str] = CONSOLE, wanted: str = "robot_navigator") -> Iterator[Terminal]:
-    """A console attached to the robot, whose screen shows the wanted text."""
+def console(robot: LiveRobot, words: Sequence[str] = (), wanted: str = "robot_navigator") -> Iterator[Terminal]:
+    """A console attached to the robot, unless by other arguments of Python; its screen shows the wanted text."""
     with _environment(robot.environment):
-        terminal = Terminal(words, robot.folder)
+        terminal = Terminal(words or robot.attach, robot.folder)
     try:
         terminal.read_until(lambda: wanted.encode() in terminal.output, "the robot's nodes")
         yield terminal
@@ -139,7 +138,7 @@ def closed_terminal(robot: LiveRobot) -> float:
 
 def lost_connection(robot: LiveRobot) -> float:
     """The process that holds the console's terminal, as sshd does, is killed (-9)."""
-    with console(robot, ["-c", SSH, *CONSOLE]) as terminal:
+    with console(robot, ["-c", SSH, *robot.attach]) as terminal:
         steer(robot, terminal)
         child = int(terminal.output.partition(b"pid=")[2].partition(b".")[0])
         lost = time.monotonic()
@@ -153,7 +152,7 @@ def lost_connection(robot: LiveRobot) -> float:
 
 def second_driver(robot: LiveRobot) -> float:
     """Another program publishes on the base's own topic, a hundred times a second; ALL STOP comes from a shell."""
-    driver = robot.program(DRIVER, "cmd_vel")
+    driver = robot.second_driver()
     robot.drives()
     robot.until(lambda: len(robot.speeds(time.monotonic() - 1.0)) > 0, "odometry")
     assert robot.typed("stop", "the arm swings") == 0
@@ -175,7 +174,7 @@ def stopped_then_frozen(robot: LiveRobot) -> float:
 
 
 def _stopped_then(robot: LiveRobot, number: signal.Signals) -> float:
-    driver = robot.program(DRIVER, "cmd_vel")
+    driver = robot.second_driver()
     with console(robot) as terminal:
         terminal.type("!")
         terminal.read_until(lambda: b"held" in terminal.output, "the acknowledged stop")
@@ -190,7 +189,7 @@ def _stopped_then(robot: LiveRobot, number: signal.Signals) -> float:
 
 def killed_monitor(robot: LiveRobot) -> float:
     """The safety monitor is killed (-9) while another program drives, and restarted."""
-    driver = robot.program(DRIVER, "cmd_vel")
+    driver = robot.second_driver()
     robot.drives()
     lost = time.monotonic()
     robot.monitor.kill()

@@ -10,7 +10,7 @@ import sqlite3
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from bot_console.tui.console.parameters.history import History
@@ -19,7 +19,7 @@ from emulator import last_screen, screen_of
 from processes.bad_link import BadLink
 from processes.kept_stops import Way, drives_after_restart, wait
 from processes.live_robot import TIMEOUT_S, LiveRobot
-from processes.losses import CONSOLE, WATCHED, Terminal, console, is_alive
+from processes.losses import WATCHED, Terminal, console, is_alive
 from processes.ports import free_port
 
 RECORDED = ("/emergency_stop/request", "/emergency_stop/arbiter", "/emergency_stop/base")
@@ -29,6 +29,8 @@ SEQUENCES = 150
 """How many are typed at once: fewer bytes than a terminal holds."""
 PROMPT = "esc Cancel"
 """In the line of keys, while a line is typed."""
+QUESTION = "y yes"
+"""On the edge of a question."""
 MOVES = "".join(f"\x1b[<35;{10 + at % 90};{5 + at % 30}M" for at in range(15_000))
 FLOOD = MOVES + "\x1b[<65;60;20M" * 2000 + "12345678" * 200 + MOVES
 """Mouse moves, wheel steps and keys that change the pane."""
@@ -113,7 +115,7 @@ def both_ended(robot: LiveRobot, person: Terminal) -> None:
 
 
 @contextlib.contextmanager
-def respawning(robot: LiveRobot) -> Iterator[list[str]]:
+def respawning(robot: LiveRobot) -> Iterator[Sequence[str]]:
     """The locks are processes of a launch file that starts them again."""
     kill(robot.monitor, robot.base)
     file = robot.folder / "respawned.launch.py"
@@ -121,7 +123,7 @@ def respawning(robot: LiveRobot) -> Iterator[list[str]]:
     launched = robot.console("launch", str(file))
     try:
         robot.drives()
-        yield CONSOLE
+        yield robot.attach
     finally:
         launched.send_signal(signal.SIGINT)
         launched.wait(TIMEOUT_S)
@@ -151,15 +153,15 @@ def relaunched(robot: LiveRobot, person: Terminal) -> None:
     """Another console restarts everything that was launched, from its pane Launch."""
     with (
         starting_again(robot, person),
-        console(robot, [*CONSOLE, "--pane", "launch"]) as other,
+        console(robot, [*robot.attach, "--pane", "launch"]) as other,
     ):
         shows, deadline = screen_of(other), time.monotonic() + TIMEOUT_S
-        while not shows("Restart ", " processes"):
+        while not shows(QUESTION):
             assert time.monotonic() < deadline, f"no question:\n{last_screen(other)}"
             other.type("gr")
             wait(other, WATCHED)
         other.type("y")
-        other.read_until(lambda: not shows("Restart ", " processes"), "the end of the question")
+        other.read_until(lambda: not shows(QUESTION), "the end of the question")
         wait(other, 3.0)
 
 
@@ -167,7 +169,7 @@ def another_world(robot: LiveRobot, person: Terminal) -> None:
     """Another console applies another profile and resets the simulator into its world."""
     before = _world(robot, person)
     name = "outdoor" if "warehouse" in before else "warehouse"
-    with console(robot, [*CONSOLE, "--pane", "profiles"], name) as other:
+    with console(robot, [*robot.attach, "--pane", "profiles"], name) as other:
         deadline = time.monotonic() + TIMEOUT_S
         while name not in _world(robot, other):
             assert time.monotonic() < deadline, f"no other world:\n{last_screen(other)}"
@@ -218,13 +220,13 @@ class FarConsole:
         self._link: BadLink | None = None
 
     @contextlib.contextmanager
-    def prepare(self, robot: LiveRobot) -> Iterator[list[str]]:
+    def prepare(self, robot: LiveRobot) -> Iterator[Sequence[str]]:
         """Open the router and the link."""
         port = free_port()
         router = robot.console("router", "--mesh", "--listen", f"tcp/127.0.0.1:{port}")
         self._link = BadLink(port)
         try:
-            yield [*CONSOLE, "--connect", f"tcp/127.0.0.1:{self._link.port}"]
+            yield [*robot.attach, "--connect", f"tcp/127.0.0.1:{self._link.port}"]
         finally:
             self._link.close()
             kill(router)
@@ -273,7 +275,7 @@ class Clocks:
         self._file = Path()
 
     @contextlib.contextmanager
-    def prepare(self, robot: LiveRobot) -> Iterator[list[str]]:
+    def prepare(self, robot: LiveRobot) -> Iterator[Sequence[str]]:
         """Start the locks and the console with a clock that can be set; monotonic clocks go on.
 
         Shifted file times would have everything compiled again. The "fix" of monotonic deadlines makes timed waits end
@@ -287,7 +289,7 @@ class Clocks:
         }  # fmt: skip
         try:
             both_restarted_and_free(robot)
-            yield CONSOLE
+            yield robot.attach
         finally:
             robot.environment.clear()
             robot.environment.update(before)
@@ -362,7 +364,7 @@ def typed_in_prompt(robot: LiveRobot, person: Terminal) -> None:
 
 
 @contextlib.contextmanager
-def unreadable_stores(robot: LiveRobot) -> Iterator[list[str]]:
+def unreadable_stores(robot: LiveRobot) -> Iterator[Sequence[str]]:
     """What the console keeps for itself contains something else."""
     folder = robot.folder / "bot-console"
     History(folder / "history.sqlite", 1).close()
@@ -371,7 +373,7 @@ def unreadable_stores(robot: LiveRobot) -> Iterator[list[str]]:
     for each in folder.glob("*.*"):
         if each.suffix in (".json", ".yaml"):
             each.write_bytes(b"\xff{")
-    yield CONSOLE
+    yield robot.attach
 
 
 def stop_with_undecodable_text(robot: LiveRobot, person: Terminal) -> None:
