@@ -18,6 +18,8 @@ from emulator import last_screen, screen_of
 from processes.live_robot import MOVING, RESTING, TIMEOUT_S, LiveRobot
 from processes.losses import BRAKING, WATCHED, Terminal, console, is_alive
 
+FIRST_SCREEN = "? Help"
+"""What a console shows before it is connected; a stop may be requested from then on."""
 Disturbance = Callable[[LiveRobot, Terminal], AbstractContextManager[None]]
 """What happens to a stopped robot; inside the block it has begun, after the block it is over."""
 
@@ -65,7 +67,7 @@ def held_through(way: Way, robot: LiveRobot) -> float:
         ended_last.callback(driver.wait)
         ended_last.callback(driver.kill)
         robot.drives()
-        person = ended_last.enter_context(console(robot, words))
+        person = ended_last.enter_context(console(robot, words, FIRST_SCREEN))
         with way.beside_earlier_stop(robot):
             _stop_and_release(robot, person)
         way.stop(robot, person)

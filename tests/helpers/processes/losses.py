@@ -14,6 +14,8 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
+from emulator import screen_of
+
 from processes.live_robot import BLIND, MOVING, TIMEOUT_S, LiveRobot
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "acceptance" / "console"))
@@ -54,7 +56,8 @@ def console(robot: LiveRobot, words: Sequence[str] = (), wanted: str = "robot_na
     with _environment(robot.environment):
         terminal = Terminal(words or robot.attach, robot.folder)
     try:
-        terminal.read_until(lambda: wanted.encode() in terminal.output, "the robot's nodes")
+        shows = screen_of(terminal)
+        terminal.read_until(lambda: shows(wanted), f"text {wanted!r}")
         yield terminal
     finally:
         if terminal.process.poll() is None:
