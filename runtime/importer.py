@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 from bot_console.runtime.distribution import distribution
 from bot_console.runtime.interfaces.interface_finder import InterfaceFinder, interface_folders, spec_on_path
 from bot_console.runtime.process.crashes import explain_with
+from bot_console.runtime.programs.exit_messages import limit_fault
 from bot_console.runtime.programs.missing_packages import explain_missing_package
 from bot_console.runtime.rosidl.sources import EXAMPLES, add_source
 
@@ -181,6 +182,7 @@ def install() -> None:
     sys.meta_path.insert(place, _interfaces)
     add_source(interface_folders)
     explain_with(explain_missing_package)
+    explain_with(limit_fault)
 
 
 def is_installed() -> bool:

@@ -1,4 +1,4 @@
-"""The error for a missing ROS 2 package gets an explanation."""
+"""The errors for a missing ROS 2 package, and for a limit of the machine, get an explanation."""
 
 from __future__ import annotations
 
@@ -55,6 +55,15 @@ def test_interfaces_are_recognized_by_the_imported_names(line: str, tmp_path: Pa
 )
 def test_other_errors_get_no_explanation(exception: BaseException) -> None:
     assert explain_missing_package(exception) is None
+
+
+def test_node_processes_explain_what_a_limit_of_the_machine_caused() -> None:
+    unloaded = ImportError("_multiarray_umath.so: failed to map segment from shared object")
+    wrapped = ImportError("Importing the numpy C-extensions failed.")
+    wrapped.__cause__ = unloaded
+    for each in (MemoryError(), unloaded, wrapped):
+        assert explanation(each) == "there is too little memory (a limit is shown by `ulimit -v`)"
+    assert "no more threads" in (explanation(RuntimeError("can't start new thread")) or "")
 
 
 def test_node_processes_use_the_explanation() -> None:
