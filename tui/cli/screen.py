@@ -115,7 +115,7 @@ bot-console needs a terminal, and its input or output is not one. Without a term
 def _refusal() -> str:
     if not sys.stdout.isatty() or not sys.stdin.isatty():
         return NO_TERMINAL
-    return unusable_domain() or too_few_files()
+    return unusable_domain() or too_few_files() or too_little_address_space()
 
 
 def _host(options: Options) -> Host:
@@ -161,6 +161,8 @@ def _attach_instead(there: list[str], *, robot: bool) -> bool:
 
 MIN_OPEN_FILES = 256
 """A console has about 90 descriptors open, and its own start at 100."""
+MIN_ADDRESS_SPACE_KIB = 1_500_000
+"""A console reserves 1,360,000; with less, a library of numpy may end it without a word."""
 
 
 def too_few_files() -> str:
@@ -169,10 +171,33 @@ def too_few_files() -> str:
         return ""
     import resource
 
-    now, maximum = resource.getrlimit(resource.RLIMIT_NOFILE)
-    if now == resource.RLIM_INFINITY or now >= MIN_OPEN_FILES:
-        return ""
-    if maximum == resource.RLIM_INFINITY or maximum >= MIN_OPEN_FILES:
-        resource.setrlimit(resource.RLIMIT_NOFILE, (MIN_OPEN_FILES, maximum))
+    if (maximum := _raised(resource.RLIMIT_NOFILE, MIN_OPEN_FILES)) is None:
         return ""
     return f"bot-console needs {MIN_OPEN_FILES} open files, and at most {maximum} are allowed here: see `ulimit -Hn`"
+
+
+def too_little_address_space() -> str:
+    """Why a console does not fit into its address space, in one line; raises the soft limit if that is allowed."""
+    if sys.platform == "win32":
+        return ""
+    import resource
+
+    if (maximum := _raised(resource.RLIMIT_AS, MIN_ADDRESS_SPACE_KIB * 1024)) is None:
+        return ""
+    return (
+        f"bot-console needs an address space of {MIN_ADDRESS_SPACE_KIB:,} KiB, and at most {maximum // 1024:,} are "
+        "allowed here: see `ulimit -Hv`; `bot-console stop` needs less"
+    )
+
+
+def _raised(limit: int, wanted: int) -> int | None:
+    """Raise a soft limit to what is wanted, unless it is as high; returns the hard limit if that is too low."""
+    import resource
+
+    now, maximum = resource.getrlimit(limit)
+    if now == resource.RLIM_INFINITY or now >= wanted:
+        return None
+    if maximum == resource.RLIM_INFINITY or maximum >= wanted:
+        resource.setrlimit(limit, (wanted, maximum))
+        return None
+    return maximum
