@@ -63,6 +63,27 @@ def test_sideways_keys_slide_a_holonomic_base() -> None:
     run(live(), play, (100, 30))
 
 
+def test_figures_stay_long_enough_to_be_read_while_nobody_steers_here() -> None:
+    async def drive_at(session: Session, speed: float) -> str:
+        drive = session.console.current.drive
+        session.console.change(drive=replace(drive, actual=(speed, 0.0)))
+        await session.settle()
+        return next(line for line in session.lines() if "robot   ▕" in line)
+
+    async def play(session: Session) -> None:
+        steering(session).clock = Clock()
+        await session.press("6")
+        pass_time(session, 1.0)
+        assert "+0.40 m/s" in await drive_at(session, 0.40)
+        assert "+0.40 m/s" in await drive_at(session, 0.50), "at once after another figure"
+        pass_time(session, 1.0)
+        assert "+0.50 m/s" in session.text(), "the newest figures, though nothing came since"
+        await session.press("enter")
+        assert "+0.60 m/s" in await drive_at(session, 0.60) and "+0.70 m/s" in await drive_at(session, 0.70)
+
+    run(live(), play, (100, 30))
+
+
 def test_the_command_topic_is_chosen_by_its_name_and_the_robot_left_is_held() -> None:
     async def play(session: Session) -> None:
         chosen: list[str] = []

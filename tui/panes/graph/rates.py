@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from bot_console.tui.console.topics.port import Measure, Topics
-from bot_console.tui.text.figures import coarse_rate
+from bot_console.tui.text.figures import coarse_rate, steady
 
 RATE_POLL_S = 2.0
 READER = "graph"
@@ -18,6 +18,7 @@ class Rates:
         self.wanted: bool | None = None
         """Whether a person wants rates; None: where there is room for them."""
         self.texts: Mapping[str, str] = {}
+        self._rates: dict[str, float | None] = {}
         self._polled = 0.0
 
     def shown(self, on: bool) -> Mapping[str, str]:
@@ -31,7 +32,8 @@ class Rates:
         self._polled = now
         traffic.measure(topics, READER)
         known = traffic.measured()
-        texts = {topic: _text(known[topic]) for topic in topics if topic in known}
+        self._rates = {topic: self._steady(topic, known[topic]) for topic in topics if topic in known}
+        texts = {topic: coarse_rate(rate) for topic, rate in self._rates.items()}
         before, self.texts = self.texts, texts
         return texts != before
 
@@ -41,7 +43,7 @@ class Rates:
             self._polled = 0.0
             traffic.measure([], READER)
 
-
-def _text(measure: Measure) -> str:
-    text = coarse_rate(measure.rate)
-    return f"~{text}" if text and measure.provisional else text
+    def _steady(self, topic: str, measure: Measure) -> float | None:
+        """The rate to show: each change of its text may move lines of the picture, so no provisional one is shown."""
+        before = self._rates.get(topic)
+        return before if measure.provisional else steady(before, measure.rate)

@@ -20,6 +20,15 @@ MAX_BACKLOG = 20_000
 """Log records that are read at most from before the pane was opened, or while it was hidden."""
 
 
+@dataclass(frozen=True)
+class OutputLine:
+    """A line of the log, and how often it came one after another."""
+
+    record: LogRecord
+    """The newest of them."""
+    count: int = 1
+
+
 @dataclass
 class Followed:
     """What was gathered about one process."""
@@ -28,7 +37,7 @@ class Followed:
     """Shares of one CPU, the newest last."""
     warnings: int = 0
     errors: int = 0
-    lines: deque[LogRecord] = field(default_factory=lambda: deque[LogRecord](maxlen=MAX_LINES))
+    lines: deque[OutputLine] = field(default_factory=lambda: deque[OutputLine](maxlen=MAX_LINES))
 
 
 class Follower:
@@ -81,13 +90,21 @@ class Follower:
         return found
 
     def _add(self, followed: Followed, record: LogRecord) -> None:
-        followed.lines.append(record)
+        last = followed.lines.pop() if followed.lines else None
+        if last is not None and _same(last.record, record):
+            followed.lines.append(OutputLine(record, last.count + 1))
+        else:
+            followed.lines.extend(each for each in (last, OutputLine(record)) if each is not None)
         followed.errors += record.severity >= Severity.ERROR
         followed.warnings += record.severity == Severity.WARN
 
     def key_of(self, logger: str) -> str:
         """The process that logs or prints under a name, or under one that it begins with; empty if none is known."""
         return _longest(logger, self._by_logger)
+
+
+def _same(one: LogRecord, other: LogRecord) -> bool:
+    return (one.node, one.severity, one.text) == (other.node, other.severity, other.text)
 
 
 def logger_of(node: str) -> str:

@@ -17,13 +17,13 @@ from bot_console.tui.console.model import (
     ConsoleSnapshot,
     LaunchEvent,
     LaunchInfo,
-    LogRecord,
     ProcessInfo,
     ProcessState,
     Severity,
 )
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.format import SEVERITY_CHARACTERS, clock_text, counted, cut, sanitize
+from bot_console.tui.panes.launch.follow import OutputLine
 from bot_console.tui.panes.launch.rows import ProcessRows, Row, matches, rows
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
@@ -140,16 +140,17 @@ class LaunchPane(ListPane):
         keys = [row.process.key] if row and row.process else inside
         lines = [line for key in keys for line in self._list.follower.of(key).lines]
         width, room = output.size.width, max(0, output.size.height - 1)
-        newest = sorted(lines, key=lambda each: each.seq)[-room:] if room else []
+        newest = sorted(lines, key=lambda each: each.record.seq)[-room:] if room else []
         name = "" if row is None else sanitize(row.process.label if row.process else row.group[-1])
-        known = (name, newest[-1].seq if newest else -1, width, room)
+        known = (name, newest[-1].record.seq if newest else -1, width, room)
         if known == self._output:
             return
         self._output = known
         what = "logged and printed" if newest else "has logged and printed nothing yet"
         title = f" {'what ' if newest else ''}{name} {what} " if name else ""
         drawn: list[Line] = [((cut(title.center(width, "─"), width), "dim"),)]
-        drawn += [((cut(_output_line(each), width), STYLES.get(each.severity, "")),) for each in newest]
+        named = row is not None and row.process is None
+        drawn += [((_output_line(each, width, named=named), STYLES.get(each.record.severity, "")),) for each in newest]
         output.set_lines(drawn)
 
     def _arrange(self) -> None:
@@ -435,9 +436,14 @@ def event_text(event: LaunchEvent) -> str:
     return f"{clock_text(event.stamp)} {sanitize(event.text)}"
 
 
-def _output_line(record: LogRecord) -> str:
+def _output_line(line: OutputLine, width: int, *, named: bool) -> str:
+    """A line of the log with how often it came; `named`: with the node or process that it is from."""
+    record = line.record
     mark = SEVERITY_CHARACTERS.get(record.severity, " ")
-    return f" {clock_text(record.stamp)[:8]} {mark} {sanitize(record.text.splitlines()[0] if record.text else '')}"
+    who = f"{sanitize(record.node)}  " if named else ""
+    text = f" {clock_text(record.stamp)[:8]} {mark} {who}{sanitize(record.text.splitlines()[0] if record.text else '')}"
+    count = f"  ×{line.count} " if line.count > 1 else ""
+    return cut(text, width - len(count), pad=bool(count)) + count
 
 
 def facts(process: ProcessInfo, info: LaunchInfo) -> list[tuple[str, list[str]]]:

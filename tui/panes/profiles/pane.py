@@ -33,6 +33,7 @@ from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, ent
 from bot_console.tui.panes.profiles.user_profiles import OwnProfiles
 from bot_console.tui.safety.stop_messages import stops_of_ending
 from bot_console.tui.widgets.picture import Picture
+from bot_console.tui.widgets.placeholder import NO_PLACEHOLDER, Placeholder
 from bot_console.tui.widgets.prompt.common import wrong_path
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Confirmation, Line
@@ -45,6 +46,12 @@ MAX_VISIBLE_PROFILES = 6
 """Profiles that are seen at once."""
 HEAD, STATUS = 4, 3
 """Lines that what a profile is for, and what comes of it, take at most."""
+
+
+EMPTY = Placeholder(
+    "Sets of parameter values, compared before they are applied: no parameter files were found.",
+    (("o", "Open a parameter file"), ("S", "Save what runs as a profile"), ("?", "Help")),
+)
 
 
 class ProfilesPane(ListPane):
@@ -128,6 +135,7 @@ class ProfilesPane(ListPane):
         if not self._show_comparison(profile):
             shown = self.query_one(DifferenceRows)
             width = shown.size.width or self.size.width
+            shown.show_placeholder(NO_PLACEHOLDER if self._snapshot.profiles else EMPTY)
             shown.exchange(entries(self._differences, self._outcomes, self._asking, width))
             self.query_one("#profile-head", StaticText).show_whole(self._head(profile), HEAD)
         self.query_one("#profile-status", StaticText).show_whole(self._reported or self._summary(profile), STATUS)
@@ -162,7 +170,7 @@ class ProfilesPane(ListPane):
         if profile is None and self._snapshot.profiles:
             return "Nothing matches the filter; escape takes it away."
         if profile is None:
-            return self._snapshot.problem or "No profiles: no parameter files were found."
+            return self._snapshot.problem
         if profile.problem:
             return profile.problem
         if profile.launch:

@@ -8,6 +8,7 @@ from typing import Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot
+from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.steering.mouse import button, velocities
 from bot_console.tui.panes.steering.state import (
@@ -22,7 +23,7 @@ from bot_console.tui.panes.steering.state import (
     robot_of,
     stands_after_steering,
 )
-from bot_console.tui.panes.steering.view import lines
+from bot_console.tui.panes.steering.view import lines, same_but_velocities
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Line, Option
@@ -30,6 +31,8 @@ from textual.app import ComposeResult
 from textual.events import MouseDown, MouseEvent, MouseMove, MouseUp
 from textual.timer import Timer
 
+FIGURES_S = 0.5
+"""Seconds for which bars and figures stay while nobody steers here: faster ones cannot be read."""
 HELD = "The all-stop holds the robot; the line below shows how to release it."
 
 
@@ -65,6 +68,8 @@ class SteeringPane(Pane):
         """The rate that every robot is steered at from the beginning."""
         self._repeating: Timer | None = None
         """Repeats the command at another rate than the ticks."""
+        self._figures, self._figures_at = DriveInfo(), float("-inf")
+        """The velocities that are shown as bars and figures, and since when (s)."""
 
     def compose(self) -> ComposeResult:
         """The picture, and a prompt for limits."""
@@ -138,9 +143,19 @@ class SteeringPane(Pane):
     def _draw(self) -> None:
         picture = self.query_one(Picture)
         width, height = picture.size
-        left = self.state.left(self.clock())
-        picture.set_lines(lines(self.state, self._snapshot.drive, left, width, height, self._others()))
+        left, figures = self.state.left(self.clock()), self._shown_figures()
+        picture.set_lines(lines(self.state, self._snapshot.drive, left, width, height, self._others(), figures))
         self.set_class(self.state.armed, "armed")
+
+    def _shown_figures(self) -> DriveInfo:
+        """The velocities for bars and figures: while nobody steers here, they stay long enough to be read."""
+        drive, held = self._snapshot.drive, self._figures
+        if self.state.armed or self._are_figures_due() or not same_but_velocities(drive, held):
+            self._figures, self._figures_at = drive, self.clock()
+        return self._figures
+
+    def _are_figures_due(self) -> bool:
+        return self.clock() - self._figures_at >= FIGURES_S
 
     def _others(self) -> list[str]:
         """Other nodes that publish commands on this pane's topic."""
@@ -219,8 +234,9 @@ class SteeringPane(Pane):
             self._send()
         if self.state.armed:
             self.console.drive.steer(True)
-            if self.display:
-                self._draw()
+        is_late = self._figures is not self._snapshot.drive and self._are_figures_due()
+        if self.display and (self.state.armed or is_late):
+            self._draw()
 
     def _send(self) -> None:
         armed = self.state.armed

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import zip_longest
 
 from bot_console.tui.console.robot.robot_model import DriveInfo
@@ -34,12 +35,20 @@ FOR_BUTTONS = 60
 
 
 def lines(
-    state: Steering, drive: DriveInfo, left: float, width: int, height: int, others: Sequence[str] = ()
+    state: Steering,
+    drive: DriveInfo,
+    left: float,
+    width: int,
+    height: int,
+    others: Sequence[str] = (),
+    figures: DriveInfo | None = None,
 ) -> list[Line]:
     """Switch, dead-man time, sliders, and what became of the command; the least important lines go first.
 
-    `others` are nodes that publish commands where this pane does.
+    `others` are nodes that publish commands where this pane does; `figures` are the velocities shown as bars and
+    numbers, by default the newest ones.
     """
+    figures = figures or drive
     top = [_switch(state, drive, width), *_others(others, drive.topic)]
     sliders = [
         *_sideways(state),
@@ -50,11 +59,19 @@ def lines(
     controls: list[Line] = [*top, (), *sliders, deadman, ()]
     size = _plane_size(width, height - len(controls) - 2)
     if size is not None:
-        return [*controls, *_beside(_plane(state, drive, size), _chain(state, drive, narrow=True))][:height]
-    chain = _chain(state, drive)
+        return [*controls, *_beside(_plane(state, drive, size), _chain(state, figures, narrow=True))][:height]
+    chain = _chain(state, figures)
     compact: list[Line] = [*top, *sliders, deadman, *chain]
     roomy: list[Line] = [*top, (), *sliders, (), deadman, (), *chain]
     return (roomy if len(roomy) <= height else compact)[:height]
+
+
+def same_but_velocities(one: DriveInfo, other: DriveInfo) -> bool:
+    """Whether two states differ in nothing but how fast something moves."""
+    velocities = ("asked", "limited", "final", "actual")
+    if any((getattr(one, each) is None) != (getattr(other, each) is None) for each in velocities):
+        return False
+    return replace(one, **dict.fromkeys(velocities)) == replace(other, **dict.fromkeys(velocities))
 
 
 def _plane_size(width: int, rows: int) -> tuple[int, int] | None:
@@ -163,7 +180,7 @@ def _deadman(state: Steering, left: float) -> Line:
 def _chain(state: Steering, drive: DriveInfo, *, narrow: bool = False) -> list[Line]:
     """Asked, limited, sent, robot: what became of the command on its way, as bars and numbers.
 
-    With `narrow`, the reason for a limit has a line of its own.
+    With `narrow`, the reason for a limit has a line of its own, which is blank without one.
     """
     rows: list[Line] = []
     stages = (("asked", drive.asked), ("limited", drive.limited), ("sent", drive.final), ("robot", drive.actual))
@@ -184,8 +201,8 @@ def _chain(state: Steering, drive: DriveInfo, *, narrow: bool = False) -> list[L
             (text, "" if velocity else "dim"),
         )
         rows.append(row if narrow or not why else (*row, (f"  {why}", "warn")))
-        if why and narrow:
-            rows.append(((f"    {why}", "warn"),))
+        if word == "limited" and narrow:
+            rows.append(((f"    {why}", "warn"),) if why else ())
     if narrow:
         speed, turn = state.greatest
         whose = "typed" if state.typed else "parameters"

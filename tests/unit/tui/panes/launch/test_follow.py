@@ -23,6 +23,16 @@ def read(follower: Follower, *lines: tuple[str, Severity]) -> None:
         pass
 
 
+def test_equal_lines_one_after_another_are_one_with_their_count() -> None:
+    follower = Follower()
+    follower.know((ZOO, EAR))
+    texts = ("SAFE", "SAFE", "SAFE", "Turning", "SAFE")
+    records = [LogRecord(at, at, Severity.INFO, "arm.left.zoo", text) for at, text in enumerate(texts)]
+    follower.read(LogState(0, len(records)), records.__getitem__)
+    found = [(each.record.text, each.record.stamp, each.count) for each in follower.of("1").lines]
+    assert found == [("SAFE", 2, 3), ("Turning", 3, 1), ("SAFE", 4, 1)]
+
+
 def test_lines_belong_to_the_process_of_their_logger_or_of_what_printed_them() -> None:
     found = followed(
         ("arm.left.zoo", Severity.WARN), ("zoo.py-1", Severity.ERROR), ("arm.left.zoo.eyes", Severity.FATAL)
@@ -36,7 +46,7 @@ def test_lines_belong_to_the_process_of_their_logger_or_of_what_printed_them() -
 def test_flood_is_read_in_pieces_and_only_the_newest_lines_are_kept() -> None:
     follower = Follower()
     follower.know((ZOO, EAR))
-    records = [LogRecord(at, 0, Severity.WARN, "arm", "") for at in range(3 * MAX_RECORDS)]
+    records = [LogRecord(at, 0, Severity.WARN, "arm", f"{at}") for at in range(3 * MAX_RECORDS)]
     state = LogState(0, len(records))
     assert follower.read(state, records.__getitem__)
     assert follower.of("2").warnings == MAX_RECORDS
