@@ -195,6 +195,11 @@ class Student:
         until(lambda: self.expected <= self.done(), self._state)
         assert self.expected == self.done(), self._state()
 
+    def loses(self, id: str) -> None:
+        """Wait until a step is open again, and no other one."""
+        self.expected -= {id}
+        until(lambda: self.done() == self.expected, self._state)
+
     def does_by(self, id: str, act: Callable[[], None]) -> None:
         """Do something over and over until a step is done."""
         until(lambda: (act(), self.expected | {id} <= self.done())[1], self._state)

@@ -593,12 +593,13 @@ def chapter_20(at: Student) -> None:
     build, lint = at.lines("would-it-build-on-ros-2")
     at.reads("waiting for: the command colcon build", "waiting for: the command lint")
     at.edit(f"{PACKAGE}/setup.py", 'glob("config/*.yaml")', 'glob("config/in*.yaml")')
-    one.run(build)
-    assert "outdoor_config.yaml" in one.run(lint)
+    at.loses("install-them")
+    assert "config/outdoor_config.yaml is not installed" in one.run(build)
+    assert "config/outdoor_config.yaml is not installed" in one.run(lint)
     at.reads("outdoor_config.yaml is not installed: data_files of setup.py has no line for it")
     at.edit(f"{PACKAGE}/setup.py", 'glob("config/in*.yaml")', 'glob("config/*.yaml")')
     one.run(build, lint)
-    at.does("would-it-build-on-ros-2")
+    at.does("install-them", "would-it-build-on-ros-2")
 
 
 def chapter_21(at: Student) -> None:
