@@ -23,7 +23,9 @@ NAME = "commands.jsonl"
 MAX_WORDS, MAX_WORD_CHARACTERS = 40, 200
 """Of a command line, what is recorded."""
 SETTLING_S = 3.0
-"""Seconds for which a command has to run before it counts as one that works: until then it may still fail."""
+"""Seconds for which one of `LASTING` has to run before it counts as one that works: until then it may still fail."""
+LASTING = frozenset(("run", "launch", "topic", "bag"))
+"""Commands that last until somebody ends them; others have worked when they have ended."""
 MAX_ERROR_CHARACTERS = 500
 """Of the end of what a command writes to stderr."""
 MAX_BYTES = 4_000_000
@@ -35,7 +37,7 @@ UNRECORDED = frozenset(("--version", "complete", "learn", "release", "stop"))
 
 
 class Command(NamedTuple):
-    """A command line, its exit code (None while it runs), and whether it has run for long enough not to fail."""
+    """A command line, its exit code (None while it runs), and whether it has run for `SETTLING_S`."""
 
     words: tuple[str, ...]
     code: int | None = None
@@ -46,7 +48,7 @@ class Command(NamedTuple):
     @property
     def works(self) -> bool:
         """Whether it has done what it was asked for, or is doing it."""
-        return not self.failed if self.code is not None else self.settled
+        return not self.failed if self.code is not None else self.settled and not LASTING.isdisjoint(self.verb[:1])
 
     @property
     def failed(self) -> bool:

@@ -127,6 +127,7 @@ SPEED = parameter("/robot", "speed", 1.0)
             seen(commands=[Command(("run", "a.py"), None, settled=False)]),
             "waiting for: the command run …",
         ),
+        ("saw-command *", seen(commands=[Command(("ros2",), None)]), "waiting for: the command …"),
         ("saw-curve linear", seen(curves={"/odom/twist.twist.linear.x"}), ""),
         ("saw-curve linear", seen(), "waiting for: a curve of linear in the plot"),
         ("saw-layout *", seen(layouts={"mine"}), ""),
@@ -294,13 +295,23 @@ def test_file_launched_from_the_launch_pane_counts_each_time(tmp_path: Path) -> 
     assert held.observe(snapshot(launch=LaunchInfo(files=(str(path), str(path)))), [], OnScreen()) == ["A"]
 
 
-def test_command_that_still_runs_counts_once_it_has_run_for_a_while(tmp_path: Path) -> None:
+def test_command_that_lasts_until_it_is_ended_counts_once_it_has_run_for_a_while(tmp_path: Path) -> None:
     path = tmp_path / "log"
     path.touch()
     record(str(path), ["run", "a.py"], None)
     at = json.loads(path.read_text("utf-8"))["at"]
     assert [each.works for each in read_log(str(path), at + 1.0)] == [False]
     assert [each.works for each in read_log(str(path), at + SETTLING_S)] == [True]
+
+
+def test_command_that_ends_by_itself_counts_when_it_has_ended(tmp_path: Path) -> None:
+    path = tmp_path / "log"
+    path.touch()
+    words = ["check", ".", "--course", "week6"]
+    record(str(path), words, None)
+    assert [each.works for each in read_log(str(path))] == [False]
+    record(str(path), words, 0)
+    assert [each.works for each in read_log(str(path))] == [True]
 
 
 def test_value_that_a_restarted_node_has_was_set_by_nobody(tmp_path: Path) -> None:
