@@ -16,7 +16,7 @@ from bot_console.tui.learn.course import read_course
 from bot_console.tui.learn.layout import NAME, WithLesson
 from bot_console.tui.learn.lesson import CourseLesson
 from bot_console.tui.learn.lesson_view import LessonView
-from bot_console.tui.panes.lesson.pane import LessonPane, text_of, wrapped
+from bot_console.tui.panes.lesson.pane import LessonPane, lines_of, text_of, wrapped
 from bot_console.tui.settings.appearance import Appearance
 from fakes.command_line import FakeCommandLine
 from piloting import Session
@@ -144,6 +144,22 @@ def test_listing_leaves_room_for_what_follows_and_long_lines_are_marked() -> Non
     assert "… 21 more lines: enter shows them, y copies all" in text
     assert text.endswith("In a terminal:\n  bot-console run a.py\n\n")
     assert body.replace("\n", "\n  ") in text_of(view).plain
+
+
+@pytest.mark.parametrize(
+    ("waiting", "lines"),
+    [
+        ("waiting for: a node", ["1/2 Set the speed  waiting for: a node", "a.py"]),
+        ("waiting for: a node with sped; mean speed?", ["1/2  waiting for: a node with sped; mean speed?", "a.py"]),
+        (
+            "speed has no range: give its descriptor a floating_point_range",
+            ["1/2  speed has no range: give its descriptor a", "floating_point_range"],
+        ),
+    ],
+)
+def test_two_lines_of_a_step_show_first_what_it_waits_for(waiting: str, lines: list[str]) -> None:
+    view = LessonView("C", "Set the speed", 1, 2, 0, snippets=(("a.py", ""),), waits=((False, waiting),))
+    assert lines_of(view, 48).plain.splitlines() == lines
 
 
 def test_each_press_of_y_copies_the_next_listing(tmp_path: Path) -> None:

@@ -128,7 +128,7 @@ class LessonPane(Pane):
             self._shown = wanted
             self.query_one("#lesson-text", StaticText).update(text_of(*wanted))
             self.query_one(VerticalScroll).scroll_home(animate=False)
-            self.query_one("#lesson-line", StaticText).show_text(lines_of(view))
+            self.query_one("#lesson-line", StaticText).show_text(lines_of(*wanted[:2]))
         way = "" if self.has_focus_within else " · Tab: its keys"
         self.caption(view.problem or f"{view.done} of {view.total} done{way}")
 
@@ -198,12 +198,19 @@ def wrapped(line: str, columns: int) -> list[str]:
     return [*(f"{each} …" for each in found[:-1]), found[-1]]
 
 
-def lines_of(view: LessonView) -> Text:
-    """The step on two lines: what it is and waits for, and what to type or to write."""
-    waiting = next((text for held, text in view.waits if not held), "done; n goes on")
-    text = Text()
-    text.append(f"{view.number}/{view.total} {sanitize(view.title)}", "bold")
-    text.append(f"  {sanitize(waiting)}\n")
+def lines_of(view: LessonView, columns: int = 0) -> Text:
+    """The step on two lines: what it is and waits for, and what to type or to write.
+
+    What it waits for goes first: where that does not fit into the columns, it takes the place of the step's title, and
+    where it needs two lines, also of what to type.
+    """
+    waiting = sanitize(next((text for held, text in view.waits if not held), "done; n goes on"))
+    head, title = f"{view.number}/{view.total}", f" {sanitize(view.title)}"
+    if 0 < columns < len(f"{head}{title}  {waiting}"):
+        title = ""
+        if len(lines := textwrap.wrap(f"{head}  {waiting}", columns)) > 1:
+            return Text.assemble((head, "bold"), "\n".join(lines).removeprefix(head))
+    text = Text.assemble((f"{head}{title}", "bold"), f"  {waiting}\n")
     parts = [path or body.partition("\n")[0] for path, body in view.snippets]
     text.append(sanitize(" · ".join(parts)) or "enter shows the whole step", "dim")
     return text
