@@ -19,8 +19,8 @@ MAX_FILE_BYTES = 4_000_000
 """Larger than any file that a lock writes."""
 MAX_TURN = 2**63
 """More changes than any lock goes through."""
-TURN_TIMEOUT_S = 1.0
-"""Seconds to wait for another lock that uses the file."""
+TURN_TIMEOUT_S = 5.0
+"""Seconds to wait for another lock that uses the file: on a busy disk it takes more than one until that is written."""
 TURN_POLL_S = 0.01
 
 

@@ -40,6 +40,13 @@ UNREADABLE_ROW = """
 """
 FAKETIME = Path("/usr/lib/x86_64-linux-gnu/faketime/libfaketimeMT.so.1")
 JUMPS = ("+7h", "-7h", "+0")
+SLEEP = """
+import threading
+import time
+
+time.sleep = lambda seconds: threading.Event().wait(seconds)
+"""
+"""Under libfaketime, `time.sleep` is refused (EINVAL) where monotonic clocks go on."""
 RESPAWNED = """
 import sys
 from launch import LaunchDescription
@@ -282,10 +289,12 @@ class Clocks:
         at once with a current glibc, so that threads that wait for the interpreter poll.
         """
         self._file, before = robot.folder / "clock", dict(robot.environment)
+        (robot.folder / "sitecustomize.py").write_text(SLEEP)
         self._set("+0")
         robot.environment |= {
             "LD_PRELOAD": str(FAKETIME), "FAKETIME_TIMESTAMP_FILE": str(self._file), "FAKETIME_CACHE_DURATION": "1",
             "FAKETIME_DONT_FAKE_MONOTONIC": "1", "NO_FAKE_STAT": "1", "FAKETIME_FORCE_MONOTONIC_FIX": "0",
+            "PYTHONPATH": str(robot.folder),
         }  # fmt: skip
         try:
             both_restarted_and_free(robot)

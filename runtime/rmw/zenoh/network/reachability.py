@@ -121,7 +121,10 @@ def _why_no_tls(link: socket.socket, endpoint: str, host: str, tls: Tls) -> str:
             context.load_cert_chain(tls.certificate, tls.key)
         secure = context.wrap_socket(link, server_hostname=host)
     except TimeoutError:
-        return f"{endpoint}: no TLS there: is it a router for tcp/{host}?"
+        return (
+            f"{endpoint}: no answer to TLS within {TIMEOUT_S:g} s: the router is overloaded (try again), "
+            f"or it is one for tcp/{host}"
+        )
     except ssl.SSLCertVerificationError as error:
         return f"{endpoint}: the router's certificate is refused: {error.verify_message}; --tls-ca names its authority"
     except (ssl.SSLError, OSError) as error:

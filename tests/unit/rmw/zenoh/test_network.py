@@ -11,8 +11,9 @@ from pathlib import Path
 import pytest
 from bot_console.runtime.process import on_notice
 from bot_console.runtime.rmw.zenoh.link_probe import LinkProbe
+from bot_console.runtime.rmw.zenoh.network import reachability
 from bot_console.runtime.rmw.zenoh.network.client import Way, client_settings, open_network_session, with_environment
-from bot_console.runtime.rmw.zenoh.network.reachability import Tls, place_of
+from bot_console.runtime.rmw.zenoh.network.reachability import Tls, place_of, why_unreachable
 from bot_console.runtime.rmw.zenoh.network.router import Router, router_settings
 from bot_console.runtime.rmw.zenoh.session import SessionError
 from bot_console.runtime.rmw.zenoh.settings import Serving, session_settings
@@ -65,6 +66,13 @@ def test_client_with_missing_or_wrong_certificate_is_refused_and_reported(secure
     wrong = Tls(own.ca, stranger.certificate, stranger.key)
     reported = refusal(Way((secure,), wrong, timeout_s=0.3))
     assert stranger.certificate in reported and "X.509 version 3" in reported and "--tls-certificate" not in reported
+
+
+def test_router_that_does_not_get_to_the_handshake_is_reported_as_overloaded_or_without_tls(monkeypatch):
+    monkeypatch.setattr(reachability, "TIMEOUT_S", 0.1)
+    with socket.create_server(("127.0.0.1", 0)) as listening:  # connections wait, as behind a flood of others
+        reported = why_unreachable([f"tls/127.0.0.1:{listening.getsockname()[1]}"], Tls())
+    assert "no answer to TLS within 0.1 s: the router is overloaded (try again)" in reported
 
 
 def test_certificate_accepted_by_zenoh_is_not_blamed_by_stricter_python(secure, files, monkeypatch):
