@@ -149,8 +149,11 @@ def test_listing_leaves_room_for_what_follows_and_long_lines_are_marked() -> Non
 @pytest.mark.parametrize(
     ("waiting", "lines"),
     [
-        ("waiting for: a node", ["1/2 Set the speed  waiting for: a node", "a.py"]),
-        ("waiting for: a node with sped; mean speed?", ["1/2  waiting for: a node with sped; mean speed?", "a.py"]),
+        ("waiting for: a node", ["1/2 Set the speed  waiting for: a node", "a.py · ls · pwd"]),
+        (
+            "waiting for: a node with sped; mean speed?",
+            ["1/2  waiting for: a node with sped; mean speed?", "a.py · ls · pwd"],
+        ),
         (
             "speed has no range: give its descriptor a floating_point_range",
             ["1/2  speed has no range: give its descriptor a", "floating_point_range"],
@@ -158,7 +161,9 @@ def test_listing_leaves_room_for_what_follows_and_long_lines_are_marked() -> Non
     ],
 )
 def test_two_lines_of_a_step_show_first_what_it_waits_for(waiting: str, lines: list[str]) -> None:
-    view = LessonView("C", "Set the speed", 1, 2, 0, snippets=(("a.py", ""),), waits=((False, waiting),))
+    view = LessonView(
+        "C", "Set the speed", 1, 2, 0, snippets=(("a.py", "x"), ("", "ls\npwd")), waits=((False, waiting),)
+    )
     assert lines_of(view, 48).plain.splitlines() == lines
 
 

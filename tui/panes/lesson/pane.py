@@ -211,6 +211,6 @@ def lines_of(view: LessonView, columns: int = 0) -> Text:
         if len(lines := textwrap.wrap(f"{head}  {waiting}", columns)) > 1:
             return Text.assemble((head, "bold"), "\n".join(lines).removeprefix(head))
     text = Text.assemble((f"{head}{title}", "bold"), f"  {waiting}\n")
-    parts = [path or body.partition("\n")[0] for path, body in view.snippets]
+    parts = [path or body.strip().replace("\n", " · ") for path, body in view.snippets]
     text.append(sanitize(" · ".join(parts)) or "enter shows the whole step", "dim")
     return text
