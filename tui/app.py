@@ -12,6 +12,7 @@ from bot_console.tui import keymap
 from bot_console.tui.arrangement.arrival import COMING_STATUS, ORDERED, Arrival, System
 from bot_console.tui.arrangement.opening import Opening
 from bot_console.tui.arrangement.stage import Stage
+from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.files.crash import keep, reason
 from bot_console.tui.keys.keyboard import MAX_PASTE_CHARACTERS, Keyboard
 from bot_console.tui.layout.named import OVERVIEW
@@ -109,7 +110,6 @@ class BotConsoleApp(GuardedApp):
 
     def attach(self, system: System) -> Sequence[Widget]:
         """Start acting on a system; returns the widgets between the panes and the key bar."""
-        from bot_console.tui.console.model import ConsoleSnapshot
         from bot_console.tui.controls import controls_of
         from bot_console.tui.widgets.streams.panels import StreamPanels
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from launch.condition import Condition
+from launch.events import ExecutionComplete
 from launch.launch_description_entity import LaunchDescriptionEntity
 from launch.origin import origin_of_caller
 
@@ -40,8 +41,6 @@ class Action(LaunchDescriptionEntity):
         try:
             return self.execute(context)
         finally:
-            from launch.events import ExecutionComplete
-
             event = ExecutionComplete(action=self)
             if context.would_handle_event(event):
                 future = self.get_asyncio_future()

@@ -13,9 +13,11 @@ from pathlib import Path
 
 from bot_console.runtime.children.child_environment import child_environment
 from bot_console.runtime.children.ros_wheels import clear_wheel_environment
-from bot_console.runtime.importer import install
+from bot_console.runtime.importer import install, node_modules
+from bot_console.runtime.process import MAIN, code_program, current, module_program
 from bot_console.runtime.rmw.parameter_file import find_with
 from bot_console.runtime.shim_folder import shim_folder
+from bot_console.runtime.workspace.executables import executables
 from bot_console.runtime.workspace.parameter_files import hint_for
 from bot_console.runtime.workspace.program import Program, program, python_file, source_folders
 
@@ -42,9 +44,6 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 def run_as_python(words: Sequence[str]) -> int:
     """Run `-m MODULE` or `-c CODE` with arguments as the interpreter does."""
-    from bot_console.runtime.importer import node_modules
-    from bot_console.runtime.process import code_program, module_program
-
     option, joined = words[0][:2], words[0][2:]
     rest = [joined, *words[1:]] if joined else [*words[1:]]
     if not rest:
@@ -64,7 +63,6 @@ def _let_children_import() -> None:
 def run_package(package: str, words: Sequence[str]) -> int:
     """Run an executable of a package; `words` are its name and its arguments."""
     from ament_index_python.packages import PackageNotFoundError
-    from bot_console.runtime.workspace.executables import executables
     from bot_console.runtime.workspace.not_found import no_executable, no_package
 
     try:
@@ -102,7 +100,6 @@ def run_file(path: Path, words: Sequence[str]) -> int:
 
 def _run(runs: Program, argv: Sequence[str]) -> int:
     """Run to the end; an uncaught exception prints a traceback that begins in the user's own file."""
-    from bot_console.runtime.process import MAIN, current
     from bot_console.runtime.process.ending import wait_for_threads
     from bot_console.runtime.process.node.main_thread import SIGINT_EXIT, exit_code_of
 

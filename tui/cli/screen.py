@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bot_console.tui.cli.arguments import Options
+from bot_console.tui.console.model import Severity
 from bot_console.tui.files.folders import state_folder
 from bot_console.tui.session.embedded.child_host import start_host
 from bot_console.tui.session.embedded.domain import (
@@ -87,7 +88,6 @@ def _prepare(options: Options) -> None:
 def _connect(options: Options, alone: str, own: Host | None, start: Callable[[], Host]) -> Connected:
     """Build what is shown, after the first frame: these imports take longer than everything before it."""
     _prepare(options)
-    from bot_console.tui.console.model import Severity
     from bot_console.tui.session.composition import attached, embedded, hosted, overhear
     from bot_console.tui.session.connected import Connected
     from bot_console.tui.session.launch_host.snapshot_buffer import HostedSnapshotBuffer

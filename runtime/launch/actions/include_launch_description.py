@@ -12,7 +12,9 @@ from launch.actions.set_launch_configuration import SetLaunchConfiguration
 from launch.argument_discovery import IncludesDescription
 from launch.frontend.expose import expose_action
 from launch.inherited_arguments import Included
+from launch.launch_context import LaunchContext
 from launch.launch_description_source import LaunchDescriptionSource
+from launch.launch_description_sources import AnyLaunchDescriptionSource
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -38,8 +40,6 @@ class IncludeLaunchDescription(Action, IncludesDescription):
         launch_arguments: Iterable[Pair] | None = None,
         **kwargs: Condition | None,
     ) -> None:
-        from launch.launch_description_sources import AnyLaunchDescriptionSource
-
         super().__init__(**kwargs)
         if not isinstance(launch_description_source, LaunchDescriptionSource):
             launch_description_source = AnyLaunchDescriptionSource(launch_description_source)
@@ -117,8 +117,6 @@ class IncludeLaunchDescription(Action, IncludesDescription):
         ]
 
     def _given_names_without_context(self) -> list[str]:
-        from launch.launch_context import LaunchContext
-
         try:
             return self._given_names(LaunchContext())
         except Exception:  # a name only known in the running launch cannot be counted

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import launch.logging
+from launch.action import Action
 from launch.actions.emit_event import EmitEvent
 from launch.events import Shutdown as ShutdownEvent
 from launch.events.process import ProcessExited
@@ -30,8 +31,6 @@ class Shutdown(EmitEvent):
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Shutdown], dict[str, object]]:
         """Parse the element in XML or YAML."""
-        from launch.action import Action
-
         _, kwargs = Action.parse.__func__(cls, entity, parser)  # type: ignore[attr-defined] -- the base's parser, past the class between
         reason = entity.get_attr("reason", optional=True)
         if reason:

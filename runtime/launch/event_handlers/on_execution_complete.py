@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from launch.action import Action
 from launch.event_handlers.on_action_event_base import OnActionEventBase
 from launch.events.execution_complete import ExecutionComplete
 
@@ -23,8 +24,6 @@ class OnExecutionComplete(OnActionEventBase):
         on_completion: SomeEntitiesType | Callable[..., SomeEntitiesType | None],
         **kwargs: bool,
     ) -> None:
-        from launch.action import Action
-
         super().__init__(
             action_matcher=target_action,
             on_event=on_completion,

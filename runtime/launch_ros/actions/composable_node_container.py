@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend import expose_action
+from launch_ros.actions.load_composable_nodes import LoadComposableNodes, holds, parse_composable_nodes
 from launch_ros.actions.node import Node
 
 if TYPE_CHECKING:
@@ -35,8 +36,6 @@ class ComposableNodeContainer(Node):
     @classmethod
     def parse(cls, entity: Entity, parser: Parser, ignore: Any = None) -> tuple[Any, dict[str, object]]:
         """Parse the element in XML or YAML."""
-        from launch_ros.actions.load_composable_nodes import parse_composable_nodes
-
         _, kwargs = super().parse(entity, parser, ignore)
         descriptions = parse_composable_nodes(entity, parser, optional=True)
         if descriptions:
@@ -46,8 +45,6 @@ class ComposableNodeContainer(Node):
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Start the container, then load the nodes whose conditions hold."""
-        from launch_ros.actions.load_composable_nodes import LoadComposableNodes, holds
-
         wanted = [each for each in self.__descriptions or () if holds(each, context)]
         loading = []
         if wanted:

@@ -28,6 +28,7 @@ from launch_ros.utilities import (
     prefix_namespace,
     warn_of_same_name,
 )
+from rclpy.validate_namespace import validate_namespace
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity
@@ -272,6 +273,4 @@ def _validate_name(name: str) -> None:
 
 
 def _validate_namespace(namespace: str) -> None:
-    from rclpy.validate_namespace import validate_namespace
-
     validate_namespace(namespace)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from launch.actions import TimerAction
 from launch.events import TimerEvent
 from launch.frontend import expose_action
+from launch_ros.ros_adapters import get_ros_node
 
 if TYPE_CHECKING:
     from launch.action import Action
@@ -24,8 +25,6 @@ class ROSTimer(TimerAction):
         self.__timer: Any = None
 
     def _wait(self, context: LaunchContext, period: float) -> None:
-        from launch_ros.ros_adapters import get_ros_node
-
         node = get_ros_node(context)
         loop = context.asyncio_loop
         event = TimerEvent(timer_action=self)

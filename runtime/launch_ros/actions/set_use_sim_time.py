@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from launch.action import Action
 from launch.frontend import expose_action
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
+from launch_ros.ros_adapters import get_ros_node
 from rclpy.parameter import Parameter
 
 if TYPE_CHECKING:
@@ -38,7 +39,5 @@ class SetUseSimTime(Action):
 
     def execute(self, context: LaunchContext) -> None:
         """Set the parameter."""
-        from launch_ros.ros_adapters import get_ros_node
-
         wanted = perform_typed_substitution(context, self.__value, bool)
         get_ros_node(context).set_parameters([Parameter("use_sim_time", value=wanted)])

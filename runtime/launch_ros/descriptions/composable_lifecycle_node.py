@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from launch.utilities.type_utils import normalize_typed_substitution
 from launch_ros.descriptions.composable_node import ComposableNode
+from launch_ros.utilities.lifecycle_event_manager import LifecycleEventManager
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -32,7 +33,5 @@ class ComposableLifecycleNode(ComposableNode):
 
     def init_lifecycle_event_manager(self, context: LaunchContext, full_name: str) -> None:
         """Observe and control the node of this full name."""
-        from launch_ros.utilities.lifecycle_event_manager import LifecycleEventManager
-
         self.__full_name = full_name
         LifecycleEventManager(self).setup_lifecycle_manager(context)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from launch.utilities import normalize_to_list_of_substitutions
+from launch_ros.utilities import normalize_parameters, normalize_remap_rules
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity
@@ -29,8 +30,6 @@ class ComposableNode:
         extra_arguments: object = None,
         condition: object = None,
     ) -> None:
-        from launch_ros.utilities import normalize_parameters, normalize_remap_rules
-
         self.__package = normalize_to_list_of_substitutions(package)
         self.__plugin = normalize_to_list_of_substitutions(plugin)
         self.__name = None if name is None else normalize_to_list_of_substitutions(name)

@@ -6,8 +6,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from weakref import WeakKeyDictionary
 
+import yaml
 from bot_console.runtime.files.remote_address import is_remote
 from bot_console.runtime.process.scratch import scratch_file
+from launch.frontend.parse_substitution import parse_substitution
+from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 
@@ -74,10 +77,6 @@ def _fetched(context: LaunchContext, address: str) -> Path:
 
 
 def _substituted(context: LaunchContext, path: Path) -> Path:
-    import yaml
-    from launch.frontend.parse_substitution import parse_substitution
-    from launch.substitutions import SubstitutionFailure
-
     text = perform_substitutions(context, parse_substitution(path.read_text(encoding="utf-8")))
     try:
         yaml.safe_load(text)

@@ -8,6 +8,11 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
+import yaml
+from launch_ros.utilities.evaluate_parameters import evaluate_parameter_dict
+from launch_ros.utilities.normalize_parameters import normalize_parameter_dict
+from rclpy.parameter import Parameter
+
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
@@ -22,8 +27,6 @@ def to_parameters_list(
     Issues a `UserWarning` for a file without parameters for the node. Raises `OSError`, `yaml.YAMLError`,
     `RuntimeError` for a file whose keys cannot be matched, and `TypeError` for invalid parameter values.
     """
-    from rclpy.parameter import Parameter
-
     full_name = _full_name(node_name, namespace)
     found: list[Any] = []
     for each in evaluated_parameters:
@@ -55,10 +58,6 @@ def _full_name(node_name: str, namespace: str | None) -> str:
 
 def _values_of_file(context: LaunchContext, path: Path, full_name: str) -> dict[str, Any]:
     """Return the values under matching keys, later ones over earlier ones; a file without node keys is all values."""
-    import yaml
-    from launch_ros.utilities.evaluate_parameters import evaluate_parameter_dict
-    from launch_ros.utilities.normalize_parameters import normalize_parameter_dict
-
     content = yaml.safe_load(path.read_text(encoding="utf-8"))
     if not isinstance(content, Mapping):
         raise RuntimeError(f"invalid yaml file {path}, error: it has no keys")

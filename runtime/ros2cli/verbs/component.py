@@ -6,7 +6,7 @@ import argparse
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from ament_index_python import get_resource, has_resource
+from ament_index_python import get_packages_with_prefixes, get_resource, get_resources, has_resource
 from composition_interfaces.srv import ListNodes, LoadNode, UnloadNode
 from rcl_interfaces.msg import Parameter
 from rclpy.node import Node
@@ -144,8 +144,6 @@ def _types_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _types(arguments: argparse.Namespace) -> Result:
-    from ament_index_python import get_packages_with_prefixes, get_resources
-
     wanted = arguments.package_name
     if wanted is None:
         for package in get_resources(RESOURCE):

@@ -17,6 +17,7 @@ from bot_console.tui.cli.attach_options import add_network_options, network_way
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level, as_json, exit_code
 from bot_console.tui.cli.doctor.machine import machine_findings
 from bot_console.tui.cli.doctor.terminal import terminal_findings
+from bot_console.tui.session.embedded.domain import others_take_part
 from bot_console.tui.session.machine.choice import NO_ROS
 from bot_console.tui.session.machine.machine_ros import find_machine_ros, how_to_install
 from bot_console.tui.session.machine.network_use import RANGES, discovery_range, network_use, set_discovery_range
@@ -130,8 +131,6 @@ def _ros(seconds: float | None, report: Callable[[Sequence[DoctorFinding]], None
 def _zenoh(
     way: Way | None, seconds: float, capture: Path | None, report: Callable[[Sequence[DoctorFinding]], None]
 ) -> None:
-    from bot_console.tui.session.embedded.domain import others_take_part
-
     if way is None and not others_take_part():
         report([DoctorFinding(Level.NOTE, "graph", "no system of bot-console runs in this ROS domain")])
         return

@@ -23,6 +23,7 @@ from bot_console.tui.child_command import child_command
 from bot_console.tui.cli.arguments import parse
 from bot_console.tui.cli.verbs import stop
 from bot_console.tui.cli.verbs.router import add_serving_options, serving_of, warning_of
+from bot_console.tui.cli.verbs.stop import holders
 from bot_console.tui.files.folders import OVERRIDE, state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
 from bot_console.tui.format import sanitize
@@ -37,7 +38,7 @@ from bot_console.tui.session.embedded.domain import (
     why_no_robot,
 )
 from bot_console.tui.session.embedded.named_launch import with_launch_file
-from bot_console.tui.session.embedded.reaching import report_unused_router
+from bot_console.tui.session.embedded.reaching import named_routers, reach_system, report_unused_router
 from bot_console.tui.session.embedded.start_lock import start_lock
 from bot_console.tui.session.launch_host.address import ADDRESS_SUFFIX
 from bot_console.tui.session.system_log import new_log
@@ -248,8 +249,6 @@ def status(words: Sequence[str]) -> int:
 
     Returns 1 if there is neither.
     """
-    from bot_console.tui.session.embedded.reaching import named_routers, reach_system
-
     _no_words("status", "Show what is running.", words)
     if problem := reach_system():
         print(problem, file=sys.stderr)
@@ -272,8 +271,6 @@ def status(words: Sequence[str]) -> int:
 
 
 def _print_holders() -> None:
-    from bot_console.tui.cli.verbs.stop import holders
-
     found = holders()
     if found is None:
         print("whether somebody holds it is not known: its emergency stop did not answer")

@@ -8,7 +8,8 @@ import sys
 from bot_console.tui.cli.arguments import SIMULATOR_HELP, Options
 from bot_console.tui.cli.programs import program
 from bot_console.tui.cli.verbs import ros2
-from bot_console.tui.session.embedded.reaching import report_unused_router
+from bot_console.tui.session.embedded.domain import take_part
+from bot_console.tui.session.embedded.reaching import named_routers, reach_system, report_unused_router
 from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH, report_workspace
 
 
@@ -26,8 +27,6 @@ def run(words: list[str]) -> int:
         return _prefixed(given.prefix, rest)
     if not (given.watch or given.headless):
         from bot_console.runtime.programs.run import main
-        from bot_console.tui.session.embedded.domain import take_part
-        from bot_console.tui.session.embedded.reaching import named_routers, reach_system
 
         problem = reach_system() if named_routers() else take_part()
         if problem:
@@ -53,8 +52,6 @@ def run(words: list[str]) -> int:
 
 def _prefixed(prefix: str, words: list[str]) -> int:
     """Run an executable behind a command prefix, in its own process."""
-    from bot_console.tui.session.embedded.domain import take_part
-
     report_unused_router()
     problem = take_part()
     if problem:

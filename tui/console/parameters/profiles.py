@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from itertools import chain
 from operator import itemgetter
 from pathlib import Path
@@ -42,8 +43,6 @@ def find(folders: Iterable[Path], *, mixed: Iterable[Path] = ()) -> tuple[Profil
 
 
 def _named(profile: Profile, name: str) -> Profile:
-    from dataclasses import replace
-
     return replace(profile, name=name)
 
 

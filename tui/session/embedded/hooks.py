@@ -33,7 +33,6 @@ def halted_nodes(domain: int) -> tuple[Mapping[int, Sequence[str]], Mapping[str,
 
 def node_processes() -> Mapping[int, Sequence[str]]:
     """The processes of this machine in the domain, by pid, with their nodes."""
-    from bot_console.runtime.rmw.middleware import bus_of
     from bot_console.tui.session.embedded.domain import domain
 
     return bus_of(domain()).processes()
