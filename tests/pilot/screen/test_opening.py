@@ -76,12 +76,19 @@ def test_unknown_path_is_plotted_once_its_topic_appears(wanted: str) -> None:
     run((console, launcher), play, (120, 40))
 
 
-def test_reason_for_an_unplottable_field_is_shown() -> None:
+@pytest.mark.parametrize(
+    ("wanted", "path", "why"),
+    [
+        ("/scan/rangs[2]", "/scan/rangs[2]", "LaserScan has no field 'rangs'"),
+        ("/scan + 1", "/scan", "name a field of /scan as well"),
+    ],
+)
+def test_reason_for_an_unplottable_field_is_shown(wanted: str, path: str, why: str) -> None:
     async def play(session: Session) -> None:
-        session.console.unplottable["/scan/rangs[2]"] = "LaserScan has no field 'rangs'"
-        session.app.open(Opening("plot", ("/scan/rangs[2]",)))
+        session.console.unplottable[path] = why
+        session.app.open(Opening("plot", (wanted,)))
         await session.settle()
-        assert "waits for /scan/rangs[2]: LaserScan has no field 'rangs'" in session.text()
+        assert f"waits for {wanted}: {why}" in session.text()
 
     run(live(), play, (120, 40))
 

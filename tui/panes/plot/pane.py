@@ -369,4 +369,4 @@ def _within(wanted: str, known: Collection[str], topics: Collection[str]) -> boo
     except ValueError:
         return False
     paths = formula.paths if isinstance(formula, Formula) else (formula,)
-    return all(path in known or any(path.startswith(f"{each}/") for each in topics) for path in paths)
+    return all(path in known or any(f"{path}/".startswith(f"{each}/") for each in topics) for path in paths)
