@@ -40,6 +40,10 @@ DISCOVERY_S = 1.0
 """Seconds without a change after which the graph counts as complete on another rclpy than ours."""
 MAX_DISCOVERIES = 5
 """How many times in a row that may be waited for."""
+LATE_S = 4.0
+"""Seconds for which what a verb is about may be missing from such a graph: on a busy machine it comes with pauses."""
+NAMES = ("node_name", "topic_name", "service_name", "action_name")
+"""The arguments that say what a verb is about."""
 
 
 class NodeName(NamedTuple):
@@ -73,6 +77,10 @@ class DirectNode:
         self._daemon = not getattr(arguments, "no_daemon", False)
         self._sim_time = bool(getattr(arguments, "use_sim_time", False))
         self._spin_time: float | None = getattr(arguments, "spin_time", None)
+        # A verb that is told the type needs nothing of the graph: what it is about may come at any time, or never.
+        typed = getattr(arguments, "message_type", None)
+        names = (getattr(arguments, each, None) for each in NAMES)
+        self._about = "" if typed else next((absolute(each) for each in names if each), "")
         domain = os.environ.get("ROS_DOMAIN_ID") or "0"
         self._name = name or (
             f"_ros2cli_daemon_{domain}_{os.getpid():x}" if self._daemon else f"_ros2cli_{os.getpid()}"
@@ -93,7 +101,7 @@ class DirectNode:
             self._end(error)
             raise
         if _bus(self._node) is None:
-            _discover(self._node, self._spin_time)
+            _discover(self._node, self._spin_time, self._about)
         return self._node
 
     def __exit__(
@@ -109,11 +117,26 @@ class DirectNode:
             raise ExternalShutdownException from error
 
 
-def _discover(node: Node, seconds: float | None) -> None:
-    """Spin for so many seconds, or until the graph of another rclpy than ours seems complete: it comes bit by bit."""
+def _discover(node: Node, seconds: float | None, about: str) -> None:
+    """Spin for so many seconds, or until the graph of another rclpy than ours seems complete: it comes bit by bit.
+
+    A graph without `about`, the name of a node, topic, service or action, is given more time.
+    """
     if seconds is not None:
         spin_until(node, lambda: False, seconds)
         return
+    _settle(node)
+    if about and not _knows(node, about) and spin_until(node, lambda: _knows(node, about), LATE_S):
+        _settle(node)
+
+
+def _knows(node: Node, name: str) -> bool:
+    names, topics, services = _seen(node)
+    known = {full_name(space, each) for each, space in names} | dict(topics).keys() | dict(services).keys()
+    return name in known or f"{name}/_action/send_goal" in known
+
+
+def _settle(node: Node) -> None:
     for _ in range(MAX_DISCOVERIES):
         before = _seen(node)
         if not spin_until(node, lambda before=before: _seen(node) != before, DISCOVERY_S) and before[0]:

@@ -105,3 +105,54 @@ def test_hint_names_once_what_is_waited_for(
     monkeypatch.setattr(advice, "is_read", lambda: False)
     assert asked(Asking(answers=True)) == "answer"
     assert capsys.readouterr().err == ""
+
+
+class Graph:
+    """A graph that comes bit by bit: one part at each step of a clock that only waiting moves."""
+
+    def __init__(self, *parts: str) -> None:
+        self._parts = parts
+        self.now = 0
+
+    def wait(self, done: Any, seconds: float) -> bool:
+        for _ in range(int(seconds)):
+            self.now += 1
+            if done():
+                return True
+        return False
+
+    def get_name(self) -> str:
+        return "_ros2cli"
+
+    def _there(self, kind: str) -> list[tuple[str, Any]]:
+        there = [each.split() for each in self._parts[: self.now]]
+        return [(name, "/" if kind == "node" else ["type"]) for each, name in filter(None, there) if each == kind]
+
+    def get_node_names_and_namespaces(self) -> list[tuple[str, Any]]:
+        return self._there("node")
+
+    def get_topic_names_and_types(self) -> list[tuple[str, Any]]:
+        return self._there("topic")
+
+    def get_service_names_and_types(self) -> list[tuple[str, Any]]:
+        return self._there("service")
+
+
+@pytest.mark.parametrize(
+    ("about", "parts", "seconds"),
+    [
+        ("/base", ("node base",), 2),
+        ("/base", ("node other", "", "", "node base", "service /base/get"), 6),
+        ("/scan", ("node base", "", "", "topic /scan"), 5),
+        ("/go", ("node base", "", "", "service /go/_action/send_goal"), 5),
+        ("/nowhere", ("node base",), 6),
+        ("", ("node base", "", "", "node other"), 2),
+    ],
+)
+def test_graph_of_another_rclpy_is_given_time_for_what_a_verb_is_about(
+    monkeypatch: pytest.MonkeyPatch, about: str, parts: tuple[str, ...], seconds: int
+) -> None:
+    graph: Any = Graph(*parts)
+    monkeypatch.setattr(direct_node, "spin_until", lambda node, done, timeout: node.wait(done, timeout))
+    direct_node._discover(graph, None, about)
+    assert graph.now == seconds
