@@ -99,6 +99,18 @@ def test_values_set_in_a_burst_are_undone_one_by_one(rig: Rig) -> None:
     ]
 
 
+def test_undo_names_the_value_of_somebody_else_that_it_overwrites(rig: Rig) -> None:
+    setting(rig, {"speed": 1.5})
+    shown(rig, "speed", 1.5)
+    rig.set_elsewhere("speed", 1.75)
+    shown(rig, "speed", 1.75)
+    undone = rig.console.parameters.undo().result(TIMEOUT_S)
+    assert undone.ok and undone.text.endswith(f"had set meanwhile is overwritten: {ROBOT} speed = 1.75")
+    shown(rig, "speed", 1.0)
+    redone = rig.console.parameters.redo().result(TIMEOUT_S)
+    assert redone.ok and "overwritten" not in redone.text
+
+
 def test_undo_passes_over_what_has_been_undone_elsewhere(rig: Rig) -> None:
     assert setting(rig, {"count": 4})[0].accepted
     assert setting(rig, {"speed": 1.5})[0].accepted

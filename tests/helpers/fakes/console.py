@@ -294,6 +294,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
             step = take()
         if step is None:
             return done(Answer(False, CLOSED if self.closed else f"nothing to {source.value}"))
+        overwritten = step.overwritten(self._value)
         refused: list[SetOutcome] = []
         left: list[Move] = []
         for move in step.moves:
@@ -309,7 +310,9 @@ class FakeConsole(FakeProfiles, FakeSeries):
             self._steps.did(Step(gone, None if left else step.profiles), source)
         self.set_journal()
         names = ", ".join(name for move in step.moves for name in move.after)
-        return done(Answer(not left, "; ".join(each.reason for each in refused) or f"{source.value}: {names}"))
+        return done(
+            Answer(not left, "; ".join(each.reason for each in refused) or f"{source.value}: {names}{overwritten}")
+        )
 
     def move(self, linear: float, angular: float, sideways: float = 0.0) -> None:
         self.asked.append(("drive", linear, angular, *([sideways] if sideways else [])))

@@ -43,6 +43,16 @@ class Step:
         )
         return bool(self.profiles) or any(not same(value(node, name), new) for node, name, new in wanted)
 
+    def overwritten(self, value: Callable[[str, str], Value]) -> str:
+        """The end of a message that says which values of others undoing or redoing it overwrites; empty if none."""
+        found: list[str] = []
+        for move in self.moves:
+            for name in move.after:
+                now = value(move.node, name)
+                if not same(now, move.before[name]) and not same(now, move.after[name]):
+                    found.append(f"{move.node} {name} = {now}")
+        return f"; what another program had set meanwhile is overwritten: {', '.join(found)}" if found else ""
+
 
 EARLIER = 5_000
 """Changes of earlier runs that are shown."""

@@ -169,7 +169,9 @@ class ParameterSetter:
         take = self._journal.take_undo if source is ChangeSource.UNDO else self._journal.take_redo
         while step := take():
             if step.changes(source, self._value):  # else others have made that change already
-                return await self._move(step, source)
+                overwritten = step.overwritten(self._value)
+                answer = await self._move(step, source)
+                return Answer(True, answer.text + overwritten) if answer.ok else answer
         return Answer(False, f"nothing to {source.value}")
 
     async def _move(self, step: Step, source: ChangeSource) -> Answer:
