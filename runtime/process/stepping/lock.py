@@ -86,6 +86,11 @@ class SteppedLock:
     def __exit__(self, *_error: object) -> None:
         self.release()
 
+    def _at_fork_reinit(self) -> None:
+        """Free it in the child of a fork, which has none of the threads that held it or waited for it."""
+        self._lock._at_fork_reinit()
+        self._waiters.clear()
+
 
 class SteppedRLock(SteppedLock):
     """Like `threading.RLock`, for a stepped run.
@@ -112,6 +117,9 @@ class SteppedRLock(SteppedLock):
             return True
         self._lock.release()
         return False
+
+    def _recursion_count(self) -> int:
+        return self._lock._recursion_count()
 
     # The methods that `threading.Condition` needs of its lock.
 

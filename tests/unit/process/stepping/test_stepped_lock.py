@@ -5,9 +5,38 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from typing import Any
+from unittest.mock import Mock
 
+import pytest
 from bot_console.runtime.process import NodeProcess, stepped
 from bot_console.runtime.process.stepping import lock as module
+
+OBSOLETE = {"acquire_lock", "locked_lock", "release_lock"}
+"""Synonyms of a lock's methods from Python 2."""
+
+
+@pytest.mark.parametrize(
+    ("stepped_lock", "built_in"), [(module.SteppedLock(), threading.Lock()), (module.SteppedRLock(), threading.RLock())]
+)
+def test_lock_has_all_methods_of_the_built_in_one(stepped_lock: Any, built_in: Any) -> None:
+    """`concurrent.futures`, `logging` and `multiprocessing` call some that are not public."""
+    assert set(dir(built_in)) - OBSOLETE <= set(dir(stepped_lock))
+
+
+def test_lock_is_free_in_a_forked_child_that_lacks_its_holder() -> None:
+    lock = module.SteppedLock()
+    lock.acquire()
+    lock._waiters.append(Mock())
+    lock._at_fork_reinit()
+    assert lock.acquire(False) and not lock._waiters
+
+
+def test_recursive_lock_counts_its_levels() -> None:
+    lock = module.SteppedRLock()
+    if not hasattr(threading.RLock(), "_recursion_count"):
+        pytest.skip("new in Python 3.11")
+    with lock, lock:
+        assert lock._recursion_count() == 2
 
 
 class Interrupted:
