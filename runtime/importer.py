@@ -23,7 +23,7 @@ from bot_console.runtime.programs.missing_packages import explain_missing_packag
 from bot_console.runtime.rosidl.sources import EXAMPLES, add_source
 
 if TYPE_CHECKING:
-    from bot_console.runtime.process.virtual.fresh_import import FreshModules
+    from bot_console.runtime.process.program import Places
 
 # No importlib.abc, importlib.util or pathlib here: they take a fifth of the time to the first message.
 RUNTIME = os.path.dirname(os.path.realpath(__file__))
@@ -56,8 +56,6 @@ OWN_PACKAGE = "bot_console_robot"
 """The ROS package in the folder `nodes/`."""
 OWN_PACKAGES = (OWN_PACKAGE, "intelligent_robot")
 """Its two names; the second applies if the workspace has no package of that name."""
-OWN_FILE = os.path.join(os.path.dirname(RUNTIME), "nodes", "__init__.py")
-"""The file of our package, whatever a workspace contains."""
 DEMOS = "bot_console_demos"
 """The import name of `nodes/demos/`: the nodes of the tutorials."""
 
@@ -105,17 +103,6 @@ def _own_package(name: str) -> ModuleSpec | None:
     return _package_in(name, place)
 
 
-def _is_shared(name: str) -> bool:
-    """Whether a top-level name refers to a part of the embedded runtime or to our own nodes."""
-    if is_embedded(name) or name == DEMOS:
-        return True
-    if name != OWN_PACKAGE:
-        return False
-    ours = _own_package(name)
-    imported = sys.modules.get(name)
-    return ours is not None and ours.origin == OWN_FILE and getattr(imported, "__file__", OWN_FILE) == OWN_FILE
-
-
 def _package_in(name: str, folder: str) -> ModuleSpec | None:
     from importlib.util import spec_from_file_location
 
@@ -154,17 +141,18 @@ def generated_packages() -> tuple[str, ...]:
         return tuple(each.name for each in listed if each.is_dir())
 
 
-def node_modules(folders: Sequence[str | os.PathLike[str]] = ()) -> FreshModules:
-    """Return the modules for one start of a node: those in `folders` are fresh, the runtime and our nodes are shared.
+def places_of(folders: Sequence[str | os.PathLike[str]] = ()) -> Places:
+    """Return where the modules of a node are: in these folders, whose packages come before ours of the same name.
 
-    Our nodes are composed in one process, as ROS 2 composes nodes; a package of a workspace with our name is fresh.
+    In our own launches our package comes first.
 
-    Each folder corresponds to an entry of `sys.path`: that of a node file, or the one that contains a Python
-    package.
+    Each folder corresponds to an entry of `sys.path`: that of a node file, or the one that contains a Python package.
     """
-    from bot_console.runtime.process.virtual.fresh_import import FreshModules
+    from bot_console.runtime.process.program import Places
+    from bot_console.runtime.workspace.builtin_package import own_is_first
 
-    return FreshModules([os.fspath(folder) for folder in folders], packages=(*OWN_PACKAGES, DEMOS), shared=_is_shared)
+    theirs = {*OWN_PACKAGES, DEMOS} - ({OWN_PACKAGE} if own_is_first() else set[str]())
+    return Places([os.fspath(folder) for folder in folders], frozenset(theirs))
 
 
 _finder = RosFinder()

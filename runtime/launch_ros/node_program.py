@@ -11,7 +11,7 @@ from pathlib import Path
 
 from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 from bot_console.runtime.programs.plain_file import examine
-from bot_console.runtime.workspace.builtin_package import ROOT, is_own
+from bot_console.runtime.workspace.builtin_package import is_own
 from bot_console.runtime.workspace.demos import IMPORT_NAME
 from bot_console.runtime.workspace.discover import workspace
 from bot_console.runtime.workspace.entry_script import script_of, script_of_file
@@ -38,10 +38,9 @@ def program_of(package: str | None, path: str) -> PythonProgram | None:
     if not _is_python(path):
         return None
     folders = [os.path.dirname(os.path.abspath(path)), *_above_packages(path), *_prefix_folders(package)]
-    is_ours = os.path.realpath(path).startswith(str(ROOT / "nodes") + os.sep)
     only_a_file = package is None and path.endswith(".py")
     calls_main = only_a_file and examine(Path(path)).calls_main
-    return _program(python_file, is_ours, path, [*folders, *source_folders()], calls_main)
+    return _program(python_file, False, path, [*folders, *source_folders()], calls_main)
 
 
 def _program(kind: Callable[..., Program], is_ours: bool, *arguments: object) -> PythonProgram:

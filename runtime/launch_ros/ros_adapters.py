@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import os
 import threading
 from typing import TYPE_CHECKING
 
 import rclpy
+from bot_console.runtime.process import current
 from launch.event_handlers import OnShutdown
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 
@@ -25,7 +25,7 @@ class ROSAdapter:
     def __init__(self, *, argv: list[str] | None = None) -> None:
         self._context = rclpy.Context()
         rclpy.init(args=argv or [], context=self._context)
-        self._node = rclpy.create_node(f"launch_ros_{os.getpid()}", context=self._context)
+        self._node = rclpy.create_node(f"launch_ros_{current().pid}", context=self._context)
         self._executor = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._node)
         self._running = True

@@ -12,7 +12,7 @@ Time and waiting (everything that blocks goes through these, so that it can be w
 
 A node process
     `process = NodeProcess("talker-1", clock)`: has `name`, `pid` (synthetic), `state`, `exit_code`, `argv`, `env`.
-    `process.start(target, argv=, env=, stdout=, stderr=, cwd=)`: `target()` is its main program, see `file_program` and
+    `process.start(target, argv=, env=, stdout=, stderr=)`: `target()` is its main program, see `file_program` and
     `entry_point_program`; `stdout`/`stderr` are called with each line of text, newline included, and must not block.
     `process.wait(timeout_s) -> exit_code | None`, `is_alive`, `line()` (where its main thread is).
     `interrupt()` (SIGINT), `terminate()` (SIGTERM), `kill()` (SIGKILL), `send_signal(n)`; `stop(grace_s)`: all in turn.
@@ -30,10 +30,9 @@ Stepped runs
     `clock.run_for(seconds)`, `clock.run_until(steady_ns)`: let exactly one thread run at a time up to that time.
     `clock.deterministic`, `clock.stalls`: whether no thread blocked outside the clock, and the lines where one did.
 
-Virtual in a node process: threads and their lists, `sys.argv`, `sys.path`, `sys.stdin/stdout/stderr/excepthook`,
-`os.environ`, `os.getpid/kill/_exit/exec*/system`, `subprocess`, `signal.signal` and relatives, `atexit` (for the node's
-own files), the node's own modules. Not virtual, but reported: `os.chdir`, `os.umask`, timers of signals. `cwd` is where
-child processes start; relative paths of the node itself are those of the real process.
+Virtual in a node process: threads and their lists, `sys.argv`, `sys.stdin/stdout/stderr/excepthook`, `os.environ`,
+`signal.signal` and `signal.getsignal`. That is what our nodes, launches and `ros2` commands use of their process; all
+else is that of the real process. A user's program is never one.
 """
 
 from __future__ import annotations

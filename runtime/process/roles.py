@@ -7,10 +7,8 @@ For the type checker only: nothing imports this at run time.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Iterable, Mapping, MutableMapping, Sequence
-from functools import partial
+from collections.abc import Callable, Iterable, MutableMapping, Sequence
 from io import TextIOBase
-from types import ModuleType
 from typing import Any, Protocol
 from weakref import WeakSet
 
@@ -110,9 +108,6 @@ class RunningProcess(Warned, Protocol):
 class SignalTable(Protocol):
     """The signal handling of a process."""
 
-    wakeup_fd: int
-    """The descriptor to which each signal writes its number; -1 for none."""
-
     def handler(self, signum: int) -> Handler:
         """Return the handler, as `signal.getsignal` does."""
         ...
@@ -121,38 +116,12 @@ class SignalTable(Protocol):
         """Set the handler, as `signal.signal` does."""
         ...
 
-    def pause(self) -> None:
-        """Wait until a handler has run."""
-        ...
-
 
 class Pool(Protocol):
     """A thread pool: an executor of `concurrent.futures`, or one of the runtime's own."""
 
     def shutdown(self, wait: bool = ...) -> None:
         """Let its threads end once they have finished the submitted work."""
-        ...
-
-
-class OwnModules(Protocol):
-    """The modules that a node process has for itself."""
-
-    @property
-    def builtins(self) -> dict[str, Any]:
-        """The builtins of these modules, which identify the node's code."""
-        ...
-
-    @property
-    def table(self) -> Mapping[str, ModuleType]:
-        """The `sys.modules` of its code."""
-        ...
-
-    def owns(self, name: str) -> bool:
-        """Whether a dotted module name is, or would be, one of these."""
-        ...
-
-    def load(self, name: str) -> ModuleType:
-        """Return the process's own module of that dotted name, importing it if needed."""
         ...
 
 
@@ -165,14 +134,9 @@ class CurrentProcess(RunningProcess, Protocol):
     """The threads it has started."""
     pools: WeakSet[Pool]
     """The pools whose threads end with its main program."""
-    exit_functions: list[partial[Any]]
-    """Its `atexit` functions, oldest first."""
     cpu_of_ended_threads: float
     """Processor time (s) used by its threads that have ended."""
     argv: list[str]
-    path: list[str]
-    modules: OwnModules | None
-    """None if its code shares the interpreter's modules."""
     overrides: dict[Any, Any]
     """The module variables that it has set for itself."""
     locals: dict[Any, Any]
@@ -191,11 +155,6 @@ class CurrentProcess(RunningProcess, Protocol):
     @property
     def env(self) -> MutableMapping[str, str]:
         """Its environment."""
-        ...
-
-    @property
-    def cwd(self) -> str | None:
-        """Where its child processes start; None: in the real process's working directory."""
         ...
 
     @property

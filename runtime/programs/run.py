@@ -13,7 +13,7 @@ from pathlib import Path
 
 from bot_console.runtime.children.child_environment import child_environment
 from bot_console.runtime.children.ros_wheels import clear_wheel_environment
-from bot_console.runtime.importer import install, node_modules
+from bot_console.runtime.importer import install, places_of
 from bot_console.runtime.process import MAIN, code_program, current, module_program
 from bot_console.runtime.rmw.parameter_file import find_with
 from bot_console.runtime.shim_folder import shim_folder
@@ -50,7 +50,7 @@ def run_as_python(words: Sequence[str]) -> int:
         print(f"argument expected for the {option} option: {PYTHON_OPTIONS[option]}", file=sys.stderr)
         return 2
     kind = module_program if option == "-m" else code_program
-    return _run(kind(rest[0], node_modules(source_folders())), [option, *rest[1:]])
+    return _run(kind(rest[0], places_of(source_folders())), [option, *rest[1:]])
 
 
 def _let_children_import() -> None:

@@ -10,6 +10,7 @@ from types import TracebackType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import rclpy
+from bot_console.runtime.process import current
 from bot_console.runtime.programs.exit_messages import is_read
 from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.endpoints import Owner
@@ -83,7 +84,7 @@ class DirectNode:
         self._about = "" if typed else next((absolute(each) for each in names if each), "")
         domain = os.environ.get("ROS_DOMAIN_ID") or "0"
         self._name = name or (
-            f"_ros2cli_daemon_{domain}_{os.getpid():x}" if self._daemon else f"_ros2cli_{os.getpid()}"
+            f"_ros2cli_daemon_{domain}_{current().pid:x}" if self._daemon else f"_ros2cli_{current().pid}"
         )
 
     def __enter__(self) -> Node:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from bot_console.runtime.importer import node_modules
+from bot_console.runtime.importer import places_of
 from bot_console.runtime.process import entry_point_program, file_program
 from bot_console.runtime.programs.plain_file import then_main
 from bot_console.runtime.workspace.discover import Workspace, use, workspace
@@ -16,13 +16,13 @@ Program = Callable[[], object]
 def entry_point(workspace_folders: Sequence[str], function: str, folders: Sequence[str]) -> Program:
     """Return the program of `module:function`, imported from these folders."""
     find_packages_in(workspace_folders)
-    return entry_point_program(function, node_modules(folders))
+    return entry_point_program(function, places_of(folders))
 
 
 def python_file(workspace_folders: Sequence[str], path: str, folders: Sequence[str], calls_main: bool) -> Program:
     """Return the program of a file whose modules are in these folders; if it only defines `main()`, that is called."""
     find_packages_in(workspace_folders)
-    runs = file_program(path, node_modules(folders))
+    runs = file_program(path, places_of(folders))
     return then_main(runs) if calls_main else runs
 
 

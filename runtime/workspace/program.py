@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 
-from bot_console.runtime.importer import node_modules
+from bot_console.runtime.importer import places_of
 from bot_console.runtime.process import entry_point_program, file_program
 from bot_console.runtime.workspace.discover import workspace
 from bot_console.runtime.workspace.executables import Executable
@@ -17,7 +17,7 @@ def program(executable: Executable) -> Program | None:
     """Return the function that runs an executable in the calling process; None if it is not Python."""
     entry = executable.entry_point
     if entry is not None:
-        return entry_point_program(f"{entry.module}:{entry.function}", node_modules(source_folders(executable.package)))
+        return entry_point_program(f"{entry.module}:{entry.function}", places_of(source_folders(executable.package)))
     if executable.path is not None and is_python(executable.path):
         return python_file(executable.path)
     return None
@@ -25,7 +25,7 @@ def program(executable: Executable) -> Program | None:
 
 def python_file(path: Path) -> Program:
     """Return the function that runs a Python file in the calling process; it can import the workspace's packages."""
-    return file_program(str(path), node_modules([str(path.resolve().parent), *source_folders()]))
+    return file_program(str(path), places_of([str(path.resolve().parent), *source_folders()]))
 
 
 def source_folders(first: str = "") -> list[str]:

@@ -126,7 +126,7 @@ class Page:
         from bot_console.tui.cli.main import main
 
         return self._system.finish(
-            self._system.start("bot-console", lambda: sys.exit(main(words)), ["bot-console", *words])
+            self._system.compose("bot-console", lambda: sys.exit(main(words)), ["bot-console", *words])
         )
 
     def value(self, node: str, parameter: str) -> str:

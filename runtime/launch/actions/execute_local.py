@@ -12,7 +12,7 @@ import launch.logging
 from bot_console.runtime.importer import is_installed
 from bot_console.runtime.programs.exit_messages import limit_fault
 from launch.action import Action
-from launch.child import Child, PythonProgram, start_child
+from launch.child import CAN_FORK, Child, PythonProgram, start_child
 from launch.conditions import evaluate_condition_expression
 from launch.descriptions import Executable
 from launch.escalation import Escalation
@@ -365,6 +365,8 @@ class ExecuteLocal(Action):
         program = None
         if is_installed():  # else this package serves another rclpy, with which programs are ordinary processes
             program = self.python_program(command)
+            if program is not None and not (program.is_ours or CAN_FORK):
+                program = None  # an interpreter of its own runs it
             command = self.words_for(program, command)
         child = await start_child(
             command,

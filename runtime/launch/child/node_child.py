@@ -1,4 +1,4 @@
-"""A node process, i.e. a thread of this process, as a child of a launch."""
+"""A node of ours, composed in this process, as a child of a launch."""
 
 from __future__ import annotations
 
@@ -38,7 +38,6 @@ def start_node_child(
     *,
     argv: Sequence[str],
     env: Mapping[str, str],
-    cwd: str | None,
     output: Output,
 ) -> NodeChild:
     """Run a program as a node process."""
@@ -57,7 +56,7 @@ def start_node_child(
         _in_loop(loop, partial(_finish, child.exited, code))
 
     process.on_exit(ended)
-    process.start(program, argv=argv, env=env, stdout=partial(printed, 1), stderr=partial(printed, 2), cwd=cwd)
+    process.start(program, argv=argv, env=env, stdout=partial(printed, 1), stderr=partial(printed, 2))
     return child
 
 

@@ -42,4 +42,4 @@ async def start_child(
         return await start_forked_child(
             program, name, argv=command, env=env, cwd=cwd, emulate_tty=emulate_tty, output=output
         )
-    return start_node_child(program.load(), name, argv=command, env=env, cwd=cwd, output=output)
+    return start_node_child(program.load(), name, argv=command, env=env, output=output)

@@ -6,10 +6,7 @@ import codecs
 import io
 from _thread import RLock
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from .output_pipe import OutputPipe
+from typing import Any
 
 Sink = Callable[[str], None]
 """Receives one line with its newline (the last one may lack it), in the thread that wrote it. Must never block."""
@@ -29,7 +26,6 @@ class LineCapture(io.TextIOBase):
         self._sink = sink
         self._partial = ""
         self._lock = RLock()
-        self._pipe: OutputPipe | None = None
 
     def writable(self) -> bool:
         """Return True."""
@@ -43,38 +39,18 @@ class LineCapture(io.TextIOBase):
         """Write text; each completed line goes to the sink. Raises `TypeError` for anything but text."""
         if not isinstance(text, str):  # pyright: ignore[reportUnnecessaryIsInstance] -- node code is not checked
             raise TypeError(f"write() argument must be str, not {type(text).__name__}")
-        if self._pipe is not None:
-            self._pipe.drain()
-        self._take(text)
-        return len(text)
-
-    def _take(self, text: str) -> None:
         with self._lock:
-            if self.closed:
-                return
-            *lines, self._partial = (self._partial + text).split("\n")
-            for line in lines:
-                self._sink(line + "\n")
+            if not self.closed:
+                *lines, self._partial = (self._partial + text).split("\n")
+                for line in lines:
+                    self._sink(line + "\n")
+        return len(text)
 
     def reconfigure(self, **_options: Any) -> None:
         """Accept and ignore options: lines are always passed on at once, as UTF-8."""
 
-    def fileno(self) -> int:
-        """Return a descriptor for child processes and C code, whose output arrives at the sink as lines."""
-        with self._lock:
-            if self._pipe is None:
-                if self.closed:
-                    raise ValueError("I/O operation on closed file")
-                from .output_pipe import OutputPipe
-
-                self._pipe = OutputPipe(self._take)
-            return self._pipe.write_end
-
     def end(self) -> None:
         """Pass on an unfinished last line and close, when the process has ended."""
-        pipe, self._pipe = self._pipe, None
-        if pipe is not None:
-            pipe.close()
         with self._lock:
             if self._partial and not self.closed:
                 self._sink(self._partial)
@@ -123,9 +99,6 @@ class _ByteSide(io.BufferedIOBase):
 
     def writable(self) -> bool:
         return True
-
-    def fileno(self) -> int:
-        return self._text.fileno()
 
     def write(self, data: Any) -> int:
         count = memoryview(data).nbytes

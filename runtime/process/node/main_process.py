@@ -26,7 +26,6 @@ class MainProcess(NodeProcess):
         self.pid = os.getpid()
         self.argv = sys.argv
         self.env = os.environ
-        self.path = sys.path
         self._replaced: dict[int, Any] = {}
         self._ends_pools = False
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from ..crashes import explanation
 from ..frames import print_exception
 from ..notices import notify
-from ..virtual import child_threads, pools
+from ..virtual import child_threads
 from .thread_state import ProcessKilled, local
 
 if TYPE_CHECKING:
@@ -48,16 +48,15 @@ class _Main:
             self._end_children()
 
     def _wind_down(self) -> None:
-        """Do what the interpreter does after the main program: wait for threads, then call the exit functions."""
-        pools.shut_down(self._process)
+        """Do what the interpreter does after the main program: wait for threads."""
+        for pool in list(self._process.pools):
+            pool.shutdown(wait=False)
         try:
             while waited_for := [t for t, s in self._process.children.items() if not s.daemon and t.is_alive()]:
                 waited_for[0].join()
         except BaseException as exception:  # a second Ctrl-C ends only the waiting
             if not isinstance(exception, ProcessKilled):
                 print_exception(exception)
-        while self._process.exit_functions:
-            exit_code_of(self._process.exit_functions.pop())
 
     def _end_children(self) -> None:
         """Kill the remaining daemon threads."""

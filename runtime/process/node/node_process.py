@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import os
 import signal
-import sys
 import threading
 from _thread import allocate_lock
 from collections.abc import Callable, Iterable, Mapping, MutableMapping, Sequence
@@ -23,7 +22,7 @@ from .signals import SIGKILL, Signals
 from .thread_state import ProcessKilled, local
 
 if TYPE_CHECKING:
-    from ..roles import NodeThread, OwnModules, Pool
+    from ..roles import NodeThread, Pool
 
 _pids = itertools.count((1 << 22) + 1)  # above Linux's highest pid, so that a stray kill() hits nobody
 KILL_TIMEOUT_S = 0.5
@@ -44,8 +43,6 @@ class NodeProcess:
         self.pid = next(_pids)
         self.argv: list[str] = [name]
         self.env: MutableMapping[str, str] = {}
-        self.path: list[str] = []
-        self.cwd: str | None = None
         self.stdin = NO_INPUT
         self.stdout: LineCapture | None = None
         self.stderr: LineCapture | None = None
@@ -55,9 +52,7 @@ class NodeProcess:
         self.main_state: NodeThread | None = None
         self.children: dict[threading.Thread, NodeThread] = {}
         self.pools: WeakSet[Pool] = WeakSet()
-        self.exit_functions: list[partial[Any]] = []
         self.notices: list[str] = []
-        self.modules: OwnModules | None = None
         self.overrides: dict[Any, Any] = {}
         self.cpu_of_ended_threads = 0.0
         self._ended = self.clock.wakeup()
@@ -73,12 +68,11 @@ class NodeProcess:
         env: Mapping[str, str] | None = None,
         stdout: Sink | None = None,
         stderr: Sink | None = None,
-        cwd: str | None = None,
     ) -> None:
         """Run `target()` as the main program. Raises `RuntimeError` if the process was started before.
 
         `argv` is all of `sys.argv`, `env` the whole environment (default: the starter's); `stdout` and `stderr` receive
-        each line of output (default: the real streams). `cwd` is where child processes start.
+        each line of output (default: the real streams).
         """
         from ..virtual.install import install_virtual_process
         from .main_thread import start_main_thread
@@ -88,10 +82,8 @@ class NodeProcess:
         install_virtual_process()
         self.argv = list(argv) or [self.name]
         self.env = dict(os.environ if env is None else env)
-        self.path = list(sys.path)
         self.stdout = None if stdout is None else LineCapture(stdout, "<stdout>")
         self.stderr = None if stderr is None else LineCapture(stderr, "<stderr>")
-        self.cwd = cwd
         self.state = ProcessState.RUNNING
         running[self.pid] = self
         start_main_thread(self, target)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import _thread
-import os
 import signal
 import sys
 from collections.abc import Callable, Iterable
@@ -15,7 +14,6 @@ from ..notices import notify
 from .thread_state import local
 
 if TYPE_CHECKING:
-    from ..clock_source import Wakeup
     from ..roles import CurrentProcess, Handler, NodeThread
 
 BUSY_TIMEOUT_S = 0.1
@@ -38,8 +36,6 @@ class Signals:
         self._process = process
         self._hooks: list[tuple[Hook, frozenset[int]]] = []
         self._handlers: dict[int, Handler] = {signal.SIGINT: signal.default_int_handler}
-        self._pause: Wakeup | None = None
-        self.wakeup_fd = -1
         self.sending = 0
         """Number of signals between their hooks and their handler."""
 
@@ -102,17 +98,10 @@ class Signals:
             local.process = before
         return bool(hooks)
 
-    def pause(self) -> None:
-        """Wait until a handler has run."""
-        self._pause = self._process.clock.wakeup()
-        self._pause.wait()
-
     def _run_in_main_thread(self, signum: int, handler: Callable[[int, Any], Any]) -> None:
         state = self._process.main_state
         if state is None:
             return
-        if self.wakeup_fd >= 0:
-            os.write(self.wakeup_fd, bytes([signum]))
         action = partial(self._call_handler, handler, signum)
         state.post(action)
         if state is local.state:
@@ -121,8 +110,6 @@ class Signals:
             real.later(BUSY_TIMEOUT_S, partial(self._break_in, state, action))
 
     def _call_handler(self, handler: Callable[[int, Any], Any], signum: int) -> None:
-        if self._pause is not None:
-            self._pause.set()
         handler(signum, sys._getframe())  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
 
     def _break_in(self, state: NodeThread, action: partial[Any]) -> None:

@@ -2,37 +2,21 @@
 
 from __future__ import annotations
 
-import atexit
 import os
 import queue
 import signal
-import subprocess
 import threading
 import time
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
-from . import (
-    child_threads,
-    environment,
-    fresh_import,
-    os_calls,
-    pools,
-    subprocesses,
-    sys_module,
-    waits,
-)
-from .forks import Forks
+from . import child_threads, environment, signal_calls, sys_module, waits
 from .module_property import replace_class
-
-_SHARED = ("umask", "setuid", "setgid", "nice")
-_SHARED_SIGNALS = ("alarm", "setitimer")
 
 
 def _wraps() -> list[tuple[Any, str, Any]]:
     """Return owner, name and replacement of each wrapped public call."""
-    wraps: list[tuple[Any, str, Any]] = [
+    return [
         (threading.Thread, "start", child_threads.start),
         (threading.Thread, "join", child_threads.join),
         (threading.Thread, "is_alive", child_threads.is_alive),
@@ -43,34 +27,9 @@ def _wraps() -> list[tuple[Any, str, Any]]:
         (queue, "SimpleQueue", waits.SimpleQueue),
         (time, "sleep", waits.sleep),
         (os, "environ", environment.RoutingEnvironment()),
-        (os, "getpid", os_calls.getpid),
-        (os, "getppid", os_calls.getppid),
-        (os, "kill", os_calls.kill),
-        (os, "_exit", os_calls.exit_now),
-        (os, "abort", os_calls.abort),
-        (os, "chdir", os_calls.chdir),
-        (os, "system", os_calls.system),
-        (os, "execv", os_calls.execv),
-        (os, "execve", os_calls.execve),
-        (signal, "set_wakeup_fd", os_calls.set_wakeup_fd),
-        (signal, "signal", os_calls.set_signal_handler),
-        (signal, "getsignal", os_calls.signal_handler),
-        (signal, "raise_signal", os_calls.raise_signal),
-        (atexit, "register", os_calls.register_exit),
-        (atexit, "unregister", os_calls.unregister_exit),
-        (subprocess.Popen, "__init__", subprocesses.start),
-        (ThreadPoolExecutor, "__init__", pools.make),
-        (fresh_import.importlib, "import_module", fresh_import.import_module),
+        (signal, "signal", signal_calls.set_signal_handler),
+        (signal, "getsignal", signal_calls.signal_handler),
     ]
-    if hasattr(signal, "pause"):
-        wraps.append((signal, "pause", os_calls.pause))
-    for owner, names in ((os, _SHARED), (signal, _SHARED_SIGNALS)):
-        wraps += [
-            (owner, name, os_calls.unavailable(f"{owner.__name__}.{name}", getattr(owner, name)))
-            for name in names
-            if hasattr(owner, name)
-        ]
-    return wraps
 
 
 _undo: list[Callable[[], None]] = []
@@ -89,7 +48,6 @@ def install_virtual_process() -> None:
             _undo.append(_replace(owner, name, replacement))
         _undo.append(replace_class(threading, child_threads.VirtualThreading))
         _undo.append(sys_module.install())
-        _forks.register()
 
 
 def uninstall_virtual_process() -> None:
@@ -97,9 +55,6 @@ def uninstall_virtual_process() -> None:
     with _guard:
         while _undo:
             _undo.pop()()
-
-
-_forks = Forks(uninstall_virtual_process)
 
 
 def _replace(owner: Any, name: str, replacement: Any) -> Callable[[], None]:

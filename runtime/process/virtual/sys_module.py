@@ -1,4 +1,4 @@
-"""`sys.argv`, `sys.path` and the standard streams per node process, as properties of the class of `sys`.
+"""`sys.argv` and the standard streams per node process, as properties of the class of `sys`.
 
 C code reads the streams from the module's dictionary, so it holds routing streams. Python code gets the properties.
 """
@@ -82,13 +82,7 @@ def _add_properties(virtual: Any) -> None:
     for name in _STREAMS:
         setattr(virtual, name, _stream(name))
     virtual.argv = process_variable("argv", lambda process: process.argv)
-    virtual.path = process_variable("path", lambda process: process.path)
-    virtual.modules = process_variable("modules", _modules)
     virtual.excepthook = process_variable("excepthook", lambda _process: sys.__excepthook__)
-
-
-def _modules(process: Any) -> Any:
-    return sys.__dict__["modules"] if process.modules is None else process.modules.table
 
 
 _add_properties(VirtualSys)

@@ -69,8 +69,8 @@ def test_if_one_lock_ends_the_other_holds(running: System, ended: str) -> None:
     """The robot that is left, or restarted, stands although somebody drives its base."""
     speeds: list[float] = []
     programs = {name: running.executable(PACKAGE, name) for name in LOCKS}
-    running.start("driver", driver, ["driver"])
-    running.start("witness", lambda: witness(speeds), ["witness"])
+    running.compose("driver", driver, ["driver"])
+    running.compose("witness", lambda: witness(speeds), ["witness"])
     running.run(3.0)
     assert speeds[-1] > MOVING
     (other,) = LOCKS.keys() - {ended}

@@ -11,38 +11,9 @@ from pathlib import Path
 import pytest
 import rclpy
 from bot_console.tui.cli.verbs.stop import run
-from systems import Program, System, system
-
-SLOW_LOCK = """
-import sys
-import time
-import rclpy
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from rclpy.qos import DurabilityPolicy, QoSProfile
-
-late, deaf = float(sys.argv[1]), int(sys.argv[2])
-time.sleep(late)
-rclpy.init()
-node = rclpy.create_node("slow_lock")
-latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-state = node.create_publisher(DiagnosticStatus, "emergency_stop/base", latched)
-heard = []
-
-
-def tell(locked):
-    state.publish(DiagnosticStatus(values=[KeyValue(key="locked", value=locked)]))
-
-
-def asked(message):
-    heard.append(message)
-    if len(heard) > deaf:
-        tell("true")
-
-
-node.create_subscription(DiagnosticStatus, "emergency_stop/request", asked, 10)
-tell("false")
-rclpy.spin(node)
-"""
+from systems import Program, System, kill_composed, system
 
 ROOT = Path(__file__).resolve().parents[3]
 MOVING, STANDING = 0.2, 0.02
@@ -135,7 +106,7 @@ class Bench:
 
     def command(self, verb: str, *words: str) -> Program:
         """Run `bot-console stop` or `release` to its end."""
-        started = self._running.start(verb, lambda: sys.exit(run(verb, list(words))), [verb, *words])
+        started = self._running.compose(verb, lambda: sys.exit(run(verb, list(words))), [verb, *words])
         return self._running.finish(started)
 
     def python(self, text: str, *words: str) -> Program:
@@ -144,9 +115,7 @@ class Bench:
 
     def kill(self, name: str) -> None:
         """SIGKILL for a process of the launch."""
-        pid = re.findall(rf"\[{name}-\d+\]: process started with pid \[(\d+)\]", self.launch.stdout)[-1]
-        done = self._running.finish(self.python(f"import os, signal; os.kill({pid}, signal.SIGKILL)"))
-        assert done.exit == 0
+        kill_composed(self.launch, name)
 
 
 @pytest.fixture
@@ -243,26 +212,47 @@ def test_stop_and_release_work_without_a_screen(bench: Bench) -> None:
 
 def test_stop_without_acknowledgement_is_reported() -> None:
     with system() as running:
-        alone = running.finish(running.start("stop", lambda: sys.exit(run("stop", [])), ["stop"]))
+        alone = running.finish(running.compose("stop", lambda: sys.exit(run("stop", [])), ["stop"]))
     assert alone.exit == 1
     assert alone.stderr.startswith("stop sent, not confirmed: no robot with an emergency stop was found")
+
+
+def slow_lock(late: float, deaf: int) -> None:
+    """A robot that is found `late` seconds after the start, and ignores the first `deaf` requests."""
+    time.sleep(late)
+    rclpy.init()
+    node = rclpy.create_node("slow_lock")
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    state = node.create_publisher(DiagnosticStatus, "emergency_stop/base", latched)
+    heard: list[DiagnosticStatus] = []
+
+    def report(locked: str) -> None:
+        state.publish(DiagnosticStatus(values=[KeyValue(key="locked", value=locked)]))
+
+    def requested(message: DiagnosticStatus) -> None:
+        heard.append(message)
+        if len(heard) > deaf:
+            report("true")
+
+    node.create_subscription(DiagnosticStatus, "emergency_stop/request", requested, 10)
+    report("false")
+    rclpy.spin(node)
 
 
 @pytest.mark.parametrize(
     ("late", "deaf", "slow"), [(0.0, 60, 0.0), (8.0, 0, 0.1)], ids=["one that answers late", "on a busy machine"]
 )
 def test_stop_is_repeated_until_a_slow_robot_acknowledges(
-    late: float, deaf: int, slow: float, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    late: float, deaf: int, slow: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    program, spin_once = tmp_path / "slow_lock.py", rclpy.spin_once
-    program.write_text(SLOW_LOCK)
+    spin_once = rclpy.spin_once
 
     def starved(*words: object, **named: object) -> None:
         time.sleep(slow)
         spin_once(*words, **named)
 
     with system() as running:
-        running.python(str(program), str(late), str(deaf))
+        running.compose("slow_lock", lambda: slow_lock(late, deaf), ["slow_lock"])
         monkeypatch.setattr(rclpy, "spin_once", starved)
-        asked = running.finish(running.start("stop", lambda: sys.exit(run("stop", [])), ["stop"]))
+        asked = running.finish(running.compose("stop", lambda: sys.exit(run("stop", [])), ["stop"]))
     assert (asked.exit, asked.stdout) == (0, "held: the robot is locked until a person releases it\n"), asked.stderr

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 import pytest
-from systems import System, system
+from systems import System, kill_composed, system
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -36,13 +35,6 @@ def speeds(text: str) -> list[tuple[float, float]]:
     return [(float(at), float(speed)) for at, speed in map(str.split, text.splitlines())]
 
 
-def kill(running: System, launch_output: str, name: str) -> None:
-    """SIGKILL for a process that the launch has started."""
-    found = re.search(rf"\[{name}-\d+\]: process started with pid \[(\d+)\]", launch_output)
-    assert found, launch_output
-    assert running.finish(running.python("-c", f"import os, signal; os.kill({found[1]}, signal.SIGKILL)")).exit == 0
-
-
 @pytest.mark.parametrize("seconds", [2.53, *(pytest.param(each, marks=pytest.mark.soak) for each in (2.0, 6.0, 7.17))])
 def test_robot_stands_half_a_second_after_monitor_is_killed(seconds: float) -> None:
     with system() as running:
@@ -51,7 +43,7 @@ def test_robot_stands_half_a_second_after_monitor_is_killed(seconds: float) -> N
         running.run(seconds)
         killed_at, speed = speeds(watch.stdout)[-1]
         assert speed > 0.4
-        kill(running, launch.stdout, "safety_node")
+        kill_composed(launch, "safety_node")
         running.run(2.0)
         after = [(at - killed_at, speed) for at, speed in speeds(watch.stdout) if at > killed_at]
         assert after[-1][0] > 1.5

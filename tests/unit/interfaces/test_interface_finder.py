@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from bot_console.runtime.importer import node_modules
 from bot_console.runtime.rosidl.cdr import deserialize, serialize
 from bot_console.runtime.rosidl.texts import interface_names
 from bot_console.runtime.workspace import discover
@@ -90,12 +89,3 @@ def test_missing_interfaces_raise_import_errors(folder: Path) -> None:
         importlib.import_module("finder_more.srv")
     with pytest.raises(ModuleNotFoundError, match="No module named 'finder_nowhere'"):
         importlib.import_module("finder_nowhere")
-
-
-def test_all_node_processes_share_the_classes(folder: Path) -> None:
-    nodes = [node_modules([str(folder), str(folder / "finder_mixed")]) for _ in range(2)]
-    for text in ("from finder_msgs.msg import Num as found", "from finder_mixed.msg import Own as found"):
-        names: list[dict[str, object]] = [{"__builtins__": node.builtins} for node in nodes]
-        for each in names:
-            exec(text, each)
-        assert names[0]["found"] is names[1]["found"]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import textwrap
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +15,6 @@ if not hasattr(os, "fork"):
 
 from bot_console.runtime.programs.hints import SHOW
 from launch.actions import IncludeLaunchDescription
-from launch.child import close_fork_server
 from launching import Launch
 
 PROGRAM = """\
@@ -101,12 +99,6 @@ HINTS = {
 UNDECLARED = "{here}/program.py:10: the parameter max_sped is not declared; did you mean max_speed?"
 
 
-@pytest.fixture(scope="module", autouse=True)
-def server() -> Iterator[None]:
-    yield
-    close_fork_server()
-
-
 @pytest.fixture
 def launched(run: Launch, tmp_path: Path) -> Any:
     """Run the launch file; returns what each process has reported as hints."""
@@ -117,9 +109,9 @@ def launched(run: Launch, tmp_path: Path) -> Any:
     for name, text in FILES.items():
         (tmp_path / f"{name}.yaml").write_text(text)
 
-    def found(arguments: dict[str, str]) -> dict[str, list[str]]:
+    def found() -> dict[str, list[str]]:
         include = IncludeLaunchDescription(str(tmp_path / "x.launch.py"))
-        lines = run([include], arguments).lines
+        lines = run([include]).lines
         hints = [re.fullmatch(r"\[(\w+)-\d+\] \[WARN\] \[\S+\]: (.*)", line) for line in lines]
         by_process: dict[str, list[str]] = {name: [] for name in HINTS}
         for each in hints:
@@ -130,12 +122,11 @@ def launched(run: Launch, tmp_path: Path) -> Any:
     return found
 
 
-@pytest.mark.parametrize("arguments", [{"isolation": "process"}, {}], ids=["process", "shared"])
 def test_processes_of_a_launch_report_mistakes_with_their_lines(
-    launched: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: dict[str, str]
+    launched: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(SHOW, "1")
-    found = launched(arguments)
+    found = launched()
     for name, hint in HINTS.items():
         expected = [hint.format(here=tmp_path)] if hint else []
         if name in ("misspelt", "file_misspelt", "wildcard"):  # the others end before the program reads anything
@@ -145,4 +136,4 @@ def test_processes_of_a_launch_report_mistakes_with_their_lines(
 
 def test_without_a_reader_they_print_the_words_of_ros_alone(launched: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv(SHOW, raising=False)
-    assert not any(launched({"isolation": "process"}).values())
+    assert not any(launched().values())

@@ -1,15 +1,17 @@
-"""Nodes as node processes of the launch: their arguments and environment, their output, and their end."""
+"""Nodes of a launch, in processes: their arguments and environment, their output, and their end."""
 
 from __future__ import annotations
 
 import re
 import sys
 import textwrap
+import threading
 from pathlib import Path
 from typing import Any
 
 import pytest
 from bot_console.runtime.workspace.discover import Workspace, use, workspace
+from bot_console.tui.session.embedded.domain import join_domain
 from launch.actions import EmitEvent, RegisterEventHandler, SetEnvironmentVariable, Shutdown
 from launch.event_handlers import OnProcessExit, OnProcessIO
 from launch.events import matches_action
@@ -34,12 +36,18 @@ def script(tmp_path: Path) -> Any:
     return written
 
 
+@pytest.fixture
+def meets() -> None:
+    """This process takes part in a domain, in which it meets what it launches."""
+    assert not join_domain()
+
+
 def lines_of(text: str) -> list[str]:
     return re.findall(r"^\[\w+-\d+\] (.*)$", text, re.M)
 
 
 def test_node_gets_its_own_arguments_and_environment(run: Launch, script: Any) -> None:
-    path = script("import os, sys; print(sys.argv[1:], os.environ['BC_A'], os.getpid() > 4194304)")
+    path = script("import os, sys; print(sys.argv[1:], os.environ['BC_A'], os.getpid() < 4194304)")
     nodes = [
         Node(executable=path, name=each, output="screen", arguments=[each], additional_env={"BC_A": each})
         for each in ("a", "b")
@@ -53,7 +61,7 @@ def test_node_gets_its_own_arguments_and_environment(run: Launch, script: Any) -
 
 @pytest.mark.parametrize("prefix", ["python3", sys.executable])
 def test_file_run_by_python_need_not_be_executable(run: Launch, script: Any, prefix: str) -> None:
-    path = script("import os, sys; print(sys.argv, os.getpid() > 4194304)", "node.py")
+    path = script("import os, sys; print(sys.argv, os.getpid() < 4194304)", "node.py")
     Path(path).chmod(0o644)
     outcome = run([Node(executable=path, prefix=prefix, exec_name="node.py", output="screen", arguments=["a"])])
     assert re.search(rf"^\[node\.py-\d+\] \['{re.escape(path)}', 'a', '--ros-args'\] True$", outcome.text, re.M)
@@ -178,7 +186,7 @@ def test_parameters_and_remappings_arrive(run: Launch, script: Any) -> None:
     assert lines_of(run([node]).text) == ["/s/n 2.5 /s/b"]
 
 
-def test_lifecycle_node_changes_state_on_events(run: Launch, script: Any) -> None:
+def test_lifecycle_node_changes_state_on_events(run: Launch, script: Any, meets: None) -> None:
     path = script(
         """
         import rclpy
@@ -207,7 +215,7 @@ def test_lifecycle_node_changes_state_on_events(run: Launch, script: Any) -> Non
 
 
 def test_python_components_are_loaded_into_a_container(
-    run: Launch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    run: Launch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, meets: None
 ) -> None:
     (tmp_path / "bc_components.py").write_text(
         textwrap.dedent(
@@ -222,7 +230,7 @@ def test_python_components_are_loaded_into_a_container(
             """
         )
     )
-    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     container = ComposableNodeContainer(
         name="c", namespace="", package="rclcpp_components", executable="component_container", output="screen"
     )
@@ -245,7 +253,7 @@ def test_python_components_are_loaded_into_a_container(
 
 
 def test_lifecycle_component_activates_automatically(
-    run: Launch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    run: Launch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, meets: None
 ) -> None:
     (tmp_path / "bc_lifecycle_component.py").write_text(
         textwrap.dedent(
@@ -262,7 +270,7 @@ def test_lifecycle_component_activates_automatically(
             """
         )
     )
-    monkeypatch.syspath_prepend(str(tmp_path))
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     container = ComposableNodeContainer(
         name="c",
         namespace="",
@@ -287,9 +295,8 @@ def test_lifecycle_component_activates_automatically(
     assert "Loaded node '/d' in container '/c'" in text
 
 
+@pytest.mark.soak
 def test_two_hundred_nodes_start_and_stop(run: Launch, script: Any) -> None:
-    import threading
-
     before = threading.active_count()
     path = script(WAITS)
     up: list[str] = []

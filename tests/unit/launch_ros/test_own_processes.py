@@ -20,7 +20,7 @@ from bot_console.runtime.children.child_discovery import let_children_meet
 from bot_console.runtime.workspace.discover import Workspace, use, workspace
 from bot_console.tui.session.embedded.domain import isolate_from_domain, join_domain
 from launch.actions import EmitEvent, ExecuteProcess, RegisterEventHandler, Shutdown
-from launch.child import News, close_fork_server, fork_server, on_news
+from launch.child import News, fork_server, on_news
 from launch.event_handlers import OnProcessExit, OnProcessIO, OnProcessStart
 from launch.events import matches_action
 from launch.events.process import SignalProcess
@@ -30,13 +30,6 @@ from processes.waiting_node import WAITS, once_up
 from std_msgs.msg import String
 
 PROCESS = {"isolation": "process"}
-
-
-@pytest.fixture(scope="module", autouse=True)
-def server() -> Iterator[None]:
-    """One fork server for all tests of this file."""
-    yield
-    close_fork_server()
 
 
 @pytest.fixture
@@ -90,6 +83,11 @@ def meets(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 
 
 WHERE = f"import os; print('own' if os.getpid() != {os.getpid()} and os.getpid() < 1 << 22 else 'shared')"
+JOINED = """
+from bot_console.runtime.rmw.middleware import is_chosen
+from bot_console.runtime.rmw.zenoh.domain.domain_bus import shared_bus
+print(is_chosen(shared_bus))
+"""
 
 
 def test_program_that_can_meet_its_launch_has_its_own_process(run: Launch, script: Any, meets: None) -> None:
@@ -97,33 +95,24 @@ def test_program_that_can_meet_its_launch_has_its_own_process(run: Launch, scrip
     assert lines_of(run([node]).text) == ["own"]
 
 
-@pytest.mark.parametrize("apart", ["OFF", "isolated"])
-def test_program_that_could_not_meet_its_launch_shares_its_process(
-    run: Launch, script: Any, meets: None, monkeypatch: pytest.MonkeyPatch, apart: str
+def test_program_without_discovery_has_its_own_process_and_meets_nobody(
+    run: Launch, script: Any, meets: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    if apart == "OFF":
-        monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF")
-    else:
-        let_children_meet(False)
-    node = Node(executable=script(WHERE), output="screen")
-    assert lines_of(run([node]).text) == ["shared"]
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF")
+    path = script(f"{JOINED}\n{WHERE}")
+    assert lines_of(run([Node(executable=path, output="screen")]).text) == ["False", "own"]
 
 
 def test_program_joins_the_domain_that_its_launch_has_joined(run: Launch, script: Any, meets: None) -> None:
-    path = script(
-        """
-        from bot_console.runtime.rmw.middleware import is_chosen
-        from bot_console.runtime.rmw.zenoh.domain.domain_bus import shared_bus
-        print(is_chosen(shared_bus))
-        """
-    )
-    assert lines_of(run([Node(executable=path, output="screen")]).text) == ["True"]
+    assert lines_of(run([Node(executable=script(JOINED), output="screen")]).text) == ["True"]
 
 
+@pytest.mark.parametrize("joined", [True, False])
 def test_programs_of_an_isolated_system_have_processes_that_meet_in_a_folder_of_its_own(
-    run: Launch, script: Any, socket_folder: str
+    run: Launch, script: Any, socket_folder: str, joined: bool
 ) -> None:
-    assert not join_domain()
+    if joined:
+        assert not join_domain()
     isolate_from_domain()
     folder = os.environ["BOT_CONSOLE_SOCKET_DIR"]
     path = script("""

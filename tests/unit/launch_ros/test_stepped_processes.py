@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import textwrap
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -17,7 +17,6 @@ if not hasattr(os, "fork"):
 from bot_console.runtime.process import stepped
 from bot_console.runtime.rmw.lockstep.coordination import coordinated
 from launch.actions import RegisterEventHandler, Shutdown, TimerAction
-from launch.child import close_fork_server
 from launch.event_handlers import OnProcessExit
 from launch_ros.actions import Node
 from launching import Launch
@@ -38,13 +37,6 @@ class Run(NamedTuple):
     def lines(self) -> list[str]:
         """What its programs printed."""
         return re.findall(r"^\[\w+-\d+\] (.*)$", self.text, re.M)
-
-
-@pytest.fixture(scope="module", autouse=True)
-def server() -> Iterator[None]:
-    """One fork server for all tests of this file."""
-    yield
-    close_fork_server()
 
 
 @pytest.fixture

@@ -9,9 +9,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from bot_console.runtime.programs.run import main
 from bot_console.runtime.workspace import discover
-from systems import Program, System, system
+from systems import RUN, Program, System, system
 
 TALK = """
 import rclpy
@@ -68,7 +67,7 @@ class Runs:
         return self(str(self._folder / "node.py"), *words)
 
     def __call__(self, *words: str) -> Program:
-        return self._system.finish(self._system.start("run", lambda: sys.exit(main(words)), ["bot-console", *words]))
+        return self._system.finish(self._system.function(RUN, "bot-console", *words))
 
 
 @pytest.fixture
@@ -184,10 +183,10 @@ def test_invalid_command_line_is_reported(run: Runs, words: tuple[str, ...], ref
     assert program.stderr.startswith(refusal)
 
 
-def test_traceback_begins_in_the_users_file(run: Runs) -> None:
-    program = run.file("def main():\n    raise ValueError('mine')\n" + CALL)
-    assert program.exit == 1
-    assert program.stderr.count("  File ") == program.stderr.count("node.py") == 2
+def test_traceback_begins_in_the_users_file(tmp_path: Path) -> None:
+    end = real_end("def main():\n    raise ValueError('mine')\n" + CALL, tmp_path)
+    assert end.returncode == 1
+    assert end.stderr.count("  File ") == end.stderr.count("node.py") == 2
 
 
 WRONG_IMPORT = """

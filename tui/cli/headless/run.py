@@ -122,9 +122,14 @@ def simulated(options: Options, observer: Watcher | None = None) -> tuple[dict[s
 
 
 def _meet_others(options: Options) -> None:
-    """Join the domain, unless another robot is in it: both would obey each other's commands."""
+    """Join the domain, unless another robot is in it: both would obey each other's commands.
+
+    A program that cannot join it still meets what it launches.
+    """
     problem = take_part()
-    if not problem and not options.launch and is_in_range():
+    if problem:
+        isolate_from_domain()
+    elif not options.launch and is_in_range():
         claim = robot_claim()
         atexit.register(claim.release)
         if why := why_no_robot(claim.seen(robot_there, report_of_other_start), options.launch_arguments):

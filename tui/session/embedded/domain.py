@@ -78,10 +78,7 @@ def note_connection() -> None:
 
 
 def isolate_from_domain() -> None:
-    """Isolate this program and those that it launches from all others: they meet in a folder of their own.
-
-    The program has joined its domain before.
-    """
+    """Isolate this program and those that it launches from all others: they meet in a folder of their own."""
     import atexit
     import shutil
     import tempfile
@@ -93,6 +90,7 @@ def isolate_from_domain() -> None:
     place = "/tmp" if os.path.isdir("/tmp") else None  # the path of a socket must be short, whatever TMPDIR says
     folder = os.environ[BASE_VARIABLE] = tempfile.mkdtemp(prefix="bot-console-", dir=place)
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    join_domain()
     os.environ.pop(STOP_FILE_VARIABLE, None)  # An isolated system is another robot.
 
 

@@ -32,6 +32,7 @@ class FibonacciServer(Node):
 
     def execute(self, handle):
         feedback = Fibonacci.Feedback(sequence=[0, 1])
+        time.sleep(0.1)  # feedback of the same instant could overtake the acceptance, here and on ROS 2
         for i in range(1, handle.request.order):
             if handle.is_cancel_requested:
                 handle.canceled()

@@ -81,16 +81,15 @@ def test_file_runs_as_the_real_main_program(tmp_path):
 
 def test_ctrl_c_interrupts_a_stepped_run_and_closes_it():
     ended = run_python("""
-        import signal, sys, time
+        import os, signal, sys, time
         from bot_console.runtime.process import NodeProcess, stepped
-        from bot_console.runtime.process.virtual.os_calls import _kill, _getpid
         rounds = []
         def node():
             while True:
                 time.sleep(1.0)
                 rounds.append(1)
                 if len(rounds) == 1000:
-                    _kill(_getpid(), signal.SIGINT)
+                    os.kill(os.getpid(), signal.SIGINT)
         try:
             with stepped() as clock:
                 process = NodeProcess("n", clock)

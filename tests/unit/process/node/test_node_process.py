@@ -335,7 +335,12 @@ def test_many_processes_leave_no_thread(run):
 
 
 def test_ended_process_leaves_no_objects_behind(run):
-    started = run(lambda: (start_sleeper(), ThreadPoolExecutor(1).submit(print).result()))
+    def target():
+        start_sleeper()
+        with ThreadPoolExecutor(1) as pool:
+            pool.submit(print)
+
+    started = run(target)
     reference = weakref.ref(started.process)
     thread = weakref.ref(started.process.main_state.thread)
     started.process.main_state.thread.join(LONG)

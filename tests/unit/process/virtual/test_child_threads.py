@@ -186,20 +186,3 @@ def test_subclass_may_override_run(run):
         wheel.join()
 
     assert run(target, name="cart").stdout == "turns in cart\n"
-
-
-def test_threads_of_a_kept_pool_end_after_their_work(start):
-    kept = []
-
-    def target():
-        kept.append(ThreadPoolExecutor(2))
-        kept[0].submit(release.wait)
-        kept[0].submit(print, "pool done")
-        print("main done")
-
-    release = threading.Event()
-    started = start(target)
-    started.until_printed("main done")
-    release.set()
-    assert started.end() == 0
-    assert "pool done" in started.stdout

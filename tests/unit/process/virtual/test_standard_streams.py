@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import io
 import logging
-import subprocess
 import sys
 import threading
 import traceback
@@ -166,18 +165,6 @@ def test_stdin_is_empty(run):
     assert ended.err[-1] == "EOFError: EOF when reading a line\n"
     assert ended.stdout == "name? "
     assert run(lambda: print(repr(sys.stdin.read()), list(sys.stdin))).stdout == "'' []\n"
-
-
-def test_child_processes_print_into_the_node(run):
-    program = "import sys; print('child out'); print('child err', file=sys.stderr)"
-
-    def target():
-        subprocess.run([sys.executable, "-c", program], check=True)
-        subprocess.run([sys.executable, "-c", "print('to fileno')"], check=True, stdout=sys.stdout)
-
-    ended = run(target)
-    assert ended.out == ["child out\n", "to fileno\n"]
-    assert ended.err == ["child err\n"]
 
 
 def test_excepthook_is_per_process(run):

@@ -159,6 +159,14 @@ def test_headless_runs_in_isolation_beside_a_console_that_is_starting_a_robot(tm
     first.release()
 
 
+def test_headless_robot_that_cannot_join_the_domain_meets_what_it_launches(monkeypatch, capsys):
+    apart = []
+    monkeypatch.setattr(headless, "take_part", lambda: "the folder belongs to another user")
+    monkeypatch.setattr(headless, "isolate_from_domain", lambda: apart.append(1))
+    headless._meet_others(parse(["--headless"]))
+    assert apart and "belongs to another user" in capsys.readouterr().err
+
+
 def test_console_started_beside_another_shows_its_robot(tmp_path, monkeypatch, capsys):
     first, shown = RobotClaim(tmp_path), []
     polls = iter([[], ["/simulator"]])

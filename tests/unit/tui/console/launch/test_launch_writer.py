@@ -24,6 +24,7 @@ from bot_console.tui.console.model import (
 from bot_console.tui.console.robot import robot_drive
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.files.save_file import NotSaved
+from bot_console.tui.session.embedded.domain import join_domain
 from domains import unused_domain
 from launcher_bench import Bench
 from rigs import until
@@ -58,6 +59,7 @@ class System:
 
     def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
+        assert not join_domain()
         self.bench = Bench(folder)
         self.console = RosConsole(launch_info=self.bench.launcher.info)
         self.console.start()

@@ -1,6 +1,9 @@
 """The launcher over the embedded launch: processes controlled one by one, several launch files, files that fail."""
 
 import re
+import threading
+from contextlib import suppress
+from importlib import import_module
 
 import pytest
 from bot_console.tui.console.model import LaunchArgument, ProcessState, RestartPolicy, Severity
@@ -38,7 +41,7 @@ def waiter(bench):
 
 def test_a_process_is_shown_with_label_and_nodes(bench, waiter):
     assert (waiter.state, waiter.nodes, waiter.group) == (ProcessState.RUNNING, ("/ns/bob",), ("system.launch.py",))
-    assert waiter.pid is None, "it runs in this process"
+    assert waiter.pid is not None, "it has its own process"
     assert waiter.started and waiter.restarts == 0 and waiter.exit_code is None
     assert bench.info is bench.info
 
@@ -328,40 +331,35 @@ def test_cpu_usage_of_a_process_is_shown(bench, waiter, monkeypatch):
     bench.until(lambda: bench.process().cpu is not None, "its processor share")
 
 
-STUBBORN = """
-import os
+def test_node_of_ours_that_survives_being_killed_is_reported(bench, monkeypatch):
+    stop = threading.Event()
 
+    def compute():
+        while not stop.is_set():
+            sum(range(1000))
 
-def compute():
-    while not os.path.exists({stop!r}):
-        sum(range(1000))
+    def survive():
+        print("up", flush=True)
+        while not stop.is_set():
+            with suppress(BaseException):
+                compute()
 
-
-print("up", flush=True)
-while not os.path.exists({stop!r}):
+    module = import_module("bot_console_demos.demo_nodes.talker")
+    main = module.main_cpp
+    monkeypatch.setattr(module, "main_cpp", survive)
     try:
-        compute()
-    except BaseException:
-        pass
-"""
-
-
-def test_code_that_survives_being_killed_is_reported(bench):
-    stop = bench.folder / "stop"
-    path = bench.program(STUBBORN.format(stop=str(stop)))
-    try:
-        bench.run(f"[Node(executable={path!r})]")
+        bench.run("[Node(package='demo_nodes_cpp', executable='talker')]")
         bench.until(lambda: any("up" in text for _, _, text in bench.printed), "its first line")
         assert bench.do("kill", bench.process()).ok
         assert bench.process().exit_code == -9
         bench.until(lambda: bench.process().state is ProcessState.ABANDONED, "the notice")
-        assert f"It hangs in {path}:" in bench.process().problem
+        assert f"It hangs in {__file__}:" in bench.process().problem
         assert "is abandoned" in bench.texts()[-1]
-        bench.program(WAITS)
+        monkeypatch.setattr(module, "main_cpp", main)
         assert bench.do("start", bench.process()).ok
         assert bench.process().state is ProcessState.RUNNING
     finally:
-        stop.touch()
+        stop.set()
 
 
 def test_closing_ends_all_processes(bench, waiter):
