@@ -160,13 +160,13 @@ def diagnosed() -> Diagnostics:
 
 
 def fleet() -> tuple[FakeConsole, FakeLauncher]:
-    """The fleet at work: no map or pose that is not a robot's own, and one robot, the first, that is driven."""
+    """The fleet at work on a map of its server; the first robot is driven."""
     drive = DriveInfo("/robot1/cmd_vel", robot="/robot1", robots=tuple(f"/{each}" for each in ROBOTS),
                       others=frozenset(f"/{each}/" for each in ROBOTS[1:]), actual=(0.4, 0.0))  # fmt: skip
     console = FakeConsole(
         ConsoleSnapshot(
             parameters=MappingProxyType({each: parameters(each) for each in sorted(NODES)}),
-            graph=graph(), drive=drive, launch=launched(), journal=JournalState(0, 1),
+            graph=graph(), drive=drive, launch=launched(), journal=JournalState(0, 1), world=samples.world(),
         )
     )  # fmt: skip
     for _, topic, kind, _, rate in LINKS:

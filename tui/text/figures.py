@@ -27,6 +27,8 @@ def coarse_rate(rate: float | None) -> str:
     """A rate with its unit, rounded so coarsely that small changes cause no redraw."""
     if rate is None:
         return ""
+    if rate == 0:
+        return "0 Hz"
     return f"{rate:.1f} Hz" if rate < 9.5 else f"{rate:.2g} Hz" if rate < 95 else f"{rate:.0f} Hz"
 
 

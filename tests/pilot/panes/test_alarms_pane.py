@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from bot_console.tui.panes.alarms.pane import AlarmsPane, parted
 from bot_console.tui.panes.alarms.rows import AlarmRows
+from fleet import fleet
 from piloting import Session, run
 from samples import empty, live
 
@@ -156,6 +157,16 @@ def test_alarms_are_suggested_with_live_values_and_enter_watches_one() -> None:
         assert ("unwatch", "/scan/ranges.min()") in session.console.asked, "what is not suggested is not received"
 
     run(system, play, (100, 30))
+
+
+def test_suggestions_are_not_cut_where_they_differ_in_a_small_terminal() -> None:
+    async def play(session: Session) -> None:
+        await session.press("B")
+        row = next(line for line in session.lines() if "robot2" in line and "stands still" in line)
+        assert ") < 0.01" in row
+        assert "no value yet" in session.text() and "no value …" not in session.text()
+
+    run(fleet(), play)
 
 
 def test_nothing_that_is_suggested_is_received_while_the_pane_is_hidden() -> None:

@@ -6,11 +6,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from bot_console.tui.console.model import ChangeSource, Severity
+from bot_console.tui.panes.history.pane import HistoryPane
 from bot_console.tui.panes.history.rows import ChangeRows
 from bot_console.tui.panes.logs.pane import LogsPane
 from bot_console.tui.panes.plot.pane import PlotPane
 from fakes.console import START
-from piloting import Session, run
+from piloting import Clock, Session, run
 from samples import empty, live
 
 NAVIGATOR = "/robot_navigator"
@@ -39,6 +40,29 @@ def test_changes_are_listed_newest_first_with_source_and_reason() -> None:
         assert session.pane(ChangeRows).current.new == 1.0, "the cursor stays on its change"
 
     run(live(), play, (100, 30))
+
+
+def test_effect_of_a_change_on_the_speed_stands_behind_it_also_when_the_pane_was_hidden() -> None:
+    async def play(session: Session) -> None:
+        clock = session.pane(HistoryPane).clock = Clock()
+
+        async def drive(speed: float, seconds: int) -> None:
+            for _ in range(2 * seconds):
+                clock.now += 0.5
+                drive = replace(session.console.current.drive, actual=(speed, 0.0))
+                session.console.change(drive=drive)
+                await session.settle()
+
+        await drive(0.5, 2)
+        session.console.take(NAVIGATOR, {"max_speed": 2.0}, ChangeSource.EDIT)
+        await session.settle()
+        await drive(1.0, 5)
+        await session.press("H")
+        row = next(line for line in session.lines() if "max_speed" in line and "2.0" in line)
+        assert "speed 0.5 → 1.0 m/s in 0.5 s" in row
+        assert "after it speed 0.5 → 1.0 m/s" in session.text(), "in the details of the row at the cursor"
+
+    run(live(), play, (120, 40))
 
 
 def test_source_and_reason_fit_at_80_columns_beside_long_names() -> None:

@@ -39,6 +39,21 @@ def asked(session: Session) -> list[tuple[str, dict[str, object]]]:
     return [each[1:] for each in session.console.asked if each[0] == "set"]
 
 
+@pytest.mark.parametrize(("length", "is_noted"), [(20, True), (42, False)])
+def test_note_of_a_value_that_cannot_be_set_is_whole_or_left_out(length: int, is_noted: bool) -> None:
+    async def play(session: Session) -> None:
+        console = session.console
+        tree = console.current.parameters["/simulator"]
+        fixed = replace(tree.get("seed"), name="s" * length)
+        trees = {**console.current.parameters, "/simulator": ParameterTree("/simulator", (fixed,))}
+        console.change(parameters=MappingProxyType(trees))
+        await session.press("1")
+        row = next(line for line in session.lines() if "ssss" in line)
+        assert ("read only" in row) == is_noted and "…" not in row
+
+    run(live(), play, (60, 20))
+
+
 def test_number_is_edited_and_stepped() -> None:
     async def play(session: Session) -> None:
         await session.press("1")

@@ -37,6 +37,8 @@ if TYPE_CHECKING:
 
 ANSWER_TIMEOUT_S = 30.0
 """Seconds to wait for the response of a service called by a user."""
+MAX_NAMED_TOPICS = 3
+"""Topics that are named one by one in an answer."""
 REMEMBERED = 50
 """Messages, requests and goals kept per name, so that they can be sent again."""
 
@@ -134,7 +136,8 @@ class NodeTopics:
                 False, f"{path} expects no rate and no age; write for instance  topics: {{/scan: {{rate: 10}}}}"
             )
         self.rate_checks.expect(found)
-        return Answer(True, f"checking {', '.join(found)}" if found else "no file is checked any more")
+        named = ", ".join(found) if len(found) <= MAX_NAMED_TOPICS else f"{len(found)} topics"
+        return Answer(True, f"checking {named}" if found else "no file is checked any more")
 
     def listen(self, topic: str, qos: RequestedQos | None = None) -> None:
         """Keep the newest message of this topic."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from bot_console.tui.console.model import RateCheck
 from bot_console.tui.console.query import Query
-from bot_console.tui.format import counted, cut, sanitize
+from bot_console.tui.format import counted, cut, cut_name, sanitize
 from bot_console.tui.panes.alarms.alarm import Alarm
 from bot_console.tui.text.figures import age_text
 from bot_console.tui.widgets.item_list import ItemList
@@ -20,8 +20,9 @@ STATES = {True: ("✗", "active", "error"), False: ("○", "quiet", "good"), Non
 NAME, STATE, AGE = 24, 11, 8
 """Cells of the name at most, of the state, and of how long it is so."""
 
-SUGGESTED_VALUE = 16
-"""Cells for marks and the value of a suggestion."""
+NO_VALUE = "no value yet"
+SUGGESTED_VALUE = 6 + len(NO_VALUE)
+"""Cells for marks, gaps and the value of a suggestion."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,7 +47,7 @@ def row_of_suggestion(alarm: Alarm) -> Row:
     """The row of an alarm that is suggested, with what its condition compares now."""
     text = alarm.text
     value = alarm.condition.compared(alarm.values)
-    shown = alarm.problem or ("no value yet" if value is None else f"now {value:.4g}")
+    shown = NO_VALUE if value is None else f"now {value:.4g}"
     return Row(text.name, text.condition, False, None, 0, 0, shown, suggested=True)
 
 
@@ -110,7 +111,7 @@ class AlarmRows(ItemList[Row]):
         return [
             Segment("○ ", self._style("dim")),
             Segment(cut(sanitize(row.name), name, pad=True) + "  ", self._style("strong")),
-            Segment(cut(sanitize(row.condition), condition, pad=True) + "  ", self._style("dim")),
+            Segment(cut_name(sanitize(row.condition), condition, pad=True) + "  ", self._style("dim")),
             Segment(sanitize(row.value)),
         ]
 

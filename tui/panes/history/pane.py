@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import time
+from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from bot_console.tui.console.model import Change, ChangeSource, ConsoleSnapshot,
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.format import counted, sanitize, value_text
+from bot_console.tui.panes.history.effect import Effects
 from bot_console.tui.panes.history.export import FORMS, export
 from bot_console.tui.panes.history.revert import Return, returns, values_at
 from bot_console.tui.panes.history.rows import ChangeRows, command, day_text, details, set_details, words
@@ -49,9 +51,12 @@ class HistoryPane(ListPane):
         "stand below with their date. What was changed together, as by a profile, is one row that Enter opens; the\n"
         "line at the top shows the rows of one run over time. u goes back to a row: whatever was changed after it\n"
         "gets the value that it had then, all or nothing, after a question. Log and plot look at the moment of the\n"
-        "row at the cursor; Escape is now."
+        "row at the cursor; Escape is now. Behind a change stands what the robot's speed did in the seconds after it."
     )
     BINDINGS = keymap.bindings("history")
+
+    clock: Callable[[], float] = staticmethod(time.monotonic)
+    """A monotonic clock (s), replaced in tests."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
@@ -60,13 +65,16 @@ class HistoryPane(ListPane):
         self._query = Query()
         self._only_refused = False
         self._problem = ""
+        self._effects = Effects()
+        self._seen: int | None = None
+        """The number after the last change that was seen; None before the first snapshot."""
         self._opened: set[tuple[str, int]] = set()
         """The sets whose changes are listed."""
 
     def compose(self) -> ComposeResult:
         """A line of time, the changes, what is known of the one at the cursor, a prompt."""
         yield Picture(id="history-strip")
-        yield ChangeRows()
+        yield ChangeRows(self._effects.of)
         yield StaticText(id="history-detail")
         yield Prompt(id="history-prompt")
 
@@ -87,6 +95,19 @@ class HistoryPane(ListPane):
                 self._every = [*self.console.parameters.changes(ALL)]
             self._journal = new
             self._arrange()
+
+    def observe(self, snapshot: ConsoleSnapshot) -> None:
+        """Follow the speed of the robot around changes, also while hidden."""
+        now, actual, end = self.clock(), snapshot.drive.actual, snapshot.journal.end
+        is_news = self._effects.observe(None if actual is None else actual[0], now)
+        if self._seen is not None and end > self._seen:
+            new = [each.seq for each in self.console.parameters.changes(self._seen) if each.accepted]
+            if new:
+                self._effects.changed(new, now)
+        self._seen = end
+        if is_news and self.has_parts and self.display:
+            self._list.refresh()
+            self._describe()
 
     def _arrange(self) -> None:
         """Show what passes the filter."""
@@ -116,7 +137,7 @@ class HistoryPane(ListPane):
         if isinstance(row, ChangeSet):
             text = set_details(row)
         else:
-            text = details(row) if row is not None else Text(sanitize(self._problem), "dim")
+            text = details(row, self._effects.of(row.seq)) if row is not None else Text(sanitize(self._problem), "dim")
         self.query_one("#history-detail", StaticText).show_text(text)
 
     def on_resize(self) -> None:

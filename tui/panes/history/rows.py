@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from bot_console.tui.console.model import Change, ChangeSource, Kind, ParameterInfo, Value
 from bot_console.tui.console.query import Query
@@ -12,6 +12,7 @@ from bot_console.tui.panes.history.sets import ChangeSet, HistoryRow, changes_of
 from bot_console.tui.text.bars import bars
 from bot_console.tui.text.refusals import verdict_of_change
 from bot_console.tui.widgets.item_list import ItemList
+from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
 from rich.text import Text
@@ -79,7 +80,7 @@ def command(change: Change, value: Value) -> str:
     return command_of(ParameterInfo(change.node, change.name, kind, value), value)
 
 
-def details(change: Change) -> Text:
+def details(change: Change, effect: str = "") -> Text:
     """All that is known of a change."""
     text = Text(no_wrap=False, overflow="fold")
     if not change.accepted:
@@ -87,7 +88,8 @@ def details(change: Change) -> Text:
         text.append(f"{MARKS[verdict_of_change(change)]} {sanitize(verdict)}\n", "bold")
     at = time.strftime("%Y-%m-%d ", time.localtime(change.stamp // 10**9)) + clock_text(change.stamp)
     text.append(f"{sanitize(change.node)} {sanitize(change.name)}  {changed_text(change)}\n")
-    text.append(f"{at} · {sanitize(who(change))}{' · an earlier run' if change.seq < 0 else ''}\n", "dim")
+    text.append(f"{at} · {sanitize(who(change))}{' · an earlier run' if change.seq < 0 else ''}", "dim")
+    text.append(f" · after it {effect}\n" if effect else "\n", "dim")
     text.append(sanitize(command(change, change.new)), "dim italic")
     return text
 
@@ -113,8 +115,10 @@ def set_details(row: ChangeSet) -> Text:
 class ChangeRows(ItemList[HistoryRow]):
     """Changes, and sets of changes, the newest first."""
 
-    def __init__(self) -> None:
+    def __init__(self, effect: Callable[[int], str] = lambda _: "") -> None:
+        """`effect`: what came after the change with a number."""
         super().__init__()
+        self._effect = effect
         self._node = self._name = self._values = 0
         self._members: frozenset[int] = frozenset()
         """The changes that stand below their set."""
@@ -163,7 +167,7 @@ class ChangeRows(ItemList[HistoryRow]):
         text = "".join(bars((change.old, change.new)))
         return [Segment(text + " " * (BARS - len(text)), self._style("dim" if change.accepted else "error"))]
 
-    def _set(self, row: ChangeSet) -> list[Segment]:
+    def _set(self, row: ChangeSet, width: int) -> list[Segment]:
         """A set: who made it, and how many values it has."""
         bad = any(not each.accepted for each in row.changes)
         sign, loud = "▾" if row.opened else "▸", self._style("error" if bad else "warn" if row.unsafe else "dim")
@@ -172,14 +176,21 @@ class ChangeRows(ItemList[HistoryRow]):
             Segment(f"{sign} ", self._style("dim")),
             Segment(sanitize(who(row.newest)) + GAP, self._style("strong")),
             Segment(set_text(row), loud),
+            *self._after(row.newest, width - MOMENT - MARK - cell_len(f"{who(row.newest)}{GAP}{set_text(row)}")),
         ]
+
+    def _after(self, change: Change, room: int) -> list[Segment]:
+        """What came after a change, where there is room for all of it."""
+        text = self._effect(change.seq)
+        fits = text and cell_len(text) + len(GAP) <= room
+        return [Segment(f"{GAP}{text}", self._style("good"))] if fits else []
 
     def row(self, index: int, width: int) -> list[Segment]:
         """One change, or a set."""
         change = self.rows[index]
         dim = self._style("dim")
         if isinstance(change, ChangeSet):
-            return self._set(change)
+            return self._set(change, width)
         of_node, of_name, of_values = self._widths(width)
         moment = _moment(change)
         node = sanitize(change.node)
@@ -192,7 +203,7 @@ class ChangeRows(ItemList[HistoryRow]):
         values = cut(changed_text(change), of_values, pad=True)
         refused = self._style("error")
         tail = f"{sanitize(change.reason)} ({sanitize(who(change))})" if not change.accepted else sanitize(who(change))
-        return [
+        segments = [
             *head,
             Segment(f"{mark} ", refused),
             Segment(name + GAP, self._style("plain") if change.accepted else refused),
@@ -200,3 +211,4 @@ class ChangeRows(ItemList[HistoryRow]):
             *self._bars(change, width),
             Segment(tail, dim if change.accepted else refused),
         ]
+        return [*segments, *self._after(change, width - sum(each.cell_length for each in segments))]

@@ -18,6 +18,9 @@ from rich.style import Style
 from textual.events import Click, MouseDown, MouseMove, MouseUp
 from textual.message import Message
 
+READ_ONLY = "read only"
+"""Beside a value that cannot be set, where there is room for the whole note."""
+
 
 class ParameterRows(ItemList[Row]):
     """The rows of the tree."""
@@ -141,7 +144,8 @@ class ParameterRows(ItemList[Row]):
             text = f"{sanitize(value_text(parameter.value))} → {sanitize(value_text(staged[key]))}{unit}"
             return [*segments, Segment(cut(text, left), self._style("good"))]
         slider = bar(parameter, own.bar) if own.bar and not over else ""
-        tail = slider or ("read only" if parameter.read_only else "")
+        has_room = left >= max(own.value, len(value)) + GAP + len(READ_ONLY)
+        tail = slider or (READ_ONLY if parameter.read_only and has_room else "")
         segments.append(self._value(value, own.value, left, parameter, bool(tail)))
         used = segments[-1].cell_length
         if tail:
