@@ -23,7 +23,7 @@ from bot_console.tui.learn.lesson import CourseLesson
 from helpers.emulator import Emulator
 from helpers.shells import environment, make_home
 
-TIMEOUT_S = 300.0
+TIMEOUT_S = 900.0
 """Seconds after which a test gives up; nothing is measured by it."""
 SIZE = (120, 40)
 LESSON_COLUMNS = slice(74, 118)
