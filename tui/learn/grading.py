@@ -119,18 +119,19 @@ def _explained(why: str, done: Finished) -> str:
     return f"{why} ({' / '.join(lines[-EXPLAINING_LINES:])})" if lines else why
 
 
-def table(results: Sequence[RowResult]) -> str:
-    """The results as a table: passed or not, points, the row and why it failed."""
-    lines: list[str] = []
-    for each in results:
-        mark = "FAIL" if each.failed else "-   " if each.why else "ok  "
-        plus = "+" if each.row.extra else ""
-        lines.append(f"{mark}  {each.points:g}/{plus}{each.row.points:g}  {each.row.title}")
-        if each.why:
-            lines.append(f"           {each.why}")
-    total = f"{_points(results):g} of {_most(results):g} points"
+def row_text(result: RowResult) -> str:
+    """A row of the table: passed or not, points, the row and why it failed."""
+    mark = "FAIL" if result.failed else "-   " if result.why else "ok  "
+    plus = "+" if result.row.extra else ""
+    why = f"\n           {result.why}" if result.why else ""
+    return f"{mark}  {result.points:g}/{plus}{result.row.points:g}  {result.row.title}{why}"
+
+
+def sum_text(results: Sequence[RowResult]) -> str:
+    """The points of all rows, and apart from them the extra points."""
     extra = f", {_points(results, extra=True):g} of {_most(results, extra=True):g} extra points"
-    return "\n".join([*lines, total + (extra if any(each.row.extra for each in results) else "")])
+    has_extra = any(each.row.extra for each in results)
+    return f"{_points(results):g} of {_most(results):g} points{extra if has_extra else ''}"
 
 
 def _points(results: Sequence[RowResult], *, extra: bool = False) -> float:

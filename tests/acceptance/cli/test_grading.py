@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import re
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
 import pytest
+from bot_console.tui.cli.check import grade as grading
+from bot_console.tui.cli.check.grade import run_grading
 from bot_console.tui.learn import sandbox
 from bot_console.tui.learn.course import find_course, read_course
 from bot_console.tui.learn.grade_row import read_grade_row
-from bot_console.tui.learn.grading import RowResult, as_junit, grade, table
+from bot_console.tui.learn.grading import RowResult, as_junit, grade, row_text, sum_text
 from bot_console.tui.learn.sandbox import NoSandboxError, can_isolate, make_sandbox
 from course.page import make_workspace
 from course.rows import rows
@@ -228,11 +232,8 @@ def test_row_for_extra_points_is_counted_apart_and_fails_nothing(tmp_path: Path)
     (row,) = course.rows()
     extra = read_grade_row("+2 More", ["expect-file b.txt"], 1)
     results = [RowResult(row, ""), RowResult(extra, "not there")]
-    assert table(results).splitlines()[1:] == [
-        "-     0/+2  More",
-        "           not there",
-        "1 of 1 points, 0 of 2 extra points",
-    ]
+    assert row_text(results[1]).splitlines() == ["-     0/+2  More", "           not there"]
+    assert sum_text(results) == "1 of 1 points, 0 of 2 extra points"
     suite = ElementTree.fromstring(as_junit(course, results))
     assert suite.attrib == {"name": "c", "tests": "2", "failures": "0", "skipped": "1"}
     assert [each.tag for case in suite for each in case] == ["skipped"]
@@ -254,3 +255,23 @@ def test_command_prints_json_and_ends_with_1_when_a_row_fails(tmp_path: Path) ->
     found = json.loads(done.stdout)
     assert (done.returncode, found["points"], found["rows"][0]["ok"]) == (1, 0, False)
     assert found["rows"][0]["why"] == "there is no file a.txt in the workspace"
+
+
+def test_each_row_is_printed_as_soon_as_it_is_graded(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (row,) = course_of(tmp_path / "course", "expect-file a.txt").rows()
+    printed: list[str] = []
+
+    def two_rows(*_: object, **__: object) -> Iterator[RowResult]:
+        yield RowResult(row, "not \x1b there")
+        printed.append(capsys.readouterr().out)
+        yield RowResult(row, "")
+
+    monkeypatch.setattr(grading, "grade", two_rows)
+    given = argparse.Namespace(
+        script=str(tmp_path), course=str(tmp_path / "course"), json=False, junit="", allow_network=False
+    )
+    assert run_grading(given) == 1
+    assert [each.splitlines()[0] for each in printed] == ["FAIL  0/1  Row"]
+    assert capsys.readouterr().out.splitlines() == ["ok    1/1  Row", "1 of 2 points"]

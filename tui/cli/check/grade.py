@@ -10,7 +10,7 @@ from pathlib import Path
 from bot_console.runtime.importer import install
 from bot_console.tui.format import sanitize
 from bot_console.tui.learn.course import CourseError, find_course, read_course
-from bot_console.tui.learn.grading import as_json, as_junit, grade, table
+from bot_console.tui.learn.grading import RowResult, as_json, as_junit, grade, row_text, sum_text
 from bot_console.tui.learn.sandbox import NoSandboxError
 
 
@@ -33,14 +33,18 @@ def run_grading(given: argparse.Namespace) -> int:
         print(f"the course '{course.name}' has no row to grade by (a fence ```grade)", file=sys.stderr)
         return 2
     try:
-        results = list(grade(course, workspace, allow_network=given.allow_network))
+        results: list[RowResult] = []
+        for result in grade(course, workspace, allow_network=given.allow_network):
+            results.append(result)
+            if not given.json:  # Each takes some seconds: show it when it is there.
+                _print(row_text(result))
     except NoSandboxError as refused:
         print(refused, file=sys.stderr)
         return 1
     if given.json:
         print(json.dumps(as_json(course, results), indent=2))
     else:
-        print("\n".join(sanitize(line) for line in table(results).splitlines()))
+        _print(sum_text(results))
     if given.junit:
         try:
             Path(given.junit).write_text(as_junit(course, results), encoding="utf-8")
@@ -48,3 +52,7 @@ def run_grading(given: argparse.Namespace) -> int:
             print(f"{given.junit} is not written: {error.strerror}", file=sys.stderr)
             return 1
     return 0 if not any(each.failed for each in results) else 1
+
+
+def _print(text: str) -> None:
+    print("\n".join(sanitize(line) for line in text.splitlines()), flush=True)
