@@ -108,10 +108,10 @@ class Deeds:
         return here + [each.rpartition(REFUSED)[2].strip(": \n") for each in lines if REFUSED in each]
 
     def values_set(self, name: str) -> list[str]:
-        """The values that somebody has set, as texts."""
-        here = [value_text(each.new) for each in self.changes if each.name == name and each.accepted]
+        """The values that somebody has set, as texts; last those that the nodes have reported, in their order."""
+        reported = [value_text(each.new) for each in self.changes if each.name == name and each.accepted]
         lines = [each for each in self.commands if each.code == 0 and is_set_of(each, name)]
-        return here + [each.words[-1] for each in lines if REFUSED not in each.errors]
+        return [each.words[-1] for each in lines if REFUSED not in each.errors] + reported
 
 
 def is_set_of(command: Command, name: str) -> bool:

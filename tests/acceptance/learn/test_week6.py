@@ -635,7 +635,10 @@ def chapter_22(at: Student) -> None:
     two.start(run)
     until_listed(one, "/preset/fast")
     one.run(call)
-    at.reads("✓ service call /preset/fast was run", "waiting for: max_speed to be set to 1.8: has the node set it?")
+    at.reads(
+        "✓ service call /preset/fast was run",
+        "waiting for: max_speed to be set to 1.8; it was set to 1.7: has the node set it?",
+    )
     two.interrupt()
     at.edit(f"{PACKAGE}/intelligent_robot/preset_node.py", "1.7", "1.8")
     two.start(run)
@@ -691,7 +694,8 @@ def chapter_22(at: Student) -> None:
     two.start(run)
     two.shows("no values from the server")
     at.reads(
-        "✓ run intelligent_robot remote_node was run", "waiting for: max_speed to be set to 0.9: does the server run"
+        "✓ run intelligent_robot remote_node was run",
+        "waiting for: max_speed to be set to 0.9; it was set to 1.0: does the server run",
     )
     two.interrupt()
     three.start(serve.replace("8000", port))

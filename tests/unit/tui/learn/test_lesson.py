@@ -72,6 +72,11 @@ SPEED = parameter("/robot", "speed", 1.0)
         ("saw-parameter speed == 2.0", seen(SPEED), "waiting for: speed with the value 2.0; it is 1.0"),
         ("saw-set speed 2.0", seen(changes=[change("speed", 2.0)]), ""),
         ("saw-set speed 2.0", seen(changes=[change("speed", 3.0)]), "waiting for: speed to be set to 2.0"),
+        (
+            "saw-set speed 2.0",
+            seen(commands=[Command(("param", "set", "/n", "speed", "9.0"), 0)], changes=[change("speed", 3.0)]),
+            "waiting for: speed to be set to 2.0; it was set to 3.0",
+        ),
         ("saw-set speed", seen(changes=[change("speed", 9.0, accepted=False)]), "waiting for: somebody to set speed"),
         ("saw-refused speed fast", seen(changes=[change("speed", 9.0, accepted=False, reason="too fast")]), ""),
         (
