@@ -20,7 +20,10 @@ update-binfmts --enable qemu-aarch64
 if [ ! -x "$root/usr/bin/python3" ]; then
     mmdebstrap --architectures=arm64 --variant=apt --include=python3,python3-venv,git,time,procps bookworm "$root"
 fi
-for each in proc dev; do mountpoint -q "$root/$each" || mount --rbind "/$each" "$root/$each"; done
+for each in proc dev; do
+    # A slave: what is unmounted at the end stays mounted outside.
+    mountpoint -q "$root/$each" || { mount --rbind "/$each" "$root/$each" && mount --make-rslave "$root/$each"; }
+done
 trap 'umount -R -l "$root/proc" "$root/dev"' EXIT
 inside() {
     chroot "$root" /usr/bin/env HOME=/root LANG=C.UTF-8 PATH=/srv/venv/bin:/usr/bin:/bin TERM=xterm-256color \
