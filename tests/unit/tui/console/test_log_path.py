@@ -10,6 +10,7 @@ from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.model import LogFilter
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.session.composition import Launching
+from bot_console.tui.session.embedded.domain import join_domain
 from domains import unused_domain
 from launcher_bench import HEAD
 
@@ -40,6 +41,7 @@ def console(tmp_path, monkeypatch):
     install()
     monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
+    assert not join_domain()
     console = RosConsole()
     console.start()
     assert console.wait_ready(TIMEOUT_S)
