@@ -6,7 +6,6 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-import pytest
 from bot_console.tui.console.model import Kind, Severity
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
@@ -92,41 +91,48 @@ def matches(rows: RowList) -> Sequence[str]:
     return [about(text) for text in texts if MATCH in text]
 
 
-@pytest.mark.parametrize("digit", LISTS.values(), ids=list(LISTS))
-def test_filter_counts_matches_and_n_steps_through_them(digit: str) -> None:
-    async def play(session: Session) -> None:
-        await session.press(digit)
-        rows = focused(session)
-        every = rows.row_count()
-        await session.press("slash", *MATCH, "enter")
-        assert len(matches(rows)) == 3 and rows.row_count() < every
-        assert " 3 of " in session.text() and f"/{MATCH}" in session.text()
-        assert MATCH in at_cursor(rows)
-        here = at_cursor(rows)
+async def filter_and_step(session: Session) -> None:
+    rows = focused(session)
+    every = rows.row_count()
+    await session.press("slash", *MATCH, "enter")
+    assert len(matches(rows)) == 3 and rows.row_count() < every
+    assert " 3 of " in session.text() and f"/{MATCH}" in session.text()
+    assert MATCH in at_cursor(rows)
+    here = at_cursor(rows)
+    await session.press("n")
+    assert MATCH in at_cursor(rows) != here
+    await session.press("N")
+    assert at_cursor(rows) == here
+    await session.press("escape")
+    assert rows.row_count() == every and at_cursor(rows) == here, "the cursor stays on its thing"
+    seen = []
+    for _ in range(3):
         await session.press("n")
-        assert MATCH in at_cursor(rows) != here
-        await session.press("N")
-        assert at_cursor(rows) == here
-        await session.press("escape")
-        assert rows.row_count() == every and at_cursor(rows) == here, "the cursor stays on its thing"
-        seen = []
-        for _ in range(3):
-            await session.press("n")
-            seen.append(at_cursor(rows))
-        assert sorted(seen) == sorted(matches(rows)) and seen[-1] == here
-        await session.press("N")
-        assert at_cursor(rows) == seen[1]
+        seen.append(at_cursor(rows))
+    assert sorted(seen) == sorted(matches(rows)) and seen[-1] == here
+    await session.press("N")
+    assert at_cursor(rows) == seen[1]
+
+
+def test_filter_counts_matches_and_n_steps_through_them() -> None:
+    async def play(session: Session) -> None:
+        for digit in LISTS.values():
+            await session.press(digit)
+            await filter_and_step(session)
 
     run(crowded(), play, size=(120, 40))
 
 
-@pytest.mark.parametrize("digit", ["3", *LISTS.values()], ids=["graph", *LISTS])
-def test_next_match_without_search_or_matches_is_reported(digit: str) -> None:
+def test_next_match_without_search_or_matches_is_reported_in_each_pane() -> None:
     async def play(session: Session) -> None:
-        await session.press(digit, "n")
-        assert "Nothing was looked for yet" in session.text()
-        await session.press("slash", *"zzz", "enter", "escape", "n")
-        assert "Nothing here matches zzz" in session.text()
+        for digit in ("3", *LISTS.values()):
+            session.app.clear_notifications()
+            await session.press(digit)
+            assert "Nothing was" not in session.text() and "Nothing here" not in session.text()
+            await session.press("n")
+            assert "Nothing was looked for yet" in session.text()
+            await session.press("slash", *"zzz", "enter", "escape", "n")
+            assert "Nothing here matches zzz" in session.text()
 
     run(live(), play, size=(120, 40))
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
 from bot_console.tui.console.gate import READ_ONLY
 from bot_console.tui.console.model import Capabilities, Kind
 from bot_console.tui.screens.question import QuestionScreen
@@ -20,14 +19,17 @@ KEYS = {
 }
 
 
-@pytest.mark.parametrize("what", KEYS)
-def test_read_only_console_refuses_before_asking(what: str) -> None:
+def test_read_only_console_refuses_before_asking() -> None:
     async def play(session: Session) -> None:
         session.console.change(capabilities=Capabilities(change=READ_ONLY))
-        await session.press(*KEYS[what])
-        assert not isinstance(session.app.screen, QuestionScreen), session.text()
-        assert not any(each.has_class("open") for each in session.app.screen.query(Prompt)), session.text()
-        assert [each.message for each in session.app._notifications] == [READ_ONLY], session.text()
-        assert not [each for each in session.console.asked if each[0] != "watch"] and session.launcher.asked == []
+        for what, keys in KEYS.items():
+            session.app.clear_notifications()
+            await session.press(*keys)
+            assert not isinstance(session.app.screen, QuestionScreen), what
+            assert not any(each.has_class("open") for each in session.app.screen.query(Prompt)), what
+            assert [each.message for each in session.app._notifications] == [READ_ONLY], what
+            assert not [each for each in session.console.asked if each[0] != "watch"], what
+            assert session.launcher.asked == [], what
+            await session.press("escape", "escape")
 
     run(with_array(Kind.DOUBLE_ARRAY, (1.0, 2.0)), play, (120, 40))

@@ -26,6 +26,10 @@ class Printing:
         self.stopped = True
 
 
+SIZES = [(80, 24), pytest.param((120, 40), marks=pytest.mark.soak)]
+"""The smaller one has the least room for panels."""
+
+
 @pytest.fixture
 def streams(monkeypatch: pytest.MonkeyPatch) -> list[Printing]:
     """The streams that were begun."""
@@ -49,7 +53,7 @@ async def begin(session: Session, line: str = "ros2 topic hz /odom") -> StreamPa
     return session.pane(StreamPanels)
 
 
-@pytest.mark.parametrize("size", [(80, 24), (120, 40)])
+@pytest.mark.parametrize("size", SIZES)
 def test_panel_shows_the_last_lines_without_taking_focus(streams: list[Printing], size: tuple[int, int]) -> None:
     async def play(session: Session) -> None:
         focused = session.app.focused
@@ -76,9 +80,6 @@ def test_commands_end_with_the_console(streams: list[Printing]) -> None:
 
     run(live(), play)
     assert streams[0].stopped
-
-
-SIZES = [(80, 24), (120, 40)]
 
 
 @pytest.mark.parametrize("size", SIZES)
