@@ -141,17 +141,15 @@ def generated_packages() -> tuple[str, ...]:
         return tuple(each.name for each in listed if each.is_dir())
 
 
-def places_of(folders: Sequence[str | os.PathLike[str]] = ()) -> Places:
-    """Return where the modules of a node are: in these folders, whose packages come before ours of the same name.
-
-    In our own launches our package comes first.
+def places_of(folders: Sequence[str | os.PathLike[str]] = (), *, ours_first: bool = False) -> Places:
+    """Return where the modules of a program are: in these folders, whose packages come before ours of the same name.
 
     Each folder corresponds to an entry of `sys.path`: that of a node file, or the one that contains a Python package.
+    With `ours_first` our package of nodes comes before one of its name in the folders: for executables of our launches.
     """
     from bot_console.runtime.process.program import Places
-    from bot_console.runtime.workspace.builtin_package import own_is_first
 
-    theirs = {*OWN_PACKAGES, DEMOS} - ({OWN_PACKAGE} if own_is_first() else set[str]())
+    theirs = {*OWN_PACKAGES, DEMOS} - ({OWN_PACKAGE} if ours_first else set[str]())
     return Places([os.fspath(folder) for folder in folders], frozenset(theirs))
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from bot_console.runtime.importer import places_of
 from bot_console.runtime.process import entry_point_program, file_program
 from bot_console.runtime.programs.plain_file import then_main
+from bot_console.runtime.workspace.builtin_package import own_is_first
 from bot_console.runtime.workspace.discover import Workspace, use, workspace
 
 Program = Callable[[], object]
@@ -16,7 +17,7 @@ Program = Callable[[], object]
 def entry_point(workspace_folders: Sequence[str], function: str, folders: Sequence[str]) -> Program:
     """Return the program of `module:function`, imported from these folders."""
     find_packages_in(workspace_folders)
-    return entry_point_program(function, places_of(folders))
+    return entry_point_program(function, places_of(folders, ours_first=own_is_first()))
 
 
 def python_file(workspace_folders: Sequence[str], path: str, folders: Sequence[str], calls_main: bool) -> Program:

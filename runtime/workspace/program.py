@@ -7,6 +7,7 @@ from pathlib import Path
 
 from bot_console.runtime.importer import places_of
 from bot_console.runtime.process import entry_point_program, file_program
+from bot_console.runtime.workspace.builtin_package import own_is_first
 from bot_console.runtime.workspace.discover import workspace
 from bot_console.runtime.workspace.executables import Executable
 
@@ -17,7 +18,8 @@ def program(executable: Executable) -> Program | None:
     """Return the function that runs an executable in the calling process; None if it is not Python."""
     entry = executable.entry_point
     if entry is not None:
-        return entry_point_program(f"{entry.module}:{entry.function}", places_of(source_folders(executable.package)))
+        places = places_of(source_folders(executable.package), ours_first=own_is_first())
+        return entry_point_program(f"{entry.module}:{entry.function}", places)
     if executable.path is not None and is_python(executable.path):
         return python_file(executable.path)
     return None

@@ -97,8 +97,7 @@ def _name(name: str) -> None:
 
 def _uncaught(kind: type[BaseException], exception: BaseException, trace: TracebackType | None) -> None:
     """Print an uncaught exception as the interpreter does, from the program's first line on; report it."""
-    exception.__traceback__ = trace.tb_next if trace is not None else None  # without the line that called `main` here
-    trim(exception)
+    trim(exception.with_traceback(trace))
     text = formatted(exception)
     sys.stderr.write(text)
     frames = traceback.extract_tb(exception.__traceback__)

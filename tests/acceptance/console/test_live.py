@@ -10,6 +10,7 @@ from contextlib import asynccontextmanager
 import pytest
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.console.model import LogFilter, ProcessState, Severity
+from bot_console.tui.session.embedded.domain import join_domain
 from bot_console.tui.session.live import Session
 
 TIMEOUT_S = 60.0
@@ -96,6 +97,7 @@ async def live(options, size=(120, 40)):
 
 @pytest.fixture
 def crashing(tmp_path):
+    assert not join_domain(), "programs are processes, which this one meets in a domain"
     (tmp_path / "lives.py").write_text(LIVES)
     (tmp_path / "crashes.py").write_text(CRASHES)
     path = tmp_path / "two.launch.py"

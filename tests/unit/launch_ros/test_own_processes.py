@@ -62,13 +62,12 @@ IN_A_PROCESS = "import os, sys, threading; print(os.getpid() < 1 << 22, os.getpp
 
 
 def test_node_has_its_own_process_with_arguments_and_environment(run: Launch, script: Any) -> None:
-    reports = "\nprint(os.environ['BC_A'], 'asyncio' in sys.modules)"
+    reports = "\nprint(os.environ['BC_A'], 'launch' in sys.modules)"
     path = script(IN_A_PROCESS.format(server=fork_server().pid) + reports)
     pids: list[int] = []
     started = RegisterEventHandler(OnProcessStart(on_start=lambda event, context: pids.append(event.pid)))
     node = Node(executable=path, name="a", output="screen", arguments=["x"], additional_env={"BC_A": "b"})
     text = run([started, node], PROCESS).text
-    # launch is not imported there
     assert lines_of(text) == ["True True ['x', '--ros-args', '-r', '__node:=a']", "b False"]
     assert len(pids) == 1 and pids[0] < 1 << 22 and f"process has finished cleanly [pid {pids[0]}]" in text
 

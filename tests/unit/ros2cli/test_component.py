@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
-from types import SimpleNamespace
 
 import pytest
-from rclpy.node import Node
 
 CONTAINER = """
 from launch_ros.component_container import ComponentContainer
@@ -20,17 +17,18 @@ executor.spin()
 """
 BOX = "/box/ComponentManager"
 BIT = ("bits", "bits::Bit")
-
+BITS = """
+from rclpy.node import Node
 
 class Bit(Node):
-    """A component."""
-
-    def __init__(self) -> None:
+    def __init__(self):
         super().__init__("bit")
+"""
 
 
-def test_components_are_loaded_listed_and_unloaded(ros, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "bits", SimpleNamespace(Bit=Bit))  # pyright: ignore[reportArgumentType]
+def test_components_are_loaded_listed_and_unloaded(ros, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    (tmp_path / "bits.py").write_text(BITS)
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     ros.node(CONTAINER)
     ros.node("node = Node('other')")
     assert ros.ask("component", "list").stdout == f"{BOX}\n"

@@ -34,7 +34,7 @@ def test_silent_lock_does_not_count_as_free(word: Publisher) -> None:
 def test_status_reports_robot_that_does_not_answer(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(stop, "holders", lambda: None)
+    monkeypatch.setattr(background, "holders", lambda: None)
     background._print_holders()
     assert capsys.readouterr().out == "whether somebody holds it is not known: its emergency stop did not answer\n"
 
