@@ -72,6 +72,8 @@ class ParameterMirror:
         self._changed = changed
         self._on_restart = on_restart
         self._left: dict[str, ParameterTree] = {}
+        self._unreported: dict[tuple[str, str], Value] = {}
+        """By node and parameter: the value before one that was read and that no event has reported yet."""
         self._copies: dict[str, int] = {}
         self._offering: set[str] = set()
         self._loading: set[str] = set()
@@ -141,9 +143,19 @@ class ParameterMirror:
             old = self.trees.get(node)
             tree = ParameterTree(node, old.parameters if old else (), str(error))
         if node in self._offering:  # else it has left in the meantime
+            if not tree.problem:
+                self._note_unreported(tree, self.trees.get(node))
             self._publish({**self.trees, node: tree})
             if not tree.problem:
                 self._compare(tree, self._left.pop(node, None))
+
+    def _note_unreported(self, tree: ParameterTree, before: ParameterTree | None) -> None:
+        """Remember what each value was that has changed without an event: its event may still be on its way."""
+        for each in tree.parameters:
+            old = before.get(each.name) if before else None
+            self._unreported.pop((each.node, each.name), None)
+            if old is not None and old.value is not None and not same(old.value, each.value):
+                self._unreported[each.node, each.name] = old.value
 
     def _compare(self, tree: ParameterTree, before: ParameterTree | None) -> None:
         """Report each value that differs from its value when the node left."""
@@ -213,6 +225,8 @@ class ParameterMirror:
             if differs:
                 self._left[node] = before
             await self._read(node)
+        else:
+            self._unreported = {each: value for each, value in self._unreported.items() if each[0] != node}
 
     async def _differs(self, node: str, names: Sequence[str]) -> bool:
         """Whether two readings agree on a value that was not reported; after one, an event may still be on its way."""
@@ -264,9 +278,11 @@ class ParameterMirror:
     def _moved(self, before: ParameterInfo, message: Parameter) -> ParameterInfo:
         value = from_message(message.value)
         kind = Kind(message.value.type) if message.value.type else before.kind
+        unreported = self._unreported.pop((before.node, before.name), before.value)
+        old = unreported if same(value, before.value) else before.value
         # An equal value is reported too: the request for it is waiting for its event.
-        source = self._changed(before.node, before.name, before.value, value)
-        if same(value, before.value) and kind is before.kind:
+        source = self._changed(before.node, before.name, old, value)
+        if same(value, old) and kind is before.kind:
             return before
         return replace(before, value=value, kind=kind, origin=origin_text(source, time.time_ns()))
 

@@ -184,6 +184,25 @@ def test_the_value_after_a_restart_is_the_start_value_set_by_nobody(seen):
     asyncio.run(scenario())
 
 
+def test_a_value_that_is_read_before_its_event_arrives_was_changed_by_the_event():
+    async def scenario():
+        asked, node, changed = Asked(), StubNode(), []
+        asked.open.set()
+        mirror = ParameterMirror(node, asked, lambda *change: changed.append(change) or ChangeSource.OTHER)
+        mirror.follow(graph_of(["/n"]))
+        await finished(asked)
+        asked.value = 2.5
+        node.event(ParameterEvent(node="/n", new_parameters=[Parameter(name="other")]))  # the node is read again
+        await finished(asked)
+        assert mirror.get("/n", "speed").value == 2.5 and changed == []
+        for value in (2.5, 2.5):
+            node.event(ParameterEvent(node="/n", changed_parameters=[speed(value)]))
+        assert changed == [("/n", "speed", 1.5, 2.5), ("/n", "speed", 2.5, 2.5)]
+        assert "set by another program" in mirror.get("/n", "speed").origin
+
+    asyncio.run(scenario())
+
+
 def test_a_node_that_returns_unchanged_has_not_restarted():
     async def scenario():
         asked, on_restart = Asked(), []
