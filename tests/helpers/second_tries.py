@@ -42,14 +42,14 @@ def pytest_report_teststatus(report: pytest.TestReport) -> tuple[str, str, tuple
 
 
 def pytest_runtest_logreport(report: pytest.TestReport) -> None:
-    """Collect what failed, or hand a report to the process that asked for the second try."""
+    """Keep what failed in a first try."""
     if str(report.outcome) == "rerun":
         _first_tries.setdefault(report.nodeid, []).append(report)
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """A process of second tries runs nothing else, and writes its reports."""
+    """The process of the second tries runs nothing else, and hands on its reports."""
     if _place is not None:
         place = Path(_place)
         wanted = set(json.loads(place.read_text("utf-8")))

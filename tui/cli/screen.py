@@ -167,22 +167,14 @@ MIN_ADDRESS_SPACE_KIB = 1_500_000
 
 def too_few_files() -> str:
     """Why a console cannot open enough files, in one line; raises the soft limit if that is allowed."""
-    if sys.platform == "win32":
-        return ""
-    import resource
-
-    if (maximum := _raised(resource.RLIMIT_NOFILE, MIN_OPEN_FILES)) is None:
+    if (maximum := _raised("RLIMIT_NOFILE", MIN_OPEN_FILES)) is None:
         return ""
     return f"bot-console needs {MIN_OPEN_FILES} open files, and at most {maximum} are allowed here: see `ulimit -Hn`"
 
 
 def too_little_address_space() -> str:
     """Why a console does not fit into its address space, in one line; raises the soft limit if that is allowed."""
-    if sys.platform == "win32":
-        return ""
-    import resource
-
-    if (maximum := _raised(resource.RLIMIT_AS, MIN_ADDRESS_SPACE_KIB * 1024)) is None:
+    if (maximum := _raised("RLIMIT_AS", MIN_ADDRESS_SPACE_KIB * 1024)) is None:
         return ""
     return (
         f"bot-console needs an address space of {MIN_ADDRESS_SPACE_KIB:,} KiB, and at most {maximum // 1024:,} are "
@@ -190,10 +182,15 @@ def too_little_address_space() -> str:
     )
 
 
-def _raised(limit: int, wanted: int) -> int | None:
-    """Raise a soft limit to what is wanted, unless it is as high; returns the hard limit if that is too low."""
+def _raised(name: str, wanted: int) -> int | None:
+    """Raise a soft limit (`RLIMIT_...`) to what is wanted, unless it is as high; returns the hard limit if that is too
+    low. Windows has no such limits.
+    """
+    if sys.platform == "win32":
+        return None
     import resource
 
+    limit: int = getattr(resource, name)
     now, maximum = resource.getrlimit(limit)
     if now == resource.RLIM_INFINITY or now >= wanted:
         return None

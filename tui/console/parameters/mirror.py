@@ -143,10 +143,10 @@ class ParameterMirror:
             old = self.trees.get(node)
             tree = ParameterTree(node, old.parameters if old else (), str(error))
         if node in self._offering:  # else it has left in the meantime
-            if not tree.problem:
-                self._note_unreported(tree, self.trees.get(node))
+            known = self.trees.get(node)
             self._publish({**self.trees, node: tree})
             if not tree.problem:
+                self._note_unreported(tree, known)
                 self._compare(tree, self._left.pop(node, None))
 
     def _note_unreported(self, tree: ParameterTree, before: ParameterTree | None) -> None:
