@@ -39,10 +39,10 @@ from textual.widgets import Static
 if TYPE_CHECKING:
     from bot_console.tui.console.command_line import CommandLine
     from bot_console.tui.console.protocol import Console
-    from bot_console.tui.controls import Controls
     from bot_console.tui.panes.broken_pane import BrokenPane
     from bot_console.tui.panes.pane import Pane
-    from bot_console.tui.tuning.tuner import Tuner
+    from bot_console.tui.system_controls import Controls
+    from bot_console.tui.tuning.port import Tuner
 
 HERE = Path(__file__).parent
 MAX_NOTIFICATIONS = 5
@@ -110,7 +110,7 @@ class BotConsoleApp(GuardedApp):
 
     def attach(self, system: System) -> Sequence[Widget]:
         """Start acting on a system; returns the widgets between the panes and the key bar."""
-        from bot_console.tui.controls import controls_of
+        from bot_console.tui.system_controls import controls_of
         from bot_console.tui.widgets.streams.panels import StreamPanels
 
         self.console_of_robot = system.console

@@ -71,7 +71,7 @@ def pane_text(text: str) -> None:
     from bot_console.tui import format as words
     from bot_console.tui.console.model import ConsoleSnapshot
     from bot_console.tui.console.robot.robot_model import DriveInfo, RobotStop
-    from bot_console.tui.safety.stop_messages import release_question
+    from bot_console.tui.safety.stop_wording import release_question
     from bot_console.tui.widgets.status_bar import status_text
     from rich.text import Text
 

@@ -52,7 +52,7 @@ def stop_file_seeds() -> Sequence[str]:
 
 @cache
 def history() -> Any:
-    from bot_console.tui.console.parameters.history import History
+    from bot_console.tui.console.parameters.history_file import History
 
     return History(FOLDER / "history.sqlite", 1)
 
@@ -61,7 +61,7 @@ def history_row(text: str) -> None:
     """A row of anything between two good ones, which are still read."""
     import sqlite3
 
-    from bot_console.tui.console.parameters.history import UNSTORABLE
+    from bot_console.tui.console.parameters.history_file import UNSTORABLE
 
     store = history()
     columns = [_column(each) for each in (text.split("\n") + [""] * 10)[:10]]
@@ -91,7 +91,7 @@ def _column(text: str) -> tuple[str, Any]:
 def history_file(text: str) -> None:
     """A file of anything in the place of the history; changes are kept again, or the problem is reported."""
     from bot_console.tui.console.model import Change, ChangeSource
-    from bot_console.tui.console.parameters.history import History
+    from bot_console.tui.console.parameters.history_file import History
 
     path = FOLDER / "damaged" / "history.sqlite"
     path.parent.mkdir(exist_ok=True)
@@ -109,7 +109,7 @@ def history_file(text: str) -> None:
 def history_file_seeds() -> Sequence[str]:
     import sqlite3
 
-    from bot_console.tui.console.parameters.history import History
+    from bot_console.tui.console.parameters.history_file import History
 
     path = FOLDER / "seed.sqlite"
     History(path, 1).close()
@@ -125,7 +125,7 @@ def pane_states(text: str) -> None:
     from bot_console.tui.panes.alarms.alarm import texts_of
     from bot_console.tui.panes.graph.view_state import view_state_of
     from bot_console.tui.panes.parameters.view_state import left_of
-    from bot_console.tui.settings.plain_file import NotPlainData, read
+    from bot_console.tui.settings.yaml_reader import NotPlainData, read
 
     try:
         data = read(text.encode("utf-8", "surrogatepass"))
@@ -141,7 +141,7 @@ def lines_of_stores(text: str) -> None:
     from bot_console.tui.commanding.history import LineHistory
     from bot_console.tui.learn.command_log import read_log
     from bot_console.tui.panes.logs.rules import RuleBook
-    from bot_console.tui.tuning.journal import TuningJournal
+    from bot_console.tui.tuning.run_journal import TuningJournal
 
     path = file(text, "lines.txt")
     book = RuleBook(path)

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.console.model import ChangeSource
-from bot_console.tui.console.parameters.history import ROWS, History
+from bot_console.tui.console.parameters.history_file import ROWS, History
 from bot_console.tui.console.parameters.journal import Journal
 
 NUMBER = 8

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, cast
 
 from bot_console.tui.keys.key import NO_MODE
-from bot_console.tui.layout.arrangement import Arrangement
+from bot_console.tui.layout.current_layout import Arrangement
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.layout.tree import Tree, panes
 from bot_console.tui.layout.unused import UnusedPanes
@@ -21,7 +21,7 @@ from textual.geometry import Size
 from textual.widgets import Input, Static
 
 if TYPE_CHECKING:
-    from bot_console.tui.arrangement.arranging import Arranging
+    from bot_console.tui.arrangement.layout_keys import Arranging
     from bot_console.tui.console.model import ConsoleSnapshot
     from bot_console.tui.panes.pane import Pane
     from bot_console.tui.widgets.prompt.question import Question
@@ -53,7 +53,7 @@ class Stage:
     @cached_property
     def arranging(self) -> Arranging:
         """What changes the arrangement; made on first use, so that the first frame need not wait for it."""
-        from bot_console.tui.arrangement.arranging import Arranging
+        from bot_console.tui.arrangement.layout_keys import Arranging
 
         return Arranging(self, self.arrangement)
 

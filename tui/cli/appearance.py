@@ -9,7 +9,7 @@ from pathlib import Path
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from bot_console.tui.keys.remapping import remap
-from bot_console.tui.layout.arrangement import Arrangement
+from bot_console.tui.layout.current_layout import Arrangement
 from bot_console.tui.layout.form import NoLayout
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.learn.layout import NAME as LESSON_LAYOUT

@@ -142,7 +142,7 @@ def _program() -> int:
     begin_program()
     words = sys.argv[2:] if sys.argv[1:2] == ["ros2"] else sys.argv[1:]
     if words[:1] == ["launch"]:
-        from bot_console.tui.session.embedded.own_processes import prefork
+        from bot_console.tui.session.embedded.early_fork_server import prefork
 
         prefork(words[1:], from_here=True)
     return main()

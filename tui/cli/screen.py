@@ -90,7 +90,7 @@ def _connect(options: Options, alone: str, own: Host | None, start: Callable[[],
     _prepare(options)
     from bot_console.tui.session.composition import attached, embedded, hosted, overhear
     from bot_console.tui.session.connected import Connected
-    from bot_console.tui.session.launch_host.snapshot_buffer import HostedSnapshotBuffer
+    from bot_console.tui.session.launch_host.hosted_snapshot_buffer import HostedSnapshotBuffer
 
     message = [(Severity.WARN, f"Other terminals cannot reach this system: {alone}")] if alone else []
     if why := why_router_is_unused():

@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Callable, Coroutine
 from typing import Any
 
-from bot_console.tui.console.gate import Gate
+from bot_console.tui.console.command_gate import Gate
 from rclpy.exceptions import InvalidHandle
 from rclpy.node import Node
 from rclpy.task import Future as RosFuture

@@ -20,7 +20,7 @@ from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 
 if TYPE_CHECKING:
     from bot_console.tui.console.node_ports import NodePorts
-    from bot_console.tui.console.parameters.history import History
+    from bot_console.tui.console.parameters.history_file import History
 
 NAME = "_bot_console"
 

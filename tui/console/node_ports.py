@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from bot_console.tui.console.bags.node_bags import NodeBags
-from bot_console.tui.console.gate import READ_ONLY, Gate
+from bot_console.tui.console.command_gate import READ_ONLY, Gate
 from bot_console.tui.console.graph.node_graph import NodeGraph
 from bot_console.tui.console.launch.elsewhere import Elsewhere
 from bot_console.tui.console.launch.gated_launcher import GatedLauncher

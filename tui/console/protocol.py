@@ -2,7 +2,7 @@
 
 The panes poll: no method of a port blocks, and all of them must be called from the thread that draws, unless their
 docstring says otherwise. Every port exists from the first frame on. Until the system is reached, subscriptions and
-searches wait for it, and commands are refused (`gate.py`).
+searches wait for it, and commands are refused (`command_gate.py`).
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from bot_console.tui.console.model import ConsoleSnapshot
 
 if TYPE_CHECKING:
     from bot_console.tui.console.bags.port import Recording
-    from bot_console.tui.console.gate import Gate
+    from bot_console.tui.console.command_gate import Gate
     from bot_console.tui.console.graph.port import Graph
     from bot_console.tui.console.launch.port import Launcher
     from bot_console.tui.console.logs.port import Logs

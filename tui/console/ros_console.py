@@ -13,7 +13,7 @@ from collections.abc import Callable, Container, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from bot_console.tui.console.gate import CLOSED
+from bot_console.tui.console.command_gate import CLOSED
 from bot_console.tui.console.launch.elsewhere import Elsewhere
 from bot_console.tui.console.model import Capabilities, LaunchInfo, LinkInfo, Severity
 from bot_console.tui.console.node_ports import LABEL, NodePorts
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from bot_console.tui.console.graph.type_discovery import TypeSource
     from bot_console.tui.console.graph.watch import GraphEvents, HaltedNodes
     from bot_console.tui.console.node import ConsoleNode
-    from bot_console.tui.console.parameters.history import History
+    from bot_console.tui.console.parameters.history_file import History
     from bot_console.tui.console.parameters.profile_store import ProfileStore
     from bot_console.tui.console.robot.drive_node import DriveNode
     from bot_console.tui.console.robot.stop_means.configured import ConfiguredMeans
@@ -177,7 +177,7 @@ class RosConsole(NodePorts):
     def _history(self) -> History | None:
         if self._history_file is None:
             return None
-        from bot_console.tui.console.parameters.history import History
+        from bot_console.tui.console.parameters.history_file import History
 
         return History(self._history_file, time.time_ns())
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.console.robot.robot_model import RobotStop
-from bot_console.tui.safety.stop_messages import release_question
+from bot_console.tui.safety.stop_wording import release_question
 from bot_console.tui.screens.question_screens import screen_for
 from textual.app import App
 from textual.screen import Screen

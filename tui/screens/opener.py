@@ -6,11 +6,11 @@ from typing import Any
 
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.panes.pane import Pane
-from bot_console.tui.screens.arrange import ArrangeScreen
+from bot_console.tui.screens.arrange_mode import ArrangeScreen
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.screens.question import QuestionScreen
-from bot_console.tui.screens.tuning.progress import TuningScreen
-from bot_console.tui.tuning.tuner import NO_TUNER, Tuner
+from bot_console.tui.screens.tuning_progress import TuningScreen
+from bot_console.tui.tuning.port import NO_TUNER, Tuner
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Requester
 from textual.app import App

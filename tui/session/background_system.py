@@ -16,7 +16,7 @@ from bot_console.tui.session import robot_starter
 from bot_console.tui.session.composition import become_host, launcher_here, node_process, serve
 from bot_console.tui.session.embedded.domain import begin_program, end_program, nodes_there
 from bot_console.tui.session.embedded.named_launch import with_launch_file
-from bot_console.tui.session.embedded.process_reports import log_process_reports
+from bot_console.tui.session.embedded.process_report_lines import log_process_reports
 from bot_console.tui.session.embedded.workspaces import SIMULATOR_LAUNCH, SYSTEM_LAUNCH
 from bot_console.tui.session.launch_host.host import LaunchHost
 from bot_console.tui.session.protocol import ClosableLauncher

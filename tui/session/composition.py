@@ -30,8 +30,8 @@ from bot_console.tui.console.bags.port import RingSize
 from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.session.embedded.child_host import why_it_hangs
 from bot_console.tui.session.embedded.domain import domain, socket_folder, take_part
-from bot_console.tui.session.embedded.own_processes import watch_threads
-from bot_console.tui.session.embedded.process_reports import log_process_reports
+from bot_console.tui.session.embedded.early_fork_server import watch_threads
+from bot_console.tui.session.embedded.process_report_lines import log_process_reports
 from bot_console.tui.session.embedded.rotating_file import rotate_launch_files
 from bot_console.tui.session.embedded.vitals import find_vitals
 from bot_console.tui.session.embedded.workspaces import choose, launch_environment, launch_files
@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     from bot_console.tui.console.bags.snapshot_buffer import SnapshotBuffer
     from bot_console.tui.console.launch.launcher import RosLauncher
     from bot_console.tui.console.ros_console import RosConsole
-    from bot_console.tui.session.launch_host.snapshot_buffer import HostedSnapshotBuffer
+    from bot_console.tui.session.launch_host.hosted_snapshot_buffer import HostedSnapshotBuffer
 
 CONNECT_TIMEOUT_S = 20.0
 """Seconds after which other hosts are searched for even though the console has not connected."""

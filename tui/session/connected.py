@@ -8,7 +8,7 @@ from pathlib import Path
 
 from bot_console.tui.arrangement.arrival import System
 from bot_console.tui.cli.arguments import Options
-from bot_console.tui.cli.tune.tuner import LocalTuner
+from bot_console.tui.cli.tune.background_tuner import LocalTuner
 from bot_console.tui.console.bags.port import Keeper
 from bot_console.tui.console.launch.elsewhere import Elsewhere
 from bot_console.tui.console.model import LaunchInfo, Severity
@@ -26,7 +26,7 @@ from bot_console.tui.session.embedded.hooks import (
     node_processes,
     take_over_streams,
 )
-from bot_console.tui.session.embedded.process_reports import log_process_reports
+from bot_console.tui.session.embedded.process_report_lines import log_process_reports
 from bot_console.tui.session.embedded.ros2_command_line import Ros2CommandLine
 from bot_console.tui.session.embedded.vitals import find_vitals
 from bot_console.tui.session.embedded.workspaces import SIMULATOR_LAUNCH, SYSTEM_LAUNCH, config_folders

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from bot_console.tui.console.graph.connections import TOOL_NAMES
 from bot_console.tui.files.state_store import MemoryStore, StateStore
-from bot_console.tui.layout.arrangement import Arrangement
+from bot_console.tui.layout.current_layout import Arrangement
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from bot_console.tui.layout.form import NoLayout, data_of, tree_of
 from bot_console.tui.layout.named import OVERVIEW, Layout
 from bot_console.tui.layout.perspective import perspective_tree
 from bot_console.tui.layout.tree import Tree
-from bot_console.tui.settings.plain_file import NotPlainData, read, written
+from bot_console.tui.settings.yaml_reader import NotPlainData, read, written
 
 HEAD = """\
 # A layout of bot-console. `beside` and `below` hold panes or further splits; `share` says how they share the room.

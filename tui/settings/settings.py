@@ -15,7 +15,7 @@ from bot_console.tui.files.folders import config_folder
 from bot_console.tui.files.store_file import read_store
 from bot_console.tui.keys.remapping import wrong_keys
 from bot_console.tui.settings.names import GLYPHS, THEME_NAMES
-from bot_console.tui.settings.plain_file import NotPlainData, read
+from bot_console.tui.settings.yaml_reader import NotPlainData, read
 
 MAX_FILE_BYTES = 100_000
 """Maximum size of a settings file; a larger one is not read."""

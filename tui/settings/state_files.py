@@ -8,7 +8,7 @@ from zlib import crc32
 from bot_console.tui.files.folders import config_folder, state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
 from bot_console.tui.files.store_file import read_store
-from bot_console.tui.settings.plain_file import NotPlainData, read, written
+from bot_console.tui.settings.yaml_reader import NotPlainData, read, written
 
 MAX_FILE_BYTES = 1_000_000
 """Maximum size of a file that is read; the console writes no larger one."""

@@ -9,7 +9,7 @@ from concurrent.futures import FIRST_COMPLETED, Future, wait
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
-from bot_console.tui.tuning.journal import TuningJournal
+from bot_console.tui.tuning.run_journal import TuningJournal
 from bot_console.tui.tuning.score import FAILED
 from bot_console.tui.tuning.search import TriedSetting, next_settings
 from bot_console.tui.tuning.specification import Trial, TuningSpecification

@@ -7,8 +7,8 @@ from concurrent.futures import Future
 from typing import Any
 
 from bot_console.tui.commanding.completing import live_names
+from bot_console.tui.console.command_gate import done
 from bot_console.tui.console.command_line import Stream
-from bot_console.tui.console.gate import done
 from bot_console.tui.console.model import ConsoleSnapshot
 
 

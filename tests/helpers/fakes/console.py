@@ -11,7 +11,7 @@ from types import MappingProxyType, SimpleNamespace
 from typing import Any
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.gate import CLOSED, Gate, done
+from bot_console.tui.console.command_gate import CLOSED, Gate, done
 from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.logs.file import open_log
 from bot_console.tui.console.logs.port import LogView

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.gate import done
+from bot_console.tui.console.command_gate import done
 from bot_console.tui.console.launch.process import LaunchedProcess, Order
 from bot_console.tui.console.model import LaunchArgument
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from concurrent.futures import Future
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.gate import done
+from bot_console.tui.console.command_gate import done
 from bot_console.tui.console.sensors.frame_model import Frames
 from bot_console.tui.console.sensors.model import Diagnostics, Level, Picture, ReportedStatus, Status
 

@@ -13,7 +13,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
-from bot_console.tui.console.parameters.history import History
+from bot_console.tui.console.parameters.history_file import History
 from emulator import last_screen, screen_of
 
 from processes.bad_link import BadLink

@@ -9,7 +9,7 @@ import pytest
 from bot_console.tui.console.model import Kind, Value
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
-from bot_console.tui.screens.elements import ElementsScreen
+from bot_console.tui.screens.array_editor import ElementsScreen
 from piloting import Session, run
 from samples import with_array
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.gate import done
+from bot_console.tui.console.command_gate import done
 from bot_console.tui.console.model import Capabilities, Endpoint, Profile, SetOutcome
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.panes.profiles.pane import ProfilesPane

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.gate import READ_ONLY
+from bot_console.tui.console.command_gate import READ_ONLY
 from bot_console.tui.console.model import Capabilities, Kind
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.widgets.prompt.line import Prompt

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 import pytest
 from base_rig import Base, served_base
 from bot_console.tui.app import BotConsoleApp
-from bot_console.tui.console.gate import CLOSED, READ_ONLY
+from bot_console.tui.console.command_gate import CLOSED, READ_ONLY
 from bot_console.tui.console.graph.warnings import GraphWarnings
 from bot_console.tui.console.model import GraphInfo, LogFilter
 from bot_console.tui.console.ros_console import RosConsole

@@ -6,7 +6,7 @@ import pytest
 from bot_console.tui.keymap import TABLE
 from bot_console.tui.layout.tree import Tree, below, beside, panes
 from bot_console.tui.pane_table import PANES
-from bot_console.tui.screens.arrange import ArrangeScreen, keys_line
+from bot_console.tui.screens.arrange_mode import ArrangeScreen, keys_line
 from bot_console.tui.widgets.pane_area import PaneArea
 from piloting import Session, run
 from samples import live

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.panes.parameters.table import ParameterRows
-from bot_console.tui.screens.tuning.progress import SettingRows, TuningScreen
+from bot_console.tui.screens.tuning_progress import SettingRows, TuningScreen
 from bot_console.tui.tuning.job import Progress, SettingResult
 from bot_console.tui.tuning.score import FAILED
 from bot_console.tui.tuning.specification import TuningSpecification

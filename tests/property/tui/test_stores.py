@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.commanding.history import LineHistory
-from bot_console.tui.console.parameters.history import History
+from bot_console.tui.console.parameters.history_file import History
 from bot_console.tui.console.parameters.journal import Journal
 from bot_console.tui.console.parameters.profile_store import ProfileStore
 from bot_console.tui.files.folders import OVERRIDE, config_folder, state_folder

@@ -18,17 +18,17 @@ from bot_console.tui.panes.broken_pane import BrokenPane
 from bot_console.tui.panes.lesson.pane import LessonPane
 from bot_console.tui.panes.logs.levels_screen import LevelsScreen
 from bot_console.tui.panes.logs.rules_screen import RulesScreen
-from bot_console.tui.screens.arrange import ArrangeScreen
+from bot_console.tui.screens.arrange_mode import ArrangeScreen
+from bot_console.tui.screens.array_editor import ElementsScreen
 from bot_console.tui.screens.box import Boxed
 from bot_console.tui.screens.confirm import ConfirmScreen
-from bot_console.tui.screens.elements import ElementsScreen
-from bot_console.tui.screens.fill import FillScreen
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.screens.launch_arguments import ArgumentsScreen
+from bot_console.tui.screens.message_form import FillScreen
 from bot_console.tui.screens.overlay import Overlay
 from bot_console.tui.screens.picker import PickerScreen
 from bot_console.tui.screens.question import QuestionScreen
-from bot_console.tui.screens.tuning.progress import TuningScreen
+from bot_console.tui.screens.tuning_progress import TuningScreen
 from bot_console.tui.widgets.command_line import CommandField
 from bot_console.tui.widgets.diagram_view import DiagramView
 from bot_console.tui.widgets.prompt.filtered import Findable, Narrowed

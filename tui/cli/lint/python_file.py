@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from bot_console.tui.cli.lint.finding import LintFinding
-from bot_console.tui.console.parameters.unit import is_dimensionless
+from bot_console.tui.console.parameters.described_unit import is_dimensionless
 
 _CONTINUOUS = re.compile(r"speed|velocity|distance|radius|gain|rate|angle|tolerance|timeout|period|^k[pid](_|$)|scale")
 _UNIT = re.compile(r"(\([^()]*[A-Za-z°%][^()]*\)|\[[^\[\]]*[A-Za-z°%][^\[\]]*\])\s*$")

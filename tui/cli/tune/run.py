@@ -16,7 +16,7 @@ from bot_console.tui.files.folders import state_folder
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.session.embedded.named_profile import NoProfileError, named_profile
 from bot_console.tui.tuning.job import Progress, TuningJob
-from bot_console.tui.tuning.journal import TuningJournal
+from bot_console.tui.tuning.run_journal import TuningJournal
 from bot_console.tui.tuning.score import FIGURES, READY, parse_score
 from bot_console.tui.tuning.search import SEARCHES
 from bot_console.tui.tuning.specification import TuningSpecification

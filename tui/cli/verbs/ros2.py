@@ -45,7 +45,7 @@ def taking_part(words: Sequence[str]) -> int:
 
 def launch(words: Sequence[str]) -> int:
     """Run a launch file in the domain that the environment names; a user's nodes get their own processes."""
-    from bot_console.tui.session.embedded.own_processes import prefork
+    from bot_console.tui.session.embedded.early_fork_server import prefork
 
     prefork(words)
     from bot_console.tui.session.embedded.workspaces import report_workspace
@@ -57,7 +57,7 @@ def launch(words: Sequence[str]) -> int:
         print(problem, file=sys.stderr)
         return 1
     from bot_console.runtime.importer import install
-    from bot_console.tui.session.embedded.own_processes import watch_threads
+    from bot_console.tui.session.embedded.early_fork_server import watch_threads
 
     install()
     watch_threads()

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 
 from bot_console.tui.console.bags.contents import Contents
-from bot_console.tui.console.gate import Gate
+from bot_console.tui.console.command_gate import Gate
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.topics.headline import headline
 from bot_console.tui.console.topics.message_tree import tree

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.port import Keeper, RecordingInfo
-from bot_console.tui.console.gate import Gate, done
+from bot_console.tui.console.command_gate import Gate, done
 
 if TYPE_CHECKING:
     from bot_console.tui.console.bags.recordings import Recordings

@@ -13,7 +13,7 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.bag_topics import BagTopics
 from bot_console.tui.console.bags.contents import Contents
 from bot_console.tui.console.bags.node_bags import NodeBags
-from bot_console.tui.console.gate import Gate
+from bot_console.tui.console.command_gate import Gate
 from bot_console.tui.console.graph.node_graph import NodeGraph
 from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.logs.node_logs import NodeLogs

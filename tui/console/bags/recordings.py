@@ -16,7 +16,7 @@ from bot_console.tui.console.bags.port import Keeper, RecordingInfo
 from bot_console.tui.console.bags.recorder import CLOCK, PACE_S, Recorder, not_recorded
 from bot_console.tui.console.bags.recording_sinks import BagSink
 from bot_console.tui.console.bags.writer import BagWriter
-from bot_console.tui.console.gate import done
+from bot_console.tui.console.command_gate import done
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from rclpy.context import Context
 from rosidl_runtime_py.utilities import get_message

@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.gate import Gate
+from bot_console.tui.console.command_gate import Gate
 from bot_console.tui.console.model import GraphInfo, LaunchInfo, ParameterTree
 
 if TYPE_CHECKING:

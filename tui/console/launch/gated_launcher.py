@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.gate import Gate, done
+from bot_console.tui.console.command_gate import Gate, done
 from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.model import LaunchArgument
 

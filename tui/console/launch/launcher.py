@@ -9,13 +9,13 @@ from concurrent.futures import Future
 from typing import TYPE_CHECKING, Any, Protocol
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.gate import done
+from bot_console.tui.console.command_gate import done
 from bot_console.tui.console.graph.full_name import full_node_name
 from bot_console.tui.console.launch.arguments import read_arguments
 from bot_console.tui.console.launch.process import ENDED, KILLED, LaunchedProcess, Order
 from bot_console.tui.console.launch.process_output import Add, ProcessOutput
 from bot_console.tui.console.launch.process_verbs import ProcessVerbs
-from bot_console.tui.console.launch.restart import Recipe, recipe
+from bot_console.tui.console.launch.restart_recipe import Recipe, recipe
 from bot_console.tui.console.launch.run import LaunchRun, Listener
 from bot_console.tui.console.launch.timeline import LaunchTimeline
 from bot_console.tui.console.launch.title import argument_line, title_of, unused

@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.gate import Gate, refuse
+from bot_console.tui.console.command_gate import Gate, refuse
 from bot_console.tui.console.logs.ending import ends_on_purpose
 from bot_console.tui.console.logs.port import LogFindings, LogSource, LogView
 from bot_console.tui.console.model import LaunchInfo, LogFilter, LoggerLevel, LogRecord, LogState, Severity

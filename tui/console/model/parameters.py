@@ -8,7 +8,7 @@ from enum import IntEnum
 from typing import TypeAlias
 
 from bot_console.tui.console.model.range import Range
-from bot_console.tui.console.parameters.unit import unit_in_description
+from bot_console.tui.console.parameters.described_unit import unit_in_description
 
 Value: TypeAlias = "bool | int | float | str | tuple[bool | int | float | str | bytes, ...] | None"
 """A parameter's value; arrays are tuples, None is NOT_SET."""

@@ -12,7 +12,7 @@ from bot_console.tui.console.model import Change, ChangeSource, JournalState, Va
 from bot_console.tui.console.parameters.unsaved import Unsaved
 
 if TYPE_CHECKING:
-    from bot_console.tui.console.parameters.history import History
+    from bot_console.tui.console.parameters.history_file import History
 
 OURS = (ChangeSource.EDIT, ChangeSource.PROFILE, ChangeSource.FILE, ChangeSource.HISTORY)
 

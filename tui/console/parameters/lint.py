@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bot_console.tui.console.model import Kind, ParameterInfo
-from bot_console.tui.console.parameters.unit import is_dimensionless
+from bot_console.tui.console.parameters.described_unit import is_dimensionless
 
 NUMBERS = (Kind.INTEGER, Kind.DOUBLE)
 NO_DESCRIPTION = "no description"

@@ -10,7 +10,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.gate import Gate
+from bot_console.tui.console.command_gate import Gate
 from bot_console.tui.console.model import (
     Change,
     ChangeSource,
@@ -27,7 +27,7 @@ from bot_console.tui.console.parameters.safety import takes_safety
 if TYPE_CHECKING:
     from bot_console.tui.console.calls import Calls
     from bot_console.tui.console.launch.process_output import Add
-    from bot_console.tui.console.parameters.history import History
+    from bot_console.tui.console.parameters.history_file import History
     from bot_console.tui.console.parameters.journal import Journal
     from bot_console.tui.console.parameters.mirror import ParameterMirror
     from bot_console.tui.console.parameters.setter import ParameterSetter

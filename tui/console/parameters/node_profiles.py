@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.gate import Gate, done
+from bot_console.tui.console.command_gate import Gate, done
 from bot_console.tui.console.model import Profile, ProfileDifference, SetOutcome, Value
 from bot_console.tui.console.parameters.node_parameters import NodeParameters, refused
 

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.gate import Gate
+from bot_console.tui.console.command_gate import Gate
 from bot_console.tui.console.model import GraphInfo, ParameterTree, Value
 from bot_console.tui.console.plot.port import Samples
 

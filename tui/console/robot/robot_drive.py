@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from bot_console.tui.console.gate import CLOSED, STARTING, Gate
+from bot_console.tui.console.command_gate import CLOSED, STARTING, Gate
 from bot_console.tui.console.model import LinkInfo
 from bot_console.tui.console.robot.robot_model import DriveInfo, Pose, WorldInfo
 

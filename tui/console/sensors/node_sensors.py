@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from bot_console.tui.console.gate import Gate
+from bot_console.tui.console.command_gate import Gate
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.sensors.frame_model import Frames
 from bot_console.tui.console.sensors.model import Diagnostics, Picture

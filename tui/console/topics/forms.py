@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from bot_console.tui.console.topics.angles import angles_text
+from bot_console.tui.console.topics.field_units import field_unit
 from bot_console.tui.console.topics.interfaces import (
     HEADER,
     QUATERNION,
@@ -20,7 +21,6 @@ from bot_console.tui.console.topics.interfaces import (
 from bot_console.tui.console.topics.message_tree import scalar_text
 from bot_console.tui.console.topics.port import Payload, Slot, Values
 from bot_console.tui.console.topics.typed import NOW, parse
-from bot_console.tui.console.topics.units import field_unit
 from rosidl_runtime_py import message_to_ordereddict
 
 SHORT = 60

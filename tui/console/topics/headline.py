@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 from bot_console.tui.console.topics.angles import angles_text
+from bot_console.tui.console.topics.field_units import field_unit
 from bot_console.tui.console.topics.interfaces import (
     HEADER,
     INTEGERS,
@@ -21,7 +22,6 @@ from bot_console.tui.console.topics.interfaces import (
     short_name,
 )
 from bot_console.tui.console.topics.message_tree import scalar_text
-from bot_console.tui.console.topics.units import field_unit
 
 MAX_PARTS = 4
 """Fields that are named on one line."""

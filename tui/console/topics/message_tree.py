@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 from bot_console.tui.console.topics.angles import angles_text
+from bot_console.tui.console.topics.field_units import field_unit
 from bot_console.tui.console.topics.interfaces import (
     INTEGERS,
     QUATERNION,
@@ -18,7 +19,6 @@ from bot_console.tui.console.topics.interfaces import (
     short_name,
 )
 from bot_console.tui.console.topics.port import Field
-from bot_console.tui.console.topics.units import field_unit
 
 ELEMENTS = 8
 """Maximum number of array elements shown on separate lines, or together on one line."""

@@ -11,7 +11,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, cast
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.gate import Gate
+from bot_console.tui.console.command_gate import Gate
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.topics.port import (
     Goal,

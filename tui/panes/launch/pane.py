@@ -28,7 +28,7 @@ from bot_console.tui.panes.launch.rows import ProcessRows, Row, matches, rows
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.panes.transitions import ask_transition
-from bot_console.tui.safety.stop_messages import stops_of_ending
+from bot_console.tui.safety.stop_wording import stops_of_ending
 from bot_console.tui.screens.facts import FactsScreen
 from bot_console.tui.text.endings import ending_text
 from bot_console.tui.widgets.picture import Line, Picture

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from bot_console.tui.console.model import Value
-from bot_console.tui.console.parameters.unit import unit_in_description
+from bot_console.tui.console.parameters.described_unit import unit_in_description
 from bot_console.tui.format import sanitize, value_text
 from bot_console.tui.panes.parameters.rows import Row
 from rich.cells import cell_len

@@ -13,11 +13,11 @@ from bot_console.tui.console.parameters.staging import SETS, Key
 from bot_console.tui.format import field_text, value_text
 from bot_console.tui.keys.key import Mode
 from bot_console.tui.panes.list_pane import ListPane
-from bot_console.tui.panes.parameters import editing, tuning
+from bot_console.tui.panes.parameters import editing, tuning_questions
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.text.refusals import of_many
+from bot_console.tui.tuning.port import NO_TUNER
 from bot_console.tui.tuning.tunable import Setting, Tunable, find_tunables
-from bot_console.tui.tuning.tuner import NO_TUNER
 from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Elements, Line
 
 MARKING = (
@@ -223,19 +223,24 @@ class EditPane(ListPane):
             return
         parameter = self._at()
         trees = self.console.snapshot().parameters
-        known = [tunable for tree in trees.values() for each in tree.parameters if (tunable := tuning.tunable_of(each))]
+        known = [
+            tunable
+            for tree in trees.values()
+            for each in tree.parameters
+            if (tunable := tuning_questions.tunable_of(each))
+        ]
         keys = self.edits.staging.marked or ({(parameter.node, parameter.name): None} if parameter else {})
         tunables = [each for each in known if (each.node, each.name) in keys]
         if not tunables:
             self.notify("Nothing to tune here: T is for a number or a boolean that can be set, or for marked ones.")
             return
-        check = partial(tuning.wrong_ranges, known)
-        text = tuning.ranges_text(tunables)
+        check = partial(tuning_questions.wrong_ranges, known)
+        text = tuning_questions.ranges_text(tunables)
         self.ask(Line("tune within", partial(self._ask_score, known), text=text, check=check))
 
     def _ask_score(self, known: Sequence[Tunable], text: str) -> None:
         tunables = find_tunables(text.split(), [*known])
-        find = partial(tuning.scores, self.console.plots.plottable())
+        find = partial(tuning_questions.scores, self.console.plots.plottable())
         then = partial(self._ask_runs, tunables)
         hint = "a score, or a formula such as mean_speed - 2*collisions"
         self.host.call_later(self.ask, Choice("Score: more is better", then, find=find, hint=hint))
@@ -243,7 +248,9 @@ class EditPane(ListPane):
     def _ask_runs(self, tunables: Sequence[Tunable], score: str) -> None:
         def wrong(text: str) -> str:
             try:
-                return tuning.specification_of(tunables, score, text, self.console.snapshot().parameters).problem()
+                return tuning_questions.specification_of(
+                    tunables, score, text, self.console.snapshot().parameters
+                ).problem()
             except ValueError as error:
                 return str(error)
 
@@ -254,7 +261,7 @@ class EditPane(ListPane):
         self.host.call_later(self.ask, Line("runs, and simulated s of each", then, text="60 60", check=wrong))
 
     def _tune(self, tunables: Sequence[Tunable], score: str, text: str) -> None:
-        question = tuning.specification_of(tunables, score, text, self.console.snapshot().parameters)
+        question = tuning_questions.specification_of(tunables, score, text, self.console.snapshot().parameters)
         wanted = self.TuningWanted(question, partial(self._take_tuned, tunables))
         # After the prompt has returned the focus, so that the key bar is updated before it is covered.
         self.call_after_refresh(self.post_message, wanted)

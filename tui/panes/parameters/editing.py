@@ -9,7 +9,7 @@ from bot_console.tui.console.model.range import free_step, rounded
 from bot_console.tui.format import cut, parse_value, range_text
 from bot_console.tui.text.expression.numbers import evaluate
 from bot_console.tui.text.expression.parse import NUMBER
-from bot_console.tui.text.units import factor, split_unit
+from bot_console.tui.text.typed_units import factor, split_unit
 
 NUMBERS = (Kind.INTEGER, Kind.DOUBLE)
 INTEGER_ENDS = (-(2**63), 2**63 - 1)

@@ -9,9 +9,9 @@ from bot_console.tui import keymap
 from bot_console.tui.arrangement.opening import matching
 from bot_console.tui.console.model import ConsoleSnapshot, JournalState
 from bot_console.tui.format import clock_text
-from bot_console.tui.panes.plot.parts import DEFAULTS, WINDOWS, Timeline
 from bot_console.tui.panes.plot.questions import PlotQuestions
 from bot_console.tui.panes.plot.responses import Responses, wrong_formula
+from bot_console.tui.panes.plot.time_window import DEFAULTS, WINDOWS, Timeline
 from bot_console.tui.widgets.picture import Line, Picture
 from bot_console.tui.widgets.placeholder import Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt

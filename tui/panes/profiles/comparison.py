@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from bot_console.tui.console.model import ConsoleSnapshot, ParameterInfo, Profile, ProfileDifference, Value
+from bot_console.tui.console.parameters.described_unit import unit_in_description
 from bot_console.tui.console.parameters.safety import importance
-from bot_console.tui.console.parameters.unit import unit_in_description
 from bot_console.tui.format import cut, sanitize, value_text
 from bot_console.tui.text.bars import bars
 from bot_console.tui.widgets.item_list import ItemList

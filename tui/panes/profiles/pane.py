@@ -31,7 +31,7 @@ from bot_console.tui.panes.profiles.presets import PresetMenu
 from bot_console.tui.panes.profiles.replacement import Replacement
 from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries, outcome_text
 from bot_console.tui.panes.profiles.user_profiles import OwnProfiles
-from bot_console.tui.safety.stop_messages import stops_of_ending
+from bot_console.tui.safety.stop_wording import stops_of_ending
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.placeholder import NO_PLACEHOLDER, Placeholder
 from bot_console.tui.widgets.prompt.common import wrong_path

@@ -8,7 +8,7 @@ from concurrent.futures import Future
 from dataclasses import dataclass
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.gate import done
+from bot_console.tui.console.command_gate import done
 from bot_console.tui.console.launch.launcher import CLOSED
 from bot_console.tui.console.launch.process_verbs import ProcessVerbs
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from bot_console.tui.commanding.runner import LineRunner
-from bot_console.tui.console.gate import done
+from bot_console.tui.console.command_gate import done
 from fakes.command_line import FakeCommandLine
 from samples import live
 

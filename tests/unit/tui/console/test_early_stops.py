@@ -8,7 +8,7 @@ import pytest
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.robot.drive_link import DriveLink
 from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
-from bot_console.tui.safety.stop_messages import stop_text
+from bot_console.tui.safety.stop_wording import stop_text
 from bot_console_robot.safety.emergency_stop import BASE, EmergencyStop
 from domains import unused_domain
 from rclpy.clock import Clock, ClockType

@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import Any, cast
 
 import pytest
+from bot_console.tui.console.command_gate import READ_ONLY, Gate
 from bot_console.tui.console.command_line import Stream
-from bot_console.tui.console.gate import READ_ONLY, Gate
-from bot_console.tui.console.gated_lines import GatedLines
+from bot_console.tui.console.gated_command_line import GatedLines
 from bot_console.tui.console.launch.gated_launcher import GatedLauncher
 from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.ros_console import RosConsole

@@ -12,7 +12,7 @@ from base_rig import Base, served_base
 from bot_console.tui.console.graph.warnings import GraphWarnings
 from bot_console.tui.console.logs.rosout import RosoutWatch
 from bot_console.tui.console.model import ChangeSource, LogFilter
-from bot_console.tui.console.parameters.history import History
+from bot_console.tui.console.parameters.history_file import History
 from bot_console.tui.console.parameters.journal import Journal
 from bot_console.tui.console.parameters.profile_store import ProfileStore
 from bot_console.tui.console.robot.drive_link import DriveLink

@@ -15,7 +15,7 @@ from bot_console.tui.learn.command_log import read_log
 from bot_console.tui.learn.progress import FOLDER, read_progress
 from bot_console.tui.panes.graph.view_state import view_state_of
 from bot_console.tui.panes.parameters.view_state import left_of
-from bot_console.tui.tuning.journal import TuningJournal
+from bot_console.tui.tuning.run_journal import TuningJournal
 
 STRANGE = ["1e999", "-1e999", "NaN", "1" + "0" * 400, "-1", "[]", "{}", "null", '"a"', "true", "[" * 100_000]
 

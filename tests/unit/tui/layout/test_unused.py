@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.robot.robot_model import Pose, WorldInfo
-from bot_console.tui.layout.arrangement import Arrangement
+from bot_console.tui.layout.current_layout import Arrangement
 from bot_console.tui.layout.tree import panes
 from bot_console.tui.layout.unused import GIVE_UP_AFTER_S, UnusedPanes
 from piloting import Clock

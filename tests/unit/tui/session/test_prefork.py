@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from bot_console.tui.session.embedded import own_processes
+from bot_console.tui.session.embedded import early_fork_server
 
 
 @pytest.mark.parametrize(
@@ -25,12 +25,14 @@ def test_fork_server_starts_early_only_if_launch_needs_it(
     file = tmp_path / "a.launch.py"
     file.write_text("")
     started: list[bool] = []
-    monkeypatch.setattr(own_processes, "CAN_FORK", True)
-    monkeypatch.setattr(own_processes, "fork_server", lambda: started.append(True))
-    monkeypatch.setattr(own_processes, "fork_off_server", lambda: pytest.fail("this process goes on with its threads"))
-    own_processes.prefork([each.format(file=file) for each in words])
+    monkeypatch.setattr(early_fork_server, "CAN_FORK", True)
+    monkeypatch.setattr(early_fork_server, "fork_server", lambda: started.append(True))
+    monkeypatch.setattr(
+        early_fork_server, "fork_off_server", lambda: pytest.fail("this process goes on with its threads")
+    )
+    early_fork_server.prefork([each.format(file=file) for each in words])
     assert bool(started) is starts
     started.clear()
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF")
-    own_processes.prefork([str(file)])
+    early_fork_server.prefork([str(file)])
     assert not started

@@ -12,7 +12,7 @@ from bot_console.runtime.workspace import discover
 from bot_console.tui.cli.started_lines import launched_by
 from bot_console.tui.cli.verbs.colcon import answers
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.gate import done
+from bot_console.tui.console.command_gate import done
 from bot_console.tui.learn import command_log
 from bot_console.tui.learn.command_log import read_log
 from bot_console.tui.session.embedded import ros2_command_line

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 from bot_console.tui.tuning.job import Progress, TuningJob
-from bot_console.tui.tuning.journal import TuningJournal
+from bot_console.tui.tuning.run_journal import TuningJournal
 from bot_console.tui.tuning.score import parse_score
 from bot_console.tui.tuning.specification import HELD_OUT, Trial, TuningSpecification
 from bot_console.tui.tuning.tunable import Tunable

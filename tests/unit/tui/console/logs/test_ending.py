@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from bot_console.tui.console.gate import Gate
+from bot_console.tui.console.command_gate import Gate
 from bot_console.tui.console.launch.process import LaunchedProcess
 from bot_console.tui.console.logs.node_logs import NodeLogs
 from bot_console.tui.console.model import LaunchInfo, Severity

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from bot_console.tui.panes.plot.formulas.formula import Formula, Held, read, split
-from bot_console.tui.panes.plot.parts import Timeline
+from bot_console.tui.panes.plot.time_window import Timeline
 from fakes.console import FakeConsole
 
 A, B = "/a/x", "/b/pose.position.y[0]"

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 from bot_console.tui.panes.plot.curves import Curve, reach
-from bot_console.tui.panes.plot.parts import limits_of, wrong_limits, zoomed
+from bot_console.tui.panes.plot.time_window import limits_of, wrong_limits, zoomed
 from bot_console.tui.panes.plot.view import Axes, Mark, framed, legend, limits, short_number, strips, tick_step
 from hypothesis import given
 from hypothesis import strategies as st

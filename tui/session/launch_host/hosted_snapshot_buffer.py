@@ -5,7 +5,7 @@ from __future__ import annotations
 from concurrent.futures import Future
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.gate import done
+from bot_console.tui.console.command_gate import done
 from bot_console.tui.session.launch_host.proxy import HostedLauncher
 
 

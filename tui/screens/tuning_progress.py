@@ -11,9 +11,9 @@ from bot_console.tui import keymap
 from bot_console.tui.format import counted, cut, value_text
 from bot_console.tui.terminal.dimmed_screen import DimmedScreen
 from bot_console.tui.tuning.job import Progress, SettingResult
+from bot_console.tui.tuning.port import Tuning
 from bot_console.tui.tuning.specification import TuningSpecification
 from bot_console.tui.tuning.tunable import Setting
-from bot_console.tui.tuning.tuner import Tuning
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.braille import BrailleCanvas
 from bot_console.tui.widgets.prompt.line import Prompt, asks

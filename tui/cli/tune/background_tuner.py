@@ -13,7 +13,7 @@ from bot_console.tui.files.folders import state_folder
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.session.embedded.workspaces import SYSTEM_NODES
 from bot_console.tui.tuning.job import Progress, TuningJob
-from bot_console.tui.tuning.journal import TuningJournal
+from bot_console.tui.tuning.run_journal import TuningJournal
 from bot_console.tui.tuning.specification import TuningSpecification
 from bot_console.tui.tuning.tunable import Setting
 

@@ -16,7 +16,7 @@ from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.commanding.command_handler import CommandHandler
 from bot_console.tui.commanding.recording import BagRecording
 from bot_console.tui.console.command_line import CommandLine
-from bot_console.tui.console.gated_lines import GatedLines
+from bot_console.tui.console.gated_command_line import GatedLines
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.panes.time_cursor import TimeCursor
 from bot_console.tui.safety.early_stop import EarlyStop

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Protocol
 
 from bot_console.tui.files.save_file import NotSaved
-from bot_console.tui.layout.arrangement import CHROME, Arrangement
+from bot_console.tui.layout.current_layout import CHROME, Arrangement
 from bot_console.tui.layout.placing import Box, boxes, fits, neighbour
 from bot_console.tui.layout.tree import Tree, Way, close, even, exchange, panes, resize, split, turn
 from bot_console.tui.pane_table import PaneEntry

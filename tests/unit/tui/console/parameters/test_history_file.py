@@ -12,9 +12,9 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.console.model import Change, ChangeSource, Value
-from bot_console.tui.console.parameters import history as history_module
+from bot_console.tui.console.parameters import history_file as history_module
 from bot_console.tui.console.parameters.file.patch import same
-from bot_console.tui.console.parameters.history import TRIMMED_EVERY, History
+from bot_console.tui.console.parameters.history_file import TRIMMED_EVERY, History
 from bot_console.tui.console.parameters.journal import Journal
 from bot_console.tui.files.folder_lock import folder_lock
 
@@ -240,7 +240,7 @@ WRITER = """
 import sys
 from pathlib import Path
 from bot_console.tui.console.model import ChangeSource
-from bot_console.tui.console.parameters.history import History
+from bot_console.tui.console.parameters.history_file import History
 from bot_console.tui.console.parameters.journal import Journal
 from bot_console.tui.files.save_file import save_file
 

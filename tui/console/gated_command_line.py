@@ -6,8 +6,8 @@ import shlex
 from collections.abc import Mapping, Sequence
 from concurrent.futures import Future
 
+from bot_console.tui.console.command_gate import Gate, done
 from bot_console.tui.console.command_line import CommandLine, Stream
-from bot_console.tui.console.gate import Gate, done
 from bot_console.tui.console.model import ConsoleSnapshot
 
 NO_LINES = "no ros2 command line is available here"

@@ -1,1 +1,0 @@
-"""The screen of a tuning in progress, and how it is opened."""
