@@ -21,7 +21,7 @@ from bot_console_robot.navigation.goals import Goal, run_goal
 from bot_console_robot.navigation.planner import NoWay
 from bot_console_robot.navigation.tasks import Spin, Straight, Task, Wait, Way
 from bot_console_robot.navigation.world_model import WorldModel
-from bot_console_robot.simulator.messages import heading_of, quaternion
+from bot_console_robot.simulation_ros.messages import heading_of, quaternion
 from geometry_msgs.msg import Pose, PoseStamped, Twist, TwistStamped
 from lifecycle_msgs.msg import State
 from lifecycle_msgs.srv import GetState

@@ -13,15 +13,15 @@ from bot_console_robot.common.parameters import accepted, refused
 from bot_console_robot.common.running import CannotStart, run
 from bot_console_robot.safety.emergency_stop import ARBITER, BASE, STOP_FILE, EmergencyStop, declare_stop_file
 from bot_console_robot.simulation.arrays import table
-from bot_console_robot.simulation.frames import Frames
+from bot_console_robot.simulation.frame_origins import Frames
 from bot_console_robot.simulation.geometry import Pose
 from bot_console_robot.simulation.simulation import STEP, STEP_NS, Simulation
 from bot_console_robot.simulation.world import WorldError
-from bot_console_robot.simulator import messages as messages
-from bot_console_robot.simulator.models import MODELS
-from bot_console_robot.simulator.parameters import declare, problem, settings
-from bot_console_robot.simulator.signals import Signals
-from bot_console_robot.simulator.worlds import find_world
+from bot_console_robot.simulation_ros import messages as messages
+from bot_console_robot.simulation_ros.models import MODELS
+from bot_console_robot.simulation_ros.parameters import declare, problem, settings
+from bot_console_robot.simulation_ros.signals import Signals
+from bot_console_robot.simulation_ros.worlds import find_world
 from geometry_msgs.msg import PoseWithCovarianceStamped, Twist, TwistStamped
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from rcl_interfaces.msg import SetParametersResult

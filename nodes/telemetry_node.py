@@ -7,7 +7,7 @@ from bot_console_robot.common.diagnostics import OK, WARN, status
 from bot_console_robot.common.parameters import number, plain
 from bot_console_robot.common.running import run
 from bot_console_robot.common.scans import SCANS, nearest_return
-from bot_console_robot.trip import Trip
+from bot_console_robot.trip_computer import Trip
 from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
 from rclpy.node import Node

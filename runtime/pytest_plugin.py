@@ -13,7 +13,7 @@ import pytest
 from bot_console.runtime.process import SteppedTime, stepped
 from bot_console.runtime.rmw.zenoh.domain.discovery_range import RANGE_VARIABLE
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import close_shared_buses
-from bot_console.runtime.stop_file import STOP_FILE_VARIABLE
+from bot_console.runtime.stop_file_path import STOP_FILE_VARIABLE
 
 __all__ = [
     "bot_console_time",

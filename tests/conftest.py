@@ -83,7 +83,7 @@ def apart(socket_folder: str) -> Iterator[None]:
         from bot_console.runtime.rmw.local import local_bus
         from bot_console.runtime.rmw.middleware import choose_middleware
         from bot_console.runtime.rmw.zenoh.domain.domain_bus import close_shared_buses
-        from bot_console.runtime.stop_file import STOP_FILE_VARIABLE
+        from bot_console.runtime.stop_file_path import STOP_FILE_VARIABLE
 
         close_shared_buses()
         choose_middleware(local_bus)

@@ -12,7 +12,7 @@ from bot_console_robot.common.scans import SCANS, ranges_of
 from bot_console_robot.navigation.driving import Limits, Point, Pose
 from bot_console_robot.navigation.planner import Grid, NoWay, Planner
 from bot_console_robot.navigation.tasks import Seen
-from bot_console_robot.simulator.messages import heading_of
+from bot_console_robot.simulation_ros.messages import heading_of
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import OccupancyGrid, Odometry
 from rclpy.node import Node

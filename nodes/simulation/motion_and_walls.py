@@ -11,7 +11,7 @@ from bot_console_robot.simulation import engine
 from bot_console_robot.simulation.engine import ffi, lib, pointer
 from bot_console_robot.simulation.engine_memory import EngineMemory
 from bot_console_robot.simulation.geometry import Disc, Pose, closed
-from bot_console_robot.simulation.moving import MovingObstacle
+from bot_console_robot.simulation.moving_obstacles import MovingObstacle
 from bot_console_robot.simulation.world import World
 
 OBSTACLE = pymunk.ShapeFilter(categories=0b01)

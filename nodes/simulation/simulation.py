@@ -12,7 +12,7 @@ from bot_console_robot.simulation.figures.metrics import Metrics
 from bot_console_robot.simulation.geometry import TURN, Pose
 from bot_console_robot.simulation.lidar import Lidar, LidarSettings, Scan, Surfaces
 from bot_console_robot.simulation.motion_and_walls import FAR, Space
-from bot_console_robot.simulation.moving import MovingObstacle
+from bot_console_robot.simulation.moving_obstacles import MovingObstacle
 from bot_console_robot.simulation.odometry import Odometry, OdometryNoise
 from bot_console_robot.simulation.robot import DifferentialDrive, DriveLimits
 from bot_console_robot.simulation.world import World, WorldError, inside, populated

@@ -15,7 +15,7 @@ import warnings
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from bot_console.runtime.children.own_processes import MEMBER_PROGRAM
+from bot_console.runtime.children.own_fork_server import MEMBER_PROGRAM
 from bot_console.runtime.importer import GENERATED, PACKAGES
 from bot_console.runtime.process.fork_server import Job
 

@@ -7,7 +7,7 @@ from bot_console.runtime.importer import install
 INTERFACES = ("action_msgs", "builtin_interfaces", "geometry_msgs", "nav_msgs", "rcl_interfaces", "sensor_msgs",
               "std_msgs", "std_srvs", "tf2_msgs")  # fmt: skip
 """Packages whose messages, services and actions most nodes import."""
-MODULES = ("rclpy.executors", "rclpy.qos", "bot_console.runtime.children.own_processes",
+MODULES = ("rclpy.executors", "rclpy.qos", "bot_console.runtime.children.own_fork_server",
            "bot_console.runtime.workspace.launched", "bot_console.runtime.rosidl.cdr_read",
            "bot_console.runtime.rosidl.cdr_write", "bot_console.runtime.rmw.zenoh.bus",
            "bot_console.runtime.rmw.zenoh.domain.domain_bus", "bot_console.runtime.rmw.zenoh.domain.mesh")  # fmt: skip

@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 
 from ament_index_python.packages import PackageNotFoundError, get_package_prefix
-from bot_console.runtime.programs.plain_file import examine
+from bot_console.runtime.programs.python_file_check import examine
 from bot_console.runtime.workspace.builtin_package import is_own
 from bot_console.runtime.workspace.demos import IMPORT_NAME
 from bot_console.runtime.workspace.discover import workspace

@@ -14,7 +14,7 @@ import stat
 import tempfile
 from pathlib import Path
 
-from . import real
+from . import unpatched
 
 LOCK = "lock"
 OVER = ".over"
@@ -37,7 +37,7 @@ if hasattr(os, "register_at_fork"):
 
 def scratch() -> Path:
     """Return this process's folder; raises `OSError` if none can be made, or if the process is ending."""
-    pid = real.getpid()
+    pid = unpatched.getpid()
     with _guard:
         if pid in _ended:
             raise OSError("the process is ending")
@@ -56,7 +56,7 @@ def _make(pid: int) -> None:
     folder = new.rename(base / new.name[1:])  # visible to `clean` only now that it is locked
     _made.clear()  # entries of the process that this one was forked from
     _made[pid] = (folder, handle)
-    real.at_exit(remove)
+    unpatched.at_exit(remove)
 
 
 def scratch_file(prefix: str, text: str) -> Path:
@@ -69,7 +69,7 @@ def scratch_file(prefix: str, text: str) -> Path:
 
 def remove() -> None:
     """Remove this process's folder, at its end; no new one can be made."""
-    pid = real.getpid()
+    pid = unpatched.getpid()
     with _guard:
         _ended.add(pid)
         folder, handle = _made.pop(pid, (None, -1))

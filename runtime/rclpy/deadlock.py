@@ -11,8 +11,8 @@ from types import FrameType
 from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import current
-from bot_console.runtime.process.frames import line_outside
 from bot_console.runtime.process.notices import notify
+from bot_console.runtime.process.stack_frames import line_outside
 from rclpy.exceptions import ROSInterruptException
 from rclpy.ready_callbacks import ReadyCallbacks
 from rclpy.task import Future, Task

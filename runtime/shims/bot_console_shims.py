@@ -72,7 +72,7 @@ def _chosen(name):
     if sys.version_info[:2] != installed.VERSION:
         _refuse(name, installed)
     sys.path.extend(each for each in installed.FOLDERS if each not in sys.path)
-    from bot_console.runtime.shim import take_over
+    from bot_console.runtime.shimmed_python import take_over
 
     take_over()
     return EMBEDDED

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from bot_console.runtime.importer import places_of
 from bot_console.runtime.process import entry_point_program, file_program
-from bot_console.runtime.programs.plain_file import then_main
+from bot_console.runtime.programs.python_file_check import then_main
 from bot_console.runtime.workspace.builtin_package import own_is_first
 from bot_console.runtime.workspace.discover import Workspace, use, workspace
 

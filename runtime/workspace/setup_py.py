@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, NamedTuple, cast
 
-from bot_console.runtime.workspace.setup_mistakes import first_mistake
+from bot_console.runtime.workspace.setup_py_syntax import first_mistake
 from bot_console.runtime.workspace.setup_values import Unreadable, Values, called
 
 PANES = "bot_console.panes"

@@ -14,7 +14,7 @@ import time
 from _thread import allocate_lock
 from collections.abc import Callable
 
-from bot_console.runtime.process import NodeProcess, RealTime, current, real, stepped
+from bot_console.runtime.process import NodeProcess, RealTime, current, stepped, unpatched
 from bot_console.runtime.process.node.thread_state import local
 from bot_console.runtime.process.stepping.one_cpu import pin_thread
 
@@ -40,11 +40,11 @@ def floor_of_a_turn() -> float:
 
     threads = [threading.Thread(target=player, args=(mine,)) for mine in (0, 1)]
     for thread in threads:
-        real.start_thread(thread)
+        unpatched.start_thread(thread)
     start = cpu()
     locks[0].release()
     for thread in threads:
-        real.join_thread(thread)
+        unpatched.join_thread(thread)
     unpin()
     return (cpu() - start) / TURNS * 1e6
 
@@ -120,7 +120,7 @@ def turn_in_real_time() -> float:
 
 def sleep_outside(wrapped: bool) -> float:
     """`time.sleep(0)` in the real process, with and without the wrap."""
-    sleep = time.sleep if wrapped else real.sleep
+    sleep = time.sleep if wrapped else unpatched.sleep
     assert local.waits_on is None
     start = cpu()
     for _ in range(TURNS):

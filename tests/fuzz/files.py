@@ -110,7 +110,7 @@ def package(text: str) -> None:
 
 
 def plain_file(text: str) -> None:
-    from bot_console.runtime.programs.plain_file import examine
+    from bot_console.runtime.programs.python_file_check import examine
 
     examine(file(text, "node.py"))
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from bot_console.runtime.children.child_discovery import let_children_meet
-from bot_console.runtime.children.own_processes import begun
+from bot_console.runtime.children.own_fork_server import begun
 from bot_console.runtime.process import RealTime
 from bot_console.runtime.process.fork_server import Job, Report
 from bot_console.runtime.process.virtual.install import reinstall_stdio, uninstall_virtual_process

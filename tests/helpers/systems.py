@@ -11,7 +11,7 @@ from contextlib import contextmanager, suppress
 from functools import partial
 from typing import Any, Protocol
 
-from bot_console.runtime.children.own_processes import MEMBER_PROGRAM, fork_server
+from bot_console.runtime.children.own_fork_server import MEMBER_PROGRAM, fork_server
 from bot_console.runtime.process import NodeProcess, SteppedTime, stepped
 from bot_console.runtime.process.fork_server import Job, Report
 from bot_console.runtime.process.lockstep.coordinator import coordinator_of

@@ -27,4 +27,4 @@ def test_middleware_never_asks_os_for_the_process_id() -> None:
     files = sorted((ROOT / "runtime" / "rmw").rglob("*.py"))
     assert files
     found = [f"{file}:{line}" for file in files for line in made_up(file.read_text(encoding="utf-8"))]
-    assert found == [], "use bot_console.runtime.process.real.getpid"
+    assert found == [], "use bot_console.runtime.process.unpatched.getpid"

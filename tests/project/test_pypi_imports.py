@@ -21,7 +21,7 @@ DEMOS = "nodes/demos/"
 """The nodes of the tutorials: they run with our runtime only."""
 EXCEPTIONS = {
     "nodes/navigation_node.py": "serves actions of Nav2, which is installed where it runs",
-    "nodes/simulator/signals.py": "publishes transforms; exported to machines with an installed ROS 2",
+    "nodes/simulation_ros/signals.py": "publishes transforms; exported to machines with an installed ROS 2",
     "runtime/ros2cli/verbs/component.py": "loaded by `ros2 component` only",
 }
 """Modules that are not loaded on the rclpy of PyPI, with the reason."""

@@ -64,7 +64,7 @@ def test_own_packages_are_those_of_the_package():
 
 def test_our_two_package_names_share_modules(workspace):
     same = (
-        "import {0}.simulator.worlds as a, {1}.simulator.worlds as b; "
+        "import {0}.simulation_ros.worlds as a, {1}.simulation_ros.worlds as b; "
         "from {0}.simulation import world; assert a.World is world.World"
     )
     runs(workspace, f"{same.format(*OWN_PACKAGES)}; assert a is b")
@@ -88,14 +88,14 @@ def test_package_beside_the_node_file_takes_precedence(tmp_path):
 
 def test_folder_of_our_name_beside_a_program_hides_our_package_only_if_it_is_a_package(tmp_path):
     (tmp_path / PAGE_NAME / "worlds").mkdir(parents=True)
-    runs(tmp_path, f"import {PAGE_NAME}.trip", tmp_path)
+    runs(tmp_path, f"import {PAGE_NAME}.trip_computer", tmp_path)
 
 
 def test_our_name_means_our_package_in_our_own_launch(workspace, monkeypatch):
     make(workspace, OWN_PACKAGE)
     make(workspace, PAGE_NAME)
     monkeypatch.setenv(FIRST_VARIABLE, "1")
-    runs(workspace, f"import {OWN_PACKAGE}.trip, {PAGE_NAME}; assert {PAGE_NAME}.theirs", workspace)
+    runs(workspace, f"import {OWN_PACKAGE}.trip_computer, {PAGE_NAME}; assert {PAGE_NAME}.theirs", workspace)
 
 
 def test_embedded_packages_come_first_even_if_the_folder_has_one(tmp_path):

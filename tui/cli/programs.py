@@ -33,7 +33,7 @@ def program(words: list[str], hint: Callable[[str], None]) -> tuple[dict[str, st
 
 
 def _fault(file: Path, hint: Callable[[str], None]) -> str:
-    from bot_console.runtime.programs.plain_file import examine
+    from bot_console.runtime.programs.python_file_check import examine
 
     if not os.path.isfile(file):  # `Path` raises if the name is too long.
         return f"{file} does not exist"

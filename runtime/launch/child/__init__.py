@@ -4,7 +4,7 @@ This is a process of the operating system (`os_child`), a node process, i.e. a t
 a separate process for a Python program (`forked_child`).
 """
 
-from bot_console.runtime.children.own_processes import CAN_FORK, close_fork_server, fork_server
+from bot_console.runtime.children.own_fork_server import CAN_FORK, close_fork_server, fork_server
 from launch.child.child import Child, Output
 from launch.child.process_reports import News, on_news, report_news
 from launch.child.python_program import PythonProgram

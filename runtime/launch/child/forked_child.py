@@ -10,7 +10,7 @@ from contextlib import ExitStack
 from typing import NamedTuple
 
 from bot_console.runtime.children.child_discovery import children_meet
-from bot_console.runtime.children.own_processes import begun, fork_server
+from bot_console.runtime.children.own_fork_server import begun, fork_server
 from bot_console.runtime.process.fork_server import Job, Report
 from launch.child.child import Output
 from launch.child.process_reports import NewsReader

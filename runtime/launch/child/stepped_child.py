@@ -8,7 +8,7 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
-from bot_console.runtime.children.own_processes import MEMBER_PROGRAM
+from bot_console.runtime.children.own_fork_server import MEMBER_PROGRAM
 from bot_console.runtime.process.fork_server import Job, Report
 from bot_console.runtime.process.lockstep.coordinator import Coordinator
 from bot_console.runtime.process.lockstep.member_process import MemberProcess

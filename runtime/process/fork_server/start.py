@@ -16,8 +16,8 @@ from typing import TextIO
 from .. import data_pipe
 from ..crashes import explanation
 from ..current import MAIN
-from ..frames import formatted, trim
 from ..notices import notify, on_notice
+from ..stack_frames import formatted, trim
 from ..watch.gil_watch import GilWatch
 from ..watch.main_watch import MainWatch
 from .job import function_named

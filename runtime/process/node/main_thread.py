@@ -8,8 +8,8 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from ..crashes import explanation
-from ..frames import print_exception
 from ..notices import notify
+from ..stack_frames import print_exception
 from ..virtual import child_threads
 from .thread_state import ProcessKilled, local
 

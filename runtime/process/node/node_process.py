@@ -12,7 +12,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 from weakref import WeakSet
 
-from .. import frames, real
+from .. import stack_frames, unpatched
 from ..clock_source import ClockSource
 from ..notices import notify
 from .capture import NO_INPUT, LineCapture, Sink
@@ -120,7 +120,7 @@ class NodeProcess:
             return
         # A stepped run has one thread at work, so nothing can be pending; waiting would keep the baton.
         while self.signals.sending and not self.clock.stepped:
-            real.sleep(0.0005)
+            unpatched.sleep(0.0005)
         state.deliver()
 
     def kill(self) -> None:
@@ -183,7 +183,7 @@ class NodeProcess:
 
     def line(self) -> str | None:
         """Return where its main thread is, as `file.py:12, in function`; None if it has ended."""
-        return None if self.main_state is None else frames.thread_line(self.main_state.ident)
+        return None if self.main_state is None else stack_frames.thread_line(self.main_state.ident)
 
     def thread_states(self) -> list[NodeThread]:
         """Return its main thread and the threads it started, except those that have ended."""
@@ -222,7 +222,7 @@ class NodeProcess:
 
     def break_off_later(self, states: Sequence[NodeThread]) -> None:
         """Give killed threads a moment to unwind, then raise in those still busy, then report which one hangs where."""
-        real.later(KILL_TIMEOUT_S, partial(self._break_off, states))
+        unpatched.later(KILL_TIMEOUT_S, partial(self._break_off, states))
 
     def _break_off(self, states: Sequence[NodeThread]) -> None:
         left = [state for state in states if state.thread.is_alive()]
@@ -233,13 +233,13 @@ class NodeProcess:
         for state in left:
             state.throw(ProcessKilled)
         if left:
-            real.later(KILL_TIMEOUT_S, partial(self._report_hanging, left))
+            unpatched.later(KILL_TIMEOUT_S, partial(self._report_hanging, left))
 
     def _report_hanging(self, states: Sequence[NodeThread]) -> None:
         for state in states:
             if state.thread.is_alive() and not state.waiting:
                 self.state = ProcessState.ABANDONED
-                line = frames.thread_line(state.ident)
+                line = stack_frames.thread_line(state.ident)
                 notify(self, f"did not end when asked to, so it is abandoned. It hangs in {line}")
 
     def finish(self, code: int) -> None:

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from .. import real
+from .. import unpatched
 from ..notices import notify
 from .thread_state import local
 
@@ -107,7 +107,7 @@ class Signals:
         if state is local.state:
             state.deliver()
         elif not state.waiting:
-            real.later(BUSY_TIMEOUT_S, partial(self._break_in, state, action))
+            unpatched.later(BUSY_TIMEOUT_S, partial(self._break_in, state, action))
 
     def _call_handler(self, handler: Callable[[int, Any], Any], signum: int) -> None:
         handler(signum, sys._getframe())  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
@@ -116,7 +116,7 @@ class Signals:
         """Interrupt a busy thread: run the handler elsewhere and raise in the thread what the handler raises."""
         if state.takes_turns:
             if state.called and state.thread.is_alive():
-                real.later(BUSY_TIMEOUT_S, partial(self._break_in, state, action))
+                unpatched.later(BUSY_TIMEOUT_S, partial(self._break_in, state, action))
         elif state.take_back(action):
             # The busy thread cannot be made to call the handler, so it is called in a new thread.
             _thread.start_new_thread(self._handle_for, (state, action))

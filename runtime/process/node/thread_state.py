@@ -10,7 +10,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from .. import frames, real
+from .. import stack_frames, unpatched
 
 if TYPE_CHECKING:
     from ..clock_source import ClockSource, TurnTaker
@@ -138,8 +138,8 @@ class ThreadState:
                 self._wake()
             elif self.ending:
                 return
-            elif self.ident and frames.is_importing(self.ident):
-                real.later(IMPORT_POLL_S, partial(self.throw, exception))
+            elif self.ident and stack_frames.is_importing(self.ident):
+                unpatched.later(IMPORT_POLL_S, partial(self.throw, exception))
             elif self.ident and self.thread.is_alive():
                 import ctypes
 

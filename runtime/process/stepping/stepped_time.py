@@ -8,7 +8,7 @@ from collections.abc import Callable, Generator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
-from .. import frames
+from .. import stack_frames
 from ..clock_source import WaitingThread
 from ..current import MAIN
 from ..node.signals import SIGKILL
@@ -119,7 +119,7 @@ class SteppedTime:
         uninstall_stepped_calls()
 
     def _report_stall(self, task: ScheduledTask, busy: bool) -> Callable[[], None]:
-        line = frames.thread_line(task.ident)
+        line = stack_frames.thread_line(task.ident)
         process = task.state.process if isinstance(task.state, ThreadState) else MAIN
         self.add_stalls([f"{process.name}: {line}"])
         return lambda: notify(process, f"{line} {COMPUTES if busy else BLOCKS}")

@@ -7,9 +7,9 @@ import threading
 from types import TracebackType
 from typing import TYPE_CHECKING
 
-from .. import real
-from ..frames import trim
+from .. import unpatched
 from ..node.thread_state import ProcessKilled, ThreadState, local
+from ..stack_frames import trim
 from .module_property import VirtualModule, process_variable
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ def start_outside(thread: threading.Thread) -> None:
     """Start a thread that belongs to the real process, whichever process calls."""
     before, local.waits_on = local.waits_on, None  # `Thread.start` waits until the new thread runs
     try:
-        real.start_thread(thread)
+        unpatched.start_thread(thread)
     finally:
         local.waits_on = before
 
@@ -122,7 +122,7 @@ def start(thread: threading.Thread) -> None:
     """`Thread.start`: a thread started by a node belongs to the node's process."""
     clock = local.waits_on
     if clock is None or thread.ident is not None:
-        real.start_thread(thread)
+        unpatched.start_thread(thread)
     else:
         start_inside(local.process, clock, thread)
 
@@ -135,26 +135,26 @@ def join(thread: threading.Thread, timeout: float | None = None) -> None:
         if not state.finished.wait(deadline):
             return
         timeout = None  # what remains of the thread is the interpreter's own short work
-    real.join_thread(thread, timeout)
+    unpatched.join_thread(thread, timeout)
 
 
 def is_alive(thread: threading.Thread) -> bool:
     """`Thread.is_alive`: False once the node's part of the thread is over."""
     state = _state_of(thread)
-    return (state is None or not state.finished.is_set()) and real.is_thread_alive(thread)
+    return (state is None or not state.finished.is_set()) and unpatched.is_thread_alive(thread)
 
 
 def main_thread() -> threading.Thread:
     """`threading.main_thread`: the main thread of the calling node process."""
     state = local.process.main_state
-    return real.main_thread() if state is None else state.thread
+    return unpatched.main_thread() if state is None else state.thread
 
 
 def enumerate_threads() -> list[threading.Thread]:
     """`threading.enumerate`: only threads of the calling node process."""
     process = local.process
     if process.main_state is None:
-        return real.enumerate_threads()
+        return unpatched.enumerate_threads()
     return [state.thread for state in process.thread_states()]
 
 

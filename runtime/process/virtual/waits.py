@@ -12,7 +12,7 @@ from contextlib import suppress
 from types import GenericAlias
 from typing import TYPE_CHECKING, Any, SupportsIndex
 
-from .. import real
+from .. import unpatched
 from ..node.thread_state import local
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ def sleep(seconds: float, /) -> None:
     clock = local.waits_on
     number = isinstance(seconds, (float, SupportsIndex))  # pyright: ignore[reportUnnecessaryIsInstance] -- node code
     if clock is None or not number or not 0 <= seconds < threading.TIMEOUT_MAX:
-        real.sleep(seconds)  # raises the interpreter's errors
+        unpatched.sleep(seconds)  # raises the interpreter's errors
         return
     clock.sleep_until(clock.steady_ns() + int(float(seconds) * 1e9))
 

@@ -6,7 +6,7 @@ import os
 import sys
 from types import FrameType
 
-from .. import frames
+from .. import stack_frames
 
 _DEBUGGERS = frozenset(("bdb", "pydevd"))
 """Modules without which no thread can be stopped in a debugger; pydevd is the part of debugpy that stops threads."""
@@ -25,8 +25,8 @@ def line_in_debugger() -> str | None:
         frame: FrameType | None = innermost
         while frame is not None:
             if _is_interaction(frame, callee):
-                stopped = frames.user_frame(frame)
-                return "" if stopped is frame else frames.describe(stopped)
+                stopped = stack_frames.user_frame(frame)
+                return "" if stopped is frame else stack_frames.describe(stopped)
             callee, frame = frame, frame.f_back
     return None
 

@@ -7,7 +7,7 @@ import re
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from .. import frames, real
+from .. import stack_frames, unpatched
 
 NAME = "interpreter-stacks"
 """Name of the in-memory file of a watched process."""
@@ -60,11 +60,13 @@ def held_in_stacks(text: str, switches: int, now: float) -> Held | None:
     woken, passed = switches - int(header[2]), now - float(header[3])
     if woken < MIN_SWITCHES_PER_S * passed:
         return None
-    at_work = [each for each in _threads(text[header.end() :]) if each.stack and not frames.is_idle(each.stack[0][0])]
+    at_work = [
+        each for each in _threads(text[header.end() :]) if each.stack and not stack_frames.is_idle(each.stack[0][0])
+    ]
     if any(file.startswith("<frozen importlib") for each in at_work for file, _ in each.stack):
         return None
     found = [(each.ident, *where) for each in at_work if (where := _line_of_user(each)) is not None]
-    found = [each for each in found if not frames.is_shipped(each[1])] or found
+    found = [each for each in found if not stack_frames.is_shipped(each[1])] or found
     if not found:
         return None
     return Held(found[0][0], " or ".join(dict.fromkeys(line for *_, line in found[:2])))
@@ -82,7 +84,7 @@ def _threads(text: str) -> list[_Thread]:
 
 
 def _line_of_user(thread: _Thread) -> tuple[str, str] | None:
-    return next((each for each in thread.stack if not frames.is_library(each[0])), None)
+    return next((each for each in thread.stack if not stack_frames.is_library(each[0])), None)
 
 
 class GilHolder:
@@ -107,7 +109,7 @@ class GilHolder:
             return ""
         thread = text.partition(" ")[0]
         switches = voluntary_switches(self._pid, int(thread)) if thread.isdecimal() else None
-        held = None if switches is None else held_in_stacks(text, switches, real.monotonic())
+        held = None if switches is None else held_in_stacks(text, switches, unpatched.monotonic())
         return held.line if held is not None else ""
 
 

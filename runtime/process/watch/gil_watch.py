@@ -13,7 +13,7 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from .. import real
+from .. import unpatched
 from .gil_holder import NAME, held_in_stacks, voluntary_switches
 
 PERIOD_S = 0.5
@@ -57,7 +57,7 @@ class GilWatch:
             self._heartbeat()
             begun.release()
 
-        real.later(0.0, first)
+        unpatched.later(0.0, first)
         begun.acquire(True, FIRST_HEARTBEAT_TIMEOUT_S)
 
     def _for_the_program(self, *given: Any, **named: Any) -> None:
@@ -74,7 +74,7 @@ class GilWatch:
                 return  # the program has closed it, and may have opened another file under its number
             text = os.pread(self._file, 1 << 20, 0).decode("ascii", "replace")
             me = threading.get_native_id()
-            switches, now = voluntary_switches("self", me) or 0, real.monotonic()
+            switches, now = voluntary_switches("self", me) or 0, unpatched.monotonic()
             held = held_in_stacks(text, switches, now)
             os.ftruncate(self._file, 0)
             os.lseek(self._file, 0, os.SEEK_SET)
@@ -82,7 +82,7 @@ class GilWatch:
         except OSError:
             return
         self._write_later(WRITTEN_S, file=self._file)
-        real.later(PERIOD_S, self._heartbeat)
+        unpatched.later(PERIOD_S, self._heartbeat)
         if held is not None:
             self._report(held.ident, TEXT.format(held.line))
 

@@ -6,7 +6,7 @@ import os
 import threading
 from collections.abc import Callable
 
-from .. import frames, real
+from .. import stack_frames, unpatched
 from .processor_time import ran_and_waited
 
 PERIOD_S = 0.5
@@ -28,25 +28,26 @@ class MainWatch:
     def begin(self) -> None:
         """Start watching until the process ends; to be called in the main thread."""
         if self._times() is not None:
-            self._before = (real.monotonic(), *(self._times() or (0.0, 0.0)))
-            real.later(PERIOD_S, self._poll)
+            self._before = (unpatched.monotonic(), *(self._times() or (0.0, 0.0)))
+            unpatched.later(PERIOD_S, self._poll)
 
     @staticmethod
     def _times() -> tuple[float, float] | None:
         return ran_and_waited(f"self/task/{os.getpid()}")  # the main thread has the process's id
 
     def _poll(self) -> None:
-        (then, ran_then, waited_then), self._before = self._before, (real.monotonic(), *(self._times() or (0.0, 0.0)))
+        then, ran_then, waited_then = self._before
+        self._before = (unpatched.monotonic(), *(self._times() or (0.0, 0.0)))
         now, ran, waited = self._before
         main = threading.main_thread().ident or 0
         wanted = ran - ran_then + waited - waited_then
-        if wanted < WANTED_SHARE * (now - then) or frames.is_importing(main):
+        if wanted < WANTED_SHARE * (now - then) or stack_frames.is_importing(main):
             self._computed = 0.0
         else:
             before, self._computed = self._computed, self._computed + ran - ran_then
             if before < REPORT_S <= self._computed:
                 self._report(
-                    f"has computed for {REPORT_S:g} s without waiting, in {frames.thread_line(main)}. It hears nothing "
-                    "meanwhile: let it spin, sleep or wait in its loop"
+                    f"has computed for {REPORT_S:g} s without waiting, in {stack_frames.thread_line(main)}. It hears "
+                    "nothing meanwhile: let it spin, sleep or wait in its loop"
                 )
-        real.later(PERIOD_S, self._poll)
+        unpatched.later(PERIOD_S, self._poll)

@@ -10,7 +10,7 @@ import _thread
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from .. import real
+from .. import unpatched
 from ..stepping.scheduler import LAST
 from .thread_work import CHECKS_PER_STALL, ThreadWork
 
@@ -48,7 +48,7 @@ class StallWatch:
 
     def _run(self) -> None:
         while self._go_on():
-            real.sleep(self._stall_s / CHECKS_PER_STALL)
+            unpatched.sleep(self._stall_s / CHECKS_PER_STALL)
             task, turns = turn = self._scheduler.holder, self._scheduler.turns
             if turn != self._turn:
                 self._turn = turn

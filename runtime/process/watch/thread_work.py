@@ -9,7 +9,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 
-from .. import frames
+from .. import stack_frames
 from .processor_time import state_and_seconds
 
 CHECKS_PER_STALL = 4
@@ -40,7 +40,7 @@ class ThreadWork:
 
     def poll(self) -> None:
         """Check again; to be called at even intervals."""
-        importing = frames.is_importing(self._ident)
+        importing = stack_frames.is_importing(self._ident)
         reported = state_and_seconds(self._task)
         state, seconds = reported or (SLEEPING, time.process_time())
         used = 0.0 if self._seconds is None else seconds - self._seconds

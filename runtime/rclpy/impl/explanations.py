@@ -9,8 +9,8 @@ from collections.abc import Callable
 from typing import Any
 
 from bot_console.runtime.process import current
-from bot_console.runtime.process.frames import is_shipped, line_outside
 from bot_console.runtime.process.notices import notify
+from bot_console.runtime.process.stack_frames import is_shipped, line_outside
 from bot_console.runtime.programs.hints import at, is_read, read_before_declared, wrong_type
 from bot_console.runtime.rmw.parameter_places import place_of
 from rclpy.impl.callables import is_coroutine

@@ -10,8 +10,8 @@ import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, cast
 
-from bot_console.runtime.process.facts import anybody_listens, report_fact
-from bot_console.runtime.process.frames import line_outside
+from bot_console.runtime.process.reported_facts import anybody_listens, report_fact
+from bot_console.runtime.process.stack_frames import line_outside
 from rcl_interfaces.msg import Parameter as ParameterMsg
 from rcl_interfaces.msg import ParameterDescriptor, ParameterValue
 from rclpy.exceptions import (

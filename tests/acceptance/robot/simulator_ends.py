@@ -23,7 +23,7 @@ sys.setswitchinterval(0.0005)
 import rclpy
 from bot_console_robot import simulator_node
 from bot_console_robot.simulation.simulation import Simulation
-from bot_console_robot.simulator.worlds import find_world
+from bot_console_robot.simulation_ros.worlds import find_world
 from geometry_msgs.msg import Twist
 from rcl_interfaces.srv import SetParameters
 from rclpy.context import Context

@@ -10,7 +10,7 @@ import pytest
 if not hasattr(os, "fork"):
     pytest.skip("needs fork", allow_module_level=True)
 
-from bot_console.runtime.children.own_processes import PREPARE
+from bot_console.runtime.children.own_fork_server import PREPARE
 from bot_console.runtime.process.fork_server import ForkServer, Job
 
 PLAIN = "bot_console.runtime.importer:install"
@@ -24,7 +24,7 @@ def imported(folder: Path, function: str, arguments: list[object]) -> str:
     null = os.open(os.devnull, os.O_RDWR)
     try:
         words = ([], f"bot_console.runtime.workspace.launched:{function}", arguments)
-        job = Job("x", "bot_console.runtime.children.own_processes:begun", words, ["x"], {}, str(folder))
+        job = Job("x", "bot_console.runtime.children.own_fork_server:begun", words, ["x"], {}, str(folder))
         os.close(server.start(job, stdin=null, stdout=given, stderr=2, data=null))
         os.close(given)
         with os.fdopen(taken) as output:
@@ -80,7 +80,7 @@ def test_numpy_that_fails_to_import_does_not_end_the_server(tmp_path: Path, monk
     server = ForkServer(PLAIN, PREPARE)
     null = os.open(os.devnull, os.O_RDWR)
     words = ([], "bot_console.runtime.workspace.launched:entry_point", [[], "json.tool:main", []])
-    job = Job("x", "bot_console.runtime.children.own_processes:begun", words, ["x"], {}, str(tmp_path))
+    job = Job("x", "bot_console.runtime.children.own_fork_server:begun", words, ["x"], {}, str(tmp_path))
     with os.fdopen(server.start(job, stdin=null, stdout=null, stderr=null, data=null), "rb") as report:
         os.close(null)
         assert report.read().startswith(b"pid ")

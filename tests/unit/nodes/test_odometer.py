@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from bot_console_robot.simulation.geometry import Pose
-from bot_console_robot.simulator.messages import Odometer, heading_of, time_of
+from bot_console_robot.simulation_ros.messages import Odometer, heading_of, time_of
 
 
 def test_reused_message_contains_only_the_latest_report() -> None:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from bot_console_robot.simulation.frames import Frames
+from bot_console_robot.simulation.frame_origins import Frames
 from bot_console_robot.simulation.simulation import Simulation
 from bot_console_robot.simulation.world_file import parse_world
-from bot_console_robot.simulator.messages import time_of
-from bot_console_robot.simulator.models import MODELS
-from bot_console_robot.simulator.signals import Signals
+from bot_console_robot.simulation_ros.messages import time_of
+from bot_console_robot.simulation_ros.models import MODELS
+from bot_console_robot.simulation_ros.signals import Signals
 
 
 class Recorder:

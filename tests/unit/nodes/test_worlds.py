@@ -2,7 +2,7 @@
 
 import pytest
 from bot_console_robot.simulation.world import WorldError
-from bot_console_robot.simulator.worlds import find_world
+from bot_console_robot.simulation_ros.worlds import find_world
 
 
 @pytest.mark.parametrize("name", ["nowhere", "a" * 300], ids=["unknown", "too long for a file"])

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 import rclpy
-from bot_console.runtime.process.facts import anybody_listens, on_fact
+from bot_console.runtime.process.reported_facts import anybody_listens, on_fact
 from rclpy.context import Context
 from rclpy.parameter import Parameter
 

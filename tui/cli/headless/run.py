@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from bot_console.runtime.importer import install
 from bot_console.runtime.process import MAIN, NodeProcess, on_notice, stepped
-from bot_console.runtime.stop_file import STOP_FILE_VARIABLE
+from bot_console.runtime.stop_file_path import STOP_FILE_VARIABLE
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.interruptible_wait import wait_interruptibly
 from bot_console.tui.session.embedded.domain import (

@@ -92,7 +92,7 @@ def _of_packages(files: Iterable[Path], where: Path) -> Iterator[LintFinding]:
     """What keeps the packages that contain these files from working on ROS 2."""
     from bot_console.runtime.importer import install
     from bot_console.runtime.workspace.package import read_package
-    from bot_console.runtime.workspace.portability import obstacles
+    from bot_console.tui.cli.lint.packaging import obstacles
 
     install()
     folders = {folder for each in files if (folder := folder_of_package(each)) is not None}

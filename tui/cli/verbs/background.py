@@ -18,7 +18,7 @@ from pathlib import Path
 from bot_console.runtime.process.session_end import end_session
 from bot_console.runtime.rmw.zenoh.domain.discovery_range import RANGE_VARIABLE
 from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
-from bot_console.runtime.stop_file import stop_file
+from bot_console.runtime.stop_file_path import stop_file
 from bot_console.tui.child_command import child_command
 from bot_console.tui.cli.arguments import parse
 from bot_console.tui.cli.verbs import stop

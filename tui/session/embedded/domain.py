@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, NoReturn
 
 from bot_console.runtime.domain_id import domain_id
-from bot_console.runtime.stop_file import STOP_FILE_VARIABLE, stop_file
+from bot_console.runtime.stop_file_path import STOP_FILE_VARIABLE, stop_file
 
 if TYPE_CHECKING:
     from bot_console.tui.cli.robot_claim import RobotClaim

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
-from bot_console.runtime.children.own_processes import CAN_FORK, fork_off_server, fork_server
+from bot_console.runtime.children.own_fork_server import CAN_FORK, fork_off_server, fork_server
 from bot_console.runtime.children.warm_up import import_shared
 from bot_console.runtime.process.current import MAIN
 from bot_console.runtime.process.fork_server import has_one_thread

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from bot_console.runtime.process import on_notice
-from bot_console.runtime.process.facts import on_fact
+from bot_console.runtime.process.reported_facts import on_fact
 from bot_console.tui.console.model import Severity
 from bot_console.tui.console.parameters.provenance import Learn
 

@@ -9,7 +9,7 @@ import contextlib
 import os
 from collections.abc import Mapping
 
-from bot_console.runtime.process.real import getpid
+from bot_console.runtime.process.unpatched import getpid
 from bot_console.runtime.process.watch.debugger import line_in_debugger
 
 SUFFIX = ".debugger"

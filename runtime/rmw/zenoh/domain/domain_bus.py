@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from bot_console.runtime.process.current import current
 from bot_console.runtime.process.notices import notify
-from bot_console.runtime.process.real import getpid
+from bot_console.runtime.process.unpatched import getpid
 from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.local import local_bus
 from bot_console.runtime.rmw.middleware import choose_middleware, is_chosen

@@ -11,7 +11,7 @@ import os
 import re
 from typing import NamedTuple
 
-from bot_console.runtime.process.real import getpid
+from bot_console.runtime.process.unpatched import getpid
 from bot_console.runtime.rmw.zenoh.domain import loopback
 from bot_console.runtime.rmw.zenoh.domain.debugger_note import remove_note
 from bot_console.runtime.rmw.zenoh.domain.file_lock import open_lock, try_lock

@@ -8,7 +8,7 @@ import threading
 import time
 
 import pytest
-from bot_console.runtime.process import NodeProcess, current, real, stepped
+from bot_console.runtime.process import NodeProcess, current, stepped, unpatched
 from bot_console.runtime.process.node.thread_state import local
 from ticking import ticker
 
@@ -78,7 +78,7 @@ def test_time_stops_until_a_slow_start_reaches_its_first_wait(notices):
     with stepped(stall_s=STALL) as clock:
         NodeProcess("slow", clock).start(slow)
         NodeProcess("other", clock).start(lambda: trace.append(("other", current().clock.steady_ns())))
-        real.later(STALL, lambda: release_after(clock, lock))
+        unpatched.later(STALL, lambda: release_after(clock, lock))
         clock.run_for(1.0)
     assert trace == [("other", 0), ("up", 0), ("slept", 50_000_000)]
     assert "waits for something outside the stepped run" in notices[0]
@@ -86,14 +86,14 @@ def test_time_stops_until_a_slow_start_reaches_its_first_wait(notices):
 
 def release_after(clock, lock):
     """Release the lock some time after the thread that waits for it was judged to be blocked."""
-    real.later(STALL, lock.release if clock.stalls else lambda: release_after(clock, lock))
+    unpatched.later(STALL, lock.release if clock.stalls else lambda: release_after(clock, lock))
 
 
 def test_signal_arrives_at_the_next_wait_however_long_the_turn_takes():
     trace = []
 
     def compute():
-        real.later(0.0, process.interrupt)
+        unpatched.later(0.0, process.interrupt)
         while not local.state.called:
             pass
         until = time.thread_time() + 0.3

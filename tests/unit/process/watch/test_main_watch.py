@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from bot_console.runtime.process import real
+from bot_console.runtime.process import unpatched
 from bot_console.runtime.process.watch import main_watch
 from bot_console.runtime.process.watch.main_watch import PERIOD_S, REPORT_S, MainWatch
 from bot_console.runtime.process.watch.processor_time import wanted_seconds
@@ -21,8 +21,8 @@ class Time:
         self.waited = 0.0
         self.next: Callable[[], None] = lambda: None
         self.reported: list[str] = []
-        patch.setattr(real, "monotonic", lambda: self.now)
-        patch.setattr(real, "later", self._later)
+        patch.setattr(unpatched, "monotonic", lambda: self.now)
+        patch.setattr(unpatched, "later", self._later)
         patch.setattr(main_watch, "ran_and_waited", lambda task: (self.ran, self.waited))
 
     def _later(self, seconds: float, action: Callable[[], None]) -> None:
@@ -65,7 +65,7 @@ def test_waiting_for_a_busy_processor_is_neither_wait_nor_computing(time: Time) 
 
 
 def test_slow_import_is_not_reported(time: Time, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(main_watch.frames, "is_importing", lambda ident: True)
+    monkeypatch.setattr(main_watch.stack_frames, "is_importing", lambda ident: True)
     MainWatch(time.reported.append).begin()
     assert time.polls(10 * POLLS, 1.0) == 0
 

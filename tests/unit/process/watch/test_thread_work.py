@@ -18,7 +18,7 @@ class Machine:
         self.children = {}
         patch.setattr(thread_work, "state_and_seconds", self.reported)
         patch.setattr(thread_work, "_read", self.read)
-        patch.setattr(thread_work.frames, "is_importing", lambda ident: self.importing)
+        patch.setattr(thread_work.stack_frames, "is_importing", lambda ident: self.importing)
         self.work = ThreadWork(7, 7)
 
     def reported(self, task):

@@ -7,7 +7,7 @@ import threading
 import time
 
 import pytest
-from bot_console.runtime.process import frames
+from bot_console.runtime.process import stack_frames
 from bot_console.runtime.process.node.running import process_of_thread
 
 LONG = 60.0
@@ -64,7 +64,7 @@ def test_trimming_keeps_causes_and_their_order():
         except KeyError as error:
             raise ValueError("outer") from error
     except ValueError as caught:
-        error = frames.trim(caught)
+        error = stack_frames.trim(caught)
     names = []
     trace = error.__cause__.__traceback__
     while trace is not None:
@@ -74,7 +74,7 @@ def test_trimming_keeps_causes_and_their_order():
 
 
 def test_library_frames_are_not_user_code():
-    assert frames.is_library(threading.__file__)
-    assert frames.is_library(pytest.__file__)
-    assert frames.is_library(frames.__file__)
-    assert not frames.is_library(__file__)
+    assert stack_frames.is_library(threading.__file__)
+    assert stack_frames.is_library(pytest.__file__)
+    assert stack_frames.is_library(stack_frames.__file__)
+    assert not stack_frames.is_library(__file__)

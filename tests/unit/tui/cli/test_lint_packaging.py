@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.workspace.package import read_package
-from bot_console.runtime.workspace.portability import obstacles, shadowed
+from bot_console.tui.cli.lint.packaging import obstacles, shadowed
 
 SETUP = """\
 from glob import glob

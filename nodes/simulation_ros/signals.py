@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import math
 
-from bot_console_robot.simulation.frames import Frames
+from bot_console_robot.simulation.frame_origins import Frames
 from bot_console_robot.simulation.geometry import Pose
 from bot_console_robot.simulation.simulation import Simulation
-from bot_console_robot.simulator.messages import MAP, ODOM, quaternion
-from bot_console_robot.simulator.models import Model
+from bot_console_robot.simulation_ros.messages import MAP, ODOM, quaternion
+from bot_console_robot.simulation_ros.models import Model
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import Quaternion, TransformStamped
 from rclpy.node import Node

@@ -7,12 +7,12 @@ from collections.abc import Iterable
 from typing import Any
 
 from bot_console_robot.common.parameters import fixed, number, plain, proposed, whole
-from bot_console_robot.simulation.frames import ORIGINS
+from bot_console_robot.simulation.frame_origins import ORIGINS
 from bot_console_robot.simulation.lidar import LidarSettings
 from bot_console_robot.simulation.odometry import OdometryNoise
 from bot_console_robot.simulation.robot import DriveLimits
 from bot_console_robot.simulation.simulation import Settings
-from bot_console_robot.simulator.models import MODELS
+from bot_console_robot.simulation_ros.models import MODELS
 from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.node import Node
 from rclpy.parameter import Parameter

@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from bot_console_robot.simulation.frames import Frames
+from bot_console_robot.simulation.frame_origins import Frames
 from bot_console_robot.simulation.geometry import Pose
 from bot_console_robot.simulation.world import World
 from bot_console_robot.simulation.world_file import parse_world

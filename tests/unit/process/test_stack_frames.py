@@ -7,10 +7,10 @@ import sys
 from collections.abc import Callable
 
 import pytest
-from bot_console.runtime.process.frames import formatted
+from bot_console.runtime.process.stack_frames import formatted
 
 UNCAUGHT = """
-from bot_console.runtime.process.frames import print_exception
+from bot_console.runtime.process.stack_frames import print_exception
 class Node:
     create_publisher = 1
 try:

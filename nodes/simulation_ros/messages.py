@@ -13,7 +13,7 @@ from bot_console_robot.simulation.geometry import Point, Pose
 from bot_console_robot.simulation.lidar import LidarSettings, Scan
 from bot_console_robot.simulation.occupancy import occupancy_grid
 from bot_console_robot.simulation.world import World
-from bot_console_robot.simulator.models import Model
+from bot_console_robot.simulation_ros.models import Model
 from builtin_interfaces.msg import Time
 from geometry_msgs.msg import PoseStamped, Quaternion
 from nav_msgs.msg import OccupancyGrid, Odometry, Path

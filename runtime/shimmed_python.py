@@ -13,11 +13,11 @@ from bot_console.runtime.children.child_discovery import let_children_meet
 from bot_console.runtime.importer import install
 from bot_console.runtime.process.crashes import explanation
 from bot_console.runtime.process.current import MAIN
-from bot_console.runtime.process.frames import trim
 from bot_console.runtime.process.notices import notify
+from bot_console.runtime.process.stack_frames import trim
 from bot_console.runtime.rmw.zenoh.domain.discovery_range import is_in_range
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import close_shared_buses, share_domains
-from bot_console.runtime.stop_file import STOP_FILE_VARIABLE, stop_file
+from bot_console.runtime.stop_file_path import STOP_FILE_VARIABLE, stop_file
 
 
 def take_over() -> None:

@@ -1,5 +1,5 @@
 import pytest
-from bot_console_robot.trip import Trip
+from bot_console_robot.trip_computer import Trip
 
 
 def test_distance_and_stops_are_counted() -> None:

@@ -3,8 +3,8 @@
 import ast
 
 import pytest
-from bot_console.runtime.workspace.setup_mistakes import first_mistake
 from bot_console.runtime.workspace.setup_py import read_setup_py
+from bot_console.runtime.workspace.setup_py_syntax import first_mistake
 
 COURSE_LINE = "(os.path.join('share', package_name, 'config'), glob('config/*.yaml')),"
 SETUP = f"""from setuptools import find_packages, setup
