@@ -29,9 +29,16 @@ def run(make_node: Callable[[], Node], args: list[str] | None) -> None:
 
 
 def _spin(make_node: Callable[[], Node], args: list[str] | None) -> None:
-    node: Node | None = None
     try:
         rclpy.init(args=args)
+        _spin_node(make_node)
+    finally:
+        rclpy.try_shutdown()
+
+
+def _spin_node(make_node: Callable[[], Node]) -> None:
+    node: Node | None = None
+    try:
         node = make_node()
         rclpy.spin(node)
     except (KeyboardInterrupt, ExternalShutdownException):
@@ -47,7 +54,6 @@ def _spin(make_node: Callable[[], Node], args: list[str] | None) -> None:
     finally:
         if node is not None:
             node.destroy_node()
-        rclpy.try_shutdown()
 
 
 def _interrupt_once() -> None:

@@ -187,8 +187,9 @@ def test_character_missing_in_the_c_locale_is_replaced(tmp_path: Path) -> None:
     ("limit", "words", "message"),
     [
         ("-v 30000", ["topic", "list"], "there is too little memory (a limit is shown by `ulimit -v`)"),
-        ("-v 30000", ["stop"], "bot-console: there is too little memory (a limit is shown by `ulimit -v`)"),
-        ("-f 0", ["up"], "not started: "),
+        ("-v 100000", ["stop"], "bot-console stop: no robot was stopped: there is too little memory"),
+        ("-v 400000", ["--headless"], "bot-console needs an address space of 500,000 KiB"),
+        ("-f 0", ["up"], "bot-console needs files of 64 KiB"),
         ("-f 0", ["export", "there"], "not exported: "),
     ],
 )

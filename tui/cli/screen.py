@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bot_console.tui.cli.arguments import Options
+from bot_console.tui.cli.machine_limits import too_few_files, too_little_address_space, too_small_files
 from bot_console.tui.console.model import Severity
 from bot_console.tui.files.folders import state_folder
 from bot_console.tui.session.embedded.child_host import start_host
@@ -43,7 +44,7 @@ HOST_LOG = "launch-host.log"
 def run(options: Options) -> int:
     """Show the console."""
     options, problem = with_launch_file(options)
-    problem = _refusal() or problem
+    problem = _refusal(options) or problem
     if problem:
         print(problem, file=sys.stderr)
         return 1
@@ -112,10 +113,12 @@ bot-console needs a terminal, and its input or output is not one. Without a term
   ssh -t HOST bot-console                open the console on another machine"""
 
 
-def _refusal() -> str:
+def _refusal(options: Options) -> str:
     if not sys.stdout.isatty() or not sys.stdin.isatty():
         return NO_TERMINAL
-    return unusable_domain() or too_few_files() or too_little_address_space()
+    if problem := unusable_domain() or too_few_files() or too_little_address_space():
+        return problem
+    return "" if options.attach else too_small_files()
 
 
 def _host(options: Options) -> Host:
@@ -157,44 +160,3 @@ def _attach_instead(there: list[str], *, robot: bool) -> bool:
     except (EOFError, KeyboardInterrupt):
         print()
         return False
-
-
-MIN_OPEN_FILES = 256
-"""A console has about 90 descriptors open, and its own start at 100."""
-MIN_ADDRESS_SPACE_KIB = 1_500_000
-"""A console reserves 1,360,000; with less, a library of numpy may end it without a word."""
-
-
-def too_few_files() -> str:
-    """Why a console cannot open enough files, in one line; raises the soft limit if that is allowed."""
-    if (maximum := _raised("RLIMIT_NOFILE", MIN_OPEN_FILES)) is None:
-        return ""
-    return f"bot-console needs {MIN_OPEN_FILES} open files, and at most {maximum} are allowed here: see `ulimit -Hn`"
-
-
-def too_little_address_space() -> str:
-    """Why a console does not fit into its address space, in one line; raises the soft limit if that is allowed."""
-    if (maximum := _raised("RLIMIT_AS", MIN_ADDRESS_SPACE_KIB * 1024)) is None:
-        return ""
-    return (
-        f"bot-console needs an address space of {MIN_ADDRESS_SPACE_KIB:,} KiB, and at most {maximum // 1024:,} are "
-        "allowed here: see `ulimit -Hv`; `bot-console stop` needs less"
-    )
-
-
-def _raised(name: str, wanted: int) -> int | None:
-    """Raise a soft limit (`RLIMIT_...`) to what is wanted, unless it is as high; returns the hard limit if that is too
-    low. Windows has no such limits.
-    """
-    if sys.platform == "win32":
-        return None
-    import resource
-
-    limit: int = getattr(resource, name)
-    now, maximum = resource.getrlimit(limit)
-    if now == resource.RLIM_INFINITY or now >= wanted:
-        return None
-    if maximum == resource.RLIM_INFINITY or maximum >= wanted:
-        resource.setrlimit(limit, (wanted, maximum))
-        return None
-    return maximum

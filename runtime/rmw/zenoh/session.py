@@ -17,6 +17,7 @@ import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from bot_console.runtime.process.machine_limits import require_address_space
 from bot_console.runtime.rmw.qos_matching import DDS, QosRules
 from bot_console.runtime.rmw.zenoh.channel_worker import MAX_WAITING_SAMPLES, drain_in_worker
 from bot_console.runtime.rmw.zenoh.declarations import (
@@ -39,6 +40,8 @@ if TYPE_CHECKING:
 
 ROLL_CALL_KEY = "@bot_console/"
 """Prefix of the token that each session declares; the first 8 digits of its id follow."""
+ADDRESS_SPACE_KIB = 100_000
+"""What Zenoh and its threads reserve (55,000), and as much for a while; it aborts the process if it gets none."""
 
 
 class SessionError(RuntimeError):
@@ -75,8 +78,9 @@ class Session(Lifetime):
     def _open(self, settings: Mapping[str, object], file: str = "", last: Iterable[tuple[str, str]] = ()) -> None:
         """Open with these settings, which override those of `file` if given; `last` (path, JSON5) overrides both.
 
-        Raises `SettingsError` and `SessionError`.
+        Raises `SettingsError`, `SessionError`, and `MemoryError` if Zenoh would not fit into the address space.
         """
+        require_address_space(ADDRESS_SPACE_KIB)
         import zenoh
 
         try:

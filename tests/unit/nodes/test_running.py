@@ -85,3 +85,12 @@ def test_node_that_cannot_start_reports_why(capfd: pytest.CaptureFixture[str]) -
         run(make, [])
     assert left.value.code == 1
     assert "no world" in capfd.readouterr().err
+
+
+def test_error_before_there_is_a_context_is_raised(monkeypatch: pytest.MonkeyPatch) -> None:
+    def init(*, args: list[str] | None) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr(rclpy, "init", init)
+    with pytest.raises(MemoryError):
+        run(Impatient, [])

@@ -22,6 +22,7 @@ from bot_console.runtime.process import MAIN, NodeProcess, on_notice, stepped
 from bot_console.runtime.stop_file_path import STOP_FILE_VARIABLE
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.interruptible_wait import wait_interruptibly
+from bot_console.tui.cli.machine_limits import no_robot_here
 from bot_console.tui.session.embedded.domain import (
     is_in_range,
     isolate_from_domain,
@@ -58,7 +59,7 @@ SLOW_START = 60.0
 def run(options: Options) -> int:
     """Run the system for a while and print the report; 1 if there is nothing to report."""
     options, problem = with_launch_file(options)
-    if problem := unusable_domain() or problem:
+    if problem := unusable_domain() or no_robot_here() or problem:
         print(problem, file=sys.stderr)
         return 1
     gc.disable()  # What is imported stays: traversing it again and again takes a tenth of the start.

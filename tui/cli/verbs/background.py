@@ -21,6 +21,7 @@ from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
 from bot_console.runtime.stop_file_path import stop_file
 from bot_console.tui.child_command import child_command
 from bot_console.tui.cli.arguments import parse
+from bot_console.tui.cli.machine_limits import no_robot_here
 from bot_console.tui.cli.verbs import stop
 from bot_console.tui.cli.verbs.router import add_serving_options, serving_of, warning_of
 from bot_console.tui.cli.verbs.stop import holders
@@ -82,6 +83,9 @@ def up(words: Sequence[str]) -> int:
     if options.fast:
         print("a system in the background runs in real time: leave --fast out", file=sys.stderr)
         return 2
+    if problem := no_robot_here():
+        print(problem, file=sys.stderr)
+        return 1
     report_unused_router()
     alone = take_part() or _unreachable()
     options, problem = with_launch_file(options)

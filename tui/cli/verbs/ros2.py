@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
+from bot_console.tui.cli.machine_limits import no_node_here
 from bot_console.tui.session.embedded.domain import take_part
 from bot_console.tui.session.embedded.reaching import reach_system, reach_when_asked, report_unused_router
 
@@ -45,6 +46,9 @@ def taking_part(words: Sequence[str]) -> int:
 
 def launch(words: Sequence[str]) -> int:
     """Run a launch file in the domain that the environment names; a user's nodes get their own processes."""
+    if problem := no_node_here():
+        print(problem, file=sys.stderr)
+        return 1
     from bot_console.tui.session.embedded.early_fork_server import prefork
 
     prefork(words)

@@ -6,6 +6,7 @@ import argparse
 import sys
 
 from bot_console.tui.cli.arguments import SIMULATOR_HELP, Options
+from bot_console.tui.cli.machine_limits import no_node_here
 from bot_console.tui.cli.programs import program
 from bot_console.tui.cli.verbs import ros2
 from bot_console.tui.session.embedded.domain import take_part
@@ -28,7 +29,7 @@ def run(words: list[str]) -> int:
     if not (given.watch or given.headless):
         from bot_console.runtime.programs.run import main
 
-        problem = reach_system() if named_routers() else take_part()
+        problem = no_node_here() or (reach_system() if named_routers() else take_part())
         if problem:
             print(problem, file=sys.stderr)
             return 1
@@ -53,7 +54,7 @@ def run(words: list[str]) -> int:
 def _prefixed(prefix: str, words: list[str]) -> int:
     """Run an executable behind a command prefix, in its own process."""
     report_unused_router()
-    problem = take_part()
+    problem = no_node_here() or take_part()
     if problem:
         print(problem, file=sys.stderr)
         return 1

@@ -8,7 +8,7 @@ import time
 from typing import TYPE_CHECKING
 
 from bot_console.runtime.importer import install
-from bot_console.runtime.programs.exit_messages import ended_code
+from bot_console.runtime.programs.exit_messages import ended_code, place_fault
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.console.robot.stop_holders import with_gone
 from bot_console.tui.format import sanitize
@@ -18,6 +18,7 @@ from bot_console.tui.session.reached_stop import ReachedStop
 if TYPE_CHECKING:
     from bot_console.tui.console.robot.stop_link import StopInfo
 
+DONE = {"stop": "stopped", "release": "released"}
 HOLDER_TIMEOUT_S = 3.0
 """Seconds to find out who holds a robot, and to stop one that is ended in any case."""
 MAX_ROBOT_POLLS = 30
@@ -54,6 +55,9 @@ def run(verb: str, words: list[str]) -> int:
     except BaseException as error:
         if ended_code(error):
             print(f"bot-console {verb} was ended before a robot answered", file=sys.stderr)
+        elif why := place_fault(error):
+            print(f"bot-console {verb}: no robot was {DONE[verb]}: {why}", file=sys.stderr)
+            return 1
         raise
     return _report(verb, done, info)
 

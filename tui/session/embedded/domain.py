@@ -213,10 +213,12 @@ def domain() -> int:
 
 
 def begin_program() -> None:
-    """Prepare the environment of the process, before it starts others."""
+    """Prepare the process and its environment, before it starts threads and other processes."""
     from bot_console.runtime.children.ros_wheels import clear_wheel_environment
+    from bot_console.runtime.process.machine_limits import reserve_little_address_space
 
     clear_wheel_environment()
+    reserve_little_address_space()
 
 
 def end_program(code: int) -> NoReturn:

@@ -1,0 +1,51 @@
+"""Why a program does not fit into the limits of this machine (`ulimit`), in one line that says what to do."""
+
+from __future__ import annotations
+
+from bot_console.runtime.process.machine_limits import hard_limit_below
+
+MIN_OPEN_FILES = 256
+"""A console has about 90 descriptors open, and its own start at 100."""
+MIN_ADDRESS_SPACE_KIB = 500_000
+"""A console reserves 335,000 where its address space is limited, and its launch host, or a robot, 320,000."""
+MIN_NODE_ADDRESS_SPACE_KIB = 150_000
+"""A small node reserves 85,000; the session of its context requires more to be left (`Session`)."""
+MIN_FILE_SIZE_KIB = 64
+"""The files of parameters that a launch writes have less. Logs that do not fit are reported, and end nothing."""
+
+
+def too_few_files() -> str:
+    """Why a console cannot open enough files; raises the soft limit if that is allowed."""
+    if (maximum := hard_limit_below("RLIMIT_NOFILE", MIN_OPEN_FILES)) is None:
+        return ""
+    return f"bot-console needs {MIN_OPEN_FILES} open files, and at most {maximum} are allowed here: see `ulimit -Hn`"
+
+
+def too_little_address_space(kib: int = MIN_ADDRESS_SPACE_KIB) -> str:
+    """Why a console or a robot does not fit into its address space; raises the soft limit if that is allowed."""
+    if (maximum := hard_limit_below("RLIMIT_AS", kib * 1024)) is None:
+        return ""
+    return (
+        f"bot-console needs an address space of {kib:,} KiB, and at most {maximum // 1024:,} are "
+        "allowed here: see `ulimit -Hv`; `bot-console stop` needs less"
+    )
+
+
+def too_small_files() -> str:
+    """Why a robot cannot write its files; raises the soft limit if that is allowed."""
+    if (maximum := hard_limit_below("RLIMIT_FSIZE", MIN_FILE_SIZE_KIB * 1024)) is None:
+        return ""
+    return (
+        f"bot-console needs files of {MIN_FILE_SIZE_KIB} KiB to start a robot, and at most {maximum // 1024} KiB are "
+        "allowed here: see `ulimit -Hf`"
+    )
+
+
+def no_node_here() -> str:
+    """Why not even a small node can be started within the limits of this machine."""
+    return too_little_address_space(MIN_NODE_ADDRESS_SPACE_KIB)
+
+
+def no_robot_here() -> str:
+    """Why a robot cannot be started within the limits of this machine."""
+    return too_little_address_space() or too_small_files()
