@@ -115,6 +115,8 @@ class LocalBus:
         """Whether a publisher and a subscription match; notifies both."""
         if publisher.endpoint.type_name != subscription.endpoint.type_name:
             return False
+        if hasattr(publisher.endpoint.message_class, "_given_digest") and not subscription.raw:
+            return False  # it has bytes only, of a type that this subscription has learned since
         policy = self.rules.incompatible_policy(publisher.endpoint.qos, subscription.endpoint.qos)
         if policy:
             publisher.on_event("incompatible", policy)

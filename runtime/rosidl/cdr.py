@@ -40,14 +40,18 @@ def deserialize(data: bytes | bytearray | memoryview, message_class: Any) -> Any
 
 
 @cache
-def _writer(cls: object) -> Callable[[Any], bytes]:
+def _writer(cls: Any) -> Callable[[Any], bytes]:
+    if hasattr(cls, "_given_digest"):  # a class without fields, of `generic.py`
+        return cls._to_bytes
     from bot_console.runtime.rosidl.cdr_write import writer
 
     return writer(cls)
 
 
 @cache
-def _reader(cls: object, order: str) -> Callable[[bytes], Any]:
+def _reader(cls: Any, order: str) -> Callable[[bytes], Any]:
+    if hasattr(cls, "_given_digest"):
+        return cls
     from bot_console.runtime.rosidl.cdr_read import reader
 
     return reader(cls, order)

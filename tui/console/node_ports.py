@@ -24,7 +24,7 @@ from bot_console.tui.console.sensors.node_sensors import NodeSensors
 from bot_console.tui.console.topics.node_topics import NodeTopics
 
 if TYPE_CHECKING:
-    from bot_console.tui.console.bags.port import Keeper
+    from bot_console.tui.console.bags.port import GenericTypes, Keeper
     from bot_console.tui.console.graph.type_discovery import TypeSource
     from bot_console.tui.console.launch.port import Launcher
     from bot_console.tui.console.robot.drive_node import DriveNode
@@ -45,6 +45,7 @@ class NodePorts:
         link: Callable[[], LinkInfo],
         buffer: Keeper | None,
         types: TypeSource | None,
+        generic: GenericTypes | None,
         processes: Callable[[], Mapping[int, Sequence[str]]],
         elsewhere: Elsewhere,
     ) -> None:
@@ -80,7 +81,7 @@ class NodePorts:
             self.gate, self.parameters, lambda: self.topics.request("/reset", "std_srvs/srv/Trigger", {})
         )
         self.sensors = NodeSensors(self.gate, lambda: self.graph.info)
-        self.bags = NodeBags(self.gate, buffer)
+        self.bags = NodeBags(self.gate, buffer, generic)
         self.launcher: Launcher | None = None
         self._by_path: tuple[object, dict[str, str]] = (), {}
         self._snapshot = ConsoleSnapshot(capabilities=capabilities)

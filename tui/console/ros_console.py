@@ -19,7 +19,7 @@ from bot_console.tui.console.model import Capabilities, LaunchInfo, LinkInfo, Se
 from bot_console.tui.console.node_ports import LABEL, NodePorts
 
 if TYPE_CHECKING:
-    from bot_console.tui.console.bags.port import Keeper
+    from bot_console.tui.console.bags.port import GenericTypes, Keeper
     from bot_console.tui.console.graph.type_discovery import TypeSource
     from bot_console.tui.console.graph.watch import GraphEvents, HaltedNodes
     from bot_console.tui.console.node import ConsoleNode
@@ -57,6 +57,7 @@ class RosConsole(NodePorts):
         buffer: Keeper | None = None,
         halted: HaltedNodes | None = None,
         types: TypeSource | None = None,
+        generic: GenericTypes | None = None,
         stop_means: Sequence[ConfiguredMeans] = (),
         expected: str = "",
         processes: Callable[[], Mapping[int, Sequence[str]]] = dict,
@@ -69,9 +70,10 @@ class RosConsole(NodePorts):
         local copy of a remote parameter file, or raises `OSError`; it may run in any thread.
 
         `link` returns the state of the network; `foreign`: see `ConsoleNode`; `buffer` keeps the last minutes; `halted`
-        returns nodes of stopped processes; `types` builds missing message types; `stop_means` stop robots without lock;
-        `expected` is the path of a file with the rates that topics should have; `processes` returns the nodes of
-        programs on this machine, by pid; `elsewhere` searches for those started in other terminals.
+        returns nodes of stopped processes; `types` builds missing message types, `generic` records those without a
+        definition; `stop_means` stop robots without lock; `expected` is the path of a file with the rates that topics
+        should have; `processes` returns the nodes of programs on this machine, by pid; `elsewhere` searches for those
+        started in other terminals.
         """
         super().__init__(
             self._connect_robot,
@@ -80,6 +82,7 @@ class RosConsole(NodePorts):
             link=link,
             buffer=buffer,
             types=types,
+            generic=generic,
             processes=processes,
             elsewhere=elsewhere or Elsewhere(),
         )

@@ -75,6 +75,7 @@ class Connected:
             fetch=fetched,
             buffer=buffer,
             types=DomainTypes(),
+            generic=DomainTypes(),
             stop_means=settings.stop_means,
             expected=settings.expected,
             processes=node_processes,

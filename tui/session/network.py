@@ -47,6 +47,7 @@ def run_network(options: AttachOptions) -> int:
         foreign=True,
         halted=halted_nodes,
         types=DomainTypes(),
+        generic=DomainTypes(),
         stop_means=settings.stop_means,
         expected=settings.expected,
     )

@@ -112,17 +112,19 @@ def test_verb_reads_messages_by_definition_from_their_node_unless_hash_differs(e
     assert "/painter describes it by a definition that does not have the hash RIHS01_" in untrue.stderr
 
 
-def test_bag_records_foreign_types_and_names_topics_that_it_could_not_record(elsewhere: Path) -> None:
+def test_bag_records_foreign_types_and_names_topics_without_definition_or_publisher(elsewhere: Path) -> None:
     while "/spots" not in typed(elsewhere, "topic", "list").stdout:
         pass
     topics = "/spots", "/false_spots", "/nowhere"
     recorded = typed(elsewhere, "bag", "record", "-o", "bag", "--duration", "4", *topics)
     assert recorded.returncode == 0, recorded.stderr
     ended = recorded.stderr.splitlines()[-1]
-    assert "/false_spots was not recorded: its type false_shapes/msg/Spot is not available here" in ended
+    assert "/false_spots was recorded without a definition" in ended
+    assert "'/false_spots' is recorded without a definition: its type false_shapes/msg/Spot is not" in recorded.stderr
     assert "/nowhere was not recorded: nobody has published it" in ended and "/spots was" not in ended.split("; ")
     shown = typed(elsewhere, "bag", "info", "bag").stdout
-    assert "Topic: /spots | Type: told_shapes/msg/Path" in shown and "false_spots" not in shown
+    assert "Topic: /spots | Type: told_shapes/msg/Path" in shown
+    assert "Topic: /false_spots | Type: false_shapes/msg/Spot" in shown
 
 
 def test_verbs_send_goals_requests_and_messages_of_foreign_types(elsewhere: Path) -> None:

@@ -106,6 +106,7 @@ def _prepare(given: argparse.Namespace) -> tuple[Node, Player] | int:
     from bot_console.tui.console.bags.qos import read_overrides
     from bot_console.tui.console.bags.reader import Bag
     from bot_console.tui.console.bags.together import BagsTogether
+    from bot_console.tui.session.embedded.hooks import DomainTypes
     from rclpy.logging import LoggingSeverity
 
     if wrong := wrong_play(given):
@@ -140,7 +141,7 @@ def _prepare(given: argparse.Namespace) -> tuple[Node, Player] | int:
         clock=given.clock,
         clock_topics=None if given.clock_topics_all else given.clock_topics,
     )
-    player = Player(node, bag, how, class_of)
+    player = Player(node, bag, how, class_of, DomainTypes())
     for name, why in player.unknown.items():
         node.get_logger().warning(f"Topic '{name}' is not played: {why}")
     if player.left_out:

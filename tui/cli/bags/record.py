@@ -40,7 +40,7 @@ def record(given: argparse.Namespace) -> int:
     node = make_node(given.node_name)
     if node is None:
         return 1
-    from bot_console.tui.console.bags.recorder import Ring, not_recorded
+    from bot_console.tui.console.bags.recorder import Ring, remarks
     from bot_console.tui.console.bags.writer import BagWriter
     from rclpy.logging import LoggingSeverity
 
@@ -58,8 +58,8 @@ def record(given: argparse.Namespace) -> int:
         print(f"{bag.metadata.count} messages of {len(bag.metadata.topics)} topics in {folder}", file=sys.stderr)
     named = (f"/{each.lstrip('/')}" for each in (*given.topics, *given.topics_positional))
     absent = {each: "nobody has published it" for each in named if each not in recorder.subscribed}
-    if missing := not_recorded({**absent, **recorder.unknown}):
-        print(sanitize(missing), file=sys.stderr)
+    if lacking := remarks({**absent, **recorder.unknown}, recorder.generic):
+        print(sanitize(lacking), file=sys.stderr)
     return 0
 
 
@@ -75,12 +75,13 @@ def _writing(given: argparse.Namespace) -> Any:
 
 def _recorder(given: argparse.Namespace, node: Node, sink: Any) -> Recorder:
     from bot_console.tui.console.bags.recorder import Recorder
+    from bot_console.tui.session.embedded.hooks import DomainTypes
 
     wanted = wanted_topics(
         given, lambda topic: node.count_publishers(topic) > 0, lambda topic: node.count_subscribers(topic) > 0
     )
     poll_s = float("inf") if given.no_discovery else given.polling_interval / 1000
-    made = Recorder(node, sink, wanted, _Types(), poll_s=poll_s, sim_time=given.use_sim_time)
+    made = Recorder(node, sink, wanted, _Types(), poll_s=poll_s, sim_time=given.use_sim_time, generic=DomainTypes())
     made.paused = given.start_paused
     return made
 
@@ -124,6 +125,8 @@ def _serve(given: argparse.Namespace, node: Node, recorder: Recorder, bag: BagWr
     def report() -> None:
         for name in recorder.subscribed.keys() - reported:
             logger.info(f"Subscribed to topic '{name}'")
+            if name in recorder.generic:
+                logger.warning(f"Topic '{name}' is recorded without a definition: {recorder.generic[name]}")
         for name in recorder.unknown.keys() - reported:
             logger.warning(f"Topic '{name}' is not recorded: {recorder.unknown[name]}")
         reported.update(recorder.subscribed, recorder.unknown)

@@ -71,6 +71,7 @@ def _open(given: argparse.Namespace) -> int:
     from bot_console.tui.console.bags.opened_bag import OpenedBag
     from bot_console.tui.console.bags.playing.bag_playback import BagPlayback
     from bot_console.tui.console.bags.reader import Bag
+    from bot_console.tui.session.embedded.hooks import DomainTypes
 
     bag = Bag(given.bag)
     play.report_repaired(bag)
@@ -80,7 +81,7 @@ def _open(given: argparse.Namespace) -> int:
     options = parse([])
     notes = [f"{each} is not shown: the bag is too large" for each in contents.left_out]
     notes += [contents.damage] if contents.damage else []
-    playback = BagPlayback(bag, join_domain)
+    playback = BagPlayback(bag, join_domain, DomainTypes())
     try:
         app = BagApp(
             console, opening=options.opening._replace(notes=tuple(notes)), appearance=appearance_of(options),

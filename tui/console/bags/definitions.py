@@ -16,7 +16,9 @@ NAMES = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "floa
 
 
 def definition(kind: Any) -> str:
-    """The definition of a message class, followed by all types it uses."""
+    """The definition of a message class, followed by all types it uses; empty if nothing is known of its fields."""
+    if getattr(kind, "get_fields_and_field_types", None) is None:
+        return ""
     parts = [f"{_fields(kind)}"]
     parts += [f"{BORDER}\nMSG: {name}\n{_fields(each)}" for name, each in _needed(kind, {})]
     return "\n".join(parts)

@@ -7,7 +7,7 @@ from concurrent.futures import Future
 from typing import TYPE_CHECKING
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.bags.port import Keeper, RecordingInfo
+from bot_console.tui.console.bags.port import GenericTypes, Keeper, RecordingInfo
 from bot_console.tui.console.command_gate import Gate, done
 
 if TYPE_CHECKING:
@@ -19,17 +19,18 @@ NOTHING_RECORDED = RecordingInfo()
 class NodeBags:
     """Records all topics; a bag changes nothing in the system, so that a read-only console records too."""
 
-    def __init__(self, gate: Gate, buffer: Keeper | None = None) -> None:
-        """`buffer` keeps the last minutes; None: they are not kept."""
+    def __init__(self, gate: Gate, buffer: Keeper | None = None, generic: GenericTypes | None = None) -> None:
+        """`buffer` keeps the last minutes; None: they are not kept. `generic`: for types without a definition here."""
         self._gate = gate
         self._buffer = buffer
+        self._generic = generic
         self._recordings: Recordings | None = None
 
     def attach(self) -> None:
         """The system has been reached."""
         from bot_console.tui.console.bags.recordings import Recordings
 
-        self._recordings = Recordings(self._buffer)
+        self._recordings = Recordings(self._buffer, self._generic)
 
     @property
     def info(self) -> RecordingInfo:

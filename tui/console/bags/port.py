@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from concurrent.futures import Future
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 from bot_console.tui.console.answer import Answer
 
@@ -37,6 +37,18 @@ class Keeper(Protocol):
 
     def keep(self, folder: str) -> Future[Answer]:
         """Save them as a new bag, and continue keeping."""
+        ...
+
+
+class GenericTypes(Protocol):
+    """What rclpy cannot do: receive the bytes of messages whose type has no definition here."""
+
+    def generic_class(self, type_name: str, type_hash: str) -> Any:
+        """A class by which they are received and published; raises `ValueError` if there is none."""
+        ...
+
+    def type_hash(self, kind: Any) -> str:
+        """The hash of a message class; empty if messages pass whatever it is."""
         ...
 
 

@@ -8,6 +8,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, Protocol
 
+from bot_console.tui.console.bags.port import GenericTypes
 from bot_console.tui.console.bags.qos import noted
 from bot_console.tui.console.bags.sim_time import SimTime
 from bot_console.tui.console.offered_qos import OfferedSubscription
@@ -45,9 +46,14 @@ class Sink(Protocol):
         ...
 
 
-def not_recorded(unknown: Mapping[str, str]) -> str:
-    """The topics that are missing in a bag, each with the reason; empty if none is."""
-    return "; ".join(f"{name} was not recorded: {why}" for name, why in sorted(unknown.items()))
+UNAVAILABLE = (ImportError, AttributeError, ValueError)
+"""What is raised for a type, or a type it contains, that is not available here."""
+
+
+def remarks(unknown: Mapping[str, str], generic: Iterable[str]) -> str:
+    """What a bag lacks: topics, each with the reason, and definitions; empty if it lacks nothing."""
+    missing = [f"{name} was not recorded: {why}" for name, why in sorted(unknown.items())]
+    return "; ".join([*missing, *(f"{name} was recorded without a definition" for name in sorted(generic))])
 
 
 class Recorder:
@@ -66,10 +72,13 @@ class Recorder:
         *,
         poll_s: float = TOPIC_POLL_S,
         sim_time: bool = False,
+        generic: GenericTypes | None = None,
+        definition_timeout_s: float = 0.0,
     ) -> None:
         """`wanted` says whether a topic of some types is to be recorded, and is asked every `poll_s` seconds.
 
-        `find` returns the class of a type name, and raises `ImportError` and the like if there is none. With
+        `find` returns the class of a type name, and raises `ImportError` and the like if there is none. If there still
+        is none after `definition_timeout_s`, the topic is recorded without a definition, by a class of `generic`. With
         `sim_time`, messages are stamped with the time of /clock, and those before its first message are discarded.
         """
         self._node = node
@@ -80,11 +89,17 @@ class Recorder:
         self._polled, self._flushed = -math.inf, time.monotonic()
         self._last = 0
         self._sim_time = SimTime(node) if sim_time else None
+        self._generic = generic
+        self._definition_timeout_s = definition_timeout_s
+        self._searched: dict[str, float] = {}
+        """Since when (monotonic s) a type that is not available here has been wanted."""
         self.paused = False
         """Whether messages are discarded instead of recorded."""
         self.subscribed: dict[str, OfferedSubscription] = {}
         self.unknown: dict[str, str] = {}
         """Topics that cannot be recorded for now, and why: a type may become known later."""
+        self.generic: dict[str, str] = {}
+        """Topics that are recorded without a definition, and why."""
         self.turn()
 
     def close(self) -> None:
@@ -132,16 +147,42 @@ class Recorder:
             self.unknown[name] = f"it has several types: {', '.join(types)}"
             return
         offers = self._node.get_publishers_info_by_topic(name)
+        type_hash = _hash(offers)
+        qos = noted(each.qos_profile for each in offers)
         try:
-            kind = self._find(types[0])
-            self._sink.topic(name, kind, noted(each.qos_profile for each in offers), _hash(offers))
-        except (ImportError, AttributeError, ValueError) as error:  # of the type itself or of a type it contains
-            self.unknown[name] = f"its type {types[0]} is not available here ({error})"
-            return
+            kind = self._found(types[0], type_hash)
+            self._sink.topic(name, kind, qos, type_hash)
+        except UNAVAILABLE as error:
+            why = f"its type {types[0]} is not available here ({error})"
+            kind = self._without_definition(types[0], type_hash)
+            if kind is None:
+                self.unknown[name] = why
+                return
+            self._sink.topic(name, kind, qos, type_hash)
+            self.generic[name] = why
         self.unknown.pop(name, None)
         self.subscribed[name] = OfferedSubscription(
             self._node, kind, name, _nobody, BEST, eager=False, once_weak=True, raw=True
         )
+
+    def _found(self, type_name: str, type_hash: str) -> Any:
+        """The class of a type; raises `UNAVAILABLE` if there is none by which the messages would be received."""
+        kind = self._find(type_name)
+        here = self._generic.type_hash(kind) if self._generic is not None and type_hash else ""
+        if here and here != type_hash:
+            raise ValueError(f"it is defined otherwise than by {type_hash}")
+        return kind
+
+    def _without_definition(self, type_name: str, type_hash: str) -> Any:
+        """The class by which messages of a type are recorded as they are; None if there is none yet."""
+        now = time.monotonic()
+        waited = now - self._searched.setdefault(type_name, now)
+        if self._generic is None or not type_hash or waited < self._definition_timeout_s:
+            return None
+        try:
+            return self._generic.generic_class(type_name, type_hash)
+        except ValueError:
+            return None
 
 
 def in_order(found: Iterable[tuple[int, str, bytes]], now: int, last: int) -> Iterator[tuple[int, str, bytes, int]]:

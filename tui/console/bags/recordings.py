@@ -5,15 +5,15 @@ from __future__ import annotations
 import queue
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from typing import Any
 
 import rclpy
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.missing_packages import Missing
-from bot_console.tui.console.bags.port import Keeper, RecordingInfo
-from bot_console.tui.console.bags.recorder import CLOCK, PACE_S, Recorder, not_recorded
+from bot_console.tui.console.bags.port import GenericTypes, Keeper, RecordingInfo
+from bot_console.tui.console.bags.recorder import CLOCK, PACE_S, Recorder, remarks
 from bot_console.tui.console.bags.recording_sinks import BagSink
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.console.command_gate import done
@@ -22,6 +22,10 @@ from rclpy.context import Context
 from rosidl_runtime_py.utilities import get_message
 
 NAME = "_bot_console_recorder"
+DEFINITION_TIMEOUT_S = 3.0
+"""Seconds for which a topic waits for the definition of its type, which the Topics pane requests from the nodes; then
+it is recorded without.
+"""
 CLOSING = 3.0
 """Seconds that a bag may take to be finished when the console ends."""
 
@@ -29,9 +33,13 @@ CLOSING = 3.0
 class Recordings:
     """Records all topics; its methods may be called from any thread."""
 
-    def __init__(self, buffer: Keeper | None = None) -> None:
-        """`buffer` keeps the last minutes; None: they are not kept. The node is created when recording first starts."""
+    def __init__(self, buffer: Keeper | None = None, generic: GenericTypes | None = None) -> None:
+        """`buffer` keeps the last minutes; None: they are not kept. `generic`: for types without a definition here.
+
+        The node is created when recording first starts.
+        """
         self._buffer = buffer
+        self._generic = generic
         self._sink = BagSink()
         self._recorder: Recorder | None = None
         """Exists in the recorder's thread while a bag is recorded."""
@@ -84,8 +92,9 @@ class Recordings:
                 return Answer(False, self._sink.problem or "nothing is being recorded")
             about = writer.metadata
             recorded = f"{about.count} messages of {len(about.topics)} topics in {writer.folder}"
-            missing = not_recorded(self._missing)
-            return Answer(True, f"{recorded}; {missing}" if missing else recorded)
+            recorder = self._recorder
+            lacking = remarks(recorder.unknown, recorder.generic) if recorder else ""
+            return Answer(True, f"{recorded}; {lacking}" if lacking else recorded)
 
         return self._order(end)
 
@@ -130,7 +139,11 @@ class Recordings:
                     self._recorder.turn() if wanted else self._recorder.close()
                     self._recorder = self._recorder if wanted else None
                 elif wanted:
-                    self._recorder = Recorder(node, self._sink, lambda name, _: name != CLOCK, get_message)
+                    self._recorder = Recorder(
+                        *(node, self._sink, _is_recorded, get_message),
+                        generic=self._generic,
+                        definition_timeout_s=DEFINITION_TIMEOUT_S,
+                    )
                 self._obey()  # after the turn, so that a bag which is closed now contains everything that came before
             if self._recorder is not None:
                 self._recorder.close()
@@ -161,3 +174,7 @@ class Recordings:
                 future.set_result(Answer(False, "the console has closed") if self._closing.is_set() else work())
             except Exception as error:  # the thread's outermost frame: report it to the requester
                 future.set_result(Answer(False, f"{type(error).__name__}: {error}"))
+
+
+def _is_recorded(topic: str, types: Sequence[str]) -> bool:
+    return topic != CLOCK

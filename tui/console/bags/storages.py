@@ -24,11 +24,16 @@ insert into schema values (4, 'jazzy');
 """Version 4, which Jazzy writes."""
 
 
+def encoding_of(definition: str) -> str:
+    """The encoding of a definition; empty without one, as rosbag2 and MCAP have it."""
+    return "ros2msg" if definition else ""
+
+
 class Storage(Protocol):
     """A file being written; every method may raise `OSError`."""
 
     def topic(self, topic: Topic, definition: str) -> None:
-        """Add a topic, with the definition of its type in the encoding `ros2msg`."""
+        """Add a topic, with the definition of its type in the encoding `ros2msg`, or none."""
         ...
 
     def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
@@ -61,7 +66,8 @@ class McapStorage:
     def topic(self, topic: Topic, definition: str) -> None:
         """Add a topic."""
         if topic.type not in self._schemas:
-            self._schemas[topic.type] = self._writer.register_schema(topic.type, "ros2msg", definition.encode())
+            encoding = encoding_of(definition)
+            self._schemas[topic.type] = self._writer.register_schema(topic.type, encoding, definition.encode())
         facts = {"offered_qos_profiles": metadata_yaml(topic.qos), "topic_type_hash": topic.type_hash}
         self._channels[topic.name] = self._writer.register_channel(
             topic=topic.name, message_encoding=topic.encoding, schema_id=self._schemas[topic.type], metadata=facts
@@ -105,9 +111,9 @@ class SqliteStorage:
             self._types.add(topic.type)
             asked = (
                 "insert into message_definitions (topic_type, encoding, encoded_message_definition, "
-                "type_description_hash) values (?, 'ros2msg', ?, ?)"
+                "type_description_hash) values (?, ?, ?, ?)"
             )
-            self._do(asked, topic.type, definition, topic.type_hash)
+            self._do(asked, topic.type, encoding_of(definition), definition, topic.type_hash)
 
     def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
         """Add a message; the time of sending is not kept."""

@@ -10,14 +10,27 @@ from bot_console.runtime.files.remote_parameters import local_copy
 from bot_console.runtime.interfaces.type_inquiry import inquiries
 from bot_console.runtime.process.virtual.install import reinstall_stdio
 from bot_console.runtime.rmw.middleware import bus_of
+from bot_console.runtime.rosidl.generic import generic_class
+from bot_console.runtime.rosidl.type_hash import text
 
 
 class DomainTypes:
-    """A `TypeSource`: makes interfaces from the definitions that nodes send, for types that the console lacks."""
+    """A `TypeSource`: makes interfaces from the definitions that nodes send, for types that the console lacks.
+
+    Also `GenericTypes`, for recording and playing messages of types without a definition.
+    """
 
     def inquiries(self, domain: int, type_name: str) -> Mapping[str, Generator[tuple[str, str], Any, str]]:
         """The queries to send for a type, by node of another process that can be asked."""
         return inquiries(domain, type_name)
+
+    def generic_class(self, type_name: str, type_hash: str) -> Any:
+        """A class for messages of which only the bytes are known; raises `ValueError` for an invalid name or hash."""
+        return generic_class(type_name, type_hash)
+
+    def type_hash(self, kind: Any) -> str:
+        """The hash of a message class, without which no message of another definition is received."""
+        return text(kind)
 
 
 def graph_events(domain: int, changed: Callable[[tuple[str, str]], None]) -> Callable[[], None]:

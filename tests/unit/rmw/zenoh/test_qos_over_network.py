@@ -3,10 +3,8 @@
 The other side is a bare session that declares the tokens of captured nodes of rmw_zenoh_cpp and sends as they do.
 """
 
-import json
 import threading
 import time
-from pathlib import Path
 
 import pytest
 import rclpy
@@ -15,61 +13,24 @@ from bot_console.runtime.rmw.middleware import choose_middleware
 from bot_console.runtime.rmw.qos_matching import DDS, RMW_ZENOH
 from bot_console.runtime.rmw.zenoh.bus import ZenohBus
 from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession
-from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
+from bot_console.runtime.rmw.zenoh.network.client import Way
 from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.settings import Serving
-from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of, pack, unpack
-from bot_console.runtime.rmw.zenoh.wire.keys import data_key
-from bot_console.runtime.rmw.zenoh.wire.tokens import parse_token
 from bot_console.tui.console.graph.pairs import unheard
 from bot_console.tui.session.embedded.connecting import connect
+from processes.captured_node import CapturedNode
 from processes.ports import free_port
 from rcl_interfaces.msg import Log
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from rclpy.serialization import serialize_message
 from std_msgs.msg import String
 
-CAPTURE = Path(__file__).parents[3] / "captures" / "rmw_zenoh_cpp-0.2.10-jazzy.json"
-BASE = "/%/%/base/"
 BEST_EFFORT, VOLATILE = "2::,5:,:,:,,", "::,10:,:,:,,"
 TIMEOUT_S, POLL_S = 20.0, 0.02
 MANY = 900
 LATCHED = QoSProfile(depth=1000, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 WEAK = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
-
-
-def captured(kind, topic):
-    """The token of the captured node `base` for a publisher (MP) or subscription (MS)."""
-    tokens = json.loads(CAPTURE.read_text(encoding="utf-8"))["tokens"]
-    return next(each for each in tokens if f"/{kind}{BASE}{topic.replace('/', '%')}/" in each)
-
-
-class RealNode:
-    """An endpoint of the captured node, on a session of its own."""
-
-    def __init__(self, way, kind, topic, *, qos=None, cache=0):
-        self.session = open_network_session(0, way)
-        parts = captured(kind, topic).split("/")
-        parts[2] = self.session.zid
-        parts[12] = qos or parts[12]
-        self.token = parse_token("/".join(parts))
-        key = data_key(0, topic, self.token.type_name, self.token.type_hash)
-        self.heard = []
-        if kind == "MP":
-            self.publisher = self.session.declare_publisher(key, cache=cache)
-        else:
-            self.session.declare_subscriber(key, lambda data, attachment: self.heard.append(unpack(attachment, data)))
-        self.session.declare_token(self.token.key)
-        self.number = 0
-
-    def send(self, message, stamp=None):
-        """Publish a message, which was sent at `stamp` (ns)."""
-        data = serialize_message(message)
-        self.number += 1
-        stamp = time.time_ns() if stamp is None else stamp
-        self.publisher.put(data, pack(self.number, stamp, gid_of(self.token.key), data))
 
 
 @pytest.fixture
@@ -85,7 +46,7 @@ def real(way):
     made = []
 
     def make(*what, **how):
-        made.append(RealNode(way, *what, **how))
+        made.append(CapturedNode(way, *what, **how))
         return made[-1]
 
     yield make
@@ -169,7 +130,7 @@ def test_a_log_longer_ago_than_its_lifespan_is_received(real, console):
 def test_a_served_robot_keeps_the_rules_of_its_domain_within_and_those_of_rmw_zenoh_behind_its_router(socket_folder):
     serving = Serving((f"tcp/127.0.0.1:{free_port()}",))
     robot, beside = MeshSession(0, serving), MeshSession(0)
-    listener = RealNode(Way(serving.endpoints), "MS", "/tl_sub")
+    listener = CapturedNode(Way(serving.endpoints), "MS", "/tl_sub")
     bus = ZenohBus(robot, LocalBus())
     choose_middleware(lambda domain: bus)
     context = Context()

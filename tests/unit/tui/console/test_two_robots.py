@@ -235,7 +235,7 @@ def test_choosing_a_robot_changes_control_and_view_together() -> None:
     context.init([], domain_id=unused_domain())
     ports = NodePorts(
         lambda: DriveNode(context, lambda error: None), Capabilities(), launch_info=LaunchInfo, link=LinkInfo,
-        buffer=None, types=None, processes=dict,
+        buffer=None, types=None, generic=None, processes=dict,
         elsewhere=Elsewhere(),
     )  # fmt: skip
     robot = ports.drive.connect()

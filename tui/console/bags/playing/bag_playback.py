@@ -11,6 +11,7 @@ from bot_console.tui.console.bags.definitions import class_of
 from bot_console.tui.console.bags.playing.control_topics import left_out_warning
 from bot_console.tui.console.bags.playing.playback import PlaybackState
 from bot_console.tui.console.bags.playing.player import MAX_RATE, MIN_RATE, Player, Playing
+from bot_console.tui.console.bags.port import GenericTypes
 from bot_console.tui.console.bags.reader import Bag
 
 CLOSING_S = 3.0
@@ -20,9 +21,13 @@ CLOSING_S = 3.0
 class BagPlayback:
     """A `Playback`. Before it publishes anything, it only remembers where to begin."""
 
-    def __init__(self, bag: Bag, join: Callable[[], Any]) -> None:
-        """`join` returns a node in the domain, or a text that says why there is none."""
+    def __init__(self, bag: Bag, join: Callable[[], Any], generic: GenericTypes | None = None) -> None:
+        """`join` returns a node in the domain, or a text that says why there is none.
+
+        `generic`: for types without a definition here.
+        """
         self._bag = bag
+        self._generic = generic
         self._join = join
         self._player: Player | None = None
         self._stopped = threading.Event()
@@ -91,7 +96,7 @@ class BagPlayback:
             self._wait(problem=node)
             return ""
         how = Playing(rate=self._waiting.rate, loop=self._waiting.loop, paused=True, stays=True)
-        player = Player(node, self._bag, how, class_of)
+        player = Player(node, self._bag, how, class_of, self._generic)
         player.seek(self._waiting.position)
         self._player = player
         self._thread = threading.Thread(target=self._run, args=[player], name="bag-playback", daemon=True)

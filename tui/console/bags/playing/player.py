@@ -5,12 +5,14 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Collection, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 from bot_console.tui.console.bags.metadata import Topic
 from bot_console.tui.console.bags.playing.control_topics import controls
 from bot_console.tui.console.bags.playing.playback import PlaybackState
+from bot_console.tui.console.bags.port import GenericTypes
 from bot_console.tui.console.bags.qos import offered
 from bot_console.tui.console.bags.reader import Entry
 from rclpy.duration import Duration
@@ -74,8 +76,11 @@ class Playing:
 class Player:
     """Publishes the messages of a bag through a node. Its methods may be called from any thread."""
 
-    def __init__(self, node: Node, bag: Recorded, how: Playing, find: Callable[[str], Any]) -> None:
-        """`find` returns the class of a type name; topics of unknown types are listed in `unknown` and left out.
+    def __init__(
+        self, node: Node, bag: Recorded, how: Playing, find: Callable[[str], Any], generic: GenericTypes | None = None
+    ) -> None:
+        """`find` returns the class of a type name. Messages of other types are published as they were recorded, if
+        `generic` has a class for them; otherwise their topics are listed in `unknown` and left out.
 
         Topics that control a robot are listed in `left_out`, unless `how.topics` names them. A topic that is remapped
         to such a name counts as one.
@@ -86,7 +91,7 @@ class Player:
         self.unknown: dict[str, str] = {}
         self.left_out: list[str] = []
         self.published = 0
-        self._choose(node, find)
+        self._choose(node, find, generic)
         clock_topics = how.clock_topics is None or bool(how.clock_topics)
         self._clock = Clock(node, how.clock) if how.clock > 0 or clock_topics else None
         self._changed = threading.Condition()
@@ -186,7 +191,7 @@ class Player:
         for each in self._publishers.values():
             each.wait_for_all_acked(timeout)
 
-    def _choose(self, node: Node, find: Callable[[str], Any]) -> None:
+    def _choose(self, node: Node, find: Callable[[str], Any], generic: GenericTypes | None) -> None:
         how = self._how
         named = None if how.topics is None else {_absolute(each) for each in how.topics}
         remaps = {_absolute(old): new for old, new in how.remaps.items()}
@@ -198,8 +203,7 @@ class Player:
                 self.left_out.append(name)
                 continue
             try:
-                topic.check_encoding()
-                kind = find(topic.type)
+                kind = _class(topic, find, generic)
             except (ImportError, AttributeError, ValueError) as error:
                 self.unknown[name] = f"its type {topic.type} is not available here ({error})"
                 continue
@@ -265,6 +269,19 @@ class Player:
 
     def _anchor(self, position: int) -> None:
         self._position, self._since = position, time.monotonic()
+
+
+def _class(topic: Topic, find: Callable[[str], Any], generic: GenericTypes | None) -> Any:
+    """The class by which a topic's messages are published; raises `ImportError` and the like if there is none."""
+    topic.check_encoding()
+    try:
+        return find(topic.type)
+    except (ImportError, AttributeError, ValueError):
+        if generic is None or not topic.type_hash:
+            raise
+        with suppress(ValueError):
+            return generic.generic_class(topic.type, topic.type_hash)
+        raise
 
 
 def _absolute(topic: str) -> str:

@@ -135,7 +135,7 @@ def test_a_full_disk_ends_the_bag(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
 def test_an_error_ends_one_bag_and_the_next_can_be_recorded(
     tmp_path: Path, node: rclpy.node.Node, room: Recordings, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def broken(*_: object) -> None:
+    def broken(*_: object, **named: object) -> None:
         raise KeyError("a fault")
 
     with monkeypatch.context() as patch:

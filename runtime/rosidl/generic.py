@@ -1,0 +1,57 @@
+"""Message classes of types without a definition here: their messages are serialized bytes, as in rclcpp's
+GenericSubscription and GenericPublisher.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any, ClassVar
+
+from bot_console.runtime.rosidl.message import Message, MessageType
+
+SCHEME = "RIHS01_"
+DIGEST_SIZE = 32
+
+
+class GenericMessage(Message):
+    """A message of which only the serialized bytes are known; raw subscriptions receive it, no others do."""
+
+    __slots__ = ("data",)
+    get_fields_and_field_types: ClassVar[Any] = None
+    """None: which fields it has is not known here."""
+    _given_digest: ClassVar[bytes] = b""
+    """The hash of the type, which cannot be computed without a definition."""
+
+    def __init__(self, data: bytes) -> None:
+        self.data = data
+
+    def _copy_(self) -> GenericMessage:
+        """Return the message itself, as bytes do not change."""
+        return self
+
+    def _to_bytes(self) -> bytes:
+        """Return the bytes, with their header."""
+        return self.data
+
+
+@cache
+def generic_class(type_name: str, type_hash: str) -> type[GenericMessage]:
+    """The class of a type, given its name (`package/msg/Name`) and its hash (`RIHS01_...`).
+
+    Raises `ValueError` if either is not one.
+    """
+    package, _, rest = type_name.partition("/")
+    kind, _, name = rest.partition("/")
+    if not all(each.isidentifier() for each in (package, kind, name)):
+        raise ValueError(f"'{type_name}' is not a message type")
+    scheme, digits = type_hash[: len(SCHEME)], type_hash[len(SCHEME) :]
+    digest = bytes.fromhex(digits) if scheme == SCHEME else b""
+    if len(digest) != DIGEST_SIZE:
+        raise ValueError(f"'{type_hash}' is not the hash of a type")
+    body: dict[str, Any] = {
+        "__slots__": (),
+        "__module__": f"{package}.{kind}.generic",
+        "_fields_and_field_types": {},
+        "_given_digest": digest,
+    }
+    return MessageType(name, (GenericMessage,), body)
