@@ -97,7 +97,9 @@ def start(words: tuple[str, ...], folder: Path, env: Mapping[str, str]) -> subpr
     return subprocess.Popen(line, cwd=folder, env=dict(env), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
-@pytest.mark.parametrize(("plugin", "code"), [(PLUGIN, 0), ((), 1)], ids=["with", "without"])
+@pytest.mark.parametrize(
+    ("plugin", "code"), [(PLUGIN, 0), pytest.param((), 1, marks=pytest.mark.soak)], ids=["with", "without"]
+)
 def test_two_test_processes_meet_only_without_plugin(
     plugin: tuple[str, ...], code: int, home: Path, tmp_path: Path
 ) -> None:
@@ -142,7 +144,7 @@ def scripts() -> dict[str, list[str]]:
     }
 
 
-@pytest.mark.parametrize("name", ["github", "gitlab"])
+@pytest.mark.parametrize("name", ["github", pytest.param("gitlab", marks=pytest.mark.soak)])
 def test_documented_workflow_runs_the_tests(name: str, home: Path, tmp_path: Path) -> None:
     (tmp_path / "test_node.py").write_text("def test_node():\n    import rclpy\n    assert rclpy.ok() is False\n")
     (home / "bin" / "pytest").unlink(missing_ok=True)

@@ -29,10 +29,12 @@ _first_tries: dict[str, list[pytest.TestReport]] = {}
 
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport() -> Generator[None, pytest.TestReport, pytest.TestReport]:
-    """A failure of a first try is none yet."""
+    """A failure of a first try is none yet; what passed has no use for keywords, most of what a worker would send."""
     report = yield
     if report.failed and _place is None:
         report.outcome = "rerun"  # type: ignore[assignment] # an outcome of ours
+    if report.passed:
+        report.keywords = {}
     return report
 
 

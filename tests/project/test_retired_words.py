@@ -6,6 +6,7 @@ import ast
 import re
 import subprocess
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -94,6 +95,7 @@ def defined(tree: ast.AST) -> Iterator[tuple[str, int]]:
             yield node.attr, node.lineno
 
 
+@cache
 def retired(name: str) -> set[str]:
     """The retired words of a name."""
     found = set() if name in PUBLIC else words(name) & set(RETIRED)
@@ -104,12 +106,18 @@ def retired(name: str) -> set[str]:
     return found
 
 
+def retired_names(text: str) -> list[tuple[str, int]]:
+    """The retired names that a source text defines, with their lines."""
+    if not any(map(retired, set(re.findall(r"\w+", text)))):  # quicker than to parse it
+        return []
+    return sorted({(name, line) for name, line in defined(ast.parse(text)) if retired(name)})
+
+
 def test_names_contain_no_retired_words() -> None:
     found = [
         f"{path.relative_to(ROOT)}:{line}: {name} ({', '.join(sorted(retired(name)))})"
         for path in files()
-        for name, line in sorted(set(defined(ast.parse(path.read_text(encoding="utf-8")))))
-        if retired(name)
+        for name, line in retired_names(path.read_text(encoding="utf-8"))
     ]
     assert not found, "\n".join(found)
 
@@ -125,8 +133,6 @@ def test_file_names_contain_no_retired_words() -> None:
 
 
 def test_planted_names_are_found() -> None:
-    tree = ast.parse(
-        "class Shelf:\n    def tell_all(self, wish, max_rows=1):\n        self.mended = wish\nPATIENCE_S = 1\n"
-    )
-    found = {name for name, _ in defined(tree) if retired(name)}
+    text = "class Shelf:\n    def tell_all(self, wish, max_rows=1):\n        self.mended = wish\nPATIENCE_S = 1\n"
+    found = {name for name, _ in retired_names(text)}
     assert found == {"Shelf", "tell_all", "wish", "mended", "PATIENCE_S"}

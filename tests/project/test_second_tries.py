@@ -7,6 +7,8 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 HELPERS = Path(__file__).parents[1] / "helpers"
+ONLY_XDIST = {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "PYTEST_PLUGINS": "xdist.plugin", "PYTEST_ADDOPTS": ""}
+"""Environment of each pytest below: to import the other plug-ins takes most of its time."""
 TESTS = """
 import os
 from pathlib import Path
@@ -56,7 +58,7 @@ def run(folder: Path, workers: str) -> tuple[int, str]:
     (folder / "conftest.py").write_text('pytest_plugins = ["second_tries"]\n')
     done = subprocess.run(
         [sys.executable, "-m", "pytest", "-q", "-n", workers, "--junitxml=junit.xml", "-p", "no:cacheprovider", "."],
-        cwd=folder, env={**os.environ, "PYTHONPATH": str(HELPERS), "PYTEST_ADDOPTS": ""},
+        cwd=folder, env={**os.environ, "PYTHONPATH": str(HELPERS), **ONLY_XDIST},
         capture_output=True, text=True, check=False,
     )  # fmt: skip
     return done.returncode, done.stdout.splitlines()[-1].strip("= ").rpartition(" in ")[0]

@@ -79,6 +79,7 @@ def reported(server: LanguageServer, file: Path) -> dict[int, list[str]]:
     return found
 
 
+@pytest.mark.soak
 def test_editor_finds_every_import_offers_fields_and_shows_units(workspace: Path) -> None:
     assert main(["setup", "editor", str(workspace)]) == 0
     if COURSE:

@@ -194,7 +194,8 @@ if all of them wait already, the node goes on.
 """
 
 
-@pytest.mark.parametrize("name", ["loops", pytest.param("computes", marks=pytest.mark.soak)])
+@pytest.mark.soak
+@pytest.mark.parametrize("name", ["loops", "computes"])
 def test_computing_node_is_named_with_its_figures(system: System, name: str) -> None:
     system.start({name: HEAD + BUSY[name]})
     timeline = lambda: " ".join(each.text for each in system.launcher.info().timeline)  # noqa: E731

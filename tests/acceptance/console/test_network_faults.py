@@ -157,6 +157,7 @@ def test_console_reconnects_after_the_router_was_killed(far: FarRig) -> None:
     assert outcome.accepted
 
 
+@pytest.mark.soak
 def test_everything_works_with_300_ms_delay_and_held_segments(far: FarRig) -> None:
     far.wire.delay, far.wire.hold, far.wire.held_share = 0.15, 0.5, 0.02
     until(lambda: (far.console.snapshot().link.delay_ms or 0) >= 290, "the delay to be told")
@@ -196,6 +197,7 @@ def test_over_a_slow_link_robot_stands_after_dead_man_time_and_a_round_trip(far:
     assert took < steering.deadman + 0.3 + 2 * 0.5 + 1.0  # The delay both ways, held segments, a busy machine.
 
 
+@pytest.mark.soak
 def test_corrupted_frames_end_the_connection_and_a_new_one_replaces_it(far: FarRig) -> None:
     far.wire.spoil = lambda data: bytes(each ^ 0x5A for each in data)
     far.show_text(Severity.WARN, "garbled")

@@ -74,6 +74,7 @@ def test_example_in_a_workspace_starts_and_stops_the_robot(source: Path) -> None
     drive(play)
 
 
+@pytest.mark.soak
 def test_example_is_built_installed_and_found(tmp_path: Path) -> None:
     copy = tmp_path / "my_robot_control"
     shutil.copytree(EXAMPLE, copy)

@@ -45,6 +45,7 @@ def test_every_area_is_replayed() -> None:
     assert set(differing_on_purpose("launch")) <= {row["id"] for row in recorded()}
 
 
+@pytest.mark.soak
 @pytest.mark.skipif(not COURSE, reason="BOT_CONSOLE_COURSE names no course")
 def test_some_course_cases_equal_recording(tmp_path: Path) -> None:
     assert replayed(tmp_path, *(word for each in OFTEN for word in ("--only", each))) == set(OFTEN)

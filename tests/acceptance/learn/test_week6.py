@@ -759,6 +759,7 @@ def begin(at: Student, number: int) -> None:
         until_listed(one, "/robot_navigator/set_parameters")
 
 
+@pytest.mark.soak
 @pytest.mark.timeout(600)
 def test_first_chapter(student: Callable[[Path], Student]) -> None:
     chapter_1(student(WEEK6))

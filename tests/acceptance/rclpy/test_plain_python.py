@@ -220,7 +220,7 @@ def compare(cast: Sequence[Line], home: Path, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "cast",
-    [pytest.param(each, marks=[] if n < 4 else pytest.mark.soak) for n, each in enumerate(CASTS)],
+    some(CASTS, 1),
     ids=lambda cast: cast[0].words.split()[0],
 )
 def test_programs_print_the_same_under_plain_python(cast: list[Line], home: Path, tmp_path: Path) -> None:

@@ -121,7 +121,7 @@ def test_long_delayed_start_is_not_waited_for(tmp_path):
 @pytest.mark.parametrize(
     "entities",
     [
-        ("driver", "lidar"),
+        pytest.param(("driver", "lidar"), marks=pytest.mark.soak),
         pytest.param(("blind",), marks=pytest.mark.soak),
         pytest.param(("Node(executable='driver.py', namespace='other')",), marks=pytest.mark.soak),
         ("Node(executable='driver.py', remappings=[('scan', 'laser'), ('cmd_vel', 'velocity')])",),
@@ -171,7 +171,7 @@ print("given by", looks[-1], flush=True)
     ("words", "givers"),
     [
         (("run", "asks.py"), 0),
-        (("launch", "asks.launch.py"), 0),
+        pytest.param(("launch", "asks.launch.py"), 0, marks=pytest.mark.soak),
         (("run", "--headless", "--duration", "30", "asks.py"), 1),
     ],
     ids=["run", "launch", "run --headless"],

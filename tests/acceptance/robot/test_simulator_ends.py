@@ -24,6 +24,7 @@ def ends(rounds: int, seed: int, timeout_s: float) -> None:
     assert len(counts) == KINDS and sum(counts.values()) == rounds
 
 
+@pytest.mark.soak
 @pytest.mark.timeout(120)
 def test_one_end_of_each_kind_does_not_crash() -> None:
     ends(KINDS, 1, 100.0)

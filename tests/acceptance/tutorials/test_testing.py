@@ -71,6 +71,7 @@ class TestAfterwards(unittest.TestCase):
 """
 
 
+@pytest.mark.soak
 @pytest.mark.filterwarnings("ignore::pytest.PytestUnknownMarkWarning")
 def test_launch_test_of_nodes_passes(tmp_path: Path) -> None:
     path = tmp_path / "test_talker.py"

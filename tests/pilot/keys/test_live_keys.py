@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import chain
 
+import pytest
 from bot_console.tui.console.model import Kind
 from bot_console.tui.keymap import TABLE
 from piloting import Session, run
@@ -56,6 +57,7 @@ def clashes(session: Session) -> dict[str, set[str]]:
     return {key: ids for key, ids in found.items() if len(ids) > 1}
 
 
+@pytest.mark.soak
 def test_no_key_has_two_meanings_in_an_overlay() -> None:
     async def play(session: Session) -> None:
         for name, keys in OVER.items():

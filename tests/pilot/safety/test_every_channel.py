@@ -75,12 +75,13 @@ def acting_characters(session: Session) -> list[str]:
     return found
 
 
+@pytest.mark.soak
 @pytest.mark.parametrize(
     ("system", "fill"),
     [
         (live, False),
-        pytest.param(live, True, marks=pytest.mark.soak),
-        pytest.param(lambda: with_camera("front"), False, marks=pytest.mark.soak),
+        (live, True),
+        (lambda: with_camera("front"), False),
     ],
 )
 def test_no_field_of_any_model_reaches_the_terminal_as_control_characters(system: Any, fill: bool) -> None:

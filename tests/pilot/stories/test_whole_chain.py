@@ -46,6 +46,7 @@ async def typed(session: Session, text: str) -> None:
     await session.press("enter")
 
 
+@pytest.mark.soak
 def test_tuning_session_works_by_keyboard_from_search_to_restart(tmp_path: Path) -> None:
     file = tmp_path / "mine.yaml"
 

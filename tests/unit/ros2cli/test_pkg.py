@@ -298,6 +298,7 @@ def test_node_named_like_its_library_is_renamed(ros, src: Path, build_type: str)
     assert Path("p", *(["p", "x_node.py"] if build_type == "ament_python" else ["src", "x_node.cpp"])).exists()
 
 
+@pytest.mark.soak
 @pytest.mark.skipif(
     not all(map(shutil.which, ("cmake", "c++"))) or sys.platform == "win32", reason="needs cmake and a C++ compiler"
 )

@@ -331,6 +331,18 @@ def test_cpu_usage_of_a_process_is_shown(bench, waiter, monkeypatch):
     bench.until(lambda: bench.process().cpu is not None, "its processor share")
 
 
+def test_process_that_computes_without_pause_is_reported_once(bench, waiter, monkeypatch):
+    from bot_console.tui.console.launch import launcher
+    from bot_console.tui.console.launch import vitals as process_vitals
+
+    monkeypatch.setattr(process_vitals, "CPU_POLL_S", 0.0)
+    monkeypatch.setattr(process_vitals, "BUSY_SHARE", 0.0)  # Even one that waits counts as computing.
+    monkeypatch.setattr(launcher, "BUSY_S", 0.1)
+    reports = lambda: [each.text for each in bench.info.timeline if "computing" in each.text]  # noqa: E731
+    bench.until(reports, "its figures in the timeline")
+    assert reports() == [f"{bench.process().label} has been computing for 0.1 s without a pause"]
+
+
 def test_node_of_ours_that_survives_being_killed_is_reported(bench, monkeypatch):
     stop = threading.Event()
 
