@@ -7,6 +7,7 @@ Services: `~/list` (`std_srvs/srv/Trigger`; one line per preset), and `~/apply`,
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -55,7 +56,7 @@ class Presets(Node):
 
     @property
     def _folder(self) -> Path:
-        return Path(str(self.get_parameter("folder").value)).expanduser()
+        return Path(os.path.expanduser(str(self.get_parameter("folder").value)))
 
     def _list(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         found = preset_files.names(self._folder)

@@ -16,7 +16,7 @@ def find_world(name: str) -> World:
     """The world of that name or path; raises `WorldError`, which lists the available names."""
     path = Path(name)
     if path.suffix in {".yaml", ".yml"} or len(path.parts) > 1:
-        return load_world(path.expanduser())
+        return load_world(Path(os.path.expanduser(path)))
     folder = _folder()
     if folder is None:
         raise WorldError(f"no world '{name}': the share folder of {PACKAGE} is not found; give the path of a file")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import os
 import shutil
 import sys
 from collections.abc import Iterable, Iterator
@@ -23,7 +24,7 @@ FOLDERS = {
 
 def export(folder: Path) -> Path:
     """Write `<folder>/bot_console_robot`; raises `ValueError` if that exists, and `OSError`."""
-    place = folder.expanduser().resolve() / NAME
+    place = Path(os.path.expanduser(folder)).resolve() / NAME
     if place.exists():
         raise ValueError(f"{place} exists; give another folder, or remove it")
     shutil.copytree(ROOT / "nodes", place / NAME, ignore=shutil.ignore_patterns("__pycache__", "*.pyc", "demos"))

@@ -108,7 +108,7 @@ def _running(*words: str) -> Source:
 def _profiles(before: Sequence[str]) -> Iterable[str]:
     """The profiles that can be named, with those of the folders that `--profiles` gives."""
     given = pairwise(before)
-    return profile_names([Path(folder).expanduser() for option, folder in given if option == "--profiles"])
+    return profile_names([Path(os.path.expanduser(folder)) for option, folder in given if option == "--profiles"])
 
 
 def _parameters(names: Names, given: Sequence[str]) -> Iterable[str]:

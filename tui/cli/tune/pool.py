@@ -157,5 +157,5 @@ def is_file(profile: str) -> bool:
 def profile_yaml(profile: str) -> str:
     """The parameter file of a profile; raises `OSError` if it does not exist."""
     folder = Path(__file__).resolve().parents[3] / "profiles"
-    path = Path(profile).expanduser() if is_file(profile) else folder / f"{profile}.yaml"
+    path = Path(os.path.expanduser(profile)) if is_file(profile) else folder / f"{profile}.yaml"
     return path.read_text(encoding="utf-8-sig")

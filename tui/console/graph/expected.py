@@ -7,6 +7,7 @@ mentions unless `exact` is set. A ROS parameter file is one, too, if it has para
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -44,7 +45,7 @@ class Expected:
 def read_file(path: str) -> Expected:
     """Read such a file; raises `ValueError` with what is wrong."""
     try:
-        return read(Path(path).expanduser().read_text("utf-8"))
+        return read(Path(os.path.expanduser(path)).read_text("utf-8"))
     except OSError as error:
         raise ValueError(error.strerror or str(error)) from None
     except UnicodeDecodeError:

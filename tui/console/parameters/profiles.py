@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import chain
@@ -91,7 +92,7 @@ def _launch_profile(path: Path, title: str, text: str) -> Profile | None:
     arguments: Any = found.get("arguments") or {}
     if not isinstance(launch, str) or not isinstance(arguments, dict):
         raise ValueError("a launch profile has the lines 'launch: FILE' and 'arguments:' with 'name: value' below it")
-    file = path.parent / Path(launch).expanduser()
+    file = path.parent / Path(os.path.expanduser(launch))
     given = {str(name): _argument(value) for name, value in cast("dict[Any, Any]", arguments).items()}
     problem = "" if file.is_file() else f"there is no launch file {file}"
     return Profile(path.stem, str(path), title, problem=problem, launch=str(file), arguments=MappingProxyType(given))

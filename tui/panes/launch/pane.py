@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
@@ -411,7 +412,7 @@ def files_for(files: Sequence[str], typed: str) -> Sequence[Option]:
         query = Query()
     found = [each for each in files if query.matches(each)]
     if not found and typed.strip():
-        found = [str(Path(typed.strip()).expanduser())]
+        found = [str(Path(os.path.expanduser(typed.strip())))]
     return [Option(Path(each).name, str(Path(each).parent), each) for each in found]
 
 

@@ -55,7 +55,7 @@ def named_profile(
     if word in bundled_names():
         return NamedProfile(word)
     if is_path(word):
-        path = Path(word).expanduser()
+        path = Path(os.path.expanduser(word))
         if not path.is_file():
             raise NoProfileError(f"there is no profile {word}")
         return _loaded(path)

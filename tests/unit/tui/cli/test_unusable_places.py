@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import os
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -12,8 +13,12 @@ from bot_console.runtime.programs.exit_messages import run_and_report
 from bot_console.tui.cli import screen
 from bot_console.tui.cli.arguments import parse
 from bot_console.tui.cli.main import main
+from bot_console.tui.cli.tune.pool import profile_yaml
 from bot_console.tui.cli.verbs import background
+from bot_console.tui.console.graph.expected import read_file
 from bot_console.tui.files.folders import OVERRIDE
+from bot_console.tui.session.embedded.named_profile import named_profile
+from bot_console_robot.simulation_ros.worlds import find_world
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="a working folder cannot be deleted")
 MOVED = "the folder you are in was deleted; go to another one (cd) and try again\n"
@@ -181,3 +186,9 @@ def test_other_errors_are_raised_unchanged() -> None:
 
     with pytest.raises(RuntimeError, match="a mistake"):
         run_and_report(run)
+
+
+@pytest.mark.parametrize("read", [named_profile, find_world, read_file, profile_yaml, lambda word: parse([word])])
+def test_file_below_the_home_of_an_unknown_user_is_refused_like_any_missing_file(read: Callable[[str], object]) -> None:
+    with pytest.raises((ValueError, OSError, SystemExit)):
+        read("~nobody of that name/a.yaml")
