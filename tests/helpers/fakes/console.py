@@ -164,6 +164,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
         source: ChangeSource = ChangeSource.EDIT,
         *,
         atomically: bool = False,
+        continues: bool = False,
     ) -> Future[tuple[SetOutcome, ...]]:
         self.asked.append(("set", node, dict(values)))
         if self.closed:
@@ -172,7 +173,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
             )
         outcomes, moves = self._moved(node, values, source, atomically=atomically)
         if moves:
-            self._steps.did(Step(moves), source)
+            self._steps.did(Step(moves), source, continues=continues)
             self.set_journal()
         return done(outcomes)
 

@@ -73,7 +73,7 @@ def test_unanswered_value_is_shown_as_pending(monkeypatch: pytest.MonkeyPatch) -
         pane = session.pane(ParametersPane)
         pane.edits.clock = Clock()
         answer: Future[tuple[SetOutcome, ...]] = Future()
-        monkeypatch.setattr(session.console.parameters, "set", lambda *_: answer)
+        monkeypatch.setattr(session.console.parameters, "set", lambda *_, **__: answer)
         await session.press("1")
         await go_to(session, "max_speed")
         await session.press("plus")
@@ -101,7 +101,9 @@ def test_burst_of_steps_continues_from_the_value_in_flight_and_sends_only_the_ne
         answers: list[Future[tuple[SetOutcome, ...]]] = []
         sent: list[float] = []
 
-        def send(node: str, values: Mapping[str, float], source: ChangeSource) -> Future[tuple[SetOutcome, ...]]:
+        def send(
+            node: str, values: Mapping[str, float], source: ChangeSource, *, continues: bool
+        ) -> Future[tuple[SetOutcome, ...]]:
             sent.extend(values.values())
             answers.append(Future())
             return answers[-1]
@@ -140,7 +142,7 @@ def test_steps_after_a_refused_one_are_dropped(monkeypatch: pytest.MonkeyPatch) 
     async def play(session: Session) -> None:
         answer: Future[tuple[SetOutcome, ...]] = Future()
         sent: list[object] = []
-        monkeypatch.setattr(session.console.parameters, "set", lambda *given: sent.append(given) or answer)
+        monkeypatch.setattr(session.console.parameters, "set", lambda *given, **_: sent.append(given) or answer)
         await session.press("1")
         await go_to(session, "max_speed")
         await session.press("plus", "plus", "plus")

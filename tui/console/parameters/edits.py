@@ -30,6 +30,10 @@ Later = Callable[..., object]
 """Calls a function with arguments in the thread that draws; called from any thread."""
 
 
+BURST_S = 1.0
+"""Seconds within which the next key that steps the same value belongs to the same burst, which one undo takes back."""
+
+
 class ParameterEdits:
     """Sends or stages edits, and keeps what came of them; used by the thread that draws."""
 
@@ -63,6 +67,10 @@ class ParameterEdits:
         self.late: Mapping[Key, Value] = {}
         """Values that are still unanswered after some time."""
         self._pending = PendingSets()
+        self._stepped: tuple[Key, float] | None = None
+        """The value that was stepped last, and when; None if another edit has come since."""
+        self._kept_continues: dict[Key, bool] = {}
+        """Whether values that follow once an earlier one is answered belong to its burst."""
         self._starts: dict[Key, Value] = {}
         """What values had before their first change in this run."""
         self._read = 0
@@ -107,23 +115,39 @@ class ParameterEdits:
 
     def set(self, parameter: ParameterInfo, value: Value) -> None:
         """Stage a value, or send it; while another one is on its way, only the newest follows."""
+        self._stepped = None
+        self._set(parameter, value, continues=False)
+
+    def step(self, parameter: ParameterInfo, value: Value) -> None:
+        """As `set`, with a key that is pressed several times: such a burst is undone as a whole."""
+        before, now = self._stepped, self.clock()
+        key = (parameter.node, parameter.name)
+        self._stepped = key, now
+        self._set(parameter, value, continues=before is not None and before[0] == key and now - before[1] < BURST_S)
+
+    def _set(self, parameter: ParameterInfo, value: Value, *, continues: bool) -> None:
         key = (parameter.node, parameter.name)
         if self.staging.marking:
             self.staging.mark(key, parameter.value, value)
             self.refused.pop(key, None)  # a refusal of an earlier value would hide this one
             self._changed()
-        elif not self._pending.keep(key, value):
-            self._send(key, value)
+        elif self._pending.keep(key, value):
+            self._kept_continues[key] = continues and self._kept_continues.get(key, True)
+        else:
+            self._send(key, value, continues=continues)
 
-    def _send(self, key: Key, value: Value) -> None:
-        answer = self._parameters.set(key[0], {key[1]: value}, ChangeSource.EDIT)
+    def _send(self, key: Key, value: Value, *, continues: bool) -> None:
+        answer = self._parameters.set(key[0], {key[1]: value}, ChangeSource.EDIT, continues=continues)
         number = self._pending.sent({key: value}, self.clock())
         answer.add_done_callback(partial(self._later, self._answered, number, key, value))
 
     def _answered(self, number: int, key: Key, value: Value, done: Future[tuple[SetOutcome, ...]]) -> None:
         accepted, newest = self._take(number, done), self._pending.take(key)
-        if accepted and newest is not None and not same(newest, value):
-            self._send(key, newest)
+        continues = self._kept_continues.pop(key, False)
+        if not accepted:
+            self._stepped = None
+        elif newest is not None and not same(newest, value):
+            self._send(key, newest, continues=continues)
         self._changed()
 
     def dismiss(self, key: Key) -> bool:

@@ -43,6 +43,13 @@ class Step:
         )
         return bool(self.profiles) or any(not same(value(node, name), new) for node, name, new in wanted)
 
+    def is_followed_by(self, other: Step) -> bool:
+        """Whether another step begins with the values of the same parameters with which this one ends."""
+        if len(self.moves) != 1 or len(other.moves) != 1 or self.moves[0].node != other.moves[0].node:
+            return False
+        ends, begins = self.moves[0].after, other.moves[0].before
+        return ends.keys() == begins.keys() and all(same(ends[name], begins[name]) for name in ends)
+
     def overwritten(self, value: Callable[[str, str], Value]) -> str:
         """The end of a message that says which values of others undoing or redoing it overwrites; empty if none."""
         found: list[str] = []
@@ -125,12 +132,18 @@ class Journal:
             self._end += 1
             self._renew()
 
-    def did(self, step: Step, source: ChangeSource) -> None:
-        """Remember an accepted set made by this console, so that it can be undone."""
+    def did(self, step: Step, source: ChangeSource, *, continues: bool = False) -> None:
+        """Remember an accepted set made by this console, so that it can be undone.
+
+        One that `continues` the last step is undone together with it, unless something else has come in between.
+        """
         with self._lock:
             for move in step.moves:
                 self._unsaved.moved(move.node, move.before, move.after, source)
             if source in OURS:
+                if continues and self._undo and not self._redo and self._undo[-1].is_followed_by(step):
+                    (first,), (last,) = self._undo.pop().moves, step.moves
+                    step = Step((Move(first.node, first.before, last.after),))
                 self._undo.append(step)
                 self._redo.clear()
             elif source is ChangeSource.UNDO:

@@ -127,10 +127,12 @@ class NodeParameters:
         source: ChangeSource = ChangeSource.EDIT,
         *,
         atomically: bool = False,
+        continues: bool = False,
     ) -> Future[tuple[SetOutcome, ...]]:
         """Set parameters of one node."""
         return self._gate.run(
-            lambda: self._setter.set(node, values, source, atomically=atomically), partial(refused, {node: values})
+            lambda: self._setter.set(node, values, source, atomically=atomically, continues=continues),
+            partial(refused, {node: values}),
         )
 
     def set_all(

@@ -23,8 +23,12 @@ class Parameters(Protocol):
         source: ChangeSource = ChangeSource.EDIT,
         *,
         atomically: bool = False,
+        continues: bool = False,
     ) -> Future[tuple[SetOutcome, ...]]:
-        """Set parameters of one node, by its `set_parameters` or `set_parameters_atomically` service."""
+        """Set parameters of one node, by its `set_parameters` or `set_parameters_atomically` service.
+
+        A set that `continues` the previous one of the same parameters is undone together with it.
+        """
         ...
 
     def set_all(

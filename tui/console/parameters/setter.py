@@ -50,11 +50,13 @@ class ParameterSetter:
         by: str = "",
         *,
         atomically: bool = False,
+        continues: bool = False,
         moves: list[Move] | None = None,
     ) -> tuple[SetOutcome, ...]:
         """Set parameters of one node; never raises, every failure is an outcome.
 
-        What was accepted can be undone: as a step of its own, or with `moves` as part of one that the caller makes.
+        What was accepted can be undone: as a step of its own, together with the step that it `continues`, or with
+        `moves` as part of one that the caller makes.
         """
         requests = [ParameterRequest(node, name, value, source, by) for name, value in values.items()]
         before = {name: self._value(node, name) for name in values}
@@ -79,7 +81,7 @@ class ParameterSetter:
         taken = {each.name: each.value for each in changed}
         move = Move(node, {name: before[name] for name in taken}, taken)
         if taken and moves is None:
-            self._journal.did(Step((move,)), source)
+            self._journal.did(Step((move,)), source, continues=continues)
         elif taken and moves is not None:
             moves.append(move)
         return outcomes

@@ -161,7 +161,7 @@ class EditPane(ListPane):
         parameter = self._at()
         value = editing.stepped(parameter, self.edits.now(parameter), steps) if parameter else None
         if parameter is not None and value is not None:
-            self.edits.set(parameter, value)
+            self.edits.step(parameter, value)
 
     def action_limit(self, share: float) -> None:
         """Go to the minimum or maximum of the range."""

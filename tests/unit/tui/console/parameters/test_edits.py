@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from bot_console.tui.console.model import ChangeSource, ParameterInfo, SetOutcome
-from bot_console.tui.console.parameters.edits import ParameterEdits
+from bot_console.tui.console.parameters.edits import BURST_S, ParameterEdits
 from bot_console.tui.console.parameters.pending_sets import ANSWER_DELAY_S
 from fakes.console import FakeConsole
 from samples import live
@@ -47,6 +47,15 @@ class Bench:
 
     def set(self, key: tuple[str, str], value: Any) -> None:
         self.edits.set(self.parameter(key), value)
+
+    def step(self, key: tuple[str, str], value: Any, after_s: float = 0.1) -> None:
+        self.now += after_s
+        self.edits.step(self.parameter(key), value)
+
+    def undo(self, key: tuple[str, str]) -> object:
+        """The value after one undo."""
+        self.console.parameters.undo()
+        return self.value(key)
 
     def hold_answers(self, name: str) -> Future[tuple[SetOutcome, ...]]:
         """Let a method of the port answer when the test says so."""
@@ -152,12 +161,59 @@ def test_only_the_newest_of_values_set_before_an_answer_follows(bench: Bench) ->
     answer = bench.hold_answers("set")
     bench.set(SPEED, 0.5)
     sent: list[object] = []
-    bench.console.parameters.set = lambda node, values, source: sent.append(dict(values)) or Future()
+    bench.console.parameters.set = lambda node, values, source, **how: sent.append(dict(values)) or Future()
     bench.set(SPEED, 0.6)
     bench.set(SPEED, 0.7)
     assert bench.edits.now(bench.parameter(SPEED)) == 0.7 and sent == []
     answer.set_result((SetOutcome(*SPEED, 0.5, True),))
     assert sent == [{"max_speed": 0.7}]
+
+
+def test_a_burst_of_steps_is_undone_as_a_whole(bench: Bench) -> None:
+    start = bench.value(SPEED)
+    bench.set(SPEED, 0.5)
+    for value in (0.51, 0.52, 0.53):
+        bench.step(SPEED, value)
+    changes = [(each.old, each.new) for each in bench.console.parameters.changes() if each.name == SPEED[1]]
+    assert changes[-3:] == [(0.5, 0.51), (0.51, 0.52), (0.52, 0.53)]
+    assert bench.undo(SPEED) == 0.5
+    assert bench.undo(SPEED) == start
+    bench.console.parameters.redo()
+    bench.console.parameters.redo()
+    assert bench.value(SPEED) == 0.53
+
+
+@pytest.mark.parametrize("between", ["time", "edit", "other", "elsewhere", "undo", "refusal"])
+def test_a_burst_of_steps_ends_with_a_pause_and_with_any_other_change(bench: Bench, between: str) -> None:
+    bench.set(SPEED, 0.5)
+    bench.step(SPEED, 0.6)
+    before: object = 0.6
+    if between == "edit":
+        bench.set(SPEED, 0.7)
+        before = 0.7
+    elif between == "other":
+        bench.step(RATE, 1.0)
+    elif between == "elsewhere":
+        bench.console.take(SPEED[0], {SPEED[1]: 0.9}, ChangeSource.OTHER)
+        before = 0.9
+    elif between == "undo":
+        assert bench.undo(SPEED) == 0.5
+        before = 0.5
+    elif between == "refusal":
+        bench.step(SPEED, 99.0)
+    bench.step(SPEED, 0.8, BURST_S if between == "time" else 0.1)
+    assert bench.undo(SPEED) == before
+
+
+def test_steps_that_follow_an_answer_belong_to_the_burst_of_the_one_before(bench: Bench) -> None:
+    answer = bench.hold_answers("set")
+    sent: list[bool] = []
+    bench.step(SPEED, 0.6)
+    bench.console.parameters.set = lambda node, values, source, continues: sent.append(continues) or Future()
+    bench.step(SPEED, 0.7)
+    bench.step(SPEED, 0.8)
+    answer.set_result((SetOutcome(*SPEED, 0.6, True),))
+    assert sent == [True]
 
 
 def test_escape_dismisses_a_refusal_and_keeps_staged_values(bench: Bench) -> None:
