@@ -8,6 +8,7 @@ import math
 from bot_console_robot.common.parameters import number, plain
 from bot_console_robot.common.running import run
 from bot_console_robot.motion import Gains, VelocityController, WaypointFollower
+from bot_console_robot.safety.age_limits import MAX_AGE_NS
 from geometry_msgs.msg import PoseStamped, Quaternion, Twist
 from nav_msgs.msg import Odometry, Path
 from rclpy.clock import Clock, ClockType
@@ -17,8 +18,6 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 
 CONTROL_PERIOD_S = 0.05
 """Interval between commands, in s."""
-MAX_AGE_NS = 500_000_000
-"""Inputs older than this are ignored."""
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 

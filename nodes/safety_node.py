@@ -13,6 +13,7 @@ from bot_console_robot.common.parameters import accepted, number, plain, propose
 from bot_console_robot.common.robot_time import RobotTime
 from bot_console_robot.common.running import CannotStart, run
 from bot_console_robot.common.scans import SCANS
+from bot_console_robot.safety.age_limits import LATE_NS, MAX_AGE_NS
 from bot_console_robot.safety.arbitration import Arbiter, Command, Verdict, limit
 from bot_console_robot.safety.emergency_stop import ARBITER, BASE, STOP_FILE, EmergencyStop, declare_stop_file
 from bot_console_robot.safety.scan_watch import ScanWatch
@@ -25,10 +26,6 @@ from rclpy.parameter import Parameter
 from sensor_msgs.msg import LaserScan
 
 TELEOP, NAVIGATION = "cmd_vel_teleop", "cmd_vel_nav"
-MAX_AGE_NS = 500_000_000
-"""Age after which a command or scan no longer counts."""
-LATE_NS = MAX_AGE_NS // 4
-"""Age after which a scan counts as late at ten scans a second: from then on, a simulator's time is followed."""
 WATCH_PERIOD_S = 0.1
 """Seconds between two checks for commands and scans that are too old."""
 ZEROS = 10

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 
     from launch.launch_context import LaunchContext
 
+SIGTERM_TIMEOUT_S = SIGKILL_TIMEOUT_S = "5"
+"""Seconds between SIGINT and SIGTERM, and between SIGTERM and SIGKILL, unless the launch file says otherwise."""
+
 
 class Escalation:
     """Timers that send a process stronger signals until it has ended."""

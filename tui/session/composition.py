@@ -26,7 +26,7 @@ from bot_console.runtime.rmw.zenoh.domain.sockets import lives
 from bot_console.runtime.rosidl import type_hash
 from bot_console.runtime.rosidl.cdr import serialize
 from bot_console.tui.cli.interruptible_wait import wait_interruptibly
-from bot_console.tui.console.bags.port import RingSize
+from bot_console.tui.console.bags.snapshot_size import SnapshotSize
 from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.session.embedded.child_host import why_it_hangs
 from bot_console.tui.session.embedded.domain import domain, socket_folder, take_part
@@ -161,7 +161,7 @@ def become_host(workspaces: Sequence[Path]) -> str:
     return ""
 
 
-def host_launches(owner: socket.socket, workspaces: Sequence[Path], kept: RingSize | None) -> int:
+def host_launches(owner: socket.socket, workspaces: Sequence[Path], kept: SnapshotSize | None) -> int:
     """Serve the console that owns this process, and further ones, until everything has ended.
 
     `kept` is how much recorded traffic stays in memory.
@@ -210,7 +210,7 @@ def close_on_signals(close: Callable[[], None]) -> None:
         signal.signal(each, end)
 
 
-def overhear(size: RingSize) -> SnapshotBuffer:
+def overhear(size: SnapshotSize) -> SnapshotBuffer:
     """Keep what the nodes of this process publish and receive."""
     from bot_console.tui.console.bags.snapshot_buffer import SnapshotBuffer
 

@@ -10,7 +10,7 @@ import socket
 from collections.abc import Sequence
 from pathlib import Path
 
-from bot_console.tui.console.bags.port import RingSize
+from bot_console.tui.console.bags.snapshot_size import SnapshotSize
 from bot_console.tui.session.composition import host_launches
 from bot_console.tui.session.machine.hosting import host_launches as host_launches_of_machine
 
@@ -22,7 +22,7 @@ def main(words: Sequence[str] | None = None) -> int:
     if given.ros:
         host_launches_of_machine(owner)
         return 0
-    kept = RingSize(given.keep_seconds, given.keep_bytes) if given.keep_bytes else None
+    kept = SnapshotSize(given.keep_seconds, given.keep_bytes) if given.keep_bytes else None
     return host_launches(owner, [Path(each) for each in given.workspace], kept)
 
 

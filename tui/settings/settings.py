@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, cast
 
-from bot_console.tui.console.bags.port import RingSize
+from bot_console.tui.console.bags.snapshot_size import KEEP_MEGABYTES, KEEP_MINUTES, SnapshotSize
 from bot_console.tui.console.graph.connections import TOOL_NAMES
-from bot_console.tui.console.model import DEFAULT_RESTARTS, RestartPolicy
+from bot_console.tui.console.launch.restart_policy import DEFAULT_RESTARTS, RestartPolicy
 from bot_console.tui.console.robot.stop_means.configured import ConfiguredMeans, configured_means
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.files.store_file import read_store
@@ -19,9 +19,6 @@ from bot_console.tui.settings.yaml_reader import NotPlainData, read
 
 MAX_FILE_BYTES = 100_000
 """Maximum size of a settings file; a larger one is not read."""
-
-KEEP_MINUTES = 2.0
-KEEP_MEGABYTES = 64.0
 
 RESTART_WORDS = ("leave-ended", "on-failure")
 
@@ -97,9 +94,9 @@ class Settings:
     restart_policy: RestartPolicy = DEFAULT_RESTARTS
 
     @property
-    def kept(self) -> RingSize | None:
+    def kept(self) -> SnapshotSize | None:
         """How much of the last minutes is kept in memory; None: nothing."""
-        size = RingSize(self.keep_minutes * 60, int(self.keep_megabytes * 1_000_000))
+        size = SnapshotSize(self.keep_minutes * 60, int(self.keep_megabytes * 1_000_000))
         return size if size.seconds and size.bytes else None
 
 

@@ -15,7 +15,7 @@ from launch.action import Action
 from launch.child import CAN_FORK, Child, PythonProgram, start_child
 from launch.conditions import evaluate_condition_expression
 from launch.descriptions import Executable
-from launch.escalation import Escalation
+from launch.escalation import SIGKILL_TIMEOUT_S, SIGTERM_TIMEOUT_S, Escalation
 from launch.event_handlers.on_action_event_base import OnActionEventBase
 from launch.event_handlers.on_shutdown import OnShutdown
 from launch.event_handlers.on_targeted_process import OnTargetedProcess
@@ -71,12 +71,12 @@ class ExecuteLocal(Action):
         super().__init__(**kwargs)
         self.__process_description = process_description
         self.__shell = shell
-        self.__sigterm_timeout = normalize_to_list_of_substitutions(
-            LaunchConfiguration("sigterm_timeout", default="5") if sigterm_timeout is None else sigterm_timeout
-        )
-        self.__sigkill_timeout = normalize_to_list_of_substitutions(
-            LaunchConfiguration("sigkill_timeout", default="5") if sigkill_timeout is None else sigkill_timeout
-        )
+        if sigterm_timeout is None:
+            sigterm_timeout = LaunchConfiguration("sigterm_timeout", default=SIGTERM_TIMEOUT_S)
+        if sigkill_timeout is None:
+            sigkill_timeout = LaunchConfiguration("sigkill_timeout", default=SIGKILL_TIMEOUT_S)
+        self.__sigterm_timeout = normalize_to_list_of_substitutions(sigterm_timeout)
+        self.__sigkill_timeout = normalize_to_list_of_substitutions(sigkill_timeout)
         self.__emulate_tty = emulate_tty
         self.__output: Any = output
         if not isinstance(output, dict):

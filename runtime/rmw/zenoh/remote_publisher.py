@@ -8,6 +8,7 @@ from typing import Any
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import SubscriptionEndpoint, depth
 from bot_console.runtime.rmw.local_publisher import LocalPublisher
+from bot_console.runtime.rmw.zenoh.congestion_control import must_not_drop
 from bot_console.runtime.rmw.zenoh.declarations import Publisher
 from bot_console.runtime.rmw.zenoh.sender import Sender
 from bot_console.runtime.rmw.zenoh.session import Session
@@ -17,15 +18,6 @@ from bot_console.runtime.rmw.zenoh.wire.tokens import Token
 
 KEEP_ALL_DEPTH = 1000
 """How many messages a latching publisher with KEEP_ALL keeps for other processes."""
-
-
-DEEP_QUEUE = 1000
-"""Depth from which a reliable publisher counts as one that keeps everything: ROS 2 would keep so many messages for a
-reader that is late, and a link has room for 1 MB.
-"""
-
-BLOCKING_TOPICS = frozenset({"/rosout"})
-"""Reliable topics on which nothing is dropped whatever the depth: readers of a log need every line."""
 
 
 class RemotePublisher(deque[Any]):
@@ -48,9 +40,8 @@ class RemotePublisher(deque[Any]):
         self._incompatible: set[str] = set()
         """The tokens of the present subscriptions that do not match."""
         self._sender = sender
-        qos = publisher.endpoint.qos
-        all_count = (depth(qos) or DEEP_QUEUE) >= DEEP_QUEUE or publisher.endpoint.topic in BLOCKING_TOPICS
-        self._blocking = all_count and qos.reliability.name != "BEST_EFFORT" and not session.never_waits
+        endpoint = publisher.endpoint
+        self._blocking = must_not_drop(endpoint.topic, endpoint.qos) and not session.never_waits
         self._target = SubscriptionEndpoint(publisher.endpoint, True, self, _nothing)
         self.latching = publisher.history is not None
         if self.latching:

@@ -8,8 +8,8 @@ from collections.abc import Container
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.endpoints import Held, Payload, SubscriptionEndpoint, Tap, depth
+from bot_console.runtime.rmw.zenoh.congestion_control import BLOCKING_TOPICS
 from bot_console.runtime.rmw.zenoh.declarations import Declaration
-from bot_console.runtime.rmw.zenoh.remote_publisher import BLOCKING_TOPICS
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.type_agreement import has_same_type
 from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of, unpack

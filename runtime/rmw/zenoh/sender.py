@@ -8,8 +8,8 @@ from collections import deque
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
+from bot_console.runtime.rmw.zenoh.congestion_control import WAIT_BEFORE_DROP
 from bot_console.runtime.rmw.zenoh.declarations import Publisher
-from bot_console.runtime.rmw.zenoh.settings import WAIT_BEFORE_DROP
 
 MAX_QUEUED_BYTES = 64_000_000
 """Capacity of the queue in bytes: more than is published until a hung process is cut off (`WAIT_BEFORE_CUT`)."""

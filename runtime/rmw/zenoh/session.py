@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any
 from bot_console.runtime.process.machine_limits import require_address_space
 from bot_console.runtime.rmw.qos_matching import DDS, QosRules
 from bot_console.runtime.rmw.zenoh.channel_worker import MAX_WAITING_SAMPLES, drain_in_worker
+from bot_console.runtime.rmw.zenoh.congestion_control import BLOCKING_PRIORITY, MESSAGE_PRIORITY, REQUEST_PRIORITY
 from bot_console.runtime.rmw.zenoh.declarations import (
     Declaration,
     Publisher,
@@ -132,7 +133,7 @@ class Session(Lifetime):
     ) -> Publisher:
         """Declare a publisher for other sessions; late subscribers get up to `cache` of its last samples.
 
-        A `patient` publisher drops nothing and waits for a full link instead, up to `WAIT_BEFORE_CUT`: use it from a
+        A `blocking` publisher drops nothing and waits for a full link instead, up to `WAIT_BEFORE_CUT`: use it from a
         separate thread. It has its own priority, as publishers that drop would otherwise wait behind it.
         """
         import zenoh
@@ -141,14 +142,14 @@ class Session(Lifetime):
         quality: dict[str, Any] = {
             "reliability": zenoh.Reliability.RELIABLE if reliable else zenoh.Reliability.BEST_EFFORT,
             "congestion_control": control.BLOCK if blocking else control.DROP,
-            "priority": zenoh.Priority.DATA_LOW if blocking else zenoh.Priority.DATA,
+            "priority": getattr(zenoh.Priority, BLOCKING_PRIORITY if blocking else MESSAGE_PRIORITY),
             "allowed_destination": zenoh.Locality.REMOTE,
         }
 
         def declare(session: zenoh.Session) -> Any:
             if not cache:
                 return session.declare_publisher(key, **quality)
-            # The heartbeat overtakes what a patient publisher has still to send: that would be taken for lost, and the
+            # The heartbeat overtakes what a blocking publisher has still to send: that would be taken for lost, and the
             # last samples would be fetched from the cache before those in between have arrived.
             return TransientLocalPublisher(zenoh.ext, session, key, quality, cache, misses=reliable and not blocking)
 
@@ -227,7 +228,7 @@ class Session(Lifetime):
                     target=zenoh.QueryTarget.ALL_COMPLETE,
                     consolidation=zenoh.ConsolidationMode.NONE,
                     congestion_control=zenoh.CongestionControl.DROP,
-                    priority=zenoh.Priority.INTERACTIVE_HIGH,
+                    priority=getattr(zenoh.Priority, REQUEST_PRIORITY),
                     allowed_destination=zenoh.Locality.REMOTE,
                     timeout=timeout,
                 ),

@@ -11,6 +11,14 @@ from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple, cast
 
+from bot_console.runtime.rmw.zenoh.congestion_control import (
+    NARROW,
+    ROOM_OF_A_LINK,
+    ROOM_OF_A_NETWORK,
+    SMALL_BATCH,
+    queue_settings,
+)
+
 SCHEME = "unixsock-stream/"
 
 OPEN_TIMEOUT = 600_000
@@ -27,35 +35,6 @@ LEASE = 60_000
 Keep-alives are most of what fifty idle processes cost: 13 % of a core with 15 s, 7 % with this value. A frozen process
 is detected much earlier, by its state, and a process that ends closes its links.
 """
-
-WAIT_BEFORE_DROP = 50_000
-"""How long a publisher waits for a full link before it drops a message, in us.
-
-Dropping at once lost up to 60 % of a burst to healthy readers; blocking stalls the publisher for 5 s next to a reader
-that does not read.
-"""
-
-WAIT_BEFORE_CUT = 2_000_000
-"""How long a message that must not be dropped waits for a full link before that link is closed, in us.
-
-Only the thread that sends those messages waits. The link to a process that was frozen is made again once it runs.
-"""
-
-ROOM_OF_A_LINK = 16
-"""How many batches (64 kB each, allocated when needed) a link queues for messages of one priority: a burst to a reader
-that is briefly without a processor is kept.
-"""
-
-NARROW = {"so_sndbuf": 16_384}
-"""Send buffer of a socket to another machine (bytes; Linux doubles it).
-
-By default it takes 650 kB from a robot that publishes more than the link carries: at 40 kB/s all messages were 16 s
-old, and no answer came through.
-"""
-SMALL_BATCH = 8192
-"""Batch size to another machine in bytes, small so that an answer need not wait behind 64 kB of data."""
-ROOM_OF_A_NETWORK = 2
-"""How many of those batches a link queues for messages of one priority."""
 
 MESH_REGION = "bot_console"
 """Name of the Zenoh region of a domain's processes, which link to each other."""
@@ -127,13 +106,7 @@ def session_settings(
                 "tx": {
                     # Links to other machines keep Zenoh's default lease.
                     **({"batch_size": SMALL_BATCH} if serving else {"lease": LEASE}),
-                    "queue": {
-                        "size": {"data": room, "data_low": room},
-                        "congestion_control": {
-                            "drop": {"wait_before_drop": WAIT_BEFORE_DROP},
-                            "block": {"wait_before_close": WAIT_BEFORE_CUT},
-                        },
-                    },
+                    "queue": queue_settings(room),
                 },
             },
         },

@@ -20,12 +20,11 @@ from bot_console.runtime.rmw.zenoh.wire.tokens import (
     entity_token,
     parse_token,
 )
+from bot_console.tui.cli.doctor.clock import clock_findings
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
 
 PER_KEY = 3
 """Attachments that are kept per key."""
-SKEW_S = 1.0
-"""Seconds by which clocks may differ before that is reported."""
 GRAPH_TIMEOUT_S = 5.0
 NAME = "_bot_console_doctor"
 _numbers = itertools.count(1)
@@ -108,7 +107,7 @@ def wire_findings(wire: Wire, delay: float) -> list[DoctorFinding]:
         findings.append(
             DoctorFinding(Level.WARN, "graph", f"{len(bad)} tokens do not follow the format: {bad[0][:120]}", hint)
         )
-    return [*findings, *_attachment_findings(wire), *_clock_findings(wire, delay)]
+    return [*findings, *_attachment_findings(wire), *clock_findings(wire.samples, delay)]
 
 
 def _attachment_findings(wire: Wire) -> list[DoctorFinding]:
@@ -124,31 +123,6 @@ def _attachment_findings(wire: Wire) -> list[DoctorFinding]:
         DoctorFinding(Level.FAIL, "messages", f"{', '.join(topics[:4])}: {text}", "update the middleware on that side")
         for text, topics in texts.items()
     ]
-
-
-def _clock_findings(wire: Wire, delay: float) -> list[DoctorFinding]:
-    """The offset between clocks: from the fastest message, less half the round-trip time."""
-    offsets = [
-        (arrived - reported[1]) / 1e9 - delay / 2
-        for samples in wire.samples.values()
-        for attachment, _, arrived in samples
-        if (reported := _unpacked(attachment)) is not None
-    ]
-    if not offsets:
-        return [DoctorFinding(Level.NOTE, "clock", "no message was received, so the clocks were not compared")]
-    offset = min(offsets, key=abs)
-    if abs(offset) < SKEW_S:
-        return [DoctorFinding(Level.OK, "clock", f"differs by {abs(offset):.2f} s at most")]
-    side = "behind" if offset > 0 else "ahead of"
-    hint = "synchronise both with NTP or chrony: stamps, tf and logs are off by that much"
-    return [DoctorFinding(Level.WARN, "clock", f"the robot's is {abs(offset):.1f} s {side} this one", hint)]
-
-
-def _unpacked(attachment: bytes | None):
-    try:
-        return unpack(attachment)
-    except FormatError:
-        return None
 
 
 def captured(wire: Wire, made_with: Sequence[str]) -> dict[str, object]:

@@ -21,14 +21,6 @@ class RecordingInfo:
     """Topics that cannot be recorded, as their types are not available here."""
 
 
-@dataclass(frozen=True, slots=True)
-class RingSize:
-    """The limits of what is kept in memory: seconds, and bytes."""
-
-    seconds: float
-    bytes: int
-
-
 class Keeper(Protocol):
     """Keeps the last minutes of a system in memory, in whichever process that happens."""
 

@@ -11,10 +11,10 @@ from typing import Any, Protocol
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.missing_packages import Missing
-from bot_console.tui.console.bags.port import RingSize
 from bot_console.tui.console.bags.qos import noted
 from bot_console.tui.console.bags.recorder import CLOCK, Ring, in_order
 from bot_console.tui.console.bags.recording_sinks import RingSink
+from bot_console.tui.console.bags.snapshot_size import SnapshotSize
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.files.save_file import NotSaved, typed_path
 
@@ -39,7 +39,7 @@ class SnapshotBuffer:
     and a node that publishes only while it has subscribers does not start publishing.
     """
 
-    def __init__(self, size: RingSize, serialize: Callable[[Any], bytes], hash_of: Callable[[Any], str]) -> None:
+    def __init__(self, size: SnapshotSize, serialize: Callable[[Any], bytes], hash_of: Callable[[Any], str]) -> None:
         """`serialize` returns a message's CDR, `hash_of` the RIHS01 text of a class."""
         self.kept_s = size.seconds
         self._serialize = serialize

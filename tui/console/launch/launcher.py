@@ -15,17 +15,16 @@ from bot_console.tui.console.launch.arguments import read_arguments
 from bot_console.tui.console.launch.process import ENDED, KILLED, LaunchedProcess, Order
 from bot_console.tui.console.launch.process_output import Add, ProcessOutput
 from bot_console.tui.console.launch.process_verbs import ProcessVerbs
+from bot_console.tui.console.launch.restart_policy import DEFAULT_RESTARTS, RestartPolicy
 from bot_console.tui.console.launch.restart_recipe import Recipe, recipe
 from bot_console.tui.console.launch.run import LaunchRun, Listener
 from bot_console.tui.console.launch.timeline import LaunchTimeline
 from bot_console.tui.console.launch.title import argument_line, title_of, unused
 from bot_console.tui.console.launch.vitals import HANGS, FindVitals, Usage, Vitals
 from bot_console.tui.console.model import (
-    DEFAULT_RESTARTS,
     LaunchArgument,
     LaunchInfo,
     ProcessState,
-    RestartPolicy,
     Severity,
 )
 

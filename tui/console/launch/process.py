@@ -10,7 +10,8 @@ from dataclasses import replace
 from enum import Enum
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.model import DEFAULT_RESTARTS, ProcessInfo, ProcessState, Program, RestartPolicy
+from bot_console.tui.console.launch.restart_policy import DEFAULT_RESTARTS, STEADY_S, RestartPolicy
+from bot_console.tui.console.model import ProcessInfo, ProcessState, Program
 
 INTERRUPTED = (0, -2, -15, 130)
 """Exit codes of a process that ended on request."""
@@ -20,8 +21,6 @@ MAX_PID = 1 << 22
 
 STARTS = ("start", "restart")
 POLICIES = ("restart_on_failure", "leave_ended")
-STEADY_S = 60.0
-"""Seconds that a process must have run for its failed attempts to be forgotten."""
 ENDED = (ProcessState.EXITED, ProcessState.CRASHED, ProcessState.ABANDONED, ProcessState.MISSING)
 
 

@@ -7,14 +7,12 @@ not changed since the last snapshot is the same object, so a pane redraws by com
 from bot_console.tui.console.model.changes import RESTARTED, Change, ChangeSource, JournalState, SetOutcome
 from bot_console.tui.console.model.graph import Endpoint, GraphInfo, IncompatiblePair, NodeInfo
 from bot_console.tui.console.model.launch import (
-    DEFAULT_RESTARTS,
     LaunchArgument,
     LaunchEvent,
     LaunchInfo,
     ProcessInfo,
     ProcessState,
     Program,
-    RestartPolicy,
 )
 from bot_console.tui.console.model.logs import LogFilter, LoggerLevel, LogRecord, LogState, Severity
 from bot_console.tui.console.model.parameters import Kind, ParameterInfo, ParameterTree, Value, same
@@ -24,7 +22,6 @@ from bot_console.tui.console.model.rates import RateCheck
 from bot_console.tui.console.model.snapshot import Capabilities, ConsoleSnapshot, LinkInfo
 
 __all__ = [
-    "DEFAULT_RESTARTS",
     "RESTARTED",
     "Capabilities",
     "Change",
@@ -53,7 +50,6 @@ __all__ = [
     "Program",
     "Range",
     "RateCheck",
-    "RestartPolicy",
     "SetOutcome",
     "Severity",
     "Value",

@@ -22,31 +22,6 @@ class ProcessState(str, Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class RestartPolicy:
-    """How a process is restarted that has failed: up to `attempts` times in a row, after a delay that doubles."""
-
-    attempts: int = 5
-    delay: float = 1.0
-    """Seconds before the first restart."""
-    max_delay: float = 30.0
-    """The longest delay, in seconds."""
-
-    def delay_before(self, attempt: int) -> float:
-        """Seconds to wait before an attempt, counted from 1."""
-        return min(self.max_delay, self.delay * 2.0 ** min(attempt - 1, 60))
-
-    @property
-    def text(self) -> str:
-        """The policy in words."""
-        last = self.delay_before(self.attempts)
-        times = "once" if self.attempts == 1 else f"up to {self.attempts} times"
-        return f"on failure, {times}, after {self.delay:g}" + (f" to {last:g} s" if last != self.delay else " s")
-
-
-DEFAULT_RESTARTS = RestartPolicy()
-
-
-@dataclass(frozen=True, slots=True)
 class Program:
     """What a process runs: its command without the prefix, and what launch did with it."""
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from bot_console.runtime.rmw.zenoh.congestion_control import ROOM_OF_A_NETWORK, SMALL_BATCH
 from bot_console.runtime.rmw.zenoh.session import Session, SessionError
-from bot_console.runtime.rmw.zenoh.settings import ROOM_OF_A_NETWORK, SMALL_BATCH, Serving, network_link
+from bot_console.runtime.rmw.zenoh.settings import Serving, network_link
 
 
 def router_settings(zid: str, serving: Serving) -> dict[str, object]:

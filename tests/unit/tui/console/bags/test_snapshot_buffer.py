@@ -7,16 +7,16 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-from bot_console.tui.console.bags.port import RingSize
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.bags.snapshot_buffer import SnapshotBuffer
+from bot_console.tui.console.bags.snapshot_size import SnapshotSize
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.serialization import deserialize_message, serialize_message
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import String
 
 ONE, OTHER = b"1" * 16, b"2" * 16
-SIZE = RingSize(60.0, 10_000_000)
+SIZE = SnapshotSize(60.0, 10_000_000)
 
 
 def endpoint(topic: str, kind: Any = String, *, latching: bool = False) -> Any:

@@ -1,8 +1,9 @@
 """The state machine of one launched process, without launch."""
 
 import pytest
-from bot_console.tui.console.launch.process import ENDED, STEADY_S, LaunchedProcess, Order
-from bot_console.tui.console.model import ProcessState, Program, RestartPolicy
+from bot_console.tui.console.launch.process import ENDED, LaunchedProcess, Order
+from bot_console.tui.console.launch.restart_policy import STEADY_S, RestartPolicy
+from bot_console.tui.console.model import ProcessState, Program
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule

@@ -6,7 +6,8 @@ from contextlib import suppress
 from importlib import import_module
 
 import pytest
-from bot_console.tui.console.model import LaunchArgument, ProcessState, RestartPolicy, Severity
+from bot_console.tui.console.launch.restart_policy import RestartPolicy
+from bot_console.tui.console.model import LaunchArgument, ProcessState, Severity
 from domains import unused_domain
 from launcher_bench import DEAF, ENDS, FAILS, TIMEOUT_S, WAITS, Bench
 
