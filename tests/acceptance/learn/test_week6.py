@@ -695,7 +695,7 @@ def chapter_22(at: Student) -> None:
     two.shows("no values from the server")
     at.reads(
         "✓ run intelligent_robot remote_node was run",
-        "waiting for: max_speed to be set to 0.9: does the server run",
+        "waiting for: max_speed to be set to 0.85: does the server run",
     )
     two.interrupt()
     three.start(serve.replace("8000", port))
