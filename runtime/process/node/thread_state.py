@@ -35,6 +35,8 @@ class ThreadState:
     __slots__ = (
         "_guard",
         "_pending",
+        "_postponed",
+        "_starts",
         "_thrown",
         "_waker",
         "called",
@@ -68,6 +70,10 @@ class ThreadState:
         self._pending: deque[Callable[[], Any]] = deque()
         self._waker: Callable[[], None] | None = None
         self._thrown = False
+        self._starts = False
+        """Whether the thread is just starting another one."""
+        self._postponed: type[BaseException] | None = None
+        """What was thrown meanwhile."""
 
     @property
     def waiting(self) -> bool:
@@ -138,6 +144,8 @@ class ThreadState:
                 self._wake()
             elif self.ending:
                 return
+            elif self._starts:
+                self._postponed = exception
             elif self.ident and stack_frames.is_importing(self.ident):
                 unpatched.later(IMPORT_POLL_S, partial(self.throw, exception))
             elif self.ident and self.thread.is_alive():
@@ -145,6 +153,23 @@ class ThreadState:
 
                 self._thrown = True
                 ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(self.ident), ctypes.py_object(exception))
+
+    def start_thread(self, thread: threading.Thread) -> None:
+        """Start another thread from this one, and raise what is thrown meanwhile when that one runs.
+
+        Before Python 3.12 a new thread has its starter's identifier until it runs: it would get the exception and end
+        before its first line, and the starter would wait for it for ever.
+        """
+        try:
+            with self._guard:
+                self._starts = True
+            unpatched.start_thread(thread)
+        finally:
+            with self._guard:
+                self._starts = False
+                postponed, self._postponed = self._postponed, None
+            if postponed is not None:
+                raise postponed
 
     def begin_wait(self, waker: Callable[[], None]) -> None:
         """Register how to wake the thread from the wait it is entering; raises what was posted or thrown before."""

@@ -27,7 +27,10 @@ def start_outside(thread: threading.Thread) -> None:
     """Start a thread that belongs to the real process, whichever process calls."""
     before, local.waits_on = local.waits_on, None  # `Thread.start` waits until the new thread runs
     try:
-        unpatched.start_thread(thread)
+        if local.state is None:
+            unpatched.start_thread(thread)
+        else:
+            local.state.start_thread(thread)
     finally:
         local.waits_on = before
 

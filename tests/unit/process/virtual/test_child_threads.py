@@ -186,3 +186,25 @@ def test_subclass_may_override_run(run):
         wheel.join()
 
     assert run(target, name="cart").stdout == "turns in cart\n"
+
+
+def test_exception_thrown_while_threads_are_started_hits_their_starter(start):
+    begun, threads, hits = threading.Event(), [], []
+
+    def target():
+        begun.set()
+        while len(threads) < 100 or not hits:
+            try:
+                thread = threading.Thread(target=int, daemon=True)
+                thread.start()
+                threads.append(thread)
+            except KeyboardInterrupt:
+                hits.append(len(threads))
+
+    started = start(target)
+    assert begun.wait(LONG)
+    while started.process.is_alive and (len(threads) < 100 or not hits):
+        started.process.main_state.throw(KeyboardInterrupt)
+        started.process.wait(0.0002)
+    started.end()
+    assert hits
