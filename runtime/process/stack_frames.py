@@ -48,11 +48,6 @@ def describe(frame: FrameType) -> str:
     return f"{frame.f_code.co_filename}:{frame.f_lineno}, in {frame.f_code.co_name}"
 
 
-def calling_line() -> str:
-    """Return the line of the user's code that this thread is executing."""
-    return describe(user_frame(sys._getframe(1)))  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
-
-
 def line_outside(frame: FrameType | None) -> str:
     """Return `/path/file.py:12` of the innermost frame outside the runtime, even a library's; empty if none."""
     while frame is not None and frame.f_code.co_filename.startswith((*_OURS, "<frozen")):

@@ -82,7 +82,13 @@ def each_profile_loads(page: Page, row: Row) -> None:
         profile_loads(page, name)
 
 
+_loaded: set[str] = set()
+"""Profiles that an earlier row of this run has loaded."""
+
+
 def profile_loads(page: Page, name: str) -> None:
+    if name in _loaded:
+        return
     file, sections = profile(page, name)
     for node, section in sections.items():
         program = start(page, node, "--ros-args", "--params-file", str(file))
@@ -90,6 +96,7 @@ def profile_loads(page: Page, name: str) -> None:
         expected = dict(flat(section["ros__parameters"]))
         assert {key: value for key, value in flat(dumped) if key in expected} == expected
         page.stop(program)
+    _loaded.add(name)
 
 
 def flat(tree: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:

@@ -42,11 +42,6 @@ class Stopping:
         if not self._keeps_held():
             self.hold()
 
-    @property
-    def held_here(self) -> bool:
-        """Whether this console holds the robot, or has requested it."""
-        return self._console.snapshot().drive.stopped_here
-
     def hold(self) -> None:
         """Hold the robot still."""
         self._console.drive.stop(True)
