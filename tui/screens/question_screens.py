@@ -12,9 +12,9 @@ if TYPE_CHECKING:
 SCREENS = {
     "Confirmation": ("confirm", "ConfirmScreen"),
     "Choice": ("picker", "PickerScreen"),
-    "Elements": ("elements", "ElementsScreen"),
+    "Elements": ("array_editor", "ElementsScreen"),
     "Form": ("launch_arguments", "ArgumentsScreen"),
-    "Fill": ("fill", "FillScreen"),
+    "Fill": ("message_form", "FillScreen"),
 }
 """The module in this folder and the class of the screen for each kind of question, by the name of its class."""
 
