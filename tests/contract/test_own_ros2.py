@@ -8,9 +8,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.session.machine.ros2_command_line import MachineCommandLine, printed_by
 from domains import unused_domain
+from rclpy.serialization import serialize_message
 from rigs import is_embedded_rclpy, until
+from std_msgs.msg import String
 
 pytestmark = [
     pytest.mark.ros,
@@ -58,6 +61,34 @@ def peer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
             assert process.stdout is not None and process.stdout.readline() == b"ready\n"
             yield
             process.kill()
+
+
+HEARS = """
+import rclpy
+from std_msgs.msg import String
+
+rclpy.init()
+node = rclpy.create_node("hears")
+node.create_subscription(String, "/from_bag", lambda message: print(message.data, flush=True), 10)
+print("ready", flush=True)
+rclpy.spin(node)
+"""
+
+
+def test_bag_is_played_into_the_ros2_of_this_machine(peer: None, tmp_path: Path) -> None:
+    writer = BagWriter(tmp_path / "bag")
+    writer.topic("/from_bag", String, [])
+    for second in range(1, 4):
+        writer.write("/from_bag", serialize_message(String(data=f"word {second}")), second * 1_000_000_000, 0)
+    writer.close()
+    line = [sys.executable, "-m", "bot_console.tui", "bag", "play", str(tmp_path / "bag"), "--ros", "--rate", "10"]
+    with subprocess.Popen([sys.executable, "-c", HEARS], stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None and process.stdout.readline() == "ready\n"
+        # In a loop: how long two processes take to find each other is up to the middleware.
+        with subprocess.Popen([*line, "--loop", "--disable-keyboard-controls"]) as player:
+            assert process.stdout.readline().startswith("word ")
+            player.kill()
+        process.kill()
 
 
 @pytest.mark.parametrize(

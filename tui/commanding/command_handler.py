@@ -137,7 +137,8 @@ class CommandHandler:
 
     def show_bag(self, folder: str, *, play: bool) -> None:
         """Show a bag, or play it, in a console of its own, which has the terminal until it quits."""
-        if self._run_outside([*child_command("bot_console.tui"), "bag", "open", folder, *["--play"] * play]):
+        options = [*["--play"] * play, *self._console.snapshot().capabilities.bag_options]
+        if self._run_outside([*child_command("bot_console.tui"), "bag", "open", folder, *options]):
             self.notify(f"{folder} cannot be shown; bot-console bag info {folder} says why", severity="error")
 
     def hold_robot(self, hold: bool) -> None:

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from bot_console.tui.session.embedded.reaching import reach_system
 
 if TYPE_CHECKING:
+    from bot_console.tui.console.bags.port import GenericTypes
     from rclpy.node import Node
 
 
@@ -57,24 +58,37 @@ def new_folder(near: Path | None = None) -> Path:
     return found
 
 
-def make_node(name: str) -> Any:
-    """A node in the domain, or behind the robot's router; None, after printing why, if neither can be reached."""
-    made = join_domain(name)
+def make_node(name: str, *, machine: bool = False) -> Any:
+    """A node in the domain, or behind the robot's router; None, after printing why, if neither can be reached.
+
+    With `machine`, a node of the machine's ROS 2.
+    """
+    made = join_domain(name, machine=machine)
     if isinstance(made, str):
         print(made, file=sys.stderr)
         return None
     return made
 
 
-def join_domain(name: str = "rosbag2_player") -> Any:
-    """A node in the domain, or behind the robot's router; a text that says why if neither can be reached."""
+def join_domain(name: str = "rosbag2_player", *, machine: bool = False) -> Any:
+    """A node in the domain, or behind the robot's router; a text that says why if neither can be reached.
+
+    With `machine`, a node of the machine's ROS 2.
+    """
     import rclpy
 
-    unreachable = reach_system()
+    unreachable = "" if machine else reach_system()
     if unreachable:
         return unreachable
     rclpy.init(args=[])
     return rclpy.create_node(name, start_parameter_services=False)
+
+
+def generic_types(*, machine: bool) -> GenericTypes | None:
+    """Classes for messages of types without a definition here; None for the machine's ROS 2, which takes none."""
+    from bot_console.tui.session.embedded.hooks import DomainTypes
+
+    return None if machine else DomainTypes()
 
 
 def service_types() -> Any:

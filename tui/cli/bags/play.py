@@ -9,7 +9,7 @@ from collections.abc import Callable
 from contextlib import nullcontext
 from typing import TYPE_CHECKING, Any
 
-from bot_console.tui.cli.bags.common import make_node, report_unused, service_types, spin
+from bot_console.tui.cli.bags.common import generic_types, make_node, report_unused, service_types, spin
 from bot_console.tui.cli.bags.keyboard import keys_read
 from bot_console.tui.cli.bags.play_arguments import NOT_NEEDED, bag_paths, chosen_topics, end_of, wrong_play
 from bot_console.tui.console.bags.damage import NoBag
@@ -106,7 +106,6 @@ def _prepare(given: argparse.Namespace) -> tuple[Node, Player] | int:
     from bot_console.tui.console.bags.qos import read_overrides
     from bot_console.tui.console.bags.reader import Bag
     from bot_console.tui.console.bags.together import BagsTogether
-    from bot_console.tui.session.embedded.hooks import DomainTypes
     from rclpy.logging import LoggingSeverity
 
     if wrong := wrong_play(given):
@@ -122,7 +121,7 @@ def _prepare(given: argparse.Namespace) -> tuple[Node, Player] | int:
     except (OSError, ValueError) as error:
         print(sanitize(f"{overrides}: {error}"), file=sys.stderr)
         return 1
-    node = make_node("rosbag2_player")
+    node = make_node("rosbag2_player", machine=given.ros)
     if node is None:
         return 1
     node.get_logger().set_level(LoggingSeverity[given.log_level.upper()])
@@ -141,7 +140,7 @@ def _prepare(given: argparse.Namespace) -> tuple[Node, Player] | int:
         clock=given.clock,
         clock_topics=None if given.clock_topics_all else given.clock_topics,
     )
-    player = Player(node, bag, how, class_of, DomainTypes())
+    player = Player(node, bag, how, class_of, generic_types(machine=given.ros))
     for name, why in player.unknown.items():
         node.get_logger().warning(f"Topic '{name}' is not played: {why}")
     if player.left_out:

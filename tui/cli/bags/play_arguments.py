@@ -45,6 +45,9 @@ def add_play_arguments(play: argparse.ArgumentParser) -> None:
     play.add_argument("--progress-bar-separation-lines", type=int, metavar="N", help="not used")
 
 
+ON_MACHINE = "play into the ROS 2 of this machine, as attach --ros reaches it"
+
+
 def add_burst_arguments(burst: argparse.ArgumentParser) -> None:
     """Declare the arguments of `burst`."""
     _add_reading(burst)
@@ -53,6 +56,7 @@ def add_burst_arguments(burst: argparse.ArgumentParser) -> None:
 
 def _add_reading(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("bag", type=named_folder, nargs="?")
+    parser.add_argument("--ros", action="store_true", help=ON_MACHINE)
     parser.add_argument(
         "-i", "--input", nargs="+", action="append", default=[], metavar=("BAG", "STORAGE"),
         help="a further bag to play at the same time",

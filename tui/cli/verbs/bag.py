@@ -5,22 +5,27 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable, Sequence
+from functools import partial
 
 from bot_console.runtime.importer import install
 from bot_console.tui.cli.bags import convert, info, play, record
-from bot_console.tui.cli.bags.common import join_domain, named_folder
-from bot_console.tui.cli.bags.play_arguments import add_burst_arguments, add_play_arguments
+from bot_console.tui.cli.bags.common import generic_types, join_domain, named_folder
+from bot_console.tui.cli.bags.play_arguments import ON_MACHINE, add_burst_arguments, add_play_arguments
 from bot_console.tui.cli.bags.record_arguments import add_record_arguments
 from bot_console.tui.console.bags.damage import NoBag
 from bot_console.tui.console.bags.missing_packages import Missing
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.format import sanitize
+from bot_console.tui.session.machine.console_needs import provide_missing
+from bot_console.tui.session.machine.machine_ros import find_machine_ros, how_to_install
 
 
 def run(words: Sequence[str]) -> int:
     """Run a `bag` command line; 0 done, 1 failed, 2 wrong usage."""
-    install()
     given = parser().parse_args(words)
+    if unusable := _choose_rclpy(machine=getattr(given, "ros", False)):
+        print(unusable, file=sys.stderr)
+        return 1
     try:
         return given.run(given)
     except (Missing, NoBag, NotSaved) as error:
@@ -28,6 +33,22 @@ def run(words: Sequence[str]) -> int:
         return 1
     except KeyboardInterrupt:  # Before there was a node that ends in order.
         return 130
+
+
+def _choose_rclpy(*, machine: bool) -> str:
+    """Import the machine's rclpy from now on, or ours; returns why the machine's cannot be imported."""
+    if not machine:
+        install()
+        return ""
+    found = find_machine_ros()
+    if found is None:
+        return (
+            "--ros needs a ROS 2 on this machine: source it, or install bot-console with an extra such as [ros-jazzy]"
+        )
+    if not found.usable:
+        return how_to_install(found)
+    provide_missing()
+    return ""
 
 
 def parser() -> argparse.ArgumentParser:
@@ -54,6 +75,7 @@ def parser() -> argparse.ArgumentParser:
     opened = add("open", _open, "open a bag in the console, and move through its time")
     opened.add_argument("bag", type=named_folder)
     opened.add_argument("--play", action="store_true", help="play it at once, into the ROS domain")
+    opened.add_argument("--ros", action="store_true", help=ON_MACHINE)
     add("snapshot", record.snapshot, "make a recorder in snapshot mode write its messages")
     convert.add_convert_arguments(add("convert", convert.convert, "rewrite bags with other settings"))
     reads_one(add("reindex", convert.reindex, "rewrite the metadata of a bag"))
@@ -71,7 +93,6 @@ def _open(given: argparse.Namespace) -> int:
     from bot_console.tui.console.bags.opened_bag import OpenedBag
     from bot_console.tui.console.bags.playing.bag_playback import BagPlayback
     from bot_console.tui.console.bags.reader import Bag
-    from bot_console.tui.session.embedded.hooks import DomainTypes
 
     bag = Bag(given.bag)
     play.report_repaired(bag)
@@ -81,7 +102,7 @@ def _open(given: argparse.Namespace) -> int:
     options = parse([])
     notes = [f"{each} is not shown: the bag is too large" for each in contents.left_out]
     notes += [contents.damage] if contents.damage else []
-    playback = BagPlayback(bag, join_domain, DomainTypes())
+    playback = BagPlayback(bag, partial(join_domain, machine=given.ros), generic_types(machine=given.ros))
     try:
         app = BagApp(
             console, opening=options.opening._replace(notes=tuple(notes)), appearance=appearance_of(options),

@@ -41,6 +41,8 @@ class Capabilities:
     """Showing what happens now, which a recording cannot do."""
     change: str = ""
     """Setting, sending, starting and ending things from here."""
+    bag_options: tuple[str, ...] = ()
+    """Options of `bag open` by which a bag is played into this system."""
 
 
 @dataclass(frozen=True, slots=True)

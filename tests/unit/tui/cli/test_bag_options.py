@@ -6,12 +6,19 @@ import argparse
 import re
 from collections.abc import Sequence
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
+import rclpy
+from bot_console.tui.cli.bags import common
 from bot_console.tui.cli.bags.keyboard import split_keys
 from bot_console.tui.cli.bags.play_arguments import bag_paths, chosen_topics, end_of, wrong_play
 from bot_console.tui.cli.bags.record_arguments import wanted_topics, wrong_record
 from bot_console.tui.cli.verbs.bag import parser, run
+from bot_console.tui.commanding.command_handler import CommandHandler
+from bot_console.tui.console.model import ConsoleSnapshot
+from bot_console.tui.session.machine.ros import CAPABILITIES as MACHINE
 
 pytest.importorskip("mcap")
 FILE = __file__
@@ -193,3 +200,37 @@ def test_plugins_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["list", "storage"]) == 0 and capsys.readouterr().out.split() == ["mcap", "sqlite3"]
     assert run(["list", "compression", "--verbose"]) == 0
     assert "name: rosbag2_compression_zstd::ZstdCompressor" in capsys.readouterr().out
+
+
+def test_playing_into_the_ros2_of_a_machine_without_one_says_what_is_missing(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("bot_console.tui.cli.verbs.bag.find_machine_ros", lambda: None)
+    for verb in ("play", "burst", "open"):
+        assert run([verb, "a_bag", "--ros"]) == 1
+        assert "--ros needs a ROS 2 on this machine" in capsys.readouterr().err
+
+
+def test_a_node_of_the_machines_ros2_does_not_join_the_domain_of_this_program(monkeypatch: pytest.MonkeyPatch) -> None:
+    def unreachable() -> str:
+        return "nothing is reached"
+
+    monkeypatch.setattr(common, "reach_system", unreachable)
+    assert common.join_domain() == "nothing is reached"
+    rclpy.init()
+    monkeypatch.setattr(rclpy, "init", lambda args: None)
+    try:
+        assert common.join_domain("player", machine=True).get_name() == "player"
+    finally:
+        rclpy.try_shutdown()
+
+
+@pytest.mark.parametrize("play", [False, True])
+def test_a_console_plays_bags_into_the_system_that_it_shows(play: bool) -> None:
+    ran: list[Sequence[str]] = []
+    snapshot = ConsoleSnapshot(capabilities=MACHINE)
+    handler: Any = SimpleNamespace(
+        _console=SimpleNamespace(snapshot=lambda: snapshot), _run_outside=lambda words: ran.append(words) or 0
+    )
+    CommandHandler.show_bag(handler, "a_bag", play=play)
+    assert [*ran[0][-4:]] == (["open", "a_bag", "--play", "--ros"] if play else ["bag", "open", "a_bag", "--ros"])
