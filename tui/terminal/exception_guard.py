@@ -6,9 +6,12 @@ without this module.
 
 from __future__ import annotations
 
+import sys
+
 from bot_console.tui.terminal.output import SUPPORTED, HoldingScreen, SparingApp
 from bot_console.tui.terminal.styling import StyledOnceApp, StyledOnceScreen
 from bot_console.tui.terminal.visible_screen import VisibleScreen
+from rich.console import Console
 from rich.text import Text
 from textual._context import active_message_pump
 from textual.dom import DOMNode
@@ -47,6 +50,8 @@ class GuardedApp(SparingApp, StyledOnceApp):
             super()._handle_exception(error)
 
     def _fatal_error(self) -> None:
+        # While an app runs, what is written to `sys.stderr` goes to the log of the robot, which ends with the app.
+        self.error_console = Console(file=sys.__stderr__, markup=False, highlight=False, soft_wrap=True)
         self._exit_renderables[:] = [Text(self.last_words(self._exception or RuntimeError("unknown")))]
         self._close_messages_no_wait()
 
