@@ -102,10 +102,9 @@ class GilHolder:
             self._path = _file_of(self._pid)
         if not self._path:
             return ""
-        try:
-            with open(self._path, encoding="ascii", errors="replace") as file:
-                text = file.read(1 << 20)
-        except OSError:  # it has ended
+        text = _content(self._path)
+        if text is None:
+            self._path = ""  # it was moved to another descriptor, unless the process has ended
             return ""
         thread = text.partition(" ")[0]
         switches = voluntary_switches(self._pid, int(thread)) if thread.isdecimal() else None
@@ -113,11 +112,28 @@ class GilHolder:
         return held.line if held is not None else ""
 
 
+def _content(path: str) -> str | None:
+    """Return what a process has written to its file; None if there is no such file at that descriptor.
+
+    The process may have closed the descriptor and opened something else there: reading from a pipe could wait for ever.
+    """
+    try:
+        descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
+        with open(descriptor, encoding="ascii", errors="replace") as file:
+            return file.read(1 << 20) if _is_stacks(f"/proc/self/fd/{descriptor}") else None
+    except OSError:  # it has ended, or closed its file
+        return None
+
+
+def _is_stacks(path: str) -> bool:
+    return f":{NAME}" in os.readlink(path)
+
+
 def _file_of(pid: int) -> str:
     folder = f"/proc/{pid}/fd"
     try:
         for name in os.listdir(folder):
-            if f":{NAME}" in os.readlink(f"{folder}/{name}"):
+            if _is_stacks(f"{folder}/{name}"):
                 return f"{folder}/{name}"
     except OSError:  # it has ended, is another user's, or the system has no such folder
         return ""

@@ -4,8 +4,10 @@ import os
 import subprocess
 import sys
 import threading
+import time
 
 import pytest
+from bot_console.runtime.process.watch import gil_holder
 from bot_console.runtime.process.watch.gil_holder import GilHolder, held_in_stacks
 
 RUNTIME = os.path.dirname(os.path.dirname(os.path.dirname(sys.modules[GilHolder.__module__].__file__ or "")))
@@ -136,3 +138,22 @@ def test_other_processes_can_see_it_meanwhile(tmp_path: os.PathLike[str]) -> Non
         finally:
             process.kill()
     assert GilHolder(process.pid).held_in() == ""
+
+
+@needs_a_file_in_memory
+def test_file_is_not_confused_with_a_pipe_that_took_its_descriptor(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(gil_holder, "NAME", "file-of-this-test")
+    monkeypatch.setattr(gil_holder, "voluntary_switches", lambda process, thread: 1200)
+    text = written(HOLDS)[0].replace("50.0", str(time.monotonic() - 1.25)).encode()
+    file = os.memfd_create(gil_holder.NAME)
+    os.write(file, text)
+    seen = GilHolder(os.getpid())
+    assert seen.held_in() == "/home/me/holds.py:12, in tick"
+    moved = os.dup(file)
+    receiver, sender = os.pipe()
+    os.write(sender, text)
+    os.close(sender)
+    os.dup2(receiver, file)
+    assert [seen.held_in(), seen.held_in()] == ["", "/home/me/holds.py:12, in tick"]
+    for each in (file, moved, receiver):
+        os.close(each)
