@@ -9,6 +9,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from bot_console.tui.terminal.ascii import plain_text
+from bot_console.tui.terminal.sgr import codes_on_blank
 from rich.cells import get_character_cell_size
 from rich.color import ColorSystem
 from rich.segment import Segment
@@ -23,25 +24,24 @@ NARROW = re.compile(
 ACTING = frozenset(("Cc", "Cf", "Cs"))
 """Categories of characters that terminals obey or that cannot be encoded: controls, formatting, surrogates."""
 UNSHOWN = "?"
+BLANK = " "
 
 
 class Cells(NamedTuple):
-    """Characters and SGR codes, one of each per cell; `uneven` if not all characters are one cell wide."""
+    """Characters and SGR codes, one of each per cell."""
 
     characters: list[str]
     styles: list[str]
-    uneven: bool = False
 
 
 def cells_of(segments: Iterable[Segment], colours: ColorSystem, plain: bool = False) -> Cells:
     """The cells of a segment of a line. A wide character occupies its first cell; the second one is empty.
 
     Characters that act on a terminal are left out. `plain` is for terminals that show only ASCII: drawing characters
-    are replaced by similar ones.
+    are replaced by similar ones. The codes of a blank are only those that it shows.
     """
     characters: list[str] = []
     styles: list[str] = []
-    uneven = False
     for given, style, control in segments:
         if control:
             continue
@@ -50,10 +50,11 @@ def cells_of(segments: Iterable[Segment], colours: ColorSystem, plain: bool = Fa
         if NARROW.fullmatch(text):
             characters += text
         else:
-            uneven = True
             _spread(text, characters)
-        styles += [codes_of(style, colours) if style else ""] * (len(characters) - before)
-    return Cells(characters, styles, uneven)
+        codes = codes_of(style, colours) if style else ""
+        on_blank = codes_on_blank(codes)
+        styles += [on_blank if each == BLANK else codes for each in characters[before:]]
+    return Cells(characters, styles)
 
 
 def _spread(text: str, characters: list[str]) -> None:

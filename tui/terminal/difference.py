@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from bot_console.tui.terminal.cells import Cells, cells_of
-from bot_console.tui.terminal.sgr import RESET, change
+from bot_console.tui.terminal.cells import BLANK, NARROW, Cells, cells_of
+from bot_console.tui.terminal.sgr import RESET, change, codes_for_blank
 from rich.color import ColorSystem
 from rich.segment import Segment
 from textual.strip import Strip
@@ -69,17 +69,25 @@ class ShownScreen:
         ]
         if not differing:
             return
-        uneven = new.uneven or "" in characters[x:end]
+        # Terminals disagree on the width of some characters, so everything after the first change there is rewritten.
+        uncertain = x + min(_first_uneven(characters[x:end]), _first_uneven(new.characters))
         characters[x:end], styles[x:end] = new.characters[: end - x], new.styles[: end - x]
-        if uneven:
-            # Terminals disagree on the width of such characters, so everything after the first change is rewritten.
-            begin = differing[0]
+        begin = next((at for at in differing if at >= uncertain), end)
+        if begin < end:
             # The second half of a wide character cannot be written without the first.
             while begin > x and not characters[begin]:
                 begin -= 1
-            differing = list(range(begin, end))
+            differing = [*(at for at in differing if at < begin), *range(begin, end)]
         for at in differing:
             writer.cell(y, at, characters, styles)
+
+
+def _first_uneven(characters: list[str]) -> int:
+    """The first cell of which terminals may disagree how wide it is; the number of cells if there is none."""
+    if NARROW.fullmatch("".join(characters).replace(UNKNOWN, BLANK)):
+        return len(characters)
+    certain = (each == UNKNOWN or (len(each) == 1 and NARROW.fullmatch(each)) for each in characters)
+    return next((at for at, each in enumerate(certain) if not each), len(characters))
 
 
 class Writer:
@@ -94,12 +102,16 @@ class Writer:
     def cell(self, y: int, x: int, characters: list[str], styles: list[str]) -> None:
         """Write one cell of a line; cells come in order."""
         self._move(y, x, characters, styles)
-        style = styles[x]
+        style = self._style_of(characters[x], styles[x])
         if style != self._style:
             self._parts.append(change(self._style, style))
             self._style = style
         self._parts.append(characters[x])
         self._x = x + 1
+
+    def _style_of(self, character: str, style: str) -> str:
+        """The style in which to write a cell: for a blank, one that looks the same and takes the shortest change."""
+        return style if character != BLANK or self._style is None else codes_for_blank(self._style, style)
 
     def _move(self, y: int, x: int, characters: list[str], styles: list[str]) -> None:
         if y != self._y:
@@ -112,7 +124,8 @@ class Writer:
         """Skip unchanged cells by rewriting them or by a cursor move, whichever is shorter."""
         text = "".join(characters)
         known = UNKNOWN not in characters and "" not in characters
-        if known and len(text.encode()) <= JUMP and all(each == self._style for each in styles):
+        same = (self._style_of(*each) == self._style for each in zip(characters, styles, strict=True))
+        if known and len(text.encode()) <= JUMP and all(same):
             return text
         return f"\x1b[{len(characters)}C"
 

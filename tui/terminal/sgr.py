@@ -10,6 +10,10 @@ OFF = {"1": "22", "2": "22", "3": "23", "4": "24", "5": "25", "6": "25", "7": "2
 """The code that ends each attribute."""
 
 
+LINES = frozenset(("4", "7", "9", "21", "53"))
+"""The attributes that a blank shows, too: lines and exchanged colours."""
+
+
 class SgrStyle(NamedTuple):
     """A parsed style: attributes, foreground and background, each as SGR codes; empty for the default."""
 
@@ -65,3 +69,19 @@ def change(before: str | None, after: str) -> str:
         return ""
     short = f"\x1b[{';'.join(codes)}m"
     return short if len(short) < len(whole) else whole
+
+
+@lru_cache(maxsize=4096)
+def codes_on_blank(codes: str) -> str:
+    """What a blank shows of a style: its background, but all of it if there are lines or exchanged colours."""
+    style = parsed(codes)
+    return codes if style.attributes & LINES else style.background
+
+
+@lru_cache(maxsize=4096)
+def codes_for_blank(before: str, on_blank: str) -> str:
+    """The style nearest to the one before in which a blank looks as in `on_blank`."""
+    old, new = parsed(before), parsed(on_blank)
+    if (old.attributes | new.attributes) & LINES:
+        return on_blank
+    return ";".join(filter(None, (*sorted(old.attributes), old.ground, new.background)))

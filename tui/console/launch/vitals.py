@@ -8,7 +8,7 @@ from typing import Protocol, TypeAlias
 from bot_console.tui.console.graph.findings import debugger_text
 
 CPU_POLL_S = 1.0
-"""Seconds over which CPU usage is measured."""
+"""Seconds over which CPU usage is measured, of all processes at the same moments: they are drawn at once."""
 
 
 STATE_POLL_S = 0.5
@@ -79,7 +79,7 @@ class Usage:
         if now - self._asked >= STATE_POLL_S:
             self._asked, self.stands = now, self._why_it_stands()
         passed = now - self._at
-        if passed < CPU_POLL_S:
+        if passed < CPU_POLL_S / 2 or now // CPU_POLL_S == self._at // CPU_POLL_S:
             return
         used, wanted = self._vitals.cpu_seconds(), self._vitals.wanted_seconds()
         self.share = _share(self._used, used, passed)

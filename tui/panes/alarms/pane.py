@@ -93,10 +93,13 @@ class AlarmsPane(ListPane):
         return self.query_one(AlarmRows)
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Redraw the list; its content comes by time, except for expected rates."""
+        """Redraw the list when expected rates or suggestions are others; all else in it changes with time."""
+        before = self._checks, self._suggested
         self._checks = snapshot.rate_checks
         self._suggest(() if self._alarms or self._checks else templates(snapshot.graph.topics))
-        self._arrange()
+        is_changed = self._checks is not before[0] or self._suggested is not before[1]
+        if is_changed or self.clock() - self._drawn >= SHOWN:
+            self._arrange()
 
     def _suggest(self, texts: Sequence[AlarmText]) -> None:
         """Suggest these alarms, and receive what they need and no more."""

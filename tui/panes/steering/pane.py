@@ -32,7 +32,7 @@ from textual.events import MouseDown, MouseEvent, MouseMove, MouseUp
 from textual.timer import Timer
 
 FIGURES_S = 0.5
-"""Seconds for which bars and figures stay while nobody steers here: faster ones cannot be read."""
+"""Seconds for which plane, bars and figures stay while nobody steers here: faster ones cannot be read."""
 HELD = "The all-stop holds the robot; the line below shows how to release it."
 
 
@@ -69,7 +69,7 @@ class SteeringPane(Pane):
         self._repeating: Timer | None = None
         """Repeats the command at another rate than the ticks."""
         self._figures, self._figures_at = DriveInfo(), float("-inf")
-        """The velocities that are shown as bars and figures, and since when (s)."""
+        """The velocities that are shown, and since when (s)."""
 
     def compose(self) -> ComposeResult:
         """The picture, and a prompt for limits."""
@@ -148,7 +148,7 @@ class SteeringPane(Pane):
         self.set_class(self.state.armed, "armed")
 
     def _shown_figures(self) -> DriveInfo:
-        """The velocities for bars and figures: while nobody steers here, they stay long enough to be read."""
+        """The velocities to show: while nobody steers here, they stay long enough to be read."""
         drive, held = self._snapshot.drive, self._figures
         if self.state.armed or self._are_figures_due() or not same_but_velocities(drive, held):
             self._figures, self._figures_at = drive, self.clock()

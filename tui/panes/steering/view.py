@@ -45,8 +45,8 @@ def lines(
 ) -> list[Line]:
     """Switch, dead-man time, sliders, and what became of the command; the least important lines go first.
 
-    `others` are nodes that publish commands where this pane does; `figures` are the velocities shown as bars and
-    numbers, by default the newest ones.
+    `others` are nodes that publish commands where this pane does; `figures` are the velocities shown on the plane, as
+    bars and as numbers, by default the newest ones.
     """
     figures = figures or drive
     top = [_switch(state, drive, width), *_others(others, drive.topic)]
@@ -59,7 +59,7 @@ def lines(
     controls: list[Line] = [*top, (), *sliders, deadman, ()]
     size = _plane_size(width, height - len(controls) - 2)
     if size is not None:
-        return [*controls, *_beside(_plane(state, drive, size), _chain(state, figures, narrow=True))][:height]
+        return [*controls, *_beside(_plane(state, figures, size), _chain(state, figures, narrow=True))][:height]
     chain = _chain(state, figures)
     compact: list[Line] = [*top, *sliders, deadman, *chain]
     roomy: list[Line] = [*top, (), *sliders, (), deadman, (), *chain]

@@ -113,14 +113,17 @@ class TopicsPane(ListPane):
         (self._message if self._topic else self._list).focus()
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """List anew when the graph is another object."""
-        if snapshot.graph is not self._info or snapshot.problem != self._problem:
+        """List anew when the graph is another object; what was measured is looked at no more often than by `tick`."""
+        is_arranged = snapshot.graph is not self._info or snapshot.problem != self._problem
+        if is_arranged:
             self._info, self._problem = snapshot.graph, snapshot.problem
             self._arrange()
         if snapshot.rate_checks is not self._checks:
             self._checks = snapshot.rate_checks
             self._list.checks = {each.topic: each for each in self._checks}
-        self._poll(self.clock())
+        now = self.clock()
+        if is_arranged or now - self._polled >= MEASURE_POLL_S:
+            self._poll(now)
 
     def _arrange(self) -> None:
         shown = self._list

@@ -55,6 +55,19 @@ def test_cpu_usage_is_measured_over_each_second() -> None:
     assert (usage.share, usage.memory) == (1.5, 1230)
 
 
+def test_all_processes_are_measured_at_the_same_moments() -> None:
+    usages = [Usage(Reported(), begun) for begun in (0.1, 0.4, 0.8)]
+    for each in usages:
+        each.poll(0.95)
+    assert [each.share for each in usages] == [None, None, None]
+    for each in usages:
+        each.poll(1.05)
+    assert [each.share for each in usages] == [0.0, 0.0, None]  # a quarter of a second says little
+    for each in usages:
+        each.poll(2.05)
+    assert [each.share for each in usages] == [0.0, 0.0, 0.0]
+
+
 def test_time_without_waiting_is_measured() -> None:
     reported = Reported()
     usage = Usage(reported, 0.0)

@@ -10,7 +10,9 @@ from bot_console.tui.terminal.difference import ShownScreen
 from hypothesis import given
 from hypothesis import strategies as st
 from rich.color import ColorSystem
+from rich.console import Console
 from rich.segment import Segment
+from rich.text import Text
 from textual.strip import Strip
 
 HOSTILE = [
@@ -45,3 +47,35 @@ def test_signs_of_the_console_do_not_cause_the_rest_of_a_line_to_be_written_agai
     for text in (f"{mark}0.1  indoor", f"{mark}0.2  indoor"):
         written = screen.update([(0, {0: Strip([Segment(text)])})], ColorSystem.TRUECOLOR)
     assert "2" in written and "indoor" not in written
+
+
+def rewritten(*texts: Text) -> str:
+    """What is written for the last of several contents of a line."""
+    screen = ShownScreen()
+    screen.forget(80, 1)
+    written = ""
+    for text in texts:
+        written = screen.update([(0, {0: Strip(text.render(Console()))})], ColorSystem.TRUECOLOR)
+    return written
+
+
+def test_change_before_a_character_of_uncertain_width_leaves_what_follows_it() -> None:
+    written = rewritten(*(Text(f"12:00:0{second} 🛡 SAFE ×9") for second in (1, 2)))
+    assert "2" in written and "SAFE" not in written
+
+
+def test_change_after_a_character_of_uncertain_width_writes_all_that_follows() -> None:
+    written = rewritten(*(Text(f"12:00:01 🛡 SAFE{mark} and what follows") for mark in "!?"))
+    assert "? and what follows" in written and "12:00" not in written
+
+
+def test_what_a_character_of_uncertain_width_has_moved_is_written_again_when_it_goes() -> None:
+    assert "warning" in rewritten(Text("⚠ warning"), Text("- warning"))
+
+
+def test_blank_takes_the_colours_of_its_neighbours() -> None:
+    coloured = Text.assemble(("one", "red"), (" ", "green"), ("two", "red"))
+    assert rewritten(Text("-------"), coloured).count("\x1b[") == 3  # to the line, red, and none
+
+    assert rewritten(Text.assemble((" " * 7, "red")), Text.assemble((" " * 7, "bold green"))) == ""
+    assert "\x1b[4m" in rewritten(Text("       "), Text.assemble((" " * 7, "underline"))).replace("0;", "")

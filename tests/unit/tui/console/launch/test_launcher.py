@@ -328,7 +328,7 @@ def test_a_launch_that_shuts_itself_down_ends_its_processes(bench):
 def test_cpu_usage_of_a_process_is_shown(bench, waiter, monkeypatch):
     from bot_console.tui.console.launch import vitals as process_vitals
 
-    monkeypatch.setattr(process_vitals, "CPU_POLL_S", 0.0)
+    monkeypatch.setattr(process_vitals, "CPU_POLL_S", 0.01)
     bench.until(lambda: bench.process().cpu is not None, "its processor share")
 
 
