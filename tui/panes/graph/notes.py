@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from bot_console.tui.console.graph.connections import TOOL_NAMES, is_hidden
 from bot_console.tui.console.graph.findings import findings
-from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo
+from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.format import counted, cut, sanitize
 from bot_console.tui.panes.graph.about import ends_of, node_of, summary
 from bot_console.tui.panes.graph.bundles import LINE
@@ -61,6 +61,8 @@ def item_notes(
 ) -> list[str]:
     """Everything about the ends of an item, in at most so many lines."""
     links = found.bundles.links.get(item)
+    if item.startswith(SPACE):
+        return _space_notes(snapshot, item.removeprefix(SPACE), rates, width, maximum)
     if links is None:
         return _node_notes(snapshot, item, rates, width, maximum)
     return _link_notes(snapshot.graph, links, rates, width, maximum)
@@ -106,29 +108,84 @@ def _node_notes(snapshot: ConsoleSnapshot, name: str, rates: Mapping[str, str], 
     node = node_of(info, name)
     if node is None or maximum < 2:
         return []
-    tree = snapshot.parameters.get(name)
-    processes = [each.label for each in snapshot.launch.processes if name in each.nodes]
-    parts = [f"process {each}" for each in processes]
-    parts += [counted(len(tree.parameters), "parameter")] if tree else []
-    parts += [counted(len(node.services), "service")]
-    head = f"{name}{GAP}{' · '.join(parts)}"
     lines = [
         *_ends(info, "sends", node.publishers, rates, width, publishing=True),
         *_ends(info, "reads", node.subscriptions, rates, width, publishing=False),
     ]
+    return _fitted(_head(snapshot, name, [node]), lines, width, maximum, "press enter")
+
+
+def _space_notes(
+    snapshot: ConsoleSnapshot, space: str, rates: Mapping[str, str], width: int, maximum: int
+) -> list[str]:
+    """What leads out of a namespace and into it, then what each of its nodes sends and reads, in at most so many lines;
+    empty without room.
+    """
+    info = snapshot.graph
+    nodes = [each for each in info.nodes if each.name.startswith(f"{space}/") and not each.hidden]
+    if not nodes or maximum < 2:
+        return []
+    names = {each.name for each in nodes}
+    published = {end.name: end for each in nodes for end in each.publishers}
+    subscribed = {end.name: end for each in nodes for end in each.subscriptions}
+    lines = [
+        *_ends(info, "sends", published.values(), rates, width, publishing=True, inside=names),
+        *_ends(info, "reads", subscribed.values(), rates, width, publishing=False, inside=names),
+    ]
+    longest = max(cell_len(each.name) for each in nodes) - len(space) - 1
+    lines += [_member_line(each, space, longest, width) for each in nodes]
+    return _fitted(_head(snapshot, space, nodes), lines, width, maximum, "enter unfolds it")
+
+
+def _member_line(node: NodeInfo, space: str, longest: int, width: int) -> str:
+    """A node of a namespace with the names of its topics."""
+    parts = [
+        f"{verb} {' '.join(names)}"
+        for verb, ends in (("sends", node.publishers), ("reads", node.subscriptions))
+        if (names := [_below(each.name, space) for each in ends if not is_hidden(each.name, TOOL_NAMES)])
+    ]
+    return cut(f"{' ' * INDENT}{node.name.removeprefix(f'{space}/'):<{longest}}{GAP}{GAP.join(parts)}", width)
+
+
+def _below(topic: str, space: str) -> str:
+    """The name of a topic; of one in the namespace the rest of it."""
+    return topic.removeprefix(f"{space}/")
+
+
+def _head(snapshot: ConsoleSnapshot, name: str, nodes: Sequence[NodeInfo]) -> str:
+    """The name of a node or of a namespace, with its nodes, processes, parameters and services."""
+    names = {each.name for each in nodes}
+    processes = [each.label for each in snapshot.launch.processes if names & set(each.nodes)]
+    trees = [snapshot.parameters[each] for each in names if each in snapshot.parameters]
+    parts = [counted(len(nodes), "node")] if len(nodes) > 1 else []
+    parts += [f"process {each}" for each in processes] if len(nodes) == 1 else [counted(len(processes), "process")]
+    parts += [counted(sum(len(each.parameters) for each in trees), "parameter")] if trees else []
+    parts += [counted(sum(len(each.services) for each in nodes), "service")]
+    return f"{name}{GAP}{' · '.join(parts)}"
+
+
+def _fitted(head: str, lines: Sequence[str], width: int, maximum: int, how: str) -> list[str]:
+    """A heading and lines, in at most so many lines; `how` says how to see the others."""
     if len(lines) > maximum - 1:
-        lines = (
-            [*lines[: maximum - 2], f"{' ' * INDENT}{len(lines) - maximum + 2} more lines: press enter"]
-            if maximum > 2
-            else []
-        )
+        left = len(lines) - maximum + 2
+        lines = [*lines[: maximum - 2], f"{' ' * INDENT}{left} more lines: {how}"] if maximum > 2 else []
     return [cut(sanitize(each), width) for each in (head, *lines)]
 
 
 def _ends(
-    info: GraphInfo, verb: str, ends: Iterable[Endpoint], rates: Mapping[str, str], width: int, *, publishing: bool
+    info: GraphInfo,
+    verb: str,
+    ends: Iterable[Endpoint],
+    rates: Mapping[str, str],
+    width: int,
+    *,
+    publishing: bool,
+    inside: Collection[str] = (),
 ) -> list[str]:
-    """The topics of one direction with the nodes at their other ends, as words that fill lines."""
+    """The topics of one direction with the nodes at their other ends, as words that fill lines.
+
+    A topic between nodes that are all `inside` is left out.
+    """
     words: list[str] = []
     lonely: list[str] = []
     for each in ends:
@@ -137,6 +194,9 @@ def _ends(
         others = [one for one in ends_of(info, each.name)[1 if publishing else 0] if "/_" not in one]
         if not others:
             lonely.append(each.name)
+            continue
+        others = [one for one in others if one not in inside]
+        if not others:
             continue
         rate = f" {rates[each.name]}" if rates.get(each.name) else ""
         arrow = "→" if publishing else "←"

@@ -225,3 +225,23 @@ def test_no_connection_is_lost(
                 assert (f"topic:{topic}", box_of(a), box_of(b)) in drawn_pairs
             elif topic == other and a == b and box_of(a) == a:
                 assert loops[a]
+
+
+def test_boxes_spread_where_rows_would_stay_free_and_each_line_can_still_be_read() -> None:
+    found = shown(robot(), GraphView()).bundles.chart
+    close, wide = draw_chart(found, 196, 24), draw_chart(found, 196, 42)
+    assert len(wide.rows) == 2 * len(close.rows) - 1
+    assert wide.width == close.width
+    readable(found, wide)
+
+
+def test_boxes_stay_close_where_what_is_said_below_them_needs_the_rows() -> None:
+    found = chart("talker>filter: chatter", "filter>listener: clean")
+    close = len(draw_chart(found, 80, 20).rows)
+    assert len(draw_chart(found, 80, 14 + 2 * close - 2).rows) == close
+    assert len(draw_chart(found, 80, 14 + 2 * close - 1).rows) == 2 * close - 1
+
+
+def test_boxes_with_several_members_stay_close() -> None:
+    found = chart("one|two>filter: chatter")
+    assert len(draw_chart(found, 80, 80).rows) == len(draw_chart(found, 80, 14).rows)

@@ -9,6 +9,7 @@ from itertools import product
 
 from bot_console.tui.widgets.diagram.chart.model import Chart, ChartLink
 from bot_console.tui.widgets.diagram.chart.plan import Placed, Plan, Style, planned
+from bot_console.tui.widgets.diagram.chart.spreading import spread
 from bot_console.tui.widgets.diagram.drawing import Drawing, Place, Rows, Run
 from bot_console.tui.widgets.diagram.layering import Edge
 from bot_console.tui.widgets.diagram.lines import LEFT, RIGHT, UP, Lines
@@ -66,7 +67,7 @@ def _styles(chart: Chart, width: int) -> Iterator[Style]:
 
 def draw_chart(chart: Chart, width: int, height: int) -> Drawing:
     """Draw a chart for a window of a size."""
-    return drawn(chart, best_plan(chart, width, height))
+    return drawn(chart, spread(best_plan(chart, width, height), height))
 
 
 def drawn(chart: Chart, plan: Plan) -> Drawing:
