@@ -13,6 +13,7 @@ from bot_console.tui.panes.alarms.pane import AlarmsPane
 from bot_console.tui.panes.diagnostics.pane import DiagnosticsPane
 from bot_console.tui.panes.images.pane import ImagesPane
 from bot_console.tui.panes.launch.pane import LaunchPane
+from bot_console.tui.panes.logs.pane import LogsPane
 from bot_console.tui.panes.steering.pane import SteeringPane
 from bot_console.tui.settings.appearance import Appearance
 from fakes.command_line import FakeCommandLine
@@ -118,7 +119,7 @@ def run(
         with at_rest(is_scripted=True):
             async with app.run_test(size=size, notifications=True) as pilot:
                 session = Session(app, pilot, console, launcher)
-                for kind in (SteeringPane, DiagnosticsPane, AlarmsPane, ImagesPane, LaunchPane):
+                for kind in (SteeringPane, DiagnosticsPane, AlarmsPane, ImagesPane, LaunchPane, LogsPane):
                     session.pane(kind).clock = Clock()
                 await session.settle()
                 await play(session)

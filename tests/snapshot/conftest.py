@@ -10,6 +10,7 @@ from bot_console.tui.panes.alarms.pane import AlarmsPane
 from bot_console.tui.panes.diagnostics.pane import DiagnosticsPane
 from bot_console.tui.panes.images.pane import ImagesPane
 from bot_console.tui.panes.launch.pane import LaunchPane
+from bot_console.tui.panes.logs.pane import LogsPane
 from piloting import Clock
 from rest import at_rest
 from textual.widgets import Input
@@ -20,7 +21,7 @@ def plain_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("NO_COLOR", raising=False)
     monkeypatch.setenv("TZ", "UTC")
     time.tzset()
-    for each in (DiagnosticsPane, AlarmsPane, ImagesPane, LaunchPane):
+    for each in (DiagnosticsPane, AlarmsPane, ImagesPane, LaunchPane, LogsPane):
         monkeypatch.setattr(each, "clock", staticmethod(Clock()))
     monkeypatch.setattr(Input, "_toggle_cursor", lambda self: None)
 

@@ -61,7 +61,7 @@ def test_hundred_thousand_lines_are_followed_and_counted_exactly_once() -> None:
     console = Flooded()
 
     async def play(session: Session) -> None:
-        await session.press("2")
+        await session.press("2", "r")  # each line on its own
         for first in range(0, LINES, AT_ONCE):
             console.flood(first)
             counts = await drawn(session, f"line {first + AT_ONCE - 1} ")

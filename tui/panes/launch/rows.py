@@ -94,6 +94,11 @@ def _gathered(followed: Followed) -> tuple[str, str, str]:
     return strip(followed.cpu, 1.0), errors, f"{followed.warnings} W" if followed.warnings else ""
 
 
+def _cells_of_counts(*counts: str) -> int:
+    """The cells of numbers of errors and of warnings, each with a gap before it."""
+    return sum(2 + len(each) for each in counts if each)
+
+
 def short_names(nodes: Sequence[str]) -> Sequence[str]:
     """Node names; several of one namespace without it, which then stands in front of them once."""
     spaces = {each.rpartition("/")[0] for each in nodes}
@@ -113,9 +118,16 @@ class ProcessRows(ItemList[Row]):
         self.follower = Follower()
         self._drawn: dict[str, tuple[str, str, str]] = {}
         """What of the follower stands in the rows, by the key of the process."""
+        self._counts = 0
+        """Cells of the numbers of errors and warnings, so that the names of nodes stand in a column."""
 
     def follow(self) -> None:
-        """Redraw the rows for which the follower has gathered something new."""
+        """Redraw the rows for which the follower has gathered something new; all, if a column becomes wider."""
+        every = [_gathered(self.follower.of(each.process.key)) for each in self.rows if each.process]
+        counts = max((_cells_of_counts(errors, warnings) for _, errors, warnings in every), default=0)
+        if counts != self._counts:
+            self._counts = counts
+            self.refresh()
         for index, each in enumerate(self.rows):
             key = each.process.key if each.process else ""
             if key and self._drawn.get(key) != (drawn := _gathered(self.follower.of(key))):
@@ -163,9 +175,11 @@ class ProcessRows(ItemList[Row]):
             columns.append(f"  {sanitize(process.problem)}")
         plain = None if process.state is ProcessState.RUNNING else self._style(style)
         loud = [Segment(name[: len(head)], self._style(style)), Segment(name[len(head) :], plain)]
+        blank = " " * (self._counts - _cells_of_counts(errors, warnings))
         counts = (
             Segment(f"  {errors}" if errors else "", self._style("error")),
             Segment(f"  {warnings}" if warnings else "", self._style("warn")),
+            Segment(blank),
         )
         return [*loud, Segment("".join(columns), plain), *counts, Segment(sanitize(nodes), self._style("dim"))]
 

@@ -19,18 +19,17 @@ class Filtering:
     words: str = ""
     minimum: Severity = Severity.UNSET
     only_highlighted: bool = False
-    folded: bool = False
-    compact: bool = False
-    """Whether there is so little room that equal lines in a row are one anyway."""
+    folded: bool = True
+    """Whether equal lines in a row are one."""
     off: bool = field(default=False)
     """Whether the filter is suspended; the choices are kept."""
 
     def which(self) -> LogFilter:
         """The filter."""
         if self.off:
-            return LogFilter(folded=self.folded or self.compact)
+            return LogFilter(folded=self.folded)
         only = self.rules.highlighted if self.only_highlighted else ()
-        return LogFilter(self.minimum, self.words, self.rules.hidden, only, self.folded or self.compact)
+        return LogFilter(self.minimum, self.words, self.rules.hidden, only, self.folded)
 
     def narrowed_to(self, words: str = "", minimum: Severity = Severity.UNSET) -> LogFilter:
         """The filter narrowed to lines that also match these words, and with repeats not folded."""
@@ -63,4 +62,4 @@ class Filtering:
         reported = [each for each in parts if each]
         if self.off and reported:
             reported = [f"filters off, t puts them back ({', '.join(reported)})"]
-        return [*reported, *(["folded"] if self.folded else [])]
+        return reported

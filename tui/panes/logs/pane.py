@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -20,8 +22,10 @@ from bot_console.tui.panes.logs.names import NodeNames
 from bot_console.tui.panes.logs.rows import LogRows
 from bot_console.tui.panes.logs.rules import RuleBook
 from bot_console.tui.panes.logs.rules_screen import RulesScreen
+from bot_console.tui.panes.logs.severity_strip import SeverityStrip
 from bot_console.tui.panes.logs.similar_lines import options_like
 from bot_console.tui.panes.logs.source import LiveLog
+from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.common import wrong_filter, wrong_path
 from bot_console.tui.widgets.prompt.line import Prompt
@@ -35,7 +39,9 @@ EMPTY = Placeholder(
     (("8", "Start nodes"), ("O", "Read a saved log"), ("?", "Help")),
 )
 COMPACT_LINES = 6
-"""Lines of the pane below which all of them show the log, with equal lines in a row as one."""
+"""Lines of the pane below which all of them show the log."""
+STRIP_LINES = 16
+"""Lines of the pane from which on some show when warnings and errors came."""
 
 
 class LogsPane(LinePane):
@@ -49,6 +55,9 @@ class LogsPane(LinePane):
         "Scrolling up stops following; nothing is lost meanwhile, f follows again."
     )
     BINDINGS = keymap.bindings("logs")
+
+    clock: Callable[[], float] = staticmethod(time.monotonic)
+    """A monotonic clock (s), replaced in tests."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
@@ -67,12 +76,14 @@ class LogsPane(LinePane):
         """The moment to go to as soon as its lines are there."""
         self._followed_to = 0
         """The number of the first record that arrived after the newest line was last followed."""
+        self._strip = SeverityStrip()
 
     def _view_of(self, which: LogFilter, before: LogView | None) -> LogView:
         return self._source.view(which, before)
 
     def compose(self) -> ComposeResult:
-        """The lines, what is filtered, a prompt."""
+        """When warnings came, the lines, what is filtered, a prompt."""
+        yield Picture(id="log-strip")
         yield LogRows(self._source, self._filtering.rules, self._names)
         yield StaticText(id="log-status")
         yield Prompt(id="log-prompt")
@@ -95,7 +106,8 @@ class LogsPane(LinePane):
         self._list.focus()
 
     def observe(self, snapshot: ConsoleSnapshot) -> None:
-        """Learn the names of nodes: one may leave before it is shown."""
+        """Learn the names of nodes: one may leave before it is shown; note when warnings and errors come."""
+        self._strip.take(snapshot.logs.counts, self.clock())
         if self._names.learn(snapshot.graph) and self.has_parts:
             self._list.refresh()
 
@@ -113,6 +125,7 @@ class LogsPane(LinePane):
         """Take in what the search has found meanwhile, and what a file has more."""
         if not (self.display and self.is_mounted):
             return
+        self._draw_strip()
         changed = False
         if self._source.name:  # the log of the system comes with the snapshot
             state = self._source.state
@@ -166,6 +179,18 @@ class LogsPane(LinePane):
         self._list.refresh()
         self._report()
 
+    def _draw_strip(self) -> None:
+        """Show when warnings and errors of the running system came, where there is room."""
+        strip, now, width = self.query_one("#log-strip", Picture), self.clock(), self.content_size.width
+        if not self._strip.is_changed(
+            now, width, is_shown := self.size.height >= STRIP_LINES and not self._source.name
+        ):
+            return
+        lines = self._strip.lines(now, width) if is_shown else []
+        strip.styles.height = len(lines)
+        strip.display = bool(lines)
+        strip.set_lines(lines)
+
     def _report(self) -> None:
         """Say what is shown of how much, by severity."""
         problem = self._found.problem if self._found else ""
@@ -177,12 +202,13 @@ class LogsPane(LinePane):
         self.query_one("#log-status", StaticText).show_text(text)
 
     def on_resize(self) -> None:
-        """Where there is little room, fold repeats, and write what is shown into the frame."""
+        """Where there is little room, write what is shown into the frame."""
         compact = 0 < self.size.height < COMPACT_LINES
-        if compact is not self._filtering.compact:
+        if compact is not self.has_class("compact"):
             self.set_class(compact, "compact")
-            self._filtering.compact = compact
-            self._search()
+            self._report()
+        if self.has_parts:
+            self._draw_strip()
 
     def status_text(self) -> str:
         """The line below the log."""
@@ -197,7 +223,7 @@ class LogsPane(LinePane):
             parts.append(f"paused, {new} new below, f follows" if new else "paused, f follows")
         if self._searched_for is not None and self._sought_for:
             parts.append(f"{self._match_search.text()} {self._sought_for}")
-        parts += self._filtering.texts()
+        parts += [*self._filtering.texts(), *([] if self._filtering.folded else ["repeats shown"])]
         if state.dropped:
             parts.append(f"{state.dropped} dropped")
         parts += [f"{SEVERITY_CHARACTERS[each]} {counts[each]}" for each in reversed(Severity) if counts.get(each)]
@@ -236,7 +262,7 @@ class LogsPane(LinePane):
         self._search()
 
     def action_fold(self) -> None:
-        """Show a row of equal lines as one, or each of them."""
+        """Show each of several equal lines, or them as one."""
         self._filtering.folded = not self._filtering.folded
         self._search()
 

@@ -16,8 +16,10 @@ from bot_console.tui.widgets.picture import Line
 
 BAR = 10
 """Cells of a bar."""
-PLANE = (37, 13)
+PLANE = (53, 19)
 """Cells of the plane of both velocities at most, odd so that it has a middle."""
+CELLS_PER_ROW = 3
+"""The greatest width of the plane, for each of its rows: it shall not look flat."""
 NARROW_PLANE = 27
 """Its width beside the bars on fewer than `WIDE` cells."""
 WIDE = 100
@@ -76,10 +78,15 @@ def same_but_velocities(one: DriveInfo, other: DriveInfo) -> bool:
 
 def _plane_size(width: int, rows: int) -> tuple[int, int] | None:
     """The cells of the plane beside the bars; None if there is no room."""
-    across = PLANE[0] if width >= WIDE else NARROW_PLANE
-    if rows < MIN_ROWS or width < across + FRAME + GAP + BESIDE:
+    room, down = width - FRAME - GAP - BESIDE, min(PLANE[1], rows)
+    across = NARROW_PLANE if width < WIDE else max(NARROW_PLANE, min(PLANE[0], room, CELLS_PER_ROW * down))
+    if rows < MIN_ROWS or room < across:
         return None
-    return across, min(PLANE[1], rows - (rows + 1) % 2)
+    return _odd(across), _odd(down)
+
+
+def _odd(cells: int) -> int:
+    return cells - (cells + 1) % 2
 
 
 def _plane(state: Steering, drive: DriveInfo, size: tuple[int, int]) -> list[Line]:

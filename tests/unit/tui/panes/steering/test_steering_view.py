@@ -67,3 +67,15 @@ def test_disarmed_plane_shows_what_the_robots_program_asks() -> None:
 def test_small_pane_has_bars_without_a_plane(size: tuple[int, int]) -> None:
     drawn = "\n".join(texts(ARMED, driving(), size))
     assert "forward" not in drawn and "▕██████████▏" in drawn
+
+
+@pytest.mark.parametrize("size", [(118, 36), (100, 30), (198, 46), (78, 19), (100, 14)])
+def test_plane_takes_the_room_without_looking_flat(size: tuple[int, int]) -> None:
+    drawn = texts(ARMED, driving(), size)
+    top = next(at for at, each in enumerate(drawn) if "forward" in each)
+    bottom = next(at for at, each in enumerate(drawn) if "backward" in each)
+    across, down = drawn[top].index("╮") - drawn[top].index("╭") - 1, bottom - top - 1
+    assert across % 2 == down % 2 == 1, "it has a middle"
+    assert down in (size[1] - top - 2, size[1] - top - 3) or (across, down) == (53, 19)
+    assert across in (27, 53) or across in (3 * down - 1, 3 * down)
+    assert max(map(len, drawn)) <= size[0]

@@ -1,0 +1,64 @@
+"""When warnings and errors came: a bar for every few seconds, above the log. Pure."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+
+from bot_console.tui.console.model import Severity
+from bot_console.tui.format import SEVERITY_CHARACTERS
+from bot_console.tui.text.bars import bars
+from bot_console.tui.widgets.picture import Line
+
+BAR_S = 5.0
+"""Seconds of a bar."""
+MAX_BARS = 400
+FIGURE = 7
+"""Cells of the number behind the bars."""
+ROWS = ((Severity.ERROR, (Severity.ERROR, Severity.FATAL), "error"), (Severity.WARN, (Severity.WARN,), "warn"))
+"""What the rows show: their name, the severities that they count, their style."""
+
+
+class SeverityStrip:
+    """How many lines of a severity came in each span of time, by the clock of who asks."""
+
+    def __init__(self) -> None:
+        self._seen: Mapping[Severity, int] = {}
+        self._spans: dict[Severity, Counter[int]] = {name: Counter() for name, _, _ in ROWS}
+        self._drawn: tuple[object, ...] = ()
+
+    def take(self, counts: Mapping[Severity, int], now: float) -> None:
+        """Count what was logged since the last call as logged now (s); fewer lines than before are another log."""
+        before, self._seen = self._seen, counts
+        if any(counts.get(each, 0) < count for each, count in before.items()):
+            before = {}
+            for spans in self._spans.values():
+                spans.clear()
+        for name, severities, _ in ROWS:
+            new = sum(counts.get(each, 0) - before.get(each, 0) for each in severities)
+            spans = self._spans[name]
+            if new:
+                spans[int(now // BAR_S)] += new
+            if len(spans) > MAX_BARS:
+                del spans[min(spans)]
+
+    def is_changed(self, now: float, width: int, is_shown: bool) -> bool:
+        """Whether anything is to be drawn otherwise than at the last call; while nothing is shown, nothing changes."""
+        drawn = (int(now // BAR_S), width, self._counts()) if is_shown else ()
+        before, self._drawn = self._drawn, drawn
+        return drawn != before
+
+    def _counts(self) -> list[int]:
+        """How many lines there are for each row."""
+        return [sum(self._seen.get(each, 0) for each in severities) for _, severities, _ in ROWS]
+
+    def lines(self, now: float, width: int) -> list[Line]:
+        """A row for each severity that came at all, the newest bar last."""
+        last, count = int(now // BAR_S), max(0, width - FIGURE - 3)
+        found: list[Line] = []
+        for (name, _, style), total in zip(ROWS, self._counts(), strict=True):
+            if total:
+                drawn = "".join(bars([self._spans[name][at] for at in range(last - count + 1, last + 1)]))
+                figure = f"{total:>{FIGURE - 1}}"
+                found.append(((f" {SEVERITY_CHARACTERS[name]} ", style), (drawn, style), (figure, "")))
+        return found
