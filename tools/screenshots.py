@@ -41,6 +41,8 @@ GENTLE = """# Gentle: near people
 /motion_controller:
   ros__parameters: {kp_angular: 50.0}
 """
+MEASURED = 8.0
+"""Seconds until the graph shows rates."""
 RESPONSE = 3.0
 """Seconds of driving with each of two sets of values."""
 TIMEOUT_S = 30.0
@@ -165,7 +167,7 @@ async def take_all(at: Photographer) -> None:
     await at.enter("10.0")
     at.take("overview")
     await at.press("3")
-    await at.drive(1.0)
+    await at.drive(MEASURED)
     at.take("graph")
     await at.resize(SMALL)
     await at.press("1")
@@ -183,7 +185,8 @@ async def main(folder: Path, play: Callable[[Photographer], Awaitable[None]], si
     """Start the robot's own system, photograph it as a new user sees it, end it."""
     folder.mkdir(parents=True, exist_ok=True)
     os.environ["BOT_CONSOLE_USER_DIR"] = str(BEGINNER)
-    BEGINNER.mkdir(exist_ok=True)
+    shutil.rmtree(BEGINNER, ignore_errors=True)  # the history of a run that was interrupted
+    BEGINNER.mkdir()
     session = Session(Options(seed=1, workspace=[BEGINNER]))  # not this tree, whose example adds a pane
     try:
         async with session.app.run_test(size=size) as pilot:

@@ -166,8 +166,8 @@ class ProcessRows(ItemList[Row]):
         columns = [f"  {process.state.value:<10}", f"{process.pid or '':>8}"]
         columns.append(f"{f'↻{process.restarts}' if process.restarts or process.restart_policy else '':>5}")
         columns.append("" if process.exit_code is None else f"  exit {process.exit_code}")
-        states = [self.lifecycle[each] for each in process.nodes if each in self.lifecycle]
-        columns += [f"  {sanitize(each)}" for each in states if process.state is ProcessState.RUNNING]
+        states = max((len(self._states(each.process)) for each in self.rows if each.process), default=0)
+        columns.append(self._states(process).ljust(0 if process.exit_code is not None else states))
         trace, errors, warnings = _gathered(self.follower.of(process.key))
         columns += self._usage(process, trace, width)
         nodes = "  " + " ".join(short_names(process.nodes)) if width >= 90 and process.nodes else ""
@@ -182,6 +182,12 @@ class ProcessRows(ItemList[Row]):
             Segment(blank),
         )
         return [*loud, Segment("".join(columns), plain), *counts, Segment(sanitize(nodes), self._style("dim"))]
+
+    def _states(self, process: ProcessInfo) -> str:
+        """The states of its lifecycle nodes."""
+        if process.state is not ProcessState.RUNNING:
+            return ""
+        return "".join(f"  {sanitize(self.lifecycle[each])}" for each in process.nodes if each in self.lifecycle)
 
     def _usage(self, process: ProcessInfo, trace: str, width: int) -> list[str]:
         """CPU and memory; blanks where only other processes have them, so that what follows stands in columns."""

@@ -29,11 +29,12 @@ class SeverityStrip:
 
     def take(self, counts: Mapping[Severity, int], now: float) -> None:
         """Count what was logged since the last call as logged now (s); fewer lines than before are another log."""
-        before, self._seen = self._seen, counts
+        before: Mapping[Severity, int] = self._seen
         if any(counts.get(each, 0) < count for each, count in before.items()):
-            before = {}
+            before = dict[Severity, int]()
             for spans in self._spans.values():
                 spans.clear()
+        self._seen = counts
         for name, severities, _ in ROWS:
             new = sum(counts.get(each, 0) - before.get(each, 0) for each in severities)
             spans = self._spans[name]

@@ -10,8 +10,8 @@ KIND = ("a/msg/B",)
 
 
 def node(name: str, publishes: str = "", subscribes: str = "") -> NodeInfo:
-    ends = (tuple(Endpoint(each, KIND) for each in names.split()) for names in (publishes, subscribes))
-    return NodeInfo(name, *ends)
+    ends = [tuple(Endpoint(each, KIND) for each in names.split()) for names in (publishes, subscribes)]
+    return NodeInfo(name, publishers=ends[0], subscriptions=ends[1])
 
 
 SYSTEM = GraphInfo(
