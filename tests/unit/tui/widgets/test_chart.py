@@ -235,7 +235,7 @@ def test_boxes_spread_where_rows_would_stay_free_and_each_line_can_still_be_read
     readable(found, wide)
 
 
-def test_boxes_stay_close_where_what_is_said_below_them_needs_the_rows() -> None:
+def test_boxes_stay_close_where_the_notes_below_them_need_the_rows() -> None:
     found = chart("talker>filter: chatter", "filter>listener: clean")
     close = len(draw_chart(found, 80, 20).rows)
     assert len(draw_chart(found, 80, 14 + 2 * close - 2).rows) == close

@@ -28,7 +28,7 @@ def notes(item: str, maximum: int, rates: dict[str, str] | None = None) -> list[
     return item_notes(ConsoleSnapshot(graph=SYSTEM), found, item, rates or {}, 80, maximum)
 
 
-def test_folded_namespace_tells_what_leads_out_and_in_and_what_each_node_does() -> None:
+def test_folded_namespace_names_what_leads_out_and_in_and_the_topics_of_each_node() -> None:
     assert notes("namespace:/arm", 9, {"/map": "1.0 Hz"}) == [
         "/arm  2 nodes · 0 processes · 0 services",
         "sends  /arm/path → /fleet    no subscriber:  arm/temperature",
@@ -46,5 +46,5 @@ def test_what_does_not_fit_of_a_namespace_is_counted() -> None:
     assert notes("namespace:/arm", 1) == []
 
 
-def test_node_tells_what_it_sends_and_reads() -> None:
+def test_node_names_what_it_sends_and_reads() -> None:
     assert notes("/fleet", 9)[1:] == ["sends  /map → /arm/planner", "reads  /arm/path ← /arm/planner"]

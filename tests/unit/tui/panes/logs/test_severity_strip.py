@@ -28,7 +28,7 @@ def test_bars_move_on_with_time_and_leave_the_number() -> None:
     assert rows(strip, 8 * BAR_S) == [" W ▁▁▁▁▁▁▁▁     1"]
 
 
-def test_cleared_log_begins_anew() -> None:
+def test_cleared_log_is_counted_from_zero() -> None:
     strip = SeverityStrip()
     strip.take({Severity.WARN: 7}, 0.0)
     strip.take({Severity.WARN: 2}, BAR_S)
