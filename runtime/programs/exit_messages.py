@@ -28,6 +28,10 @@ RAISING = ("strict", "surrogateescape")
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG)
 
 
+class Interrupted(int):
+    """The exit code of a program that Ctrl-C has ended, where a fault has the same: of `ros2`, 2."""
+
+
 def place_fault(error: BaseException) -> str:
     """Return the message for an error that names no file: of standard output, or the working directory; else empty.
 

@@ -10,7 +10,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from functools import partial
 
-from bot_console.runtime.programs.exit_messages import ended_code, place_fault
+from bot_console.runtime.programs.exit_messages import Interrupted, ended_code, place_fault
 from ros2cli.advice import advise, usage
 from ros2cli.command import Command, Result, Verb
 
@@ -62,7 +62,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             advise(partial(usage, words))
         return stop.code if isinstance(stop.code, int) else 1 if stop.code else 0
     except KeyboardInterrupt:
-        return int(signal.SIGINT)
+        return Interrupted(signal.SIGINT)
     except BrokenPipeError:  # the reader has closed the pipe: no fault, and silent where commands run for a shell
         raise
     except RuntimeError as error:  # includes the errors of the client library

@@ -17,6 +17,7 @@ from contextlib import contextmanager
 from typing import Any, NamedTuple, TextIO, cast
 
 from bot_console.runtime.domain_id import domain_id
+from bot_console.runtime.programs.exit_messages import Interrupted
 from bot_console.runtime.rmw.zenoh.domain.folder import base_folder, domain_folder
 
 NAME = "commands.jsonl"
@@ -100,7 +101,8 @@ class ErrorTail:
 def recorded(words: Sequence[str]) -> Generator[Callable[[int], int]]:
     """Record a command line if a lesson is open; what is yielded takes the exit code and returns it.
 
-    As in ROS 2, `param set` ends with 0 when the node has refused: only its error output tells.
+    An interrupted command is recorded with the code that shells use for Ctrl-C: that of `ros2` is also that of a wrong
+    command line. As in ROS 2, `param set` ends with 0 when the node has refused: only its error output tells.
     """
     path = log_for(words)
     if not path:
@@ -113,7 +115,7 @@ def recorded(words: Sequence[str]) -> Generator[Callable[[int], int]]:
         sys.stderr = cast("TextIO", tail)
 
     def end(code: int) -> int:
-        codes.append(code)
+        codes.append(128 + signal.SIGINT if isinstance(code, Interrupted) else code)
         return code
 
     try:

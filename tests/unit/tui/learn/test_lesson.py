@@ -428,3 +428,24 @@ def _same_deed(left_out: Condition | None, others: list[Condition]) -> bool:
 def test_course_has_unique_steps_that_ask_for_something() -> None:
     assert isinstance(WEEK6, Course)
     assert all(each.conditions for each in WEEK6.steps())
+
+
+def test_a_verb_of_ros2_that_was_interrupted_has_not_failed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from ros2cli import command_line
+
+    log = tmp_path / "commands.jsonl"
+    log.touch()
+    monkeypatch.setattr(command_log, "log_for", lambda words: str(log))
+
+    def interrupt(words: list[str]) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(command_line, "_run", interrupt)
+    words = ["topic", "echo", "/odom"]
+    with command_log.recorded(words) as ended:
+        assert ended(command_line.main(words)) == 2, "as the ros2 of ROS 2 ends"
+    (command,) = read_log(str(log))
+    assert command.code == 130 and command.works and not command.failed
+    with command_log.recorded(words) as ended:
+        ended(2)
+    assert read_log(str(log))[-1].failed, "a wrong command line"
