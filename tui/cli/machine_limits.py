@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from bot_console.runtime.process.machine_limits import hard_limit_below
-
 MIN_OPEN_FILES = 256
 """A console has about 90 descriptors open, and its own start at 100."""
 MIN_ADDRESS_SPACE_KIB = 500_000
@@ -16,14 +14,14 @@ MIN_FILE_SIZE_KIB = 64
 
 def too_few_files() -> str:
     """Why a console cannot open enough files; raises the soft limit if that is allowed."""
-    if (maximum := hard_limit_below("RLIMIT_NOFILE", MIN_OPEN_FILES)) is None:
+    if (maximum := _hard_limit_below("RLIMIT_NOFILE", MIN_OPEN_FILES)) is None:
         return ""
     return f"bot-console needs {MIN_OPEN_FILES} open files, and at most {maximum} are allowed here: see `ulimit -Hn`"
 
 
 def too_little_address_space(kib: int = MIN_ADDRESS_SPACE_KIB) -> str:
     """Why a console or a robot does not fit into its address space; raises the soft limit if that is allowed."""
-    if (maximum := hard_limit_below("RLIMIT_AS", kib * 1024)) is None:
+    if (maximum := _hard_limit_below("RLIMIT_AS", kib * 1024)) is None:
         return ""
     return (
         f"bot-console needs an address space of {kib:,} KiB, and at most {maximum // 1024:,} are "
@@ -33,7 +31,7 @@ def too_little_address_space(kib: int = MIN_ADDRESS_SPACE_KIB) -> str:
 
 def too_small_files() -> str:
     """Why a robot cannot write its files; raises the soft limit if that is allowed."""
-    if (maximum := hard_limit_below("RLIMIT_FSIZE", MIN_FILE_SIZE_KIB * 1024)) is None:
+    if (maximum := _hard_limit_below("RLIMIT_FSIZE", MIN_FILE_SIZE_KIB * 1024)) is None:
         return ""
     return (
         f"bot-console needs files of {MIN_FILE_SIZE_KIB} KiB to start a robot, and at most {maximum // 1024} KiB are "
@@ -49,3 +47,9 @@ def no_node_here() -> str:
 def no_robot_here() -> str:
     """Why a robot cannot be started within the limits of this machine."""
     return too_little_address_space() or too_small_files()
+
+
+def _hard_limit_below(name: str, wanted: int) -> int | None:
+    from bot_console.runtime.process.machine_limits import hard_limit_below  # `--version` needs nothing of the runtime
+
+    return hard_limit_below(name, wanted)
