@@ -109,6 +109,7 @@ def test_a_recorder_and_a_player_follow_options_and_services(robot: Path) -> Non
     assert player.returncode == 0 and "0 messages published" not in f" {message}".splitlines(), message
 
 
+@pytest.mark.soak
 def test_a_recorder_of_a_launch_file_records(robot: Path) -> None:
     (robot / "record.launch.py").write_text(
         "from launch import LaunchDescription\n"

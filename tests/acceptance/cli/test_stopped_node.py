@@ -26,7 +26,7 @@ TIMEOUT_S = 60
     "words",
     [
         ("param", "get", "/other/peer", "speed"),
-        ("service", "call", "/pull", "std_srvs/srv/Trigger"),
+        pytest.param(("service", "call", "/pull", "std_srvs/srv/Trigger"), marks=pytest.mark.soak),
     ],
     ids=" ".join,
 )

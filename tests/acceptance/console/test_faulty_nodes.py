@@ -147,6 +147,7 @@ def test_ending_node_ends_alone(system: System) -> None:
     system.all_others_go_on()
 
 
+@pytest.mark.soak
 def test_frozen_node_is_shown_as_such_until_it_continues(system: System) -> None:
     system.start({"sleeps": HEAD + "time.sleep(1000)\n"})
     process = system.named("sleeps")
@@ -159,6 +160,7 @@ def test_frozen_node_is_shown_as_such_until_it_continues(system: System) -> None
     assert system.launcher.kill(process.key).result(TIMEOUT_S).ok
 
 
+@pytest.mark.soak
 def test_node_at_a_breakpoint_is_shown_with_the_line_until_it_continues(system: System) -> None:
     typed_keys = system.folder / "typed"
     os.mkfifo(typed_keys)

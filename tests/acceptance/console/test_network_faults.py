@@ -145,6 +145,7 @@ def test_robot_does_not_wait_for_a_console_with_a_cut_link(far: FarRig) -> None:
     assert longest < 1.0  # Waiting for a full link would take 2 s.
 
 
+@pytest.mark.soak
 def test_console_reconnects_after_the_router_was_killed(far: FarRig) -> None:
     far.router.close()
     until(lambda: ROBOT not in far.console.snapshot().parameters, "that the robot is gone")
