@@ -6,7 +6,9 @@ hash matches the type in the graph.
 
 from __future__ import annotations
 
+import importlib
 import re
+import sys
 from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import TYPE_CHECKING, Any
@@ -68,8 +70,6 @@ def _has_hash(type_name: str, type_hash: str, texts: Mapping[str, str]) -> bool:
 
 def _hash_here(type_name: str) -> str:
     """Return the hash of the class imported under this name."""
-    import importlib
-
     from bot_console.runtime.rosidl.type_hash import text
 
     package, kind, short = type_name.split("/")
@@ -97,9 +97,6 @@ def _keep(texts: Mapping[str, str]) -> None:
 
 def _report_more(modules: Iterable[str]) -> None:
     """Let modules that were imported before they had all their classes list them again."""
-    import importlib
-    import sys
-
     for name in dict.fromkeys(modules):
         if name in sys.modules:
             importlib.reload(sys.modules[name])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import shlex
+import sys
 from collections.abc import Callable, Sequence
 
 from bot_console.runtime.workspace.discover import workspace
@@ -55,8 +56,6 @@ def verb(workspace_folders: Sequence[str], words: Sequence[str]) -> Callable[[],
     find_packages_in(workspace_folders)
 
     def run() -> object:
-        import sys
-
         from ros2cli.command_line import main
 
         sys.exit(main(list(words)))

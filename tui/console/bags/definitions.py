@@ -6,6 +6,7 @@ files are needed. Constants and comments are left out because readers do not nee
 
 from __future__ import annotations
 
+import importlib
 import re
 from collections.abc import Iterator
 from typing import Any
@@ -51,8 +52,6 @@ def _needed(kind: Any, found: dict[str, Any]) -> Iterator[tuple[str, Any]]:
 
 def _class(name: str, user: Any) -> Any:
     """The class of a field's type; it is in the module of the class with the field when both belong to an action."""
-    import importlib
-
     package, _, message = name.partition("/")
     beside = getattr(importlib.import_module(user.__module__), message, None)
     if beside is not None and beside.__module__.startswith(f"{package}."):
