@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.panes.alarms.pane import AlarmsPane, parted
 from bot_console.tui.panes.alarms.rows import AlarmRows
 from fleet import fleet
@@ -145,6 +146,12 @@ def test_alarms_are_suggested_with_live_values_and_enter_watches_one() -> None:
         row = next(line for line in session.lines() if "close to something" in line)
         assert "min(/scan/ranges) < 0.3" in row and "now 0.85" in row
         assert "Nothing is watched yet" in session.text() and session.app.state_store.get("alarms") is None
+        session.console.series["/scan/ranges.min()"] = ([1.0, 2.0], [0.85, 0.7])
+        session.console.change(drive=DriveInfo())
+        await session.settle()
+        assert "now 0.85" in session.text(), "not with each change of the system: figures that fast cannot be read"
+        await later(session, 0.5)
+        assert "now 0.7" in session.text()
         while session.pane(AlarmRows).current.name != "no scan":
             await session.press("down")
         await session.press("enter")

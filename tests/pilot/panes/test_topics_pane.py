@@ -52,6 +52,24 @@ async def at(session: Session, name: str) -> None:
     await session.settle()
 
 
+def test_figures_change_once_a_second_however_often_the_system_changes() -> None:
+    async def play(session: Session) -> None:
+        pane = await opened(session)
+        topics = session.console.topics
+        topics.figures["/odom"] = replace(topics.figures["/odom"], rate=20.0)
+        drive = session.console.current.drive
+        for speed in (0.1, 0.2):
+            session.console.change(drive=replace(drive, actual=(speed, 0.0)))
+            await session.settle()
+            assert any("/odom" in each and " 50 " in each for each in session.lines())
+        pane.clock.now += 1.0
+        session.console.change(drive=drive)
+        await session.settle()
+        assert any("/odom" in each and " 20 " in each for each in session.lines())
+
+    run(live(), play)
+
+
 def test_topics_show_rates_and_faults() -> None:
     async def play(session: Session) -> None:
         await opened(session)
