@@ -22,7 +22,7 @@ class Quitting:
         self._console = console
         self.asking = False
         """Whether the question is open."""
-        self._holding = False
+        self.holding = False
         """Whether the robot is held only during the question, and may move again if the answer is no."""
 
     def wanted(self) -> None:
@@ -33,7 +33,7 @@ class Quitting:
             return
         self.asking = True
         if not snapshot.drive.stopped_here and not snapshot.drive.nothing_to_stop:
-            self._holding = True
+            self.holding = True
             self._console.drive.stop(True, REASON)
         held = "" if snapshot.drive.nothing_to_stop else "The robot is held meanwhile. "
         self._app.push_screen(
@@ -49,16 +49,16 @@ class Quitting:
 
     def keeps_held(self) -> bool:
         """Turn the stop for the question into one that only a person releases; returns whether there was one."""
-        if not self._holding:
+        if not self.holding:
             return False
-        self._holding = False
+        self.holding = False
         self._app.notify("The robot stays held.")
         return True
 
     def _go_on(self) -> None:
         self.asking = False
-        if self._holding:
-            self._holding = False
+        if self.holding:
+            self.holding = False
             self._console.drive.stop(False)  # which withdraws only this console's stop
 
 

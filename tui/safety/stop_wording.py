@@ -36,6 +36,8 @@ def stop_key(drive: DriveInfo, ends: str) -> str:
     """What the stop key does to a stopped robot; `ends` is the word for ending this console's stop."""
     if drive.refused:
         return "released elsewhere: read-only console"
+    if drive.key_only_holds:
+        return "! keeps it held"
     if drive.key_releases:
         return f"! {ends}"
     if drive.stopped_here:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from dataclasses import replace
 
+from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.console.robot.robot_model import RobotStop
+from bot_console.tui.safety.quitting import Quitting
 from bot_console.tui.safety.stop_wording import release_question
 from bot_console.tui.screens.question_screens import screen_for
 from textual.app import App
@@ -15,13 +18,14 @@ from textual.screen import Screen
 class Stopping:
     """Holds the robot for this console, and withdraws that stop; others' stops are released only after a question."""
 
-    def __init__(self, app: App[None], console: Console, keeps_held: Callable[[], bool]) -> None:
-        """`keeps_held`: keep the robot held that is held only for a question; returns whether it was."""
+    def __init__(self, app: App[None], console: Console, quitting: Quitting) -> None:
         self._app = app
         self._console = console
-        self._keeps_held = keeps_held
+        self._quitting = quitting
         self._question: Screen[None] | None = None
         """The question whether to release what others hold; on the screen, or answered."""
+        self._in_question: tuple[ConsoleSnapshot, ConsoleSnapshot] | None = None
+        """The last snapshot during a question, as given and as returned by `with_question`."""
 
     def pressed(self) -> None:
         """Hold the robot, or release it; a stop that nobody has acknowledged is sent again.
@@ -29,7 +33,7 @@ class Stopping:
         While the question whether to quit holds the robot, it stays held instead. The question whether to release has
         keys of its own: pressed again meanwhile, this key leaves the robot held.
         """
-        if self._keeps_held():
+        if self._quitting.keeps_held():
             return
         drive = self._console.snapshot().drive
         if self._asking or not drive.stopped_here or (drive.lockable and not drive.stop_confirmed):
@@ -39,8 +43,16 @@ class Stopping:
 
     def pressed_early(self) -> None:
         """Hold the robot for a key that was pressed behind other input; it never releases."""
-        if not self._keeps_held():
+        if not self._quitting.keeps_held():
             self.hold()
+
+    def with_question(self, snapshot: ConsoleSnapshot) -> ConsoleSnapshot:
+        """The snapshot; it says so if a question is open during which the key only holds the robot."""
+        if not (self._asking or self._quitting.holding):
+            return snapshot
+        if self._in_question is None or self._in_question[0] is not snapshot:
+            self._in_question = snapshot, replace(snapshot, drive=replace(snapshot.drive, key_only_holds=True))
+        return self._in_question[1]
 
     def hold(self) -> None:
         """Hold the robot still."""

@@ -63,9 +63,10 @@ def test_stop_pressed_during_the_question_holds_without_asking_again() -> None:
         session.console.hold([BEN])
         await session.press(STOP, STOP, STOP, STOP)
         assert held_by(session) == ["b", "ours"]
-        assert len(session.app.screen_stack) == 2
+        assert len(session.app.screen_stack) == 2 and "held (! keeps it held)" in session.text()
         await session.press("n")
         assert len(session.app.screen_stack) == 1 and held_by(session) == ["b", "ours"]
+        assert "held (! releases)" in session.text()
 
     run(live(), play)
 

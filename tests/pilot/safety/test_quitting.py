@@ -126,7 +126,13 @@ def test_no_keeps_stops_from_before_and_during_the_question() -> None:
         await edited(session)
         await session.press("exclamation_mark", "q", "n")
         assert stops(session) == [True] and session.console.current.drive.stopped
-        await session.press("exclamation_mark", "q", "exclamation_mark", "n")
+        await session.press("exclamation_mark", "q")
+        session.app.pull()
+        await session.settle()
+        assert "held (! keeps it held)" in session.text()
+        await session.press("exclamation_mark")
+        assert "held (! releases)" in session.text()
+        await session.press("n")
         assert stops(session) == [True, False, True] and session.console.current.drive.stopped
 
     run(live(), play)

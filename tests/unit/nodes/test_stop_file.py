@@ -7,6 +7,7 @@ import os
 import stat
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -147,3 +148,43 @@ def test_concurrent_writers_lose_nothing(tmp_path: Path) -> None:
     assert [each.wait() for each in writers] == [0, 0]
     kept = StopFile(path, "/").merge(Lock())
     assert kept.ids == {f"{name}{number}" for name in "ab" for number in range(20)}
+
+
+class Clock:
+    """Time that passes only while a lock sleeps; at `release_s` the other lock has written, and lets the file go."""
+
+    def __init__(self, release: Callable[[], object], release_s: float) -> None:
+        self.now = 0.0
+        self._release, self._release_s = release, release_s
+
+    def monotonic(self) -> float:
+        return self.now
+
+    def sleep(self, seconds: float) -> None:
+        self.now += seconds
+        if self.now >= self._release_s:
+            self._release()
+
+
+@pytest.mark.skipif(os.name == "nt", reason="the test locks a file as on POSIX")
+@pytest.mark.parametrize(("release_s", "written"), [(0.5, True), (4.5, True), (60.0, False)])
+def test_lock_waits_five_seconds_for_the_other_one_to_write_the_file(
+    release_s: float, written: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import fcntl  # Windows has none
+
+    at(tmp_path).merge(Lock((ANNA,), 1))
+    other = os.open(tmp_path / "state" / "stops.json.lock", os.O_RDWR)
+    try:
+        fcntl.flock(other, fcntl.LOCK_EX)
+        clock = Clock(lambda: fcntl.flock(other, fcntl.LOCK_UN), release_s)
+        monkeypatch.setattr(stop_file, "time", clock)
+        if written:
+            assert at(tmp_path).merge(Lock((BEN,), 2)).ids == {"a1", "b1"}
+            assert clock.now == pytest.approx(release_s, abs=0.05)
+        else:
+            with pytest.raises(StopFileError, match="another process has locked it"):
+                at(tmp_path).merge(Lock((BEN,), 2))
+            assert clock.now == pytest.approx(5.0, abs=0.1)
+    finally:
+        os.close(other)

@@ -39,4 +39,13 @@ def _lives(pid: int) -> bool:
         return False
     except (OSError, OverflowError):  # another user's process, or not a valid pid
         return True
-    return True
+    return not _has_ended(pid)
+
+
+def _has_ended(pid: int) -> bool:
+    """Whether a process has ended without its parent having noticed (a zombie); false where the system does not say."""
+    try:
+        with open(f"/proc/{pid}/stat", "rb") as file:
+            return file.read().rpartition(b") ")[2][:1] in (b"Z", b"X")
+    except OSError:
+        return False

@@ -32,6 +32,15 @@ def test_a_process_that_has_ended_is_marked_as_gone(ended: int) -> None:
     assert stop.who == f"bot-console of {user()} (gone)" and stop.reason == "because"
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux shows the states of processes as files")
+def test_a_process_whose_end_its_parent_has_not_noticed_is_marked_as_gone() -> None:
+    with subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE) as process:
+        assert not gone(f"bot-console of {user()} (pid {process.pid})")
+        process.kill()
+        os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)  # it has ended, and stays a zombie
+        assert gone(f"bot-console of {user()} (pid {process.pid})")
+
+
 def test_other_holders_are_not_marked(ended: int) -> None:
     assert not gone(f"bot-console of {user()} (pid {os.getpid()})")
     assert not gone(f"bot-console of {user()} (pid {ended})", here=True)

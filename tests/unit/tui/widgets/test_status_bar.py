@@ -40,6 +40,12 @@ def test_a_console_that_is_read_only_promises_no_release() -> None:
     assert "! " not in status_text(ConsoleSnapshot(drive=replace(held, lockable=False, topic="/cmd_vel")))
 
 
+def test_stop_key_promises_no_release_while_a_question_lets_it_only_hold() -> None:
+    held = DriveInfo(stopped=True, stop_confirmed=True, lockable=True, stopped_here=True, own_stops=frozenset(["ours"]))
+    for drive in (held, replace(held, own_stops=frozenset(), stopped_here=False)):
+        assert "(! keeps it held)" in status_text(ConsoleSnapshot(drive=replace(drive, key_only_holds=True)))
+
+
 def test_silent_robot_is_distinguished_from_no_robot() -> None:
     assert status_text(ConsoleSnapshot()) == "no robot yet"
     assert status_text(ConsoleSnapshot(drive=DriveInfo(topic="/a/cmd_vel"))) == "no command and no odometry yet"
