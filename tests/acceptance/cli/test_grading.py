@@ -49,7 +49,7 @@ VARIANTS: list[tuple[str, str, str, tuple[str, ...]]] = [
     (NODE, r"'detection_threshold', 100", "'detection_threshold', 99", (DEFAULTS,)),
     (NODE, r"'turn_rate', 1\.0", "'turn_rate', 1.1", (DEFAULTS,)),
     (NODE, r"'turn_rate', 1\.0", "'turn_rate', 1", (SYSTEM, DRIVES)),
-    (NODE, r"'max_speed', 1\.0", "'max_speed', 1", (VALID, SYSTEM, DRIVES)),
+    (NODE, r"'max_speed', 1\.0", "'max_speed', 1", (VALID, SPEED, SYSTEM, DRIVES)),
     (NODE, r"'max_speed', 1\.0", "'maximum_speed', 1.0", ALL),
     (NODE, r"super\(\).__init__\('robot_navigator'\)", "super().__init__('navigator')", STARTED),
     (NODE, r"<= 5\.0", "<= 50.0", (SPEED,)),
