@@ -158,6 +158,13 @@ def test_listing_leaves_room_for_what_follows_and_long_lines_are_marked() -> Non
             "speed has no range: give its descriptor a floating_point_range",
             ["1/2  speed has no range: give its descriptor a", "floating_point_range"],
         ),
+        (
+            "waiting for: speed to be refused as an invalid type, not: it is too fast; take the last return away",
+            [
+                "1/2  waiting for: speed to be refused as an",
+                "invalid type, not: it is too fast; take the last return away",  # The pane marks where it ends.
+            ],
+        ),
     ],
 )
 def test_two_lines_of_a_step_show_first_what_it_waits_for(waiting: str, lines: list[str]) -> None:

@@ -209,7 +209,8 @@ def lines_of(view: LessonView, columns: int = 0) -> Text:
     if 0 < columns < len(f"{head}{title}  {waiting}"):
         title = ""
         if len(lines := textwrap.wrap(f"{head}  {waiting}", columns)) > 1:
-            return Text.assemble((head, "bold"), "\n".join(lines).removeprefix(head))
+            # What is left for the second line may be longer than it: it then ends with an ellipsis.
+            return Text.assemble((head, "bold"), f"{lines[0]}\n{' '.join(lines[1:])}".removeprefix(head))
     text = Text.assemble((f"{head}{title}", "bold"), f"  {waiting}\n")
     parts = [path or body.strip().replace("\n", " · ") for path, body in view.snippets]
     text.append(sanitize(" · ".join(parts)) or "enter shows the whole step", "dim")
