@@ -16,7 +16,7 @@ from bot_console.tui.learn.course import Course
 from bot_console.tui.learn.deeds import Deeds
 from bot_console.tui.learn.files import WorkspaceFiles
 from bot_console.tui.learn.grade_row import Drive, GradeRow
-from bot_console.tui.learn.judging import missing, with_names
+from bot_console.tui.learn.judging import NO_PACKAGE, missing, with_names
 from bot_console.tui.learn.sandbox import Finished, Sandbox, make_sandbox
 
 ROW_TIMEOUT_S = 90.0
@@ -62,9 +62,16 @@ def _why(row: GradeRow, sandbox: Sandbox, course: Course) -> str:
     for condition in row.files:
         if why := missing(condition, Deeds(), files, names):
             return why.replace(f"{sandbox.workspace}", "the workspace")
+    if not files.packages and _starts_package(row):
+        return NO_PACKAGE  # else what is installed under the same name would be graded
     if row.script and (why := _script(row, sandbox, names)):
         return why
     return next((why for each in row.drives if (why := _drive(each, sandbox, names))), "")
+
+
+def _starts_package(row: GradeRow) -> bool:
+    lines = [*row.starts, *(each.words for each in row.drives)]
+    return any("{package}" in word for words in lines for word in words)
 
 
 def _script(row: GradeRow, sandbox: Sandbox, names: dict[str, str]) -> str:

@@ -17,6 +17,8 @@ from bot_console.tui.learn.deeds import Deeds, Launched, names_of
 from bot_console.tui.learn.files import WorkspaceFiles
 from bot_console.tui.learn.wording import command_text, launch_text, node_text, pane_text
 
+NO_PACKAGE = "there is no package yet: a folder with package.xml and setup.py"
+
 
 def missing(
     condition: Condition,
@@ -196,7 +198,7 @@ def _file(words: Sequence[str], files: WorkspaceFiles) -> str:
 def _entry_point(words: Sequence[str], files: WorkspaceFiles) -> str:
     packages = files.packages
     if not packages:
-        return "there is no package yet: a folder with package.xml and setup.py"
+        return NO_PACKAGE
     for each in packages:
         if words[0] in each.executables or (words[0] == "*" and each.executables):
             return ""

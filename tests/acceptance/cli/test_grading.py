@@ -212,6 +212,21 @@ def _new(tmp_path: Path, name: str = "box") -> Path:
 
 
 @needs_namespaces
+@pytest.mark.parametrize(
+    "row",
+    [
+        "run {package} robot_node\nexpect-node /robot_navigator within 15 s",
+        "drive 5 s {package} robot_system.launch.py > 0.1 m",
+    ],
+)
+def test_package_of_the_same_name_that_is_installed_is_not_graded(row: str, tmp_path: Path) -> None:
+    course = course_of(tmp_path / "course", row)
+    course.defaults["package"] = "intelligent_robot"
+    (result,) = grade(course, _empty(tmp_path))
+    assert result.why == "there is no package yet: a folder with package.xml and setup.py"
+
+
+@needs_namespaces
 def test_states_of_files_are_graded_without_starting_anything(tmp_path: Path) -> None:
     result = graded(tmp_path, "", "expect-entry-point other")
     assert result.why == "src/mine/setup.py has no line for other in console_scripts"
