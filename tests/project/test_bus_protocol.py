@@ -42,7 +42,7 @@ def errors(tmp_path_factory):
     paths = ("build/editable", "runtime", "runtime/rosidl/generated")
     config = {"extraPaths": [str(ROOT / each) for each in paths], "reportReturnType": "none"}  # Their bodies are empty.
     (place / "pyrightconfig.json").write_text(json.dumps(config))
-    words = [sys.executable, "-m", "pyright", "-p", str(place), "--outputjson"]
+    words = [sys.executable, "-m", "pyright", "--pythonpath", sys.executable, "-p", str(place), "--outputjson"]
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     found = defaultdict(list)
     for each in json.loads(done.stdout)["generalDiagnostics"]:
