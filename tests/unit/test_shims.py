@@ -196,7 +196,8 @@ def test_nothing_is_found_or_printed_once_the_installation_is_gone(env: dict[str
             shutil.copy(each, shims)
     done = python(["-c", "print(1)\nimport rclpy"], {**env, "PYTHONPATH": str(shims)})
     assert done.stdout == "1\n"
-    assert done.stderr.endswith("ModuleNotFoundError: No module named 'rclpy'\n") and done.stderr.count("\n") == 3
+    assert done.stderr.endswith("ModuleNotFoundError: No module named 'rclpy'\n")
+    assert done.stderr.count("\n") in (3, 4)  # Python 3.13 shows the line itself, too
 
 
 def test_folder_is_complete_however_many_programs_make_it_at_once(tmp_path: Path) -> None:

@@ -84,7 +84,7 @@ def test_environment_is_silent_and_unchanged_once_the_installation_is_gone(venv:
             each.unlink()
             each.symlink_to("/nowhere/shim.py")
     done = in_venv(venv, "print(1)\nimport rclpy")
-    assert done.stdout == "1\n" and done.stderr.count("\n") == 3
+    assert done.stdout == "1\n" and done.stderr.count("\n") in (3, 4)  # Python 3.13 shows the line
     shims.rename(shims.with_name("away"))
     assert (in_venv(venv, "print(1)").stdout, in_venv(venv, "print(1)").stderr) == ("1\n", "")
 
@@ -93,4 +93,6 @@ def test_start_of_python_imports_two_small_files_more(venv: Path):
     loaded = "import sys; print(*sorted(sys.modules))"
     before = {*in_venv(venv, loaded).stdout.split()}
     assert main(["setup", "venv", str(venv)]) == 0
-    assert {*in_venv(venv, loaded).stdout.split()} - before <= {"bot_console_shims", "sitecustomize"}
+    more = {*in_venv(venv, loaded).stdout.split()} - before
+    more.discard("encodings.utf_8_sig")  # by Python 3.13, for any .pth file
+    assert more <= {"bot_console_shims", "sitecustomize"}
