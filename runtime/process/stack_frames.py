@@ -20,6 +20,8 @@ def is_library(filename: str) -> bool:
     """Whether a file belongs to the interpreter, an installed library or the runtime: not where a user would look."""
     if filename.startswith(("<frozen", *_OURS)):
         return True
+    if is_shipped(filename):  # a wheel puts our nodes, too, into site-packages
+        return False
     return any(part in filename for part in _SITE) or os.path.realpath(filename).startswith(_STDLIB)
 
 

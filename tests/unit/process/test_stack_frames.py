@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable
 
 import pytest
+from bot_console.runtime.process import stack_frames
 from bot_console.runtime.process.stack_frames import formatted
 
 UNCAUGHT = """
@@ -46,3 +47,10 @@ def test_formatted_exception_equals_what_the_interpreter_prints(mistyped: Callab
     text = formatted(caught.value)
     assert text.startswith("Traceback (most recent call last):\n")
     assert text.endswith(end)
+
+
+def test_shipped_nodes_are_no_library_where_a_wheel_has_put_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    site = "/home/me/.venv/lib/python3.12/site-packages/"
+    monkeypatch.setattr(stack_frames, "_SHIPPED", (site + "bot_console/",))
+    assert not stack_frames.is_library(site + "bot_console/nodes/robot_node.py")
+    assert stack_frames.is_library(site + "numpy/core.py")
