@@ -179,7 +179,7 @@ def test_console_started_beside_another_shows_its_robot(tmp_path, monkeypatch, c
             return 0
 
     for name, value in {
-        "Session": Shown, "_prepare": lambda options: None, "_refusal": lambda: "", "why_alone": lambda: "",
+        "Session": Shown, "_prepare": lambda options: None, "_refusal": lambda _: "", "why_alone": lambda: "",
         "is_in_range": lambda: True, "others_take_part": lambda: False, "robot_there": lambda: next(polls),
         "robot_claim": lambda: RobotClaim(tmp_path),
     }.items():  # fmt: skip

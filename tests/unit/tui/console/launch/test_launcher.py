@@ -336,7 +336,7 @@ def test_process_that_computes_without_pause_is_reported_once(bench, waiter, mon
     from bot_console.tui.console.launch import launcher
     from bot_console.tui.console.launch import vitals as process_vitals
 
-    monkeypatch.setattr(process_vitals, "CPU_POLL_S", 0.0)
+    monkeypatch.setattr(process_vitals, "CPU_POLL_S", 1e-6)
     monkeypatch.setattr(process_vitals, "BUSY_SHARE", 0.0)  # Even one that waits counts as computing.
     monkeypatch.setattr(launcher, "BUSY_S", 0.1)
     reports = lambda: [each.text for each in bench.info.timeline if "computing" in each.text]  # noqa: E731
