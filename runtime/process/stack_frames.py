@@ -20,9 +20,9 @@ def is_library(filename: str) -> bool:
     """Whether a file belongs to the interpreter, an installed library or the runtime: not where a user would look."""
     if filename.startswith(("<frozen", *_OURS)):
         return True
-    if is_shipped(filename):  # a wheel puts our nodes, too, into site-packages
-        return False
-    return any(part in filename for part in _SITE) or os.path.realpath(filename).startswith(_STDLIB)
+    # A wheel puts our own nodes into site-packages, and a clone may hold an environment with its site-packages.
+    inside = next((filename[len(each) :] for each in _SHIPPED if filename.startswith(each)), filename)
+    return any(part in inside for part in _SITE) or os.path.realpath(filename).startswith(_STDLIB)
 
 
 def is_idle(filename: str) -> bool:

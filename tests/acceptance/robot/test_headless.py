@@ -140,16 +140,14 @@ def test_program_that_never_ends_is_killed_by_its_launch(tmp_path):
     assert "exit code -9" in report["log"]
 
 
-@pytest.mark.parametrize(
-    ("content", "code"), [("simulator:\n  ros__parameters:\n    world: 5\n", 1), ("a: [\n", 0)], ids=["value", "YAML"]
-)
-def test_parameters_that_end_the_simulator_end_the_run_at_once(tmp_path, content, code):
+@pytest.mark.parametrize("content", ["simulator:\n  ros__parameters:\n    world: 5\n", "a: [\n"], ids=["value", "YAML"])
+def test_parameters_that_end_the_simulator_end_the_run_at_once(tmp_path, content):
     (tmp_path / "bad.yaml").write_text(content)
     words = ["--headless", "--fast", "--duration", "1000", "config_file:=bad.yaml"]
     line = [sys.executable, "-m", "bot_console.tui", *words]
     done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 1
-    assert f"the simulator ended with exit code {code} before it reported" in done.stderr.splitlines()[-1]
+    assert "the simulator ended with exit code 1 before it reported" in done.stderr.splitlines()[-1]
     assert "[1700000001." not in done.stderr, "no second was simulated after that"
 
 

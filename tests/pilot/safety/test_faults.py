@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import io
+import sys
 from dataclasses import replace
 from pathlib import Path
 from unittest.mock import patch
@@ -22,7 +23,6 @@ from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.status_bar import StatusBar
 from bot_console.tui.widgets.tabs import Tabs
 from piloting import Session, run
-from rich.console import Console
 from samples import live
 from textual.widget import Widget
 
@@ -123,10 +123,10 @@ def test_exception_in_an_overlay_closes_it(monkeypatch: pytest.MonkeyPatch) -> N
 def test_exception_outside_panes_stops_robot_and_prints_one_line(monkeypatch: pytest.MonkeyPatch, state: Path) -> None:
     console, _ = live()
     message = io.StringIO()
+    monkeypatch.setattr(sys, "__stderr__", message)
 
     async def main() -> int | None:
         app = BotConsoleApp(console, refresh_hz=0)
-        app.error_console = Console(file=message, width=1000)
         monkeypatch.setattr(StatusBar, "show", boom)
         try:
             async with app.run_test() as pilot:

@@ -54,3 +54,8 @@ def test_shipped_nodes_are_no_library_where_a_wheel_has_put_them(monkeypatch: py
     monkeypatch.setattr(stack_frames, "_SHIPPED", (site + "bot_console/",))
     assert not stack_frames.is_library(site + "bot_console/nodes/robot_node.py")
     assert stack_frames.is_library(site + "numpy/core.py")
+
+
+def test_library_is_one_also_in_an_environment_within_a_clone(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(stack_frames, "_SHIPPED", ("/home/me/bot-console/",))
+    assert stack_frames.is_library("/home/me/bot-console/.venv/lib/python3.12/site-packages/numpy/core.py")
