@@ -15,6 +15,7 @@ from bot_console.tui.console.bags.opened_bag import OpenedBag
 from bot_console.tui.console.bags.playing.bag_playback import BagPlayback
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.bags.writer import BagWriter
+from bot_console.tui.panes.pane import Pane
 from geometry_msgs.msg import Twist
 from rclpy.serialization import deserialize_message, serialize_message
 from rest import at_rest
@@ -148,3 +149,12 @@ def test_it_plays_at_once_when_asked_to(bag: Bag) -> None:
         assert "▶ playing" in shown(app)
 
     run(bag, play, plays=True)
+
+
+def test_player_goes_on_while_the_panes_are_dismantled(bag: Bag) -> None:
+    async def play(app: BagApp, pilot: Any, published: Published) -> None:
+        for pane in app.query(Pane):
+            await pane.remove_children()
+        app.time_cursor.move(BEGIN + SECOND)
+
+    run(bag, play)

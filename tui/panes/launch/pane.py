@@ -188,7 +188,7 @@ class LaunchPane(ListPane):
 
     def time_moved(self, stamp: int | None) -> None:
         """Show the events up to another moment."""
-        if self.is_mounted:
+        if not self.is_ending:
             self._show_events()
 
     def _report(self) -> None:

@@ -156,6 +156,8 @@ class LogsPane(LinePane):
     def time_moved(self, stamp: int | None) -> None:
         """Go to the last line before a moment, as soon as it is there; follow the newest line again at None."""
         self._moment = stamp
+        if self.is_ending:
+            return
         if stamp is None:
             self._following = True
             self._to_end()

@@ -201,7 +201,7 @@ class PlotPane(PlotQuestions):
     def time_moved(self, stamp: int | None) -> None:
         """Show another moment, and what was changed then."""
         self._timeline.watch_image(stamp)
-        if self.display and self.is_mounted:
+        if self.display and not self.is_ending:
             self.draw()
 
     def action_mark(self, step: int) -> None:

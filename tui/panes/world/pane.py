@@ -176,7 +176,7 @@ class WorldPane(Pane):
     def time_moved(self, stamp: int | None) -> None:
         """Show where the robot was at another moment."""
         self._then = None if stamp is None else self.console.drive.pose_at(stamp)
-        if self.is_mounted:
+        if not self.is_ending:
             self._draw()
 
     def on_picture_resized(self, event: Picture.Resized) -> None:

@@ -6,7 +6,7 @@ import threading
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from bot_console.runtime.process import current
+from bot_console.runtime.process import current, unpatched
 
 LONG = 60.0
 
@@ -188,23 +188,29 @@ def test_subclass_may_override_run(run):
     assert run(target, name="cart").stdout == "turns in cart\n"
 
 
-def test_exception_thrown_while_threads_are_started_hits_their_starter(start):
-    begun, threads, hits = threading.Event(), [], []
+def test_exception_thrown_while_a_thread_is_started_is_raised_by_its_starter_afterwards(start, monkeypatch):
+    start_thread, processes, outcome = unpatched.start_thread, [], []
+
+    def interrupted_start(thread):
+        if thread.name == "wheel":
+            processes[0].main_state.throw(KeyboardInterrupt)
+            for _unused in range(100_000):  # where the interpreter would raise it, if it could
+                pass
+        start_thread(thread)
 
     def target():
-        begun.set()
-        while len(threads) < 100 or not hits:
-            try:
-                thread = threading.Thread(target=int, daemon=True)
-                thread.start()
-                threads.append(thread)
-            except KeyboardInterrupt:
-                hits.append(len(threads))
+        ready.wait()
+        wheel = threading.Thread(target=outcome.append, args=("turned",), name="wheel", daemon=True)
+        try:
+            wheel.start()
+        except KeyboardInterrupt:
+            wheel.join()
+            outcome.append("interrupted")
 
+    ready = threading.Event()
+    monkeypatch.setattr(unpatched, "start_thread", interrupted_start)
     started = start(target)
-    assert begun.wait(LONG)
-    while started.process.is_alive and (len(threads) < 100 or not hits):
-        started.process.main_state.throw(KeyboardInterrupt)
-        started.process.wait(0.0002)
-    started.end()
-    assert hits
+    processes.append(started.process)
+    ready.set()
+    started.process.wait(LONG)
+    assert outcome == ["turned", "interrupted"]
