@@ -118,6 +118,10 @@ class _CodeProgram:
 
     def __call__(self) -> None:
         main = _new_main(self._places, "")
+        if sys.version_info >= (3, 13):  # from there on, tracebacks show the lines of `-c`
+            import linecache
+
+            linecache.cache["<string>"] = len(self._text), None, self._text.splitlines(keepends=True), "<string>"
         exec(compile(self._text, "<string>", "exec", dont_inherit=True), vars(main))
 
 
