@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from rclpy.qos import QoSProfile
     from rclpy.service_introspection import ServiceEvents, ServiceIntrospectionState
 
-NANO = 1_000_000_000
+NS_PER_S = 1_000_000_000
 
 
 class Client(Entity):
@@ -82,7 +82,7 @@ class Client(Entity):
         future = self.call_async(request)
         if not future.done():
             clock = current().clock
-            deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * float(NANO))
+            deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * float(NS_PER_S))
             try:
                 wait_until_settled(future, self, self._node, f"a call of {self.endpoint.name}", deadline)
             finally:

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from rclpy.qos_overriding_options import QoSOverridingOptions
     from rclpy.subscription import Subscription
 
-NANO = 1_000_000_000
+NS_PER_S = 1_000_000_000
 
 Callback = Callable[[Any], None]
 
@@ -84,9 +84,9 @@ class AsyncParameterClient:
     def wait_for_services(self, timeout_sec: float | None = None) -> bool:
         """Block until the services are available; False after the time-out (s) or a shutdown of the context."""
         clock = current().clock
-        deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * float(NANO))
+        deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * float(NS_PER_S))
         for client in self._clients():
-            left = None if deadline is None else max(0, deadline - clock.steady_ns()) / NANO
+            left = None if deadline is None else max(0, deadline - clock.steady_ns()) / NS_PER_S
             if not client.wait_for_service(left):
                 return False
         return self.services_are_ready()

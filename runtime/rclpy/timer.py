@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from rclpy.impl.entity import EntityExecutor
     from rclpy.node_parts.base import NodeBase
 
-NANO = 1_000_000_000
+NS_PER_S = 1_000_000_000
 
 
 class Timer(Entity):

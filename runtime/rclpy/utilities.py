@@ -11,7 +11,7 @@ from bot_console.runtime.rmw.middleware import qos_rules
 from rclpy.context import Context
 from rclpy.impl.reexports import reexporting
 
-NANO = 1_000_000_000
+NS_PER_S = 1_000_000_000
 
 
 _default_context: ProcessLocal[list[Context]] = ProcessLocal(list)
@@ -67,7 +67,7 @@ def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
     """A time-out in ns; -1 (forever) for None and negative ones."""
     if timeout_sec is None or timeout_sec < 0:
         return -1
-    return int(float(timeout_sec) * NANO)
+    return int(float(timeout_sec) * NS_PER_S)
 
 
 __getattr__ = reexporting(__name__, "Context S_TO_NS")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from tf2_py.frame_history import NANO, FrameHistory
+from tf2_py.frame_history import NS_PER_S, FrameHistory
 
 NO_PARENT = "NO_PARENT"
 
@@ -32,9 +32,9 @@ def as_yaml(frames: Mapping[str, FrameHistory]) -> str:
             f"  parent: '{latest[1]}'\n"
             f"  broadcaster: '{history.entries[-1][3]}'\n"
             f"  rate: {rate(history):.3f}\n"
-            f"  most_recent_transform: {latest[0] / NANO:.6f}\n"
-            f"  oldest_transform: {oldest / NANO:.6f}\n"
-            f"  buffer_length: {(latest[0] - oldest) / NANO:.3f}\n"
+            f"  most_recent_transform: {latest[0] / NS_PER_S:.6f}\n"
+            f"  oldest_transform: {oldest / NS_PER_S:.6f}\n"
+            f"  buffer_length: {(latest[0] - oldest) / NS_PER_S:.3f}\n"
         )
     return "".join(texts) or "{}"
 
@@ -44,7 +44,7 @@ def rate(history: FrameHistory) -> float:
     if history.is_static:
         return 10000.0
     entries = history.entries[history.first :]
-    span = (entries[-1][0] - entries[0][0]) / NANO
+    span = (entries[-1][0] - entries[0][0]) / NS_PER_S
     return len(entries) / max(span, 0.0001)
 
 

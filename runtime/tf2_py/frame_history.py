@@ -8,7 +8,7 @@ from operator import itemgetter
 
 from tf2_py.rigid import Rigid, interpolate
 
-NANO = 1_000_000_000
+NS_PER_S = 1_000_000_000
 DIGEST_AFTER = 256
 """The number of entries after which old ones are dropped."""
 
@@ -130,4 +130,4 @@ class FrameHistory:
 
 def seconds(time: int) -> str:
     """Return a time (ns) as upstream prints it."""
-    return f"{time / NANO:.6f}"
+    return f"{time / NS_PER_S:.6f}"

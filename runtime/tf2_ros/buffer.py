@@ -17,7 +17,7 @@ from tf2_msgs.srv import FrameGraph
 from tf2_py import BufferCore, LookupException, TransformException
 from tf2_ros.buffer_interface import NOW, BufferInterface
 
-POLL = 0.02
+TRANSFORM_POLL_S = 0.02
 """How often (s) a waiting call polls, as upstream."""
 
 
@@ -191,6 +191,6 @@ def _waited(ask: Callable[[], tuple[bool, str]], timeout: Duration) -> tuple[boo
     answer = ask()
     deadline = wall.monotonic() + timeout.nanoseconds / 1e9
     while not answer[0] and wall.monotonic() < deadline:
-        wall.sleep(POLL)
+        wall.sleep(TRANSFORM_POLL_S)
         answer = ask()
     return answer

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.console.model import ChangeSource
-from bot_console.tui.console.parameters.history_file import ROWS, History
+from bot_console.tui.console.parameters.history_file import MAX_ROWS, History
 from bot_console.tui.console.parameters.journal import Journal
 
 NUMBER = 8
@@ -33,7 +33,7 @@ def note_for_ever(file: Path, first: int, noted: int) -> None:
 def numbers(file: Path) -> list[int]:
     """The numbers that another program reads."""
     history = History(file, time.time_ns())
-    found = [each.new for each in history.earlier(ROWS)]
+    found = [each.new for each in history.earlier(MAX_ROWS)]
     assert not history.problem, history.problem
     history.close()
     return [each for each in found if isinstance(each, int)]

@@ -7,7 +7,7 @@ import gc
 import sys
 from collections.abc import Generator
 
-SWITCH_INTERVAL = 0.0005
+SWITCH_INTERVAL_S = 0.0005
 """Seconds after which a busy node must let the screen's thread run; Python's 5 ms make keys feel slow."""
 
 
@@ -35,7 +35,7 @@ def collect_from_now_on() -> None:
 def eager_switching() -> Generator[None]:
     """Let the screen's thread run promptly while other threads are busy."""
     before = sys.getswitchinterval()
-    sys.setswitchinterval(SWITCH_INTERVAL)
+    sys.setswitchinterval(SWITCH_INTERVAL_S)
     try:
         yield
     finally:

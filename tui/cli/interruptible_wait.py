@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import time
 
-SLICE = 0.5
+WAIT_SLICE_S = 0.5
 """Seconds after which the main thread checks whether a signal has arrived."""
 
 
@@ -18,8 +18,8 @@ def wait_interruptibly(event: threading.Event, seconds: float | None = None) -> 
     """
     deadline = None if seconds is None else time.monotonic() + seconds
     while True:
-        left = SLICE if deadline is None else deadline - time.monotonic()
-        if event.wait(max(0.0, min(SLICE, left))):
+        left = WAIT_SLICE_S if deadline is None else deadline - time.monotonic()
+        if event.wait(max(0.0, min(WAIT_SLICE_S, left))):
             return True
-        if left <= SLICE and deadline is not None:
+        if left <= WAIT_SLICE_S and deadline is not None:
             return False

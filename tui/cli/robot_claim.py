@@ -18,7 +18,7 @@ from bot_console.runtime.rmw.zenoh.domain.file_lock import open_lock, try_lock
 NAME = "robot.lock"
 ROBOT_START_TIMEOUT_S = 15.0
 """Seconds that a robot has to come up; a program that claimed it and has none by then has ended it."""
-POLL = 0.1
+CLAIM_POLL_S = 0.1
 """Seconds between two polls for the other program's robot."""
 
 
@@ -68,7 +68,7 @@ class RobotClaim:
             if not reported:
                 report()
             reported = True
-            time.sleep(POLL)
+            time.sleep(CLAIM_POLL_S)
             self.held = self._take()
         return found
 

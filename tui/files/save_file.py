@@ -13,7 +13,7 @@ PREFIX, SUFFIX = ".bot-console-", ".saving"
 """Prefix and suffix of a file that is being written; its own name is left out, since that may have the maximum
 length.
 """
-LEFT_OVER = 600.0
+LEFT_OVER_AGE_S = 600.0
 """Seconds after which a file with such a name was left behind by a killed program."""
 
 
@@ -140,5 +140,5 @@ def _clear_left_overs(folder: Path) -> None:
     """Delete what an interrupted save left behind."""
     for each in folder.glob(f"{PREFIX}*{SUFFIX}"):
         with contextlib.suppress(OSError):
-            if time.time() - each.stat().st_mtime > LEFT_OVER:
+            if time.time() - each.stat().st_mtime > LEFT_OVER_AGE_S:
                 each.unlink()

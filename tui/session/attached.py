@@ -15,7 +15,7 @@ from bot_console.tui.console.model import Severity
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.session.plugins import find_plugins
 
-READY = 20.0
+READY_TIMEOUT_S = 20.0
 
 
 class AttachedSession:
@@ -65,7 +65,7 @@ class AttachedSession:
         threading.Thread(target=self._report, name="start", daemon=True).start()
 
     def _report(self) -> None:
-        if self._console.wait_ready(READY):
+        if self._console.wait_ready(READY_TIMEOUT_S):
             for severity, line in self._last_message:
                 self._console.printed(severity, "bot-console", line)
 

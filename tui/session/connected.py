@@ -37,9 +37,9 @@ from bot_console.tui.session.robot_starter import RobotProcess
 from bot_console.tui.settings.settings import read_settings
 
 ROOT = Path(__file__).resolve().parents[2]
-LAST_WORD = 0.2
+LAST_MESSAGE_TIMEOUT_S = 0.2
 """Seconds for a robot to acknowledge its stop, or to receive its last zero, before anything is shut down."""
-READY = 20.0
+READY_TIMEOUT_S = 20.0
 HISTORY = "history.sqlite"
 """The database with the parameter changes of all runs, in the user's state folder."""
 
@@ -108,7 +108,7 @@ class Connected:
 
     def _launch(self) -> None:
         """Start the system once the console listens, so that not even its first log line is lost."""
-        if not self.console.wait_ready(READY):
+        if not self.console.wait_ready(READY_TIMEOUT_S):
             return
         self._forget_notices = log_process_reports(self.console.printed, self.console.learn)
         options = self._options
@@ -141,7 +141,7 @@ class Connected:
         """
         if not self._options.attach:
             self.console.drive.stop(True, "bot-console was quit")
-            self.console.drive.await_held(LAST_WORD)
+            self.console.drive.await_held(LAST_MESSAGE_TIMEOUT_S)
             # Otherwise its silence would be a stop that the robot still has at its next start.
             self.console.drive.steer(False)
         if self._watching is not None:

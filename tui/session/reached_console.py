@@ -16,9 +16,9 @@ from bot_console.tui.session.launch_host.address import connect_to_host, host_ad
 from bot_console.tui.session.launch_host.merged import MergedInfo
 from bot_console.tui.session.launch_host.proxy import HostedLauncher
 
-LINK = 10.0
+LINK_TIMEOUT_S = 10.0
 """Seconds to connect."""
-STILL = 0.5
+GRAPH_SETTLED_S = 0.5
 """Seconds without any change after which the system counts as known."""
 POLL_S = 0.05
 T = TypeVar("T")
@@ -43,7 +43,7 @@ def reached_console(*, learning: bool = False) -> Generator[RosConsole | None]:
     console.start()
     with contextlib.ExitStack() as stack:
         stack.callback(console.close)
-        if not console.wait_ready(LINK):
+        if not console.wait_ready(LINK_TIMEOUT_S):
             print(f"no ROS system: {console.snapshot().problem or 'no answer'}", file=sys.stderr)
             yield None
             return
@@ -70,7 +70,7 @@ def known(console: RosConsole, timeout_s: float) -> bool:
         nodes = sum(not each.hidden for each in snapshot.graph.nodes)
         return nodes, len(trees), sum(len(each.parameters) for each in trees.values())
 
-    return bool(settled(counts, lambda found: bool(found[0]), STILL, timeout_s)[0])
+    return bool(settled(counts, lambda found: bool(found[0]), GRAPH_SETTLED_S, timeout_s)[0])
 
 
 def settled(poll: Callable[[], T], is_there: Callable[[T], bool], still: float, timeout_s: float) -> T:

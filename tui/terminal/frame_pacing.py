@@ -6,7 +6,7 @@ import time
 from collections import deque
 from collections.abc import Callable
 
-PACE = 0.1
+FRAME_INTERVAL_S = 0.1
 """Seconds from one frame to the next, while no key is pressed."""
 
 UNPACED_AFTER_KEY_S = 0.3
@@ -15,7 +15,7 @@ UNPACED_AFTER_KEY_S = 0.3
 IN_FLIGHT = 2
 """The maximum number of frames that the terminal has not answered yet."""
 
-SLOW = 0.25
+SLOW_ANSWER_S = 0.25
 """Seconds; if an answer takes longer, one frame in flight keeps the line busy enough."""
 
 FRAME_TIMEOUT_S = 2.0
@@ -55,7 +55,7 @@ class AnswerGate:
             return self._asked[0][1] - now
         if self.is_eager:
             return 0.0
-        return max(0.0, self._drawn + PACE - now)
+        return max(0.0, self._drawn + FRAME_INTERVAL_S - now)
 
     @property
     def is_eager(self) -> bool:
@@ -78,7 +78,7 @@ class AnswerGate:
         self._disappointed = 0
         if self._asked:
             began, _ = self._asked.popleft()
-            self._allowed = 1 if self._clock() - began > SLOW else IN_FLIGHT
+            self._allowed = 1 if self._clock() - began > SLOW_ANSWER_S else IN_FLIGHT
 
     def pressed(self) -> None:
         """Record that a key was pressed: its effect is shown at once."""

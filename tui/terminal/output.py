@@ -71,7 +71,7 @@ def within(text: str) -> str:
 
 QUESTION = "\x1b[6n"
 SYNC_BEGIN, SYNC_END = "\x1b[?2026h", "\x1b[?2026l"
-BUSY = 0.03
+OUTPUT_POLL_S = 0.03
 """Seconds between two checks whether earlier output has been written."""
 
 SUPPORTED = installed_version("textual").startswith("8.2.")
@@ -134,7 +134,7 @@ class SparingApp(App[None]):
         driver = self._driver_or_none()
         writer = getattr(driver, "_writer_thread", None)
         if writer is not None and writer._queue.qsize() > 0:
-            self.set_timer(BUSY, self._send_copied)  # a full queue would block the event loop
+            self.set_timer(OUTPUT_POLL_S, self._send_copied)  # a full queue would block the event loop
             return
         text, self._copied = self._copied, ""
         if driver is not None:
@@ -202,12 +202,12 @@ class SparingApp(App[None]):
         writer = getattr(self._driver, "_writer_thread", None)
         # A full queue of Textual's writer would block the event loop.
         busy = writer is not None and writer._queue.qsize() > 0
-        return max(BUSY if busy else 0.0, self.gate.wait())
+        return max(OUTPUT_POLL_S if busy else 0.0, self.gate.wait())
 
     def _poll_again(self) -> None:
         # Never 0: a batch that is held open would make the event loop spin. A timer of Textual's is a task: one
         # for each frame that comes too early costs a fifth of a millisecond before it does anything.
-        wait = max(0.005, min(self._waiting(), 0.5) if not self._batch_count else BUSY)
+        wait = max(0.005, min(self._waiting(), 0.5) if not self._batch_count else OUTPUT_POLL_S)
         asyncio.get_running_loop().call_later(wait, self.call_next, self._draw_held)
 
     def _draw_held(self) -> None:

@@ -15,7 +15,7 @@ from rclpy.action.server_goal_handle import ServerGoalHandle
 if TYPE_CHECKING:
     from builtin_interfaces.msg import Time as TimeMsg
 
-NANO = 1_000_000_000
+NS_PER_S = 1_000_000_000
 ANY_GOAL = bytes(16)
 
 
@@ -88,4 +88,4 @@ class Goals:
 
 
 def _ns(stamp: TimeMsg) -> int:
-    return stamp.sec * NANO + stamp.nanosec
+    return stamp.sec * NS_PER_S + stamp.nanosec

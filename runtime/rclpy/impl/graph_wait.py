@@ -41,8 +41,8 @@ class NodeInGraph(Protocol):
         ...
 
 
-NANO = 1_000_000_000
-POLL = NANO // 4
+NS_PER_S = 1_000_000_000
+POLL = NS_PER_S // 4
 
 
 def require_valid(context: ContextState, what: str) -> None:
@@ -57,7 +57,7 @@ def require_valid(context: ContextState, what: str) -> None:
 def wait_until_there(node: NodeInGraph, is_there: Callable[[], bool], timeout_sec: float | None) -> bool:
     """Block until `is_there()`, a time-out (s) or the context's shutdown; returns the last `is_there()`."""
     clock = current().clock
-    deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * float(NANO))
+    deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * float(NS_PER_S))
     wakeup = clock.wakeup()
 
     def woken(owner: Owner) -> None:

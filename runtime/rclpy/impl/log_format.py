@@ -16,7 +16,7 @@ ENVELOPE_VARIABLE = "BOT_CONSOLE_LOG_ENVELOPE"
 """A format around each line, in which `{line}` is replaced by the usual line: set by programs that capture the
 output of a process and distinguish what a logger wrote from what was merely printed.
 """
-NANO = 1_000_000_000
+NS_PER_S = 1_000_000_000
 _ESCAPES = {"\\a": "\a", "\\b": "\b", "\\n": "\n", "\\r": "\r", "\\t": "\t"}
 _TOKEN = re.compile(r"\{([a-z_]+)\}")
 
@@ -67,7 +67,7 @@ class Formatter:
         on_rosout: bool = False,
     ) -> str:
         """One formatted message, without colours and line end; `on_rosout` says whether `/rosout` got it, too."""
-        seconds, nanoseconds = divmod(stamp_ns, NANO)
+        seconds, nanoseconds = divmod(stamp_ns, NS_PER_S)
         level = NAMES.get(severity, "UNKNOWN")
         # The default format without a template: halves the time of a log line.
         if self._simple:

@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from rclpy.qos_overriding_options import QoSOverridingOptions
     from rclpy.waitable import Waitable
 
-NANO = 1_000_000_000
+NS_PER_S = 1_000_000_000
 MAX_SERVICE_QUEUE = 1000
 
 
@@ -226,7 +226,7 @@ class NodeEntities(NodeBase):
         autostart: bool = True,
     ) -> Timer:
         """Create a timer with a period (s) of a clock, the node's own by default."""
-        period = int(float(timer_period_sec) * NANO)
+        period = int(float(timer_period_sec) * NS_PER_S)
         group = self._ros_group(callback_group)
         self.context.require_running("timer")
         timer = Timer(callback, group, period, clock or self.get_clock(), context=self.context, autostart=autostart)

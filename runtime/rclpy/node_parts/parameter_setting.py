@@ -223,14 +223,14 @@ class ParameterSetting(NodeEntities):
 CARRIED_AS_THEY_ARE = frozenset((bool, float, str))
 """Classes all of whose values are transmitted unchanged."""
 INT64 = 1 << 63
-NANO = 1_000_000_000
+NS_PER_S = 1_000_000_000
 
 
 def parameter_event(
     node: str, now: int, new: list[ParameterMsg], changed: list[ParameterMsg], deleted: list[ParameterMsg]
 ) -> ParameterEvent:
     """The parameter event of a node (full name) at a time (ns)."""
-    seconds, nanoseconds = divmod(now, NANO)
+    seconds, nanoseconds = divmod(now, NS_PER_S)
     return ParameterEvent(
         stamp=Time(sec=seconds, nanosec=nanoseconds, check_fields=False),
         node=node,

@@ -38,7 +38,7 @@ from bot_console.runtime.rosidl import type_hash
 SERVICE_QOS = "::,10:,:,:,,"
 """Reliable, volatile, keep last 10: rmw's default profile for services."""
 
-FLUSHED = 0.3
+FLUSH_TIMEOUT_S = 0.3
 """How long leaving or closing waits for the queue of messages that must not be dropped, in s."""
 
 Way = RemotePublisher | RemoteSubscription | Served | Asking
@@ -79,7 +79,7 @@ class ZenohBus:
 
     def leave(self) -> None:
         """Remove the session's socket, for a process that exits at once."""
-        self._sender.end(FLUSHED)
+        self._sender.end(FLUSH_TIMEOUT_S)
         self._session.leave()
 
     def add_node(self, name: str, namespace: str, enclave: str) -> NodeId:
@@ -289,7 +289,7 @@ class ZenohBus:
 
     def close(self) -> None:
         """Leave the mesh; communication within this process goes on."""
-        self._sender.end(FLUSHED)
+        self._sender.end(FLUSH_TIMEOUT_S)
         self._session.close()
 
     def _send_again(self) -> None:

@@ -11,14 +11,14 @@ MESSAGE_PRIORITY = "DATA"
 BLOCKING_PRIORITY = "DATA_LOW"
 """That of messages which must not be dropped, a lower one: otherwise publishers that drop would wait behind them."""
 
-WAIT_BEFORE_DROP = 50_000
+WAIT_BEFORE_DROP_US = 50_000
 """How long a publisher waits for a full link before it drops a message, in us.
 
 Dropping at once lost up to 60 % of a burst to healthy readers; blocking stalls the publisher for 5 s next to a reader
 that does not read.
 """
 
-WAIT_BEFORE_CUT = 2_000_000
+WAIT_BEFORE_CUT_US = 2_000_000
 """How long a message that must not be dropped waits for a full link before that link is closed, in us.
 
 Only the thread that sends those messages waits. The link to a process that was frozen is made again once it runs.
@@ -50,7 +50,7 @@ BLOCKING_TOPICS = frozenset({"/rosout"})
 
 
 def must_not_drop(topic: str, qos: Profile) -> bool:
-    """Whether messages of a publisher wait for a full link, up to `WAIT_BEFORE_CUT`, instead of being dropped."""
+    """Whether messages of a publisher wait for a full link, up to `WAIT_BEFORE_CUT_US`, instead of being dropped."""
     keeps_all = (depth(qos) or DEEP_QUEUE) >= DEEP_QUEUE or topic in BLOCKING_TOPICS
     return keeps_all and qos.reliability.name != "BEST_EFFORT"
 
@@ -60,7 +60,7 @@ def queue_settings(room: int) -> dict[str, object]:
     return {
         "size": {"data": room, "data_low": room},
         "congestion_control": {
-            "drop": {"wait_before_drop": WAIT_BEFORE_DROP},
-            "block": {"wait_before_close": WAIT_BEFORE_CUT},
+            "drop": {"wait_before_drop": WAIT_BEFORE_DROP_US},
+            "block": {"wait_before_close": WAIT_BEFORE_CUT_US},
         },
     }

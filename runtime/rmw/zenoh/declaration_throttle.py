@@ -11,7 +11,7 @@ DECLARATIONS_PER_PAUSE = 20
 """Declarations between two pauses."""
 PAUSE_S = 0.005
 """Length of a pause, in seconds: as long as `EACH` declarations take, which leaves half of a processor to others."""
-QUIET = 0.1
+QUIET_S = 0.1
 """Seconds without a declaration after which `AT_ONCE` may be made without a pause again."""
 
 
@@ -29,7 +29,7 @@ class Pace:
     def shown(self) -> None:
         """Count a declaration, and pause if one is due."""
         now = self._clock()
-        self._count = self._count + 1 if now - self._last < QUIET else 1
+        self._count = self._count + 1 if now - self._last < QUIET_S else 1
         if self._count > AT_ONCE and self._count % DECLARATIONS_PER_PAUSE == 0:
             self._sleep(PAUSE_S)
         self._last = self._clock()

@@ -79,7 +79,7 @@ class Publisher(Declaration):
     """Sends payloads to the subscribers of a key."""
 
     def put(self, payload: bytes, attachment: bytes) -> bool:
-        """Send one sample; waits at most `WAIT_BEFORE_DROP` for a full link.
+        """Send one sample; waits at most `WAIT_BEFORE_DROP_US` for a full link.
 
         Returns False if it could not be sent because the session is closed or rejoining, or because another thread is
         undeclaring the publisher.

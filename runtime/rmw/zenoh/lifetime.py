@@ -10,7 +10,7 @@ from typing import Any
 from bot_console.runtime.rmw.zenoh.declaration_throttle import Pace
 from bot_console.runtime.rmw.zenoh.declarations import Declaration
 
-CLOSING = 0.4
+CLOSE_TIMEOUT_S = 0.4
 """How long `close` waits, in s: closing takes 2.5 s if the link to a frozen process is full."""
 
 
@@ -88,7 +88,7 @@ class Lifetime:
         except RuntimeError:  # the interpreter is ending, and Python 3.12 starts no thread then
             self._shut()
         else:
-            closing.join(CLOSING)
+            closing.join(CLOSE_TIMEOUT_S)
 
     def is_closed(self) -> bool:
         """Whether it was closed."""

@@ -8,11 +8,11 @@ from collections import deque
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
-from bot_console.runtime.rmw.zenoh.congestion_control import WAIT_BEFORE_DROP
+from bot_console.runtime.rmw.zenoh.congestion_control import WAIT_BEFORE_DROP_US
 from bot_console.runtime.rmw.zenoh.declarations import Publisher
 
 MAX_QUEUED_BYTES = 64_000_000
-"""Capacity of the queue in bytes: more than is published until a hung process is cut off (`WAIT_BEFORE_CUT`)."""
+"""Capacity of the queue in bytes: more than is published until a hung process is cut off (`WAIT_BEFORE_CUT_US`)."""
 
 BURST_MESSAGES, BURST_BYTES = 128, 4_000_000
 """Queued messages, or bytes, from which a publisher lets the thread send all of them before it goes on.
@@ -20,7 +20,7 @@ BURST_MESSAGES, BURST_BYTES = 128, 4_000_000
 The thread releases the GIL with each message that it sends, and gets it back only after 5 ms while somebody publishes
 without a pause: during a burst next to nothing was sent, and most images found no room.
 """
-YIELD_TIMEOUT_S = WAIT_BEFORE_DROP * 1e-6
+YIELD_TIMEOUT_S = WAIT_BEFORE_DROP_US * 1e-6
 """The longest such wait, in seconds: as long as other publishers wait for a full link. After an unsuccessful wait the
 publisher does not wait again until the queue is empty, or until more than half of it is full and the thread has sent
 something.

@@ -17,9 +17,9 @@ from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
 from bot_console.runtime.rmw.zenoh.wire.tokens import Token
 from bot_console.runtime.rosidl.cdr import CdrError, deserialize, serialize
 
-TIMEOUT = 600.0
+ANSWER_TIMEOUT_S = 600.0
 """Timeout of a request, in s; the same as in rmw_zenoh."""
-RESULT_TIMEOUT = 30 * 86400.0
+RESULT_TIMEOUT_S = 30 * 86400.0
 """Timeout of an action's result request, in s; it is answered when the goal has ended."""
 RESULT = "/_action/get_result"
 MAX_PENDING = 1000
@@ -135,7 +135,7 @@ class Asking:
     def _ask(self, number: int, request: Any) -> bool:
         """Send a request; return False if the session is closed or being reopened."""
         if self._querier is None:
-            timeout = RESULT_TIMEOUT if self._client.name.endswith(RESULT) else TIMEOUT
+            timeout = RESULT_TIMEOUT_S if self._client.name.endswith(RESULT) else ANSWER_TIMEOUT_S
             self._querier = self._session.declare_querier(self._key, timeout)
         payload = serialize(request)
         attachment = pack(number, self._clock.system_ns(), self._client.gid, payload)

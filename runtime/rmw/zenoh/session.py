@@ -133,7 +133,7 @@ class Session(Lifetime):
     ) -> Publisher:
         """Declare a publisher for other sessions; late subscribers get up to `cache` of its last samples.
 
-        A `blocking` publisher drops nothing and waits for a full link instead, up to `WAIT_BEFORE_CUT`: use it from a
+        A `blocking` publisher drops nothing and waits for a full link instead, up to `WAIT_BEFORE_CUT_US`: use it in a
         separate thread. It has its own priority, as publishers that drop would otherwise wait behind it.
         """
         import zenoh

@@ -21,7 +21,7 @@ from bot_console.runtime.rmw.zenoh.congestion_control import (
 
 SCHEME = "unixsock-stream/"
 
-OPEN_TIMEOUT = 600_000
+OPEN_TIMEOUT_MS = 600_000
 """Timeout of one attempt to connect to another process, in ms; nothing waits for it.
 
 Zenoh aborts a longer attempt half-way, and then one side counts a link that carries nothing, until the domain's watch
@@ -29,7 +29,7 @@ finds it: with 0.5 s this happened to some of twenty processes started at once o
 the other process has ended is noticed regardless of this limit: its socket closes.
 """
 
-LEASE = 60_000
+LEASE_MS = 60_000
 """Silence after which a link is given up, in ms; a quarter of it passes between keep-alives.
 
 Keep-alives are most of what fifty idle processes cost: 13 % of a core with 15 s, 7 % with this value. A frozen process
@@ -100,12 +100,12 @@ def session_settings(
         "transport": {
             "shared_memory": {"enabled": False},
             "auth": dict(auth or {}),
-            "unicast": {"open_timeout": OPEN_TIMEOUT, "accept_timeout": OPEN_TIMEOUT},
+            "unicast": {"open_timeout": OPEN_TIMEOUT_MS, "accept_timeout": OPEN_TIMEOUT_MS},
             "link": {
                 **(network_link(serving) if serving else {}),
                 "tx": {
                     # Links to other machines keep Zenoh's default lease.
-                    **({"batch_size": SMALL_BATCH} if serving else {"lease": LEASE}),
+                    **({"batch_size": SMALL_BATCH} if serving else {"lease": LEASE_MS}),
                     "queue": queue_settings(room),
                 },
             },

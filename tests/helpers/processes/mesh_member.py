@@ -13,12 +13,12 @@ from bot_console.runtime.rmw.zenoh import settings
 from bot_console.runtime.rmw.zenoh.domain import watch
 from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
 
-timeout_s = settings.OPEN_TIMEOUT
+timeout_s = settings.OPEN_TIMEOUT_MS
 if "hasty" in sys.argv:
-    settings.OPEN_TIMEOUT = 5
+    settings.OPEN_TIMEOUT_MS = 5
     watch.LINK_TIMEOUT_S = 3.0
 session = open_session(0)
-settings.OPEN_TIMEOUT = timeout_s
+settings.OPEN_TIMEOUT_MS = timeout_s
 session.watch()
 heard: set[str] = set()
 session.declare_subscriber("call", lambda payload, _: heard.add(payload.decode()))

@@ -21,7 +21,7 @@ POLL_S = 0.05
 """Seconds between two checks."""
 ANSWER_TIMEOUT_S = 10.0
 """Seconds that a node may take to answer."""
-FIGURE = 3.0
+RATE_TIMEOUT_S = 3.0
 """Seconds beyond the measuring time within which a rate has to be known."""
 REQUESTER = "check"
 SIGNS: Mapping[str, Callable[[float, float], bool]] = {
@@ -165,7 +165,7 @@ class Runner:
             found = traffic.measured().get(topic, Measure())
             return found.problem or (f"nothing was received on {topic}" if found.rate is None else "")
 
-        why = self._until(FIGURE, poll)
+        why = self._until(RATE_TIMEOUT_S, poll)
         rate = traffic.measured().get(topic, Measure()).rate
         traffic.measure([], REQUESTER)
         if why or rate is None:

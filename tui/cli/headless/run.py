@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 Wait = Callable[[threading.Event, float], bool]
 """Waits for an event, at most so many seconds; a stepped run uses its own clock."""
 
-DURATION = 60.0
+DEFAULT_DURATION_S = 60.0
 """Seconds of a run without a given duration."""
 LAST_QUERY_TIMEOUT_S = 5.0
 """Seconds that the last query may take."""
@@ -50,9 +50,9 @@ LAUNCH_END_TIMEOUT_S = 12.0
 """Seconds that the end of a launch may take: launch sends SIGTERM after 5 and SIGKILL after 10, and ending it earlier
 would leave its processes behind.
 """
-SETTLED = 0.1
+NODES_UP_AFTER_S = 0.1
 """Seconds after which the nodes are up; garbage is collected from then on."""
-SLOW_START = 60.0
+START_TIMEOUT_S = 60.0
 """Seconds that a simulator may take in total until it answers, on a busy machine."""
 
 
@@ -98,7 +98,7 @@ def simulated(options: Options, observer: Watcher | None = None) -> tuple[dict[s
 
     `install` must have been called.
     """
-    duration = DURATION if options.duration is None else options.duration
+    duration = DEFAULT_DURATION_S if options.duration is None else options.duration
     began = time.perf_counter()
     with _orderly_end(), _time(options) as clock, _notices():
         from bot_console.tui.cli.headless.launches import Launches
@@ -187,12 +187,12 @@ def _wait_for(observer: Watcher, launches: Launches, duration: float, wait: Wait
     """Wait for the report, the end of all launches, or the time limit; an interrupt requests the report at once."""
     launches.on_end(observer.done.set)
     try:
-        wait(observer.done, SETTLED)
+        wait(observer.done, NODES_UP_AFTER_S)
         if not gc.isenabled():
             gc.freeze()
             gc.enable()
-        if not wait(observer.done, duration + LAST_QUERY_TIMEOUT_S - SETTLED) and launches.has_robot:
-            wait(observer.done, SLOW_START)
+        if not wait(observer.done, duration + LAST_QUERY_TIMEOUT_S - NODES_UP_AFTER_S) and launches.has_robot:
+            wait(observer.done, START_TIMEOUT_S)
     except KeyboardInterrupt:
         observer.ask()
 

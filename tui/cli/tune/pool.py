@@ -17,7 +17,7 @@ from bot_console.tui.console.parameters.file.patch import patched
 from bot_console.tui.tuning.specification import Trial, TuningSpecification
 
 CAN_FORK = hasattr(os, "fork")
-PROBING = 1.0
+PARAMETERS_ASKED_AFTER_S = 1.0
 """Simulated seconds after which all nodes are asked for their parameters."""
 _WARM_UP = "bot_console.tui.cli.tune.worker:warm_up"
 _JOB = "bot_console.tui.cli.tune.worker:job"
@@ -71,7 +71,7 @@ class Pool:
     def probe(self, profile: str, arguments: Mapping[str, str]) -> Future[Mapping[str, Any]]:
         """The parameters, by node and name, of the system that a profile starts."""
         words = [f"{name}:={value}" for name, value in arguments.items()]
-        run = _Run("probe", profile, profile_yaml(profile), "", 1, PROBING, words)
+        run = _Run("probe", profile, profile_yaml(profile), "", 1, PARAMETERS_ASKED_AFTER_S, words)
         return self._threads.submit(self._run, run)
 
     def close(self) -> None:

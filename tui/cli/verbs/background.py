@@ -46,9 +46,9 @@ from bot_console.tui.session.system_log import new_log
 
 SYSTEM_MODULE = "bot_console.tui.session.background_system"
 """The program of a background system."""
-STARTING = 60.0
+START_TIMEOUT_S = 60.0
 """Seconds until its nodes must be visible, on a busy machine."""
-ENDING = 15.0
+END_TIMEOUT_S = 15.0
 """Seconds to bring the robot to rest and end its nodes, before it is killed."""
 
 
@@ -97,7 +97,7 @@ def up(words: Sequence[str]) -> int:
         if claim is not None:
             until_started.callback(claim.release)
             problem = why_no_robot(claim.seen(_robot_or_system, report_of_other_start), options.launch_arguments)
-        got = until_started.enter_context(start_lock(_file().with_name("background.lock"), STARTING))
+        got = until_started.enter_context(start_lock(_file().with_name("background.lock"), START_TIMEOUT_S))
         if there := _known():
             problem = why_no_robot([there.reported()], {})
         elif not got:
@@ -139,7 +139,7 @@ def _robot_or_system() -> list[str]:
 
 def _await(process: subprocess.Popen[bytes], started: Background, *, launched: bool, router_log: Path | None) -> int:
     """Wait until the robot of a started system, or what it launches, is visible; print how to continue."""
-    deadline = time.monotonic() + STARTING
+    deadline = time.monotonic() + START_TIMEOUT_S
     is_up = partial(_runs, process.pid) if launched else robot_there
     seen: object = False
     try:
@@ -156,7 +156,7 @@ def _await(process: subprocess.Popen[bytes], started: Background, *, launched: b
     if not seen:
         what = "nothing that it launches runs" if launched else "no robot was found"
         print(
-            f"{what} after {STARTING:g} s: the log of {started.reported()} says why; bot-console down ends it",
+            f"{what} after {START_TIMEOUT_S:g} s: the log of {started.reported()} says why; bot-console down ends it",
             file=sys.stderr,
         )
         return 1
@@ -231,7 +231,7 @@ def down(words: Sequence[str]) -> int:
             # First: a frozen process ignores SIGTERM, and delivers one that came before to any of its threads.
             os.kill(there.pid, getattr(signal, "SIGCONT", number))
             os.kill(there.pid, number)
-        deadline = time.monotonic() + ENDING
+        deadline = time.monotonic() + END_TIMEOUT_S
         while there.runs() and time.monotonic() < deadline:
             time.sleep(0.05)
         if not there.runs():

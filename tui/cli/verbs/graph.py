@@ -20,7 +20,7 @@ from bot_console.tui.settings.settings import read_settings
 
 PARAMETERS_TIMEOUT_S = 15.0
 """Seconds to wait for the parameters of all nodes."""
-STILL = 1.0
+GRAPH_SETTLED_S = 1.0
 """Seconds without a change after which the graph counts as known."""
 GRAPH_POLL_S = 0.1
 
@@ -80,7 +80,12 @@ def _with_parameters(console: RosConsole) -> tuple[GraphInfo, bool]:
 
 
 def _write_launch(console: RosConsole, given: argparse.Namespace) -> int:
-    settled(lambda: _with_parameters(console), lambda found: found[1], STILL, max(given.wait, PARAMETERS_TIMEOUT_S))
+    settled(
+        lambda: _with_parameters(console),
+        lambda found: found[1],
+        GRAPH_SETTLED_S,
+        max(given.wait, PARAMETERS_TIMEOUT_S),
+    )
     answer = console.graph.write_launch(given.launch)
     print(sanitize(answer.text), file=sys.stdout if answer.ok else sys.stderr)
     return 0 if answer.ok else 2
@@ -126,7 +131,7 @@ def _known(console: RosConsole, wait: float) -> GraphInfo:
     def has_nodes(info: GraphInfo) -> bool:
         return any(not each.hidden for each in info.nodes)
 
-    return settled(lambda: console.snapshot().graph, has_nodes, STILL, wait)
+    return settled(lambda: console.snapshot().graph, has_nodes, GRAPH_SETTLED_S, wait)
 
 
 def _measured(console: RosConsole, topics: list[str], seconds: float) -> Mapping[str, Measure]:

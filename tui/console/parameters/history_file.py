@@ -14,13 +14,13 @@ from bot_console.tui.console.model import Change, ChangeSource, Value
 from bot_console.tui.files.folder_lock import folder_lock
 from bot_console.tui.text.encodable import encodable
 
-ROWS = 20_000
+MAX_ROWS = 20_000
 """Rows that are kept; the oldest are deleted."""
-TRIMMED_EVERY = 500
+ROWS_PER_TRIM = 500
 """Inserted rows after which the table is trimmed."""
 TIMEOUT_S = 0.5
 """Seconds for which a console waits for another one that is writing to the same file."""
-SAME = 2_000_000_000
+SAME_CHANGE_NS = 2_000_000_000
 """Nanoseconds within which equal changes recorded by two consoles count as one."""
 BROKEN = ".broken"
 NOT_ANSWERED = -1
@@ -59,7 +59,7 @@ ORDER BY number DESC LIMIT ?
 class History:
     """The changes of all runs. A change accepted by `add` survives if the program is killed."""
 
-    def __init__(self, file: Path, run: int, rows: int = ROWS) -> None:
+    def __init__(self, file: Path, run: int, rows: int = MAX_ROWS) -> None:
         """`run` is a number unique to this run, such as the time of its start (ns)."""
         self._file = file
         self._run = run
@@ -130,7 +130,7 @@ class History:
                 with self._link:
                     lost = [each for each in self._waiting if not _inserted(self._link, each)]
                     self._added += len(self._waiting)
-                    if self._added >= TRIMMED_EVERY:
+                    if self._added >= ROWS_PER_TRIM:
                         self._trim(self._link)
                 self._waiting.clear()
                 self.problem = f"{len(lost)} changes cannot be kept: {self._file}" if lost else ""
@@ -152,7 +152,7 @@ class History:
             if self._link is None:
                 return ()
             try:
-                for row in self._link.execute(_EARLIER, (self._run, SAME, SAME, maximum)):
+                for row in self._link.execute(_EARLIER, (self._run, SAME_CHANGE_NS, SAME_CHANGE_NS, maximum)):
                     change = _change(-1 - len(found), row)
                     if change is None:
                         unreadable += 1

@@ -61,7 +61,7 @@ class Step:
         return f"; what another program had set meanwhile is overwritten: {', '.join(found)}" if found else ""
 
 
-EARLIER = 5_000
+MAX_EARLIER_CHANGES = 5_000
 """Changes of earlier runs that are shown."""
 
 
@@ -85,7 +85,7 @@ class Journal:
 
     def _read_history(self) -> Sequence[Change]:
         try:
-            return self._history.earlier(EARLIER) if self._history else ()
+            return self._history.earlier(MAX_EARLIER_CHANGES) if self._history else ()
         except Exception as error:
             self._give_up_history(error)
             return ()

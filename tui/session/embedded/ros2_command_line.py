@@ -21,7 +21,7 @@ from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.running_lines import LINE_TIMEOUT_S, RunningLine, goes_on, interrupted
 from bot_console.tui.learn.command_log import log_for, record, recorded
 
-STARTING = 30.0
+START_TIMEOUT_S = 30.0
 """Seconds to wait for what a line launches; after that, the Launch pane shows the rest."""
 
 
@@ -80,7 +80,7 @@ class Ros2CommandLine:
             return _printed_by(words)
         if wanted.problem:
             raise ValueError(wanted.problem)
-        answer = self._launcher.launch(wanted.file, wanted.arguments).result(STARTING)
+        answer = self._launcher.launch(wanted.file, wanted.arguments).result(START_TIMEOUT_S)
         if not answer.ok:
             raise ValueError(answer.text)
         return f"{wanted.name} runs, and is listed in the Launch pane, where x ends it", 0

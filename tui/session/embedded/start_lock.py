@@ -12,7 +12,7 @@ from types import FrameType
 
 from bot_console.runtime.rmw.zenoh.domain.file_lock import open_lock, try_lock
 
-POLL = 0.02
+LOCK_POLL_S = 0.02
 """Seconds between two checks whether the other start is done."""
 SIGNALS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
 
@@ -28,7 +28,7 @@ def start_lock(lock: Path, timeout_s: float) -> Generator[bool]:
     try:
         deadline = time.monotonic() + timeout_s
         while not (got := try_lock(handle)) and time.monotonic() < deadline:
-            time.sleep(POLL)
+            time.sleep(LOCK_POLL_S)
         with _signals_held_back():
             yield got
     finally:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from bot_console.runtime.rmw.zenoh.network.frozen_processes import StoppedTokens
 
 
-SETTLING = 5.0
+SETTLE_TIMEOUT_S = 5.0
 """How long a reopened session waits for the answers of the others, in s; 50 processes take 0.1 s."""
 
 
@@ -125,7 +125,7 @@ class MeshSession(Session):
         try:
             is_open = self._reopen(self._rejoin)
             if is_open:
-                await_answers(self, SETTLING)
+                await_answers(self, SETTLE_TIMEOUT_S)
         finally:
             self._settle()
         if is_open:

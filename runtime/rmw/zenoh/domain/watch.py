@@ -2,7 +2,7 @@
 
 Three things can go wrong after a process has joined: its socket is removed from the folder (by a cleaner of temporary
 files, or by hand), so that later processes do not see it; a process that joined without the lock has no link to it; or
-a link carries nothing, because Zenoh gave up opening it half-way (`OPEN_TIMEOUT`) but counts it for ever. So each new
+a link carries nothing, because Zenoh gave up opening it half-way (`OPEN_TIMEOUT_MS`) but counts it for ever. Each new
 link is queried once for an answer of the other side; keep-alives are not enough, as some such links carry these but no
 queries.
 """

@@ -16,7 +16,7 @@ CONFIG_VARIABLE = "ZENOH_SESSION_CONFIG_URI"
 """Environment variable that names the session's configuration file, as in rmw_zenoh."""
 OVERRIDE_VARIABLE = "ZENOH_CONFIG_OVERRIDE"
 """Environment variable that overrides single settings, as in rmw_zenoh: `path=json5;path=json5`."""
-QUERY_TIMEOUT = 600_000
+QUERY_TIMEOUT_MS = 600_000
 """Timeout of a query, in ms, unless the caller sets another."""
 
 
@@ -67,7 +67,7 @@ def client_settings(zid: str, way: Way) -> dict[str, object]:
         "listen": {"endpoints": []},
         "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": False}},
         "timestamping": {"enabled": True},
-        "queries_default_timeout": QUERY_TIMEOUT,
+        "queries_default_timeout": QUERY_TIMEOUT_MS,
         "transport": {"shared_memory": {"enabled": False}, "link": {"tls": way.tls.as_client()}},
     }
 

@@ -13,7 +13,7 @@ from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
 DEFAULT_DEPTH = 42
 ENDLESS = 2**63 - 1
 """The longest duration (ns), which means no limit."""
-NANO = 1_000_000_000
+NS_PER_S = 1_000_000_000
 MAX_INT64 = 2**63 - 1
 _M = TypeVar("_M", bound=IntEnum)
 
@@ -129,8 +129,8 @@ def _duration(period: Period) -> str:
     nanoseconds = period.nanoseconds
     if nanoseconds in INFINITE:
         return ","
-    seconds, rest = divmod(nanoseconds, NANO)
-    endless_seconds, endless_rest = divmod(ENDLESS, NANO)
+    seconds, rest = divmod(nanoseconds, NS_PER_S)
+    endless_seconds, endless_rest = divmod(ENDLESS, NS_PER_S)
     return f"{_unless(seconds, endless_seconds)},{_unless(rest, endless_rest)}"
 
 
@@ -157,5 +157,7 @@ def _member(kind: type[_M], part: str, default: _M, text: str) -> _M:
 
 
 def _span(parts: list[str], text: str) -> Span:
-    seconds, rest = (_number(part, default, text) for part, default in zip(parts, divmod(ENDLESS, NANO), strict=True))
-    return Span(min(ENDLESS, seconds * NANO + rest))
+    seconds, rest = (
+        _number(part, default, text) for part, default in zip(parts, divmod(ENDLESS, NS_PER_S), strict=True)
+    )
+    return Span(min(ENDLESS, seconds * NS_PER_S + rest))

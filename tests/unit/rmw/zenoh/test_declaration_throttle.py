@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.runtime.rmw.zenoh.declaration_throttle import AT_ONCE, DECLARATIONS_PER_PAUSE, PAUSE_S, QUIET, Pace
+from bot_console.runtime.rmw.zenoh.declaration_throttle import AT_ONCE, DECLARATIONS_PER_PAUSE, PAUSE_S, QUIET_S, Pace
 
 
 class Rig:
@@ -38,5 +38,5 @@ def test_burst_is_allowed_again_after_a_quiet_time() -> None:
     rig = Rig()
     for _ in range(3):
         rig.show(AT_ONCE)
-        rig.now += 2 * QUIET
+        rig.now += 2 * QUIET_S
     assert rig.rests == []

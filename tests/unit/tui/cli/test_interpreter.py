@@ -8,7 +8,7 @@ import sys
 import pytest
 from bot_console.tui.cli import main, screen
 from bot_console.tui.cli.interpreter import (
-    SWITCH_INTERVAL,
+    SWITCH_INTERVAL_S,
     collect_from_now_on,
     eager_switching,
     without_collector,
@@ -63,5 +63,5 @@ def test_console_starts_without_the_collector(monkeypatch: pytest.MonkeyPatch) -
 def test_threads_switch_eagerly_only_while_a_screen_is_shown() -> None:
     before = sys.getswitchinterval()
     with eager_switching():
-        assert sys.getswitchinterval() == pytest.approx(SWITCH_INTERVAL)
+        assert sys.getswitchinterval() == pytest.approx(SWITCH_INTERVAL_S)
     assert sys.getswitchinterval() == before

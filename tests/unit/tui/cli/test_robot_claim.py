@@ -19,7 +19,7 @@ from bot_console.tui.session.embedded import domain
 
 @pytest.fixture(autouse=True)
 def at_once(monkeypatch):
-    monkeypatch.setattr(robot_claim, "POLL", 0.0)
+    monkeypatch.setattr(robot_claim, "CLAIM_POLL_S", 0.0)
 
 
 def test_second_program_waits_for_the_robot_of_the_first(tmp_path):

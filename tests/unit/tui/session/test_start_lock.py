@@ -116,7 +116,7 @@ def test_system_that_does_not_come_up_in_time_is_not_reported_as_running(
     words: list[str],
     what: str,
 ) -> None:
-    monkeypatch.setattr(background, "STARTING", 0.0)
+    monkeypatch.setattr(background, "START_TIMEOUT_S", 0.0)
     monkeypatch.setattr(background, "robot_there", list)
     monkeypatch.setattr(background, "_runs", lambda pid: False)
     assert background.up(words) == 1

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.terminal.frame_pacing import (
+    FRAME_INTERVAL_S,
     FRAME_TIMEOUT_S,
     IN_FLIGHT,
     MAX_FRAME_TIMEOUT_S,
     MERGED_NEWS_S,
     MIN_MERGED_FRAMES,
-    PACE,
-    SLOW,
+    SLOW_ANSWER_S,
     UNPACED_AFTER_KEY_S,
     AnswerGate,
 )
@@ -46,8 +46,8 @@ def test_first_frame_is_sent_at_once(gate: AnswerGate) -> None:
 def test_frames_are_paced(gate: AnswerGate, clock: Clock) -> None:
     draw(gate)
     gate.answered()
-    assert gate.wait() == pytest.approx(PACE)
-    clock.now += PACE
+    assert gate.wait() == pytest.approx(FRAME_INTERVAL_S)
+    clock.now += FRAME_INTERVAL_S
     assert gate.wait() == 0
 
 
@@ -58,7 +58,7 @@ def test_effect_of_a_key_is_shown_at_once(gate: AnswerGate, clock: Clock) -> Non
     assert gate.wait() == 0
     clock.now += UNPACED_AFTER_KEY_S + 0.01
     draw(gate)
-    assert gate.wait() == pytest.approx(PACE)
+    assert gate.wait() == pytest.approx(FRAME_INTERVAL_S)
 
 
 def test_no_more_than_two_frames_wait_for_an_answer(gate: AnswerGate, clock: Clock) -> None:
@@ -66,7 +66,7 @@ def test_no_more_than_two_frames_wait_for_an_answer(gate: AnswerGate, clock: Clo
     gate.answered()
     for _ in range(IN_FLIGHT):
         draw(gate)
-        clock.now += PACE
+        clock.now += FRAME_INTERVAL_S
     gate.pressed()
     assert gate.wait() > 0, "not even for a key"
     gate.answered()
@@ -75,22 +75,22 @@ def test_no_more_than_two_frames_wait_for_an_answer(gate: AnswerGate, clock: Clo
 
 def test_a_slow_answer_leaves_one_frame_in_flight(gate: AnswerGate, clock: Clock) -> None:
     draw(gate)
-    clock.now += SLOW + 0.1
+    clock.now += SLOW_ANSWER_S + 0.1
     gate.answered()
     draw(gate)
-    clock.now += PACE
+    clock.now += FRAME_INTERVAL_S
     assert gate.wait() > 0
     gate.answered()
     for _ in range(IN_FLIGHT - 1):
         draw(gate)
-        clock.now += PACE
+        clock.now += FRAME_INTERVAL_S
     assert gate.wait() == 0, "the answer was quick again"
 
 
 def test_terminal_that_never_answers_is_not_awaited(gate: AnswerGate, clock: Clock) -> None:
     for _ in range(10):
         draw(gate)
-        clock.now += PACE
+        clock.now += FRAME_INTERVAL_S
         assert gate.wait() == 0
 
 

@@ -14,7 +14,7 @@ import pytest
 from bot_console.tui.console.model import Change, ChangeSource, Value
 from bot_console.tui.console.parameters import history_file as history_module
 from bot_console.tui.console.parameters.file.patch import same
-from bot_console.tui.console.parameters.history_file import TRIMMED_EVERY, History
+from bot_console.tui.console.parameters.history_file import ROWS_PER_TRIM, History
 from bot_console.tui.console.parameters.journal import Journal
 from bot_console.tui.files.folder_lock import folder_lock
 
@@ -79,11 +79,11 @@ def test_every_value_is_restored_exactly(tmp_path: Path, value: Value) -> None:
 
 def test_the_number_of_rows_is_limited(tmp_path: Path) -> None:
     history = History(tmp_path / "h", 1, rows=50)
-    for number in range(TRIMMED_EVERY + 10):
+    for number in range(ROWS_PER_TRIM + 10):
         history.add(change(number, number))
     history.close()
     found = kept(tmp_path / "h")
-    assert len(found) <= 60 and found[-1].new == TRIMMED_EVERY + 9
+    assert len(found) <= 60 and found[-1].new == ROWS_PER_TRIM + 9
 
 
 def test_a_change_recorded_by_two_consoles_appears_once_as_that_of_its_maker(tmp_path: Path) -> None:
