@@ -13,6 +13,7 @@ from helpers.debug_adapter import DebugAdapter
 from helpers.processes.mesh import eventually
 from helpers.shells import PYTHON, environment, make_home, set_up
 from processes.ports import free_port
+from python_versions import PDB_TAKES_NO_OPTIONS
 
 if os.name != "posix":
     pytest.skip("needs a shell", allow_module_level=True)
@@ -77,7 +78,7 @@ def workspace(tmp_path: Path) -> Path:
         ([str(PYTHON), "-c", "from debugged.node import main; main()"], TYPED),
         (["bot-console", "run", "debugged", "node"], TYPED),
         (["bot-console", "ros2", "run", "--prefix", "python3 -m pdb", "debugged", "node"], f"c\n{TYPED}q\n"),
-        (["bot-console", "launch", "pdb.launch.py"], ""),
+        pytest.param(["bot-console", "launch", "pdb.launch.py"], "", marks=PDB_TAKES_NO_OPTIONS),
     ],
     ids=["python3", "run", "ros2 run --prefix", "launch prefix"],
 )

@@ -21,10 +21,7 @@ from launch_ros.descriptions import ComposableLifecycleNode, ComposableNode
 from launch_ros.event_handlers import OnStateTransition
 from launching import Launch
 from processes.waiting_node import WAITS, once_up
-
-PDB_TAKES_NO_OPTIONS = pytest.mark.skipif(
-    sys.version_info[:3] == (3, 13, 0), reason="pdb of Python 3.13.0 passes no options to the program"
-)
+from python_versions import PDB_TAKES_NO_OPTIONS
 
 
 @pytest.fixture

@@ -169,6 +169,9 @@ def test_setup_without_valid_shell_prints_what_to_type(capsys: pytest.CaptureFix
 
 @pytest.mark.parametrize("name", SHELLS)
 def test_printed_line_makes_bot_console_available_where_it_is_not_on_path(name: str, home: Path):
-    bare = {"PATH": os.defpath}
+    (home / "only_python").mkdir()
+    # The system's Python may be of another version, which setup would mention.
+    (home / "only_python" / "python3").symlink_to(sys.executable)
+    bare = {"PATH": f"{home / 'only_python'}{os.pathsep}{os.defpath}"}
     assert shell(name, home, "bot-console --version", bare) == f"bot-console {__version__}\n"
     assert shell(name, home, "env sh -c 'bot-console --version'", bare) == f"bot-console {__version__}\n"
