@@ -56,7 +56,7 @@ def named_profile(
         return NamedProfile(word)
     if is_path(word):
         path = Path(os.path.expanduser(word))
-        if not path.is_file():
+        if not os.path.isfile(path):  # which is false, where `Path` raises, for a name that is too long
             raise NoProfileError(f"there is no profile {word}")
         return _loaded(path)
     for folder in _folders(folders):

@@ -114,3 +114,8 @@ def test_profiles_are_completed_for_every_command_that_takes_one(place: Path) ->
     assert candidates(["tune", "max_speed", "--profiles", "mine", "--profile", ""])[-2:] == ["slow", "warehouse"]
     assert candidates(["up", "--profiles", "mine", "sl"]) == ["slow"]
     assert "outdoor" in candidates(["ou"])
+
+
+def test_path_with_a_name_that_is_too_long_is_not_there() -> None:
+    with pytest.raises(NoProfileError, match="there is no profile"):
+        named_profile("./in" + "9" * 400)
