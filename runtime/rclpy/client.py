@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import ClientEndpoint
+from rclpy.constants import S_TO_NS
 from rclpy.deadlock import wait_until_settled
 from rclpy.impl.callback_order import CLIENT
 from rclpy.impl.destroyable import Destroyable
@@ -26,8 +27,6 @@ if TYPE_CHECKING:
     from rclpy.node_parts.base import NodeBase
     from rclpy.qos import QoSProfile
     from rclpy.service_introspection import ServiceEvents, ServiceIntrospectionState
-
-NS_PER_S = 1_000_000_000
 
 
 class Client(Entity):
@@ -82,7 +81,7 @@ class Client(Entity):
         future = self.call_async(request)
         if not future.done():
             clock = current().clock
-            deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * float(NS_PER_S))
+            deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * float(S_TO_NS))
             try:
                 wait_until_settled(future, self, self._node, f"a call of {self.endpoint.name}", deadline)
             finally:

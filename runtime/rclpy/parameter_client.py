@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from bot_console.runtime.process import current
 from rcl_interfaces import srv
 from rcl_interfaces.msg import ParameterEvent
+from rclpy.constants import S_TO_NS
 from rclpy.impl.reexports import reexporting
 from rclpy.parameter import Parameter, parameter_dict_from_yaml_file
 from rclpy.qos import QoSProfile, qos_profile_parameter_events, qos_profile_services_default
@@ -34,7 +35,6 @@ if TYPE_CHECKING:
     from rclpy.qos_overriding_options import QoSOverridingOptions
     from rclpy.subscription import Subscription
 
-NS_PER_S = 1_000_000_000
 
 Callback = Callable[[Any], None]
 
@@ -84,9 +84,9 @@ class AsyncParameterClient:
     def wait_for_services(self, timeout_sec: float | None = None) -> bool:
         """Block until the services are available; False after the time-out (s) or a shutdown of the context."""
         clock = current().clock
-        deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * float(NS_PER_S))
+        deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * float(S_TO_NS))
         for client in self._clients():
-            left = None if deadline is None else max(0, deadline - clock.steady_ns()) / NS_PER_S
+            left = None if deadline is None else max(0, deadline - clock.steady_ns()) / S_TO_NS
             if not client.wait_for_service(left):
                 return False
         return self.services_are_ready()

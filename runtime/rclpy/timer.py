@@ -26,8 +26,6 @@ if TYPE_CHECKING:
     from rclpy.impl.entity import EntityExecutor
     from rclpy.node_parts.base import NodeBase
 
-NS_PER_S = 1_000_000_000
-
 
 class Timer(Entity):
     """Calls back every period of its clock (ns); missed periods are skipped and the phase is kept."""

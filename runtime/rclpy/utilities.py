@@ -8,11 +8,9 @@ from collections.abc import Sequence
 
 from bot_console.runtime.process import ProcessLocal
 from bot_console.runtime.rmw.middleware import qos_rules
+from rclpy.constants import S_TO_NS
 from rclpy.context import Context
 from rclpy.impl.reexports import reexporting
-
-NS_PER_S = 1_000_000_000
-
 
 _default_context: ProcessLocal[list[Context]] = ProcessLocal(list)
 """The default context of a process, or nothing before its first use and after its shutdown."""
@@ -67,7 +65,7 @@ def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
     """A time-out in ns; -1 (forever) for None and negative ones."""
     if timeout_sec is None or timeout_sec < 0:
         return -1
-    return int(float(timeout_sec) * NS_PER_S)
+    return int(float(timeout_sec) * S_TO_NS)
 
 
-__getattr__ = reexporting(__name__, "Context S_TO_NS")
+__getattr__ = reexporting(__name__, "Context")

@@ -7,12 +7,13 @@ from functools import partial
 from typing import Any
 
 from geometry_msgs.msg import TransformStamped
+from rclpy.constants import S_TO_NS
 from rclpy.duration import Duration
 from rclpy.logging import get_logger
 from rclpy.time import Time
 from tf2_py import descriptions
 from tf2_py.exceptions import InvalidArgumentException, LookupException, TransformException
-from tf2_py.frame_history import DIGEST_AFTER, NS_PER_S, Entry, FrameHistory, Unread
+from tf2_py.frame_history import DIGEST_AFTER, Entry, FrameHistory, Unread
 from tf2_py.frame_tree import latest_common_time, transform
 from tf2_py.rigid import IDENTITY, Rigid, compose
 
@@ -56,7 +57,7 @@ class BufferCore:
                 continue
             header, transform = each._header, each._transform  # bypassing the properties takes half the time
             stamp, move, turn = header._stamp, transform._translation, transform._rotation
-            when = stamp._sec * NS_PER_S + stamp._nanosec
+            when = stamp._sec * S_TO_NS + stamp._nanosec
             waiting = history.waiting
             waiting.append((when, header._frame_id, move._x, move._y, move._z, turn._x, turn._y, turn._z, turn._w))
             if not len(waiting) % DIGEST_AFTER:
@@ -66,7 +67,7 @@ class BufferCore:
         stamp = message.header.stamp
         move, turn = message.transform.translation, message.transform.rotation
         place = (move.x, move.y, move.z, turn.x, turn.y, turn.z, turn.w)
-        entry = stamp.sec * NS_PER_S + stamp.nanosec, message.header.frame_id.removeprefix("/"), place, authority
+        entry = stamp.sec * S_TO_NS + stamp.nanosec, message.header.frame_id.removeprefix("/"), place, authority
         child = message.child_frame_id.removeprefix("/")
         if child in self._histories:
             self._histories[child].digest()  # read earlier ones first: of two with the same time the first counts
@@ -84,7 +85,7 @@ class BufferCore:
             self._parents.add(parent)
             problem = history.insert(entry)
             if problem:
-                when = f"at time {stamp / NS_PER_S:.6f} according to authority {authority}"
+                when = f"at time {stamp / S_TO_NS:.6f} according to authority {authority}"
                 problem += f" for frame {child} (parent {parent}) {when}"
         if problem:
             get_logger("tf2_buffer").warning(problem)
@@ -185,7 +186,7 @@ def nanoseconds_of(time: Any) -> int:
     if found is not None:
         return found
     try:
-        return time.sec * NS_PER_S + time.nanosec
+        return time.sec * S_TO_NS + time.nanosec
     except AttributeError:
         raise TypeError("time must have sec and nanosec, or nanoseconds.") from None
 
@@ -224,7 +225,7 @@ def _message(target: str, source: str, time: int, place: Rigid) -> TransformStam
     header._frame_id = target
     message._child_frame_id = source
     stamp = header._stamp
-    stamp._sec, stamp._nanosec = divmod(time, NS_PER_S)
+    stamp._sec, stamp._nanosec = divmod(time, S_TO_NS)
     move, turn = transform._translation, transform._rotation
     move._x, move._y, move._z, turn._x, turn._y, turn._z, turn._w = place
     return message

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from tf2_py.frame_history import NS_PER_S, FrameHistory
+from rclpy.constants import S_TO_NS
+from tf2_py.frame_history import FrameHistory
 
 NO_PARENT = "NO_PARENT"
 
@@ -32,9 +33,9 @@ def as_yaml(frames: Mapping[str, FrameHistory]) -> str:
             f"  parent: '{latest[1]}'\n"
             f"  broadcaster: '{history.entries[-1][3]}'\n"
             f"  rate: {rate(history):.3f}\n"
-            f"  most_recent_transform: {latest[0] / NS_PER_S:.6f}\n"
-            f"  oldest_transform: {oldest / NS_PER_S:.6f}\n"
-            f"  buffer_length: {(latest[0] - oldest) / NS_PER_S:.3f}\n"
+            f"  most_recent_transform: {latest[0] / S_TO_NS:.6f}\n"
+            f"  oldest_transform: {oldest / S_TO_NS:.6f}\n"
+            f"  buffer_length: {(latest[0] - oldest) / S_TO_NS:.3f}\n"
         )
     return "".join(texts) or "{}"
 
@@ -44,7 +45,7 @@ def rate(history: FrameHistory) -> float:
     if history.is_static:
         return 10000.0
     entries = history.entries[history.first :]
-    span = (entries[-1][0] - entries[0][0]) / NS_PER_S
+    span = (entries[-1][0] - entries[0][0]) / S_TO_NS
     return len(entries) / max(span, 0.0001)
 
 

@@ -6,9 +6,9 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Callable
 from operator import itemgetter
 
+from rclpy.constants import S_TO_NS
 from tf2_py.rigid import Rigid, interpolate
 
-NS_PER_S = 1_000_000_000
 DIGEST_AFTER = 256
 """The number of entries after which old ones are dropped."""
 
@@ -130,4 +130,4 @@ class FrameHistory:
 
 def seconds(time: int) -> str:
     """Return a time (ns) as upstream prints it."""
-    return f"{time / NS_PER_S:.6f}"
+    return f"{time / S_TO_NS:.6f}"

@@ -112,8 +112,8 @@ class BufferClient(BufferInterface):
     def _ask(self, goal: Any) -> TransformStamped:
         if not self.action_client.server_is_ready():
             raise TimeoutException("The BufferServer is not ready.")
-        timeout_s = Duration.from_msg(goal.timeout).nanoseconds + self.timeout_padding.nanoseconds
-        deadline = current().clock.steady_ns() + timeout_s
+        timeout_ns = Duration.from_msg(goal.timeout).nanoseconds + self.timeout_padding.nanoseconds
+        deadline = current().clock.steady_ns() + timeout_ns
         handle = _settled(self.action_client.send_goal_async(goal), deadline)
         if not handle.accepted:
             raise TimeoutException("The BufferServer has not accepted the goal.")

@@ -57,12 +57,12 @@ class BufferServer(Node):
         self.create_timer(CHECK, self._check, clock=self._steady)
 
     def _accepted(self, goal: Any) -> None:
-        timeout_s = Duration.from_msg(goal.request.timeout).nanoseconds
-        if timeout_s <= 0 or self._can(goal.request):
+        timeout_ns = Duration.from_msg(goal.request.timeout).nanoseconds
+        if timeout_ns <= 0 or self._can(goal.request):
             goal.execute()
             return
         with self._lock:
-            self._waiting.append((goal, self._steady.now().nanoseconds + timeout_s))
+            self._waiting.append((goal, self._steady.now().nanoseconds + timeout_ns))
 
     def _check(self) -> None:
         now = self._steady.now().nanoseconds

@@ -11,11 +11,11 @@ from action_msgs.msg import GoalStatus, GoalStatusArray
 from action_msgs.srv import CancelGoal
 from rclpy.action.goal_state import is_cancelable
 from rclpy.action.server_goal_handle import ServerGoalHandle
+from rclpy.constants import S_TO_NS
 
 if TYPE_CHECKING:
     from builtin_interfaces.msg import Time as TimeMsg
 
-NS_PER_S = 1_000_000_000
 ANY_GOAL = bytes(16)
 
 
@@ -88,4 +88,4 @@ class Goals:
 
 
 def _ns(stamp: TimeMsg) -> int:
-    return stamp.sec * NS_PER_S + stamp.nanosec
+    return stamp.sec * S_TO_NS + stamp.nanosec

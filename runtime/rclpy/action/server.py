@@ -20,6 +20,7 @@ from rclpy.action.entity import ActionEntity, call, take
 from rclpy.action.goal_state import GoalEvent
 from rclpy.action.goals import Goals
 from rclpy.action.server_goal_handle import ServerGoalHandle
+from rclpy.constants import S_TO_NS
 from rclpy.impl.logging_severity import LoggingSeverity
 from rclpy.impl.reexports import reexporting
 from rclpy.qos import QoSProfile, qos_profile_action_status_default, qos_profile_services_default
@@ -33,7 +34,6 @@ if TYPE_CHECKING:
     from rclpy.node import Node
     from rclpy.task import Future
 
-NS_PER_S = 1_000_000_000
 RESULT_TIMEOUT = 900
 MARGIN_NS = 1_000_000
 """The executor wakes by another clock than the one that says whether a result has expired."""
@@ -104,7 +104,7 @@ class ActionServer(ActionEntity):
             self.register_execute_callback(execute_callback)
         self._check("server")
         names = action_names(node, action_name, "server")
-        self._goals = Goals(int(result_timeout * NS_PER_S))
+        self._goals = Goals(int(result_timeout * S_TO_NS))
         self._logger = node.get_logger().get_child("action_server")
         if execute_callback is None and handle_accepted_callback in (None, default_handle_accepted_callback):
             self._logger.warning("Not handling nor executing the goal, this server will do nothing")

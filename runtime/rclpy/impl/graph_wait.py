@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Protocol
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import Owner
 from rclpy._rclpy_pybind11 import RCLError
+from rclpy.constants import S_TO_NS
 
 if TYPE_CHECKING:
     from bot_console.runtime.rmw.bus import Bus
@@ -41,8 +42,7 @@ class NodeInGraph(Protocol):
         ...
 
 
-NS_PER_S = 1_000_000_000
-POLL = NS_PER_S // 4
+POLL = S_TO_NS // 4
 
 
 def require_valid(context: ContextState, what: str) -> None:
@@ -57,7 +57,7 @@ def require_valid(context: ContextState, what: str) -> None:
 def wait_until_there(node: NodeInGraph, is_there: Callable[[], bool], timeout_sec: float | None) -> bool:
     """Block until `is_there()`, a time-out (s) or the context's shutdown; returns the last `is_there()`."""
     clock = current().clock
-    deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * float(NS_PER_S))
+    deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * float(S_TO_NS))
     wakeup = clock.wakeup()
 
     def woken(owner: Owner) -> None:

@@ -8,6 +8,8 @@ import sys
 import time
 from typing import Any
 
+from rclpy.constants import S_TO_NS
+
 DEFAULT_FORMAT = "[{severity}] [{time}] [{name}]: {message}"
 NAMES = {0: "UNSET", 10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
 COLOURS = {10: "\033[32m", 20: "\033[0m", 30: "\033[33m", 40: "\033[31m", 50: "\033[31m"}
@@ -16,7 +18,6 @@ ENVELOPE_VARIABLE = "BOT_CONSOLE_LOG_ENVELOPE"
 """A format around each line, in which `{line}` is replaced by the usual line: set by programs that capture the
 output of a process and distinguish what a logger wrote from what was merely printed.
 """
-NS_PER_S = 1_000_000_000
 _ESCAPES = {"\\a": "\a", "\\b": "\b", "\\n": "\n", "\\r": "\r", "\\t": "\t"}
 _TOKEN = re.compile(r"\{([a-z_]+)\}")
 
@@ -67,7 +68,7 @@ class Formatter:
         on_rosout: bool = False,
     ) -> str:
         """One formatted message, without colours and line end; `on_rosout` says whether `/rosout` got it, too."""
-        seconds, nanoseconds = divmod(stamp_ns, NS_PER_S)
+        seconds, nanoseconds = divmod(stamp_ns, S_TO_NS)
         level = NAMES.get(severity, "UNKNOWN")
         # The default format without a template: halves the time of a log line.
         if self._simple:

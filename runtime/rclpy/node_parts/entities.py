@@ -23,6 +23,7 @@ from bot_console.runtime.rosidl.conversion import type_name
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.client import Client
+from rclpy.constants import S_TO_NS
 from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
 from rclpy.guard_condition import GuardCondition
 from rclpy.node_parts.base import NodeBase
@@ -45,7 +46,6 @@ if TYPE_CHECKING:
     from rclpy.qos_overriding_options import QoSOverridingOptions
     from rclpy.waitable import Waitable
 
-NS_PER_S = 1_000_000_000
 MAX_SERVICE_QUEUE = 1000
 
 
@@ -226,7 +226,7 @@ class NodeEntities(NodeBase):
         autostart: bool = True,
     ) -> Timer:
         """Create a timer with a period (s) of a clock, the node's own by default."""
-        period = int(float(timer_period_sec) * NS_PER_S)
+        period = int(float(timer_period_sec) * S_TO_NS)
         group = self._ros_group(callback_group)
         self.context.require_running("timer")
         timer = Timer(callback, group, period, clock or self.get_clock(), context=self.context, autostart=autostart)

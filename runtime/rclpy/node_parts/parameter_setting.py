@@ -17,6 +17,7 @@ from bot_console.runtime.rmw.parameter_types import DOUBLE, INTEGER
 from builtin_interfaces.msg import Time
 from rcl_interfaces.msg import Parameter as ParameterMsg
 from rcl_interfaces.msg import ParameterDescriptor, ParameterEvent, ParameterValue, SetParametersResult
+from rclpy.constants import S_TO_NS
 from rclpy.exceptions import ParameterNotDeclaredException
 from rclpy.impl.explanations import DECLARED, invalid_result
 from rclpy.impl.parameter_values import FIELDS
@@ -223,14 +224,13 @@ class ParameterSetting(NodeEntities):
 CARRIED_AS_THEY_ARE = frozenset((bool, float, str))
 """Classes all of whose values are transmitted unchanged."""
 INT64 = 1 << 63
-NS_PER_S = 1_000_000_000
 
 
 def parameter_event(
     node: str, now: int, new: list[ParameterMsg], changed: list[ParameterMsg], deleted: list[ParameterMsg]
 ) -> ParameterEvent:
     """The parameter event of a node (full name) at a time (ns)."""
-    seconds, nanoseconds = divmod(now, NS_PER_S)
+    seconds, nanoseconds = divmod(now, S_TO_NS)
     return ParameterEvent(
         stamp=Time(sec=seconds, nanosec=nanoseconds, check_fields=False),
         node=node,

@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Protocol
 
 from rclpy import logging
+from rclpy.constants import S_TO_NS
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 if TYPE_CHECKING:
@@ -15,7 +16,6 @@ if TYPE_CHECKING:
     from rclpy.impl.rcutils_logger import RcutilsLogger
     from rclpy.publisher import Publisher
 
-NS_PER_S = 1_000_000_000
 ROSOUT = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
@@ -49,7 +49,7 @@ class Rosout:
         message = self._log()
         # Bypasses the properties and their checks, which the logger's own values do not need: this runs for each line.
         stamp = message._stamp
-        stamp._sec, stamp._nanosec = divmod(stamp_ns, NS_PER_S)
+        stamp._sec, stamp._nanosec = divmod(stamp_ns, S_TO_NS)
         message._level = severity
         message._name = name
         message._msg = _encodable(text)
