@@ -135,7 +135,7 @@ class Pane(LazyParts):
     @property
     def host(self) -> App[object]:
         """The app, with the type that Textual's own property leaves open."""
-        return self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic, and its type is not told
+        return self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic
 
     @property
     def state_store(self) -> StateStore:

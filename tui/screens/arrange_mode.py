@@ -112,7 +112,7 @@ class ArrangeScreen(DimmedScreen):
 
     def on_mount(self) -> None:
         """Highlight the selected pane."""
-        self.app.screen_stack[0].add_class("arranging")  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
+        self.app.screen_stack[0].add_class("arranging")  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """Disable the keys that arrange panes while a name is typed."""
@@ -120,7 +120,7 @@ class ArrangeScreen(DimmedScreen):
 
     def action_help(self) -> None:
         """All keys that arrange panes."""
-        self.app.push_screen(HelpScreen(("arrange",), "Arranging the panes", HELP, alone=True))  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
+        self.app.push_screen(HelpScreen(("arrange",), "Arranging the panes", HELP, alone=True))  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
 
     def action_select(self, dx: int, dy: int) -> None:
         """Select the pane in a direction."""
@@ -168,7 +168,7 @@ class ArrangeScreen(DimmedScreen):
 
     def action_done(self) -> None:
         """Back to the panes."""
-        self.app.screen_stack[0].remove_class("arranging")  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
+        self.app.screen_stack[0].remove_class("arranging")  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
         self.dismiss()
 
 

@@ -49,4 +49,4 @@ class HelpScreen(Overlay):
         key = event.style.meta.get(KEY)
         if isinstance(key, str):
             self.dismiss()
-            self.app.call_later(self.app.simulate_key, key)  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
+            self.app.call_later(self.app.simulate_key, key)  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic

@@ -26,7 +26,7 @@ class QuestionScreen(Requester[A], DimmedScreen):
     @property
     def host(self) -> App[object]:
         """The app, with the type that Textual's own property leaves open."""
-        return self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic, and its type is not told
+        return self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic
 
     def close(self) -> None:
         """Leave the screen."""

@@ -63,7 +63,7 @@ class GuardedScreen(HoldingScreen, VisibleScreen, StyledOnceScreen):
         try:
             await super()._dispatch_message(message)
         except Exception as error:  # boundary of drawing
-            app = self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic, and its type is not told
+            app = self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic
             if not (isinstance(app, GuardedApp) and app.contained(error)):
                 raise
 

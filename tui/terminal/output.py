@@ -270,7 +270,7 @@ class HoldingScreen(Screen[None]):
     def _compositor_refresh(self) -> None:
         # Textual clears its dirty widgets here, although those added since it last checked are not drawn.
         self._compositor.update_widgets(self._dirty_widgets)
-        app = self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic, and its type is not told
+        app = self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic
         if isinstance(app, SparingApp) and self is app.screen and not app.may_draw():
             self._dirty_widgets.clear()
             return

@@ -87,7 +87,7 @@ class KeyBar(Static):
         for key in self._keys:
             begin, end = end, end + cell_len(f"{key.written} {key.word}") + len(GAP)
             if begin <= event.x - 1 < end:
-                self.app.simulate_key(key.key)  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
+                self.app.simulate_key(key.key)  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
 
 
 def fitting(first: Sequence[Shown], keys: Sequence[Shown], columns: int) -> list[Shown]:

@@ -190,7 +190,7 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
         if y >= self.row_count():
             return
         if y == self.cursor and event.chain == 2:
-            self.app.simulate_key("enter")  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, and its type is not told
+            self.app.simulate_key("enter")  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
         else:
             self.choose(y)
 

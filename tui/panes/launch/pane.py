@@ -398,7 +398,7 @@ class LaunchPane(ListPane):
             answer.add_done_callback(lambda done: self.host.call_later(self._launched, done))
 
     def _launched(self, done: Future[Answer]) -> None:
-        """What the pane shows by itself is not told twice."""
+        """Show the answer, unless the pane already shows its text as the launch's problem."""
         shown = self.console.snapshot().launch.problem
         if done.exception() is not None or not shown or done.result().text != shown:
             self._answered(done)

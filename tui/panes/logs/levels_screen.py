@@ -65,7 +65,7 @@ class LevelsScreen(DimmedScreen):
 
     @property
     def _host(self) -> App[object]:
-        return self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic, and its type is not told
+        return self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic
 
     def compose(self) -> ComposeResult:
         """The loggers, and the number of nodes without logger services."""

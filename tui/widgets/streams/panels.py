@@ -60,7 +60,7 @@ class StreamPanels(Container):
 
     @property
     def _terminal(self) -> Size:
-        return self.app.size  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic, its type not told
+        return self.app.size  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
 
     def problem(self, words: Sequence[str]) -> str:
         """Why a `ros2` command, given without that word, cannot be started; empty if it can."""
