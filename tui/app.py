@@ -238,7 +238,7 @@ class BotConsoleApp(GuardedApp):
 
     def pull(self) -> None:
         """Take the newest snapshot and let the visible panes draw what has changed."""
-        snapshot = self.controls.stopping.with_question(self.console_of_robot.snapshot())
+        snapshot = self.controls.stopping.with_key(self.console_of_robot.snapshot())
         if snapshot is self._snapshot and not self._snapshot.problem:
             return
         self._snapshot = snapshot

@@ -62,7 +62,7 @@ def controls_of(
     `redraw` sends every cell again, `open` shows what was asked for, `changed` follows a replaced pane.
     """
     quitting = Quitting(app, console)
-    stopping = Stopping(app, console, quitting)
+    stopping = Stopping(app, console, quitting, stage.typing)
     early_stop.attach(console.drive, stopping.pressed_early, lambda: console.snapshot().drive.own_stops)
     leaving = Leaving(app, console, redraw, holds=not console.gate.read_only)
     gated = GatedLines(console.gate, lines)

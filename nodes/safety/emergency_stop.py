@@ -173,6 +173,7 @@ class EmergencyStop:
         self._settle(self._latch.watch(self._now()))
         self._polls += 1
         if self._polls % REPORT_POLLS == 0:
+            self._keep_again()
             self._publish()
         if self._other == ARBITER and self._other_instances:
             self._gone = 0 if self._others else self._gone + 1
@@ -214,6 +215,15 @@ class EmergencyStop:
         changed = self._latch.follow(both)
         self._unreadable, self._filed = False, self.lock.kept
         return changed
+
+    def _keep_again(self) -> None:
+        """Restore the file if it was deleted or replaced, or could not be used before: nobody else may remember the
+        stops when the nodes have ended.
+        """
+        if self._file is not None and not self._file.is_as_left:
+            self._filed = None
+            if self._keep():
+                self._act()
 
     def _log(self) -> None:
         log, before, self._settled = self._node.get_logger(), self._settled, self.lock

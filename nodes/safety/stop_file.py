@@ -41,23 +41,40 @@ class StopFile:
         """`robot` is the namespace of the robot's nodes."""
         self._path = Path(path)
         self._robot = robot
+        self._left: tuple[int, int, int] | None = None
+        """What distinguishes the file that was read or written last from others; None if that failed."""
+
+    @property
+    def is_as_left(self) -> bool:
+        """Whether nobody has replaced or deleted the file since it was merged, and that succeeded."""
+        return self._left is not None and self._identity() == self._left
+
+    def _identity(self) -> tuple[int, int, int] | None:
+        try:
+            found = self._path.stat()
+        except OSError:
+            return None
+        return found.st_ino, found.st_mtime_ns, found.st_size
 
     def merge(self, lock: Lock, *, replace_unreadable: bool = False) -> Lock:
         """Add what a lock knows to the file, and return the merged lock; raises `StopFileError`.
 
         Stops that end with the robot's nodes are not written. With `replace_unreadable`, a file that cannot be read is
-        moved aside.
+        moved aside. The first time, and after a failure, it is written in any case, to see whether that is possible.
         """
+        must_write, self._left = self._left is None, None
         try:
             with self._taken():
                 robots = self._read(replace_unreadable)
                 both = _lock_of(robots.get(self._robot)).merged(replace(lock.kept, turn=lock.turn))
-                robots[self._robot] = {
+                section = {
                     "turn": both.turn,
                     "stops": json.loads(stops_text(both.stops)),
                     "released": json.loads(releases_text(both.released)),
                 }
-                self._write(robots)
+                if must_write or robots.get(self._robot) != section:
+                    self._write({**robots, self._robot: section})
+                self._left = self._identity()
         except OSError as error:
             raise StopFileError(f"{self._path} cannot be written: {error.strerror or error}") from None
         return lock.merged(both)

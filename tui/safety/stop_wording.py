@@ -10,6 +10,8 @@ from bot_console.tui.format import counted, sanitize
 from bot_console.tui.widgets.prompt.question import Confirmation
 
 HOLDS_AGAIN = "What persons have requested holds it again as soon as it is back; ! and bot-console release end that."
+IS_TEXT = "! is a letter here"
+"""Of the stop key while a text field has the focus."""
 MAX_NAMED_STOPS = 5
 """Stops that are named one by one."""
 
@@ -26,7 +28,7 @@ def stop_text(drive: DriveInfo) -> str:
     if not drive.lockable:
         return f"STOP SENT, NOT CONFIRMED: {may_move(drive)} ({stop_key(drive, 'ends it')})"
     if not drive.stop_confirmed:
-        return "STOP SENT, NOT CONFIRMED: THE ROBOT MAY MOVE (! sends it again)"
+        return f"STOP SENT, NOT CONFIRMED: THE ROBOT MAY MOVE ({sending_key(drive)})"
     # The key comes first: a narrow terminal cuts off the end of the line.
     loose = f"  {may_move(drive)}" if drive.stopped_here and drive.unlocked and not drive.held_by_means else ""
     return f"ALL STOP held ({stop_key(drive, 'releases')}){loose}{held_by(drive)}"
@@ -36,6 +38,8 @@ def stop_key(drive: DriveInfo, ends: str) -> str:
     """What the stop key does to a stopped robot; `ends` is the word for ending this console's stop."""
     if drive.refused:
         return "released elsewhere: read-only console"
+    if drive.key_is_text:
+        return IS_TEXT
     if drive.key_only_holds:
         return "! keeps it held"
     if drive.key_releases:
@@ -45,6 +49,11 @@ def stop_key(drive: DriveInfo, ends: str) -> str:
     if holder_is_gone(drive):
         return f"! twice {ends}"  # shorter, so that the rest is visible in 80 columns
     return f"! holds it too, once more {ends}"
+
+
+def sending_key(drive: DriveInfo) -> str:
+    """What the stop key does while no lock has acknowledged the stop."""
+    return IS_TEXT if drive.key_is_text else "! sends it again"
 
 
 def may_move(drive: DriveInfo) -> str:

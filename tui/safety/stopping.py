@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from bot_console.tui.console.model import ConsoleSnapshot
@@ -18,41 +18,44 @@ from textual.screen import Screen
 class Stopping:
     """Holds the robot for this console, and withdraws that stop; others' stops are released only after a question."""
 
-    def __init__(self, app: App[None], console: Console, quitting: Quitting) -> None:
+    def __init__(self, app: App[None], console: Console, quitting: Quitting, typing: Callable[[], bool]) -> None:
+        """`typing` returns whether a text field has the focus."""
         self._app = app
         self._console = console
         self._quitting = quitting
+        self._typing = typing
         self._question: Screen[None] | None = None
         """The question whether to release what others hold; on the screen, or answered."""
-        self._in_question: tuple[ConsoleSnapshot, ConsoleSnapshot] | None = None
-        """The last snapshot during a question, as given and as returned by `with_question`."""
+        self._marked: tuple[ConsoleSnapshot, ConsoleSnapshot] | None = None
+        """The last snapshot for which the key had another meaning, as given and as returned by `with_key`."""
 
     def pressed(self) -> None:
         """Hold the robot, or release it; a stop that nobody has acknowledged is sent again.
 
-        While the question whether to quit holds the robot, it stays held instead. The question whether to release has
-        keys of its own: pressed again meanwhile, this key leaves the robot held.
+        While the question whether to quit holds the robot, it is held by the person instead. The question whether to
+        release has keys of its own: pressed again meanwhile, this key leaves the robot held.
         """
-        if self._quitting.keeps_held():
-            return
         drive = self._console.snapshot().drive
-        if self._asking or not drive.stopped_here or (drive.lockable and not drive.stop_confirmed):
+        holds = self._quitting.keeps_held() or self._asking
+        if holds or not drive.stopped_here or (drive.lockable and not drive.stop_confirmed):
             self.hold()
         else:
             self.release()
 
     def pressed_early(self) -> None:
         """Hold the robot for a key that was pressed behind other input; it never releases."""
-        if not self._quitting.keeps_held():
-            self.hold()
+        self._quitting.keeps_held()
+        self.hold()
 
-    def with_question(self, snapshot: ConsoleSnapshot) -> ConsoleSnapshot:
-        """The snapshot; it says so if a question is open during which the key only holds the robot."""
-        if not (self._asking or self._quitting.holding):
+    def with_key(self, snapshot: ConsoleSnapshot) -> ConsoleSnapshot:
+        """The snapshot; it says so if the key is a letter of a text field, or if a question lets it only hold."""
+        is_text, only_holds = self._typing(), self._asking or self._quitting.holding
+        if not (is_text or only_holds):
             return snapshot
-        if self._in_question is None or self._in_question[0] is not snapshot:
-            self._in_question = snapshot, replace(snapshot, drive=replace(snapshot.drive, key_only_holds=True))
-        return self._in_question[1]
+        drive = replace(snapshot.drive, key_is_text=is_text, key_only_holds=only_holds)
+        if self._marked is None or self._marked[0] is not snapshot or self._marked[1].drive != drive:
+            self._marked = snapshot, replace(snapshot, drive=drive)
+        return self._marked[1]
 
     def hold(self) -> None:
         """Hold the robot still."""

@@ -79,7 +79,7 @@ class Leaving:
         self._app.action_suspend_process()
         self._going = False
         if self._holds:
-            self._app.notify("The robot was held meanwhile; ! releases it.")
+            self._app.notify("The robot was held meanwhile, and stays held.")
         self._redraw()
 
 

@@ -39,6 +39,8 @@ UNREADABLE_ROW = """
     VALUES (1, 1, '/robot', 'speed', '0.5', '1.0', 'edit', 1, CAST(x'ff41' AS TEXT), '')
 """
 FAKETIME = Path("/usr/lib/x86_64-linux-gnu/faketime/libfaketimeMT.so.1")
+NOTICED_S = 20.0
+"""Seconds after which two busy locks have noticed that their file is gone; they look once a second."""
 JUMPS = ("+7h", "-7h", "+0")
 SLEEP = """
 import threading
@@ -397,6 +399,24 @@ def damaged_stop_file(robot: LiveRobot, person: Terminal) -> None:
     both_restarted(robot, person)
 
 
+def lost_stop_file(robot: LiveRobot, person: Terminal) -> None:
+    """The folder with the stop file is deleted; when the locks have had time to notice, everything else ends, too."""
+    folder = robot.folder / "bot-console" / "stops"
+    shutil.rmtree(folder)
+    deadline = time.monotonic() + NOTICED_S
+    while not list(folder.glob("*.json")) and time.monotonic() < deadline:
+        wait(person, 0.1)
+    console_killed(robot, person)
+
+
+@contextlib.contextmanager
+def monitor_frozen(robot: LiveRobot, person: Terminal) -> Iterator[None]:
+    """The safety monitor is frozen, and goes on later."""
+    robot.monitor.send_signal(signal.SIGSTOP)
+    yield
+    robot.monitor.send_signal(signal.SIGCONT)
+
+
 _far, _clocks = FarConsole(), Clocks()
 WAYS: tuple[Way, ...] = (
     Way(name="monitor killed", disturb=instant(monitor_killed)),
@@ -415,6 +435,8 @@ WAYS: tuple[Way, ...] = (
     Way(name="key in a prompt", disturb=instant(typed_in_prompt), stop=press_on_help),
     Way(name="unreadable store", disturb=instant(both_restarted), prepare=unreadable_stores),
     Way(name="unreadable stop file", disturb=instant(damaged_stop_file)),
+    Way(name="stop file lost", disturb=instant(lost_stop_file)),
+    Way(name="monitor frozen", disturb=monitor_frozen, releases_within=True),
     Way(name="undecodable text", disturb=instant(both_restarted), stop=stop_with_undecodable_text),
     Way(name="relaunched", disturb=instant(relaunched), in_background=True),
     Way(name="another world", disturb=instant(another_world), in_background=True),

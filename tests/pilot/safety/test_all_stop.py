@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.screens.confirm import ConfirmScreen
 from piloting import Session, run
@@ -56,6 +57,24 @@ def test_first_press_adds_our_stop_and_second_asks_to_release_others() -> None:
         assert held_by(session) == [] and session.console.asked[-1] == ("release", "b")
 
     run(live(), play, (120, 40))
+
+
+@pytest.mark.parametrize("opened", [(":",), ("1", "/"), ("1", "enter"), ("ctrl+p",)])
+def test_status_line_says_that_the_stop_key_is_typed_into_a_text_field(opened: tuple[str, ...]) -> None:
+    async def play(session: Session) -> None:
+        await session.press(STOP)
+        assert "held (! releases)" in session.text()
+        await session.press(*opened, STOP)
+        session.app.pull()
+        await session.settle()
+        assert session.app.stage.typing() and held_by(session) == ["ours"]
+        assert "held (! is a letter here)" in session.text()
+        await session.press("escape")
+        session.app.pull()
+        await session.settle()
+        assert "held (! releases)" in session.text()
+
+    run(live(), play)
 
 
 def test_stop_pressed_during_the_question_holds_without_asking_again() -> None:

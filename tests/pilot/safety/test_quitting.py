@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from bot_console.tui.console.robot.drive_link import BY_PERSON
 from bot_console.tui.console.robot.robot_model import DriveInfo, RobotStop
+from bot_console.tui.safety.quitting import REASON
 from bot_console.tui.screens.confirm import ConfirmScreen
 from piloting import Session, run
 from samples import live
@@ -133,7 +135,20 @@ def test_no_keeps_stops_from_before_and_during_the_question() -> None:
         await session.press("exclamation_mark")
         assert "held (! releases)" in session.text()
         await session.press("n")
-        assert stops(session) == [True, False, True] and session.console.current.drive.stopped
+        assert stops(session) == [True, False, True, True] and session.console.current.drive.stopped
+
+    run(live(), play)
+
+
+def test_stop_key_during_the_question_makes_a_stop_of_the_persons_own() -> None:
+    """The stop of the question ends with the robot's nodes; what a person has requested does not."""
+
+    async def play(session: Session) -> None:
+        await edited(session)
+        reasons: list[str] = []
+        session.console.drive.stop = lambda hold, reason=BY_PERSON: reasons.append(reason)  # type: ignore[method-assign]
+        await session.press("q", "exclamation_mark")
+        assert reasons == [REASON, BY_PERSON]
 
     run(live(), play)
 

@@ -39,6 +39,21 @@ def test_two_locks_writing_in_turn_lose_nothing_and_revive_nothing(tmp_path: Pat
     assert at(tmp_path).merge(Lock((ANNA, BEN), 2)).ids == {"b1"}, "this one has not heard of the release"
 
 
+def test_file_is_written_only_where_it_lacks_something(tmp_path: Path) -> None:
+    path = tmp_path / "state" / "stops.json"
+    one, other = at(tmp_path), at(tmp_path)
+    one.merge(Lock((ANNA,), 1))
+    assert one.is_as_left and not other.is_as_left
+    other.merge(Lock((BEN,), 2))
+    assert other.is_as_left and not one.is_as_left, "it has to learn what the other one has written"
+    known = one.merge(Lock((ANNA,), 1))
+    assert known.ids == {"a1", "b1"} and one.is_as_left and other.is_as_left, "or they would write in turn for ever"
+    path.unlink()
+    assert not one.is_as_left
+    one.merge(known)
+    assert one.is_as_left and at(tmp_path).merge(Lock()).ids == {"a1", "b1"}
+
+
 def test_robots_of_one_domain_do_not_lock_each_other(tmp_path: Path) -> None:
     at(tmp_path, "/one").merge(Lock((ANNA,), 1))
     assert not at(tmp_path, "/two").merge(Lock()).held
@@ -117,8 +132,12 @@ def test_full_disk_is_an_error_and_keeps_the_old_content(tmp_path: Path, monkeyp
     at(tmp_path).merge(Lock((ANNA,), 1))
     with monkeypatch.context() as broken:
         broken.setattr(os, "fsync", full)
+        file = at(tmp_path)
         with pytest.raises(StopFileError, match="No space left on device"):
-            at(tmp_path).merge(Lock((ANNA, BEN), 2).without(["a1"], "ben"))
+            file.merge(Lock((ANNA, BEN), 2).without(["a1"], "ben"))
+        assert not file.is_as_left
+        with pytest.raises(StopFileError, match="No space left on device"):
+            file.merge(Lock())
     assert at(tmp_path).merge(Lock()).ids == {"a1"}
 
 

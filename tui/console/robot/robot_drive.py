@@ -71,8 +71,8 @@ class RobotDrive:
         self._link: DriveLink | None = None
         """Its link; it says what is known also after the node has closed."""
         self._world: WorldWatch | None = None
-        self._request: tuple[bool, str] | None = None
-        """The newest stop, or release, that was requested while there was no link."""
+        self._requests: tuple[tuple[bool, str], ...] = ()
+        """The stops, or the release, that were requested last while there was no link."""
         self._presses: set[str] = set()
         self._zeroed = False
         """Whether the network was silent when the last command was sent."""
@@ -85,11 +85,11 @@ class RobotDrive:
         node = self._connect()
         with self._lock:
             self._node, self._link = node, node.link
-            if self._request is not None:
-                node.link.stop(*self._request)
+            for hold, reason in self._requests:
+                node.link.stop(hold, reason)
             for each in self._presses:
                 node.link.hold_early(each)
-            self._request = None
+            self._requests = ()
         return node
 
     def attach(self, world: WorldWatch) -> None:
@@ -107,7 +107,7 @@ class RobotDrive:
             self._zero_again()
         if self._is_unsent:
             unsent = NOT_YET if self._gate.unreached == STARTING else NOT_CONNECTED
-            return unsent if self._request else replace(unsent, own_stops=frozenset())
+            return unsent if self._requests else replace(unsent, own_stops=frozenset())
         known = self._link.info(world) if self._link else IDLE
         if not self._gate.read_only:
             return known
@@ -118,8 +118,19 @@ class RobotDrive:
     @property
     def _is_unsent(self) -> bool:
         """Whether a stop was requested that could not be sent."""
-        stopped = self._request is not None and self._request[0]
-        return self._node is None and (stopped or bool(self._presses))
+        return self._node is None and (self._stops_wait or bool(self._presses))
+
+    @property
+    def _stops_wait(self) -> bool:
+        return bool(self._requests) and self._requests[0][0]
+
+    def _remember(self, hold: bool, reason: str) -> None:
+        """Add a stop to those that wait for a link, or replace them all by a release.
+
+        Each is sent with its own reason: one that the console makes by itself does not replace a person's.
+        """
+        before = self._requests if hold and self._stops_wait else ()
+        self._requests = tuple(dict.fromkeys((*before, (hold, reason))))
 
     def stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
         """Lock the robot's emergency stop, or withdraw the stop; a stop passes in every state of the console."""
@@ -131,7 +142,7 @@ class RobotDrive:
             if self._node is not None:
                 self._node.link.stop(hold, reason)
             else:
-                self._request = hold, reason
+                self._remember(hold, reason)
                 self._open_again()
         if hold:
             # otherwise repeated messages would drive the robot again as soon as it is released
@@ -154,7 +165,7 @@ class RobotDrive:
             if self._node is not None:
                 self._node.link.settle_early(press, keep=keep)
             elif keep:
-                self._request = True, "ALL STOP"
+                self._remember(True, "ALL STOP")
 
     def _open_again(self) -> None:
         """Open a link for a stop, unless the first one is still being opened."""

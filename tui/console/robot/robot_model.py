@@ -145,6 +145,8 @@ class DriveInfo:
     """The ids of the stops that this console has requested, except those for key presses that are not handled yet."""
     press_waits: bool = False
     """Whether the robot is held for a press of the stop key that is not handled yet."""
+    key_is_text: bool = False
+    """Whether a text field has the focus, in which the stop key is a letter."""
     key_only_holds: bool = False
     """Whether a question is open during which the stop key keeps the robot held."""
     stops: tuple[RobotStop, ...] = ()
@@ -168,7 +170,7 @@ class DriveInfo:
 
         A stop is still reported while its release is on its way, and also for a key press that is not handled yet.
         """
-        return bool(self.own_stops) and not (self.press_waits or self.key_only_holds)
+        return bool(self.own_stops) and not (self.press_waits or self.key_is_text or self.key_only_holds)
 
     @property
     def nothing_to_stop(self) -> bool:

@@ -11,7 +11,7 @@ from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.format import sanitize
 from bot_console.tui.panes.steering.plane import ASKED, ROBOT, plane
 from bot_console.tui.panes.steering.state import RATE_HZ, Steering, stands_after_steering
-from bot_console.tui.safety.stop_wording import held_by, may_move, stop_key
+from bot_console.tui.safety.stop_wording import held_by, may_move, sending_key, stop_key
 from bot_console.tui.widgets.picture import Line
 
 BAR = 10
@@ -152,7 +152,7 @@ def _highlighted(drive: DriveInfo, topic: str) -> Line:
 
 
 def _unconfirmed(drive: DriveInfo) -> str:
-    return " ! sends it again" if drive.lockable else f" {may_move(drive)}: it has no emergency stop"
+    return f" {sending_key(drive)}" if drive.lockable else f" {may_move(drive)}: it has no emergency stop"
 
 
 def _slider(word: str, value: float, greatest: float, unit: str, width: int, *, turned: bool = False) -> Line:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -59,6 +60,22 @@ def robot_without_file(rig: StopRig) -> None:
     down_and_up(rig)
 
 
+def file_lost(rig: StopRig) -> None:
+    """The state folder is emptied while the locks run; later everything ends at once."""
+    Path(rig.stop_file).unlink()
+    rig.report()
+    killed_console_and_up(rig)
+
+
+def file_of_yesterday(rig: StopRig) -> None:
+    """A backup without the stop takes the place of the file."""
+    path = Path(rig.stop_file)
+    path.with_name("backup").write_text('{"version": 1, "robots": {}}')
+    path.with_name("backup").replace(path)
+    rig.report()
+    killed_console_and_up(rig)
+
+
 DISTURBANCES: dict[str, Disturbance] = {
     "monitor restarted": lambda rig: restart(rig, MONITOR),
     "base restarted": lambda rig: restart(rig, BASE_NODE),
@@ -67,6 +84,8 @@ DISTURBANCES: dict[str, Disturbance] = {
     "console killed": lambda rig: rig.kill("anna"),
     "console killed, then down and up": killed_console_and_up,
     "another start without the file": robot_without_file,
+    "file deleted, console killed, then down and up": file_lost,
+    "file replaced, console killed, then down and up": file_of_yesterday,
     "bag played": lambda rig: rig.play(),
     "restarted, and bag played": lambda rig: (restart(rig, MONITOR, BASE_NODE), rig.settle(), rig.play()),
 }
@@ -311,6 +330,24 @@ def test_no_release_frees_the_robot_while_the_stop_file_cannot_be_written(rig: S
     ben.release([each.key for each in ben.info.stops])
     rig.settle(2)
     assert not held(rig)
+
+
+def test_a_stop_that_could_not_be_written_is_written_as_soon_as_there_is_space(
+    rig: StopRig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(handle: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as disk:
+        disk.setattr(os, "fsync", full)
+        anna = rig.links["anna"].stop("the arm swings")
+        rig.settle(2)
+        reasons = {each.reason for lock in rig.locks.values() for each in lock.lock.stops}
+        assert any("No space left on device" in each for each in reasons)
+    rig.report()
+    killed_console_and_up(rig)
+    rig.settle()
+    assert all(anna in lock.lock.ids for lock in rig.locks.values())
 
 
 def older_request(verb: str, key: str, **values: str) -> DiagnosticStatus:

@@ -91,7 +91,7 @@ def test_the_robot_is_held_before_the_terminal_is_left() -> None:
     assert shell.done == []
     console.change(drive=replace(console.current.drive, stop_confirmed=True))
     shell.timers.pop()()
-    assert shell.done == ["asleep", "The robot was held meanwhile; ! releases it.", "redraw"]
+    assert shell.done == ["asleep", "The robot was held meanwhile, and stays held.", "redraw"]
 
 
 def test_unacknowledged_stop_is_awaited_only_for_a_limited_time() -> None:

@@ -46,6 +46,16 @@ def test_stop_key_promises_no_release_while_a_question_lets_it_only_hold() -> No
         assert "(! keeps it held)" in status_text(ConsoleSnapshot(drive=replace(drive, key_only_holds=True)))
 
 
+def test_stop_key_promises_nothing_while_it_is_text() -> None:
+    held = DriveInfo(stopped=True, stop_confirmed=True, lockable=True, stopped_here=True, own_stops=frozenset(["ours"]))
+    unconfirmed = replace(held, stop_confirmed=False)
+    others = replace(held, own_stops=frozenset(), stopped_here=False)
+    without_lock = replace(held, lockable=False, topic="/cmd_vel", stop_confirmed=False)
+    for drive in (held, unconfirmed, others, without_lock, replace(held, key_only_holds=True)):
+        text = status_text(ConsoleSnapshot(drive=replace(drive, key_is_text=True)))
+        assert "(! is a letter here)" in text and text.count("!") == 1
+
+
 def test_silent_robot_is_distinguished_from_no_robot() -> None:
     assert status_text(ConsoleSnapshot()) == "no robot yet"
     assert status_text(ConsoleSnapshot(drive=DriveInfo(topic="/a/cmd_vel"))) == "no command and no odometry yet"

@@ -1,0 +1,37 @@
+"""Stops that are requested while there is no link to the robot."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any, cast
+
+from bot_console.tui.console.command_gate import STARTING
+from bot_console.tui.console.model import LinkInfo
+from bot_console.tui.console.robot.drive_link import BY_PERSON
+from bot_console.tui.console.robot.robot_drive import RobotDrive
+from bot_console.tui.safety.quitting import REASON
+
+
+def sent_when_connected(*requests: tuple[bool, str]) -> list[tuple[bool, str]]:
+    sent: list[tuple[bool, str]] = []
+    node = SimpleNamespace(link=SimpleNamespace(stop=lambda hold, reason: sent.append((hold, reason))))
+    gate = SimpleNamespace(read_only="", refusal="", unreached=STARTING)
+    drive = RobotDrive(
+        cast(Any, gate), lambda: cast(Any, node), network=LinkInfo, on_stop=lambda: None, report=lambda text: None
+    )
+    for hold, reason in requests:
+        drive.stop(hold, reason)
+    drive.connect()
+    return sent
+
+
+def test_stop_of_the_consoles_own_does_not_replace_a_persons_that_waits_for_the_link() -> None:
+    """Only the person's outlives the robot's nodes."""
+    person, own = (True, BY_PERSON), (True, REASON)
+    assert sent_when_connected(person, own, person) == [person, own]
+    assert sent_when_connected(own, person) == [own, person]
+
+
+def test_release_replaces_the_stops_that_wait_for_the_link() -> None:
+    assert sent_when_connected((True, BY_PERSON), (False, "")) == [(False, "")]
+    assert sent_when_connected((True, BY_PERSON), (False, ""), (True, REASON)) == [(True, REASON)]
