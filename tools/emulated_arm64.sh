@@ -51,7 +51,7 @@ install_tree() {
     python3 -m pip install -q --upgrade --target "$root$site" --python-version 3.11 --only-binary :all: \
         --platform manylinux_2_34_aarch64 --platform manylinux_2_28_aarch64 --platform manylinux2014_aarch64 \
         "$(ls "$root"/srv/wheels/bot_console-*.whl)[dev]"
-    printf '#!/srv/venv/bin/python\nfrom bot_console.tui.cli.main import program\nprogram()\n' > "$root/srv/venv/bin/bot-console"
+    printf '#!/srv/venv/bin/python\nfrom bot_console.tui.cli.entry import program\nprogram()\n' > "$root/srv/venv/bin/bot-console"
     chmod +x "$root/srv/venv/bin/bot-console"
     inside 'uname -m; bot-console --version'
 }

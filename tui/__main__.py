@@ -1,5 +1,5 @@
 """`python -m bot_console.tui`: the same as `bot-console`."""
 
-from bot_console.tui.cli.main import program
+from bot_console.tui.cli.entry import program
 
 program()

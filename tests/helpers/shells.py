@@ -22,7 +22,7 @@ def make_home(folder: Path) -> Path:
     (folder / "bin").mkdir()
     program = folder / "bin" / "bot-console"
     program.write_text(
-        f"#!{sys.executable}\nimport sys\nfrom bot_console.tui.cli.main import program\nprogram()\n", "utf-8"
+        f"#!{sys.executable}\nimport sys\nfrom bot_console.tui.cli.entry import program\nprogram()\n", "utf-8"
     )
     program.chmod(0o755)
     (folder / "bin" / "python3").symlink_to(PYTHON)

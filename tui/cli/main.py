@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from collections.abc import Callable, Sequence
 from typing import NoReturn
 
+from bot_console.runtime.programs.exit_messages import help_is_english, report_help_errors, run_and_report
 from bot_console.tui import __version__
 from bot_console.tui.cli.undecodable import undecodable
 from bot_console.tui.cli.verbs import ros2
+from bot_console.tui.learn.command_log import recorded
 from bot_console.tui.session.embedded.domain import begin_program, end_program, others_take_part
 from bot_console.tui.session.embedded.reaching import report_unused_router
 
@@ -62,8 +65,6 @@ def main(argv: Sequence[str] | None = None) -> int:
     if words == ["--version"]:
         print(f"bot-console {__version__}")
         return 0
-    from bot_console.runtime.programs.exit_messages import help_is_english, report_help_errors
-
     help_is_english()
     report_help_errors()
     try:
@@ -129,16 +130,15 @@ def _in_workspace(words: Words) -> Words:
 
 
 def program() -> NoReturn:
-    """The entry point of the process."""
-    from bot_console.runtime.programs.exit_messages import run_and_report
-    from bot_console.tui.learn.command_log import recorded
-
+    """Run the command line of this process, and end it."""
     with recorded(sys.argv[1:]) as ended:
         code = ended(run_and_report(_program))
     end_program(code)
 
 
 def _program() -> int:
+    if signal.getsignal(signal.SIGINT) is signal.SIG_DFL:  # set for the imports; from here on Ctrl-C is handled
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     begin_program()
     words = sys.argv[2:] if sys.argv[1:2] == ["ros2"] else sys.argv[1:]
     if words[:1] == ["launch"]:
