@@ -180,7 +180,7 @@ class SafetyMonitor(Node):
 
 
 def _problem(emergency: float, warning: float) -> str:
-    """What is wrong with two distances in m; empty if they are consistent."""
+    """The problem with two distances in m; empty if they are consistent."""
     if warning > emergency:
         return ""
     return f"warning_distance ({warning} m) must be greater than emergency_stop_distance ({emergency} m)"

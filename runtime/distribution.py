@@ -15,7 +15,7 @@ VARIABLE = "BOT_CONSOLE_DISTRO"
 
 
 class Distribution(NamedTuple):
-    """What differs between the distributions."""
+    """The differences between the distributions."""
 
     name: str
     parameter_type_base: type[Enum]
@@ -23,7 +23,7 @@ class Distribution(NamedTuple):
     init_is_context_manager: bool
     """Whether `with rclpy.init():` shuts down at its end; else `init` returns None."""
     error_before_init: type[Exception]
-    """What making an executor raises before `rclpy.init()`."""
+    """The exception that making an executor raises before `rclpy.init()`."""
     second_shutdown: tuple[str, str]
     """Type and text of the error of a context's second shutdown."""
     newest_task_first: bool
@@ -37,7 +37,7 @@ class Distribution(NamedTuple):
     warn_is_deprecated: bool
     """Whether `logger.warn` warns that it is deprecated."""
     invalid_qos_prefix: tuple[str, ...]
-    """What precedes the reason in the arguments of `InvalidQoSProfileException`."""
+    """The arguments of `InvalidQoSProfileException` before the reason."""
     has_rosout_preset: bool
     """Whether there are `qos_profile_rosout_default` and its preset."""
 

@@ -28,7 +28,7 @@ SESSION = "first-quarter-hour"
 
 
 class Step(NamedTuple):
-    """What a person does, and what the screen has to show then (a regular expression)."""
+    """An action of a person, and what the screen has to show then (a regular expression)."""
 
     title: str
     keys: Sequence[str]
@@ -80,7 +80,7 @@ class Tmux:
         subprocess.run([*self._call, "send-keys", "-t", SESSION, "-l", keys], check=True)
 
     def screen(self) -> str:
-        """What is on the screen."""
+        """The text on the screen."""
         words = [*self._call, "capture-pane", "-p", "-t", SESSION]
         return subprocess.run(words, check=True, capture_output=True, text=True).stdout.rstrip()
 

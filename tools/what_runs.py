@@ -78,7 +78,7 @@ PARTS = {
     "turtlebot3_msgs": "`Patrol` as used by examples since 2025; `bot-console interface add FOLDER` adds a checkout",
     "tf_transformations": "`Arcball`, `clip_matrix`, `orthogonalization_matrix`",
 }
-"""What is missing in supported packages."""
+"""The parts that are missing in supported packages."""
 UNVERIFIED = "fields are known, the type hash was not compared with ROS 2"
 BY_FREQUENCY = (
     *("rclpy", "std_msgs", "geometry_msgs", "sensor_msgs", "launch", "launch_ros", "ament_index_python", "nav_msgs"),

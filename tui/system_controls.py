@@ -1,4 +1,5 @@
-"""What acts on a system, made once that is reached: the command line, stopping, fault handling, quitting, suspending.
+"""The objects that act on a system, made once that is reached: the command line, stopping, fault handling, quitting,
+suspending.
 
 The app imports this module only after its first frame: it imports the whole model, which would delay the frame by a
 third.

@@ -1,4 +1,4 @@
-"""What a goal makes the robot do, one control step at a time."""
+"""The motion that a goal requires of the robot, one control step at a time."""
 
 from __future__ import annotations
 

@@ -240,7 +240,7 @@ class EmergencyStop:
 
 
 def _remedy(error: StopFileError, unreadable: bool) -> str:
-    """What is wrong with the stop file, and what to do about it."""
+    """The problem with the stop file, and its remedy."""
     if unreadable:
         return f"the kept stops are unknown: {error}; a release moves that file aside"
     return f"stops cannot be kept: {error}; free some space or make its folder writable, then release"

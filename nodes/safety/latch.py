@@ -51,7 +51,7 @@ class Latch:
 
     @property
     def challenge(self) -> str:
-        """What a release has to quote; changes whenever the stops change."""
+        """The text that a release has to quote; changes whenever the stops change."""
         return self._challenge
 
     @property

@@ -107,7 +107,7 @@ class Lock:
         return Lock(stops, turn, _latest((*self.released, *(Release(id, by, turn) for id in news))))
 
     def merged(self, other: Lock) -> Lock:
-        """What both know together: a stop that either holds, unless either knows that it was released.
+        """The combined knowledge of both: a stop holds unless either of them knows that it was released.
 
         The order of merging makes no difference, so that locks that receive each other's states agree.
         """

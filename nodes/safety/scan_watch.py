@@ -1,4 +1,4 @@
-"""What the newest scan sees ahead, and whether it can still be trusted."""
+"""The obstacle ahead in the newest scan, and whether that scan can still be trusted."""
 
 from __future__ import annotations
 

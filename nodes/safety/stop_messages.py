@@ -20,7 +20,9 @@ MAX_IDS = 2 * MAX_STOPS
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """What a lock publishes: who holds the robot, the challenge for a release, and which start of the node it is."""
+    """The state that a lock publishes: who holds the robot, the challenge for a release, and which start of the node it
+    is.
+    """
 
     lock: Lock
     instance: str

@@ -73,7 +73,7 @@ def settings(node: Node) -> Settings:
 
 
 def problem(node: Node, changes: Iterable[Parameter]) -> str:
-    """What is wrong between parameters after some changes; empty if nothing is."""
+    """The problem between parameters after some changes; empty if there is none."""
     origin = {each.name: each.value for each in changes}.get("origin", node.get_parameter("origin").value)
     if origin not in ORIGINS:
         return f"origin must be one of {', '.join(ORIGINS)}, not '{origin}'"

@@ -1,4 +1,5 @@
-"""What programs written for other robots expect beside scans and odometry: frames, wheels, inertia and battery.
+"""Messages that programs written for other robots expect beside scans and odometry: frames, wheels, inertia and
+battery.
 
 Everything but the fixed frames is published only while somebody subscribes to it.
 """

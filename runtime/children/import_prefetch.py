@@ -1,4 +1,5 @@
-"""What the fork server imports for a program before it forks a process for it, judged by the program's own imports.
+"""The imports that the fork server makes for a program before it forks a process for it, judged by the program's own
+imports.
 
 NumPy takes as long to import as all of rclpy. A program that does not need it starts without; if that is unknown, it is
 imported, as otherwise each process would do so itself.

@@ -18,7 +18,7 @@ PREPARE = "bot_console.runtime.children.import_prefetch:import_needed"
 MEMBER_PROGRAM = "bot_console.runtime.rmw.lockstep.member_program:member_program"
 """The function of jobs whose process takes part in a stepped run; named only, as launch does not depend on rmw."""
 SHARE = "bot_console.runtime.rmw.zenoh.domain.domain_bus:share_domains"
-"""What a process calls first that joins the domain; named only, for the same reason."""
+"""The first call of a process that joins the domain; named only, for the same reason."""
 
 _guard = threading.Lock()
 _servers: list[ForkServer] = []

@@ -1,4 +1,4 @@
-"""What the fork server imports and does once, so that nodes forked from it need not."""
+"""The imports and the work that the fork server does once, so that nodes forked from it need not."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ ATTRIBUTE = "launch_place"
 
 
 class LaunchPlace(NamedTuple):
-    """What was being read or visited when an exception was raised."""
+    """The place in a launch file that was being read or visited when an exception was raised."""
 
     file: str
     """The launch file; empty if unknown."""

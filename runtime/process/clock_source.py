@@ -50,7 +50,7 @@ class TurnTaker(Protocol):
 
 
 class Wakeup(Protocol):
-    """What a thread of a node process waits on: like `threading.Event`, with deadlines in steady time."""
+    """An event that a thread of a node process waits for: like `threading.Event`, with deadlines in steady time."""
 
     def set(self) -> None:
         """Wake the waiter; may be called from any thread at any time."""

@@ -62,7 +62,7 @@ def require_address_space(kib: int) -> None:
 
 
 def _address_space_kib() -> int:
-    """What this process has reserved; 0 where the system does not say."""
+    """The address space that this process has reserved; 0 where the system does not say."""
     try:
         with open("/proc/self/statm", "rb") as file:
             return int(file.read().split()[0]) * os.sysconf("SC_PAGESIZE") // 1024

@@ -26,7 +26,7 @@ def is_read() -> bool:
 
 
 def for_children() -> dict[str, str]:
-    """What to add to the environment of a child, so that its hints are shown where those of this process are."""
+    """The variables that a child's environment needs, so that its hints are shown where those of this process are."""
     return {SHOW: "1"} if is_read() else {}
 
 

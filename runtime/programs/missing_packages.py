@@ -62,7 +62,7 @@ KNOWN: dict[str, tuple[str, str]] = {
         "urdf_parser_py",
     )
 }
-"""What provides a package, by its import name."""
+"""How to get a package, by its import name: where it comes from, and the name to install."""
 
 
 GAZEBO = "It starts Gazebo; the simulated robot stands in for it: bot_console_robot simulator.launch.py."
@@ -78,7 +78,7 @@ EXECUTABLES: dict[str, str] = {
     "slam_toolbox": "It is C++, not here; the simulated robot publishes its map on /map.",
     "image_view": "It makes windows, and bot-console has none.",
 }
-"""What replaces the executables of a package that is not included."""
+"""Why a package has no executables here, and what to use instead."""
 NO_EXECUTABLE = (
     "Packages in C++ are not here, because bot-console compiles nothing; "
     "Python ones run from their sources in the workspace."

@@ -62,7 +62,7 @@ def init(
 
 
 class InitContextManager:
-    """What `init` returns in some distributions: in a `with` block, it shuts down at the end."""
+    """The result of `init` in some distributions: in a `with` block, it shuts down at the end."""
 
     def __init__(self, context: Context, installed_signal_handlers: bool) -> None:
         self.context = context

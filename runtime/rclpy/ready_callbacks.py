@@ -1,4 +1,4 @@
-"""What custom executors are built on: it takes ready callbacks, which they run wherever they like."""
+"""The base of custom executors: it takes ready callbacks, which they run wherever they like."""
 
 # pyright: reportPrivateUsage=false
 # The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.

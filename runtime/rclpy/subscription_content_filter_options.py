@@ -1,4 +1,4 @@
-"""What a subscription with a content filter wants."""
+"""The filter that a subscription asks for."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the graph knows of a publisher or a subscription."""
+"""The entry of a publisher or a subscription in the graph."""
 
 from __future__ import annotations
 

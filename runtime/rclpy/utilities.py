@@ -1,4 +1,4 @@
-"""What the modules of rclpy, and programs, share: the default context, and queries of command lines."""
+"""Shared by the modules of rclpy and by programs: the default context, and queries of command lines."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What rclpy needs from a middleware: endpoints that send and receive messages, and the graph."""
+"""The interface of a middleware that rclpy needs: endpoints that send and receive messages, and the graph."""
 
 from __future__ import annotations
 

@@ -69,7 +69,7 @@ def _flat(mapping: object, prefix: str) -> Iterator[tuple[str, int]]:
 
 
 def _sections(mapping: object, key: str, line: int) -> Iterator[tuple[str, int, Any]]:
-    """What is below the keyword, each with its node's key and the line of that."""
+    """The sections below the keyword, each with its node's key and the line of that."""
     for name, value in _pairs(mapping):
         if name.value == KEYWORD:
             yield key, line, value

@@ -1,4 +1,4 @@
-"""What a middleware makes of QoS: whether a publisher's satisfies a subscription's, and whether messages expire."""
+"""How a middleware treats QoS: whether a publisher's satisfies a subscription's, and whether messages expire."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ from bot_console.runtime.rmw.names import expand
 
 
 class Kind(Flag):
-    """What a rule applies to."""
+    """The kinds of name that a rule applies to."""
 
     TOPIC = auto()
     SERVICE = auto()

@@ -1,4 +1,4 @@
-"""What a person at a terminal is told beyond the words of `ros2`; programs that read the output get those alone."""
+"""Advice for a person at a terminal, beyond the words of `ros2`; programs that read the output get those alone."""
 
 from __future__ import annotations
 

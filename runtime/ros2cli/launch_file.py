@@ -39,7 +39,7 @@ def find_launch_file(package: str, name: str | None) -> str:
 
 
 def _unnamed(package: str) -> str:
-    """What a command line lacks that names a package alone; upstream looks for a file called None."""
+    """The message for a command line that names a package alone; upstream looks for a file called None."""
     names = launch_file_names(package)
     return f"name a launch file of package '{package}': {', '.join(names)}" if names else launch_files(package, ())
 

@@ -10,7 +10,9 @@ UNREADABLE = (
     *(OSError, RuntimeError, ValueError, TypeError, AttributeError, LookupError, OverflowError),
     yaml.YAMLError,
 )
-"""What reading may raise: of the file, of YAML, of the values of its tags, and of what has another shape."""
+"""The exceptions that reading may raise: of the file, of YAML, of the values of its tags, and of contents of another
+shape.
+"""
 
 
 def is_bad_syntax(path: str, error: Exception) -> bool:

@@ -66,7 +66,7 @@ def nested(cls: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ..
 
 
 class Place(NamedTuple):
-    """What is known statically of a place in the stream: its remainder `rest` modulo `step`, a power of two."""
+    """The statically known part of a position in the stream: its remainder `rest` modulo `step`, a power of two."""
 
     step: int
     rest: int

@@ -13,7 +13,7 @@ class Comments(NamedTuple):
     """The comments of one part of an interface, without `#`."""
 
     whole: str
-    """What stands above the first field, set off by a blank line."""
+    """The comment above the first field, set off by a blank line."""
     members: Mapping[str, str]
     """By the name of a field or constant: the lines directly above it, beside it, and indented below it."""
 

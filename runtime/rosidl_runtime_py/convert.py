@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Shortening(NamedTuple):
-    """What is omitted: elements and characters beyond `length`, arrays, strings."""
+    """The limits beyond which output is omitted: elements and characters beyond `length`, arrays, strings."""
 
     length: int | None = None
     no_arrays: bool = False

@@ -1,4 +1,4 @@
-"""What the ROS names refer to in this interpreter: a real ROS 2 on its path, or the embedded runtime.
+"""Decides to what the ROS names refer in this interpreter: to a real ROS 2 on its path, or to the embedded runtime.
 
 Decided once, when the first of these names is imported; all of them follow. Linked into the folder of shims; see
 `runtime/shim_folder.py`.

@@ -59,7 +59,7 @@ def _commands(text: str, variables: Mapping[str, list[str]]) -> Iterator[tuple[s
 
 
 class _Reader:
-    """What the commands so far have set and installed."""
+    """The variables and installed files of the commands so far."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder

@@ -35,7 +35,9 @@ class DataRow(NamedTuple):
 
 @dataclass(frozen=True)
 class SetupFile:
-    """What a package installs: console scripts as `module:function`, files by target folder, Python packages."""
+    """The contents that a package installs: console scripts as `module:function`, files by target folder, Python
+    packages.
+    """
 
     console_scripts: dict[str, str] = field(default_factory=dict[str, str])
     scripts: dict[str, Path] = field(default_factory=dict[str, Path])

@@ -37,7 +37,7 @@ ORDERED = sorted(PANES, key=lambda entry: entry.place)
 
 
 class System(NamedTuple):
-    """What is shown, and what runs command lines."""
+    """The console that is shown, and the command line that it runs lines with."""
 
     console: Console
     command_line: CommandLine | None = None

@@ -1,4 +1,4 @@
-"""What happens to a pane or a screen whose code raises: it ends alone, with a way to reopen it."""
+"""The end of a pane or a screen whose code raises: it ends alone, with a way to reopen it."""
 
 from __future__ import annotations
 

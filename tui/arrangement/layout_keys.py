@@ -20,7 +20,7 @@ NAME = re.compile(r"\w[\w .-]{0,40}")
 
 
 class Screen(Protocol):
-    """What arranging needs from the app."""
+    """The operations of the app that arranging needs."""
 
     def cells(self) -> tuple[int, int]:
         """Columns and lines of the terminal."""

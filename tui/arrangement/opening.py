@@ -1,4 +1,4 @@
-"""What the console should open: a pane, with its topics or its node; reads the command lines of rqt programs too."""
+"""The pane that the console should open, with its topics or its node; reads the command lines of rqt programs too."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def names_system(words: Sequence[str]) -> bool:
 
 
 def rqt_opening(words: Sequence[str]) -> tuple[Opening, list[str]]:
-    """What the command line of an rqt program asks for, and the words that are not rqt's.
+    """The pane that the command line of an rqt program asks for, and the words that are not rqt's.
 
     Raises `ValueError` when the words name no program of rqt.
     """

@@ -1,4 +1,4 @@
-"""What is on the screen: the layout or a single pane, the focused pane, and the tabs and keys to match."""
+"""The arrangement on the screen: the layout or a single pane, the focused pane, and the tabs and keys to match."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Stage:
 
     @cached_property
     def arranging(self) -> Arranging:
-        """What changes the arrangement; made on first use, so that the first frame need not wait for it."""
+        """The object that changes the arrangement; made on first use, so that the first frame need not wait for it."""
         from bot_console.tui.arrangement.layout_keys import Arranging
 
         return Arranging(self, self.arrangement)
@@ -121,7 +121,7 @@ class Stage:
         self._app.notify(text, markup=False)
 
     def at_first(self, size: Size) -> list[tuple[str, str, bool]]:
-        """What a terminal of a size shows at the start: ids and titles of panes, and which gets the focus."""
+        """The first panes of a terminal of some size: their ids and titles, and which gets the focus."""
         shown = self.seen_at(size)
         if self._focused not in shown:
             self._focused = shown[0]

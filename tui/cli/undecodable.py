@@ -12,7 +12,7 @@ WRITTEN = ("--output-dir", "--destination-directory", "--report", "--output", "-
 
 
 def undecodable(words: Sequence[str]) -> str:
-    """What is wrong with the first word that is neither UTF-8 nor a path; empty if there is none."""
+    """The problem with the first word that is neither UTF-8 nor a path; empty if there is none."""
     for before, word in zip(["", *words], words, strict=False):
         path = word.rpartition("=")[2]  # Also for `params_file:=PATH`.
         if encodable(word) != word and not (os.path.lexists(path) or before in WRITTEN):

@@ -33,7 +33,7 @@ def extended(found: Sequence[str], begun: str) -> str:
 
 
 def live_names(snapshot: ConsoleSnapshot, words: Sequence[str]) -> list[str] | None:
-    """What `ros2 node list` and the like would print, from what the console knows; None for other lines."""
+    """The output of `ros2 node list` and the like, from what the console knows; None for other lines."""
     graph = snapshot.graph
     if [*words[:2]] == ["param", "list"] and len(words) == 3:
         tree = snapshot.parameters.get(words[2])

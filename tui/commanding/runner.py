@@ -77,7 +77,7 @@ class LineRunner:
         self._lines = lines
 
     def wrong(self, line: str) -> str:
-        """What is wrong with a line, and how to fix it; empty if no mistake is found."""
+        """The mistake in a line, and how to fix it; empty if no mistake is found."""
         try:
             words = shlex.split(line)
         except ValueError:

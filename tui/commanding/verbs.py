@@ -65,13 +65,13 @@ CONTINUATIONS = tuple("+-*^%,)<>=")
 
 
 def wrong_use(words: Sequence[str]) -> str:
-    """What is wrong with the number of arguments of one of our verbs; empty if nothing is."""
+    """The problem with the number of arguments of one of our verbs; empty if there is none."""
     verb = VERBS[words[0]]
     return "" if verb.least <= len(words) - 1 <= verb.maximum else f"write it as: {verb.usage}"
 
 
 def wrong_bag(words: Sequence[str]) -> str:
-    """What is wrong with `bag open FOLDER` or `bag play FOLDER`; empty if nothing is."""
+    """The problem with `bag open FOLDER` or `bag play FOLDER`; empty if there is none."""
     if words[1] not in ("open", "play"):
         begun = "write it as: bag open FOLDER, or bag play FOLDER"
         return f"{begun}; record begins and ends one, the rest is for a shell: bot-console bag -h"
@@ -105,7 +105,7 @@ def places(
     layouts: Callable[[], Sequence[str]],
     paths: Callable[[], Sequence[str]],
 ) -> Sequence[str]:
-    """What may come next in the arguments of one of our verbs."""
+    """The words that may come next in the arguments of one of our verbs."""
     verb, *given = before
     if verb == "set":
         tree = snapshot.parameters.get(f"/{given[0].lstrip('/')}") if given else None

@@ -106,7 +106,7 @@ class NodePorts:
         self.logs.add(time.time_ns(), severity, label, text, NOWHERE)
 
     def snapshot(self) -> ConsoleSnapshot:
-        """What is known now; the same object when nothing changed, and unchanged parts are the same objects."""
+        """The newest state; the same object when nothing changed, and unchanged parts are the same objects."""
         old = self._snapshot
         world, launch = self.drive.world, self._launch_info()
         self.logs.discount_errors_of_ending(launch)

@@ -1,4 +1,4 @@
-"""What the panes are given: the newest snapshot of a ROS system, and one port per subject. Standard library only.
+"""The data for the panes: the newest snapshot of a ROS system, and one port per subject. Standard library only.
 
 The panes poll: no method of a port blocks, and all of them must be called from the thread that draws, unless their
 docstring says otherwise. Every port exists from the first frame on. Until the system is reached, subscriptions and
@@ -30,7 +30,7 @@ class Console(Protocol):
 
     @property
     def gate(self) -> Gate:
-        """What commands pass: it says why they are refused."""
+        """The gate that commands pass: it says why they are refused."""
         ...
 
     @property

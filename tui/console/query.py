@@ -76,7 +76,7 @@ class SpanTerm:
 
 @dataclass(frozen=True, slots=True)
 class TextTerm:
-    """What to search for in a text; a plain word may match the node's name too, a regular expression may not."""
+    """A term to search for in a text; a plain word may match the node's name too, a regular expression may not."""
 
     pattern: Pattern
     name: NodeTerm | None

@@ -25,7 +25,7 @@ def goes_on(words: Sequence[str]) -> bool:
 
 
 def interrupted(seconds: float) -> str:
-    """What follows the output of a line that was interrupted after some time."""
+    """The line after the output of a line that was interrupted after some time."""
     return f"interrupted after {seconds:g} s; a line that takes longer can be run in a terminal\n"
 
 

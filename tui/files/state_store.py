@@ -12,7 +12,7 @@ class StateStore(Protocol):
     """Plain data (texts, numbers, lists, mappings) by name."""
 
     def get(self, name: str) -> object:
-        """What was stored last, in an earlier run too; None where there is nothing, or it cannot be read."""
+        """The value stored last, in an earlier run too; None where there is nothing, or it cannot be read."""
         ...
 
     def put(self, name: str, data: object) -> str:
@@ -33,7 +33,7 @@ class MemoryStore:
         self._data: dict[str, object] = {}
 
     def get(self, name: str) -> object:
-        """What was stored last."""
+        """The value stored last."""
         return self._data.get(name)
 
     def put(self, name: str, data: object) -> str:

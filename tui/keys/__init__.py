@@ -1,1 +1,1 @@
-"""What a key is, and how people can remap keys; the table of all keys is `tui/keymap.py`."""
+"""Keys, and how people can remap them; the table of all keys is `tui/keymap.py`."""

@@ -20,7 +20,7 @@ ESC = "\x1b"
 BEGIN = frozenset("[OP]^_X")
 """Characters that may begin a sequence after an Esc: a key of several bytes, or a report of the terminal."""
 EDITING = frozenset("bf\t\x7f")
-"""What terminals send after an Esc for keys that move by words or delete one; Textual knows them."""
+"""The characters that terminals send after an Esc for keys that move by words or delete one; Textual knows them."""
 ALT = "alt+"
 
 

@@ -44,12 +44,12 @@ VERBS: Mapping[str, Verb] = {
     "expect-parameter-file": Verb("expect-parameter-file PATTERN [PARAMETER [VALUE]]", 1, 3, False),
     "expect-no-findings": Verb("expect-no-findings PATTERN (of lint)", 1, 1, False),
 }
-"""What a condition may begin with. `saw-` is a deed, `expect-` a state of the workspace."""
+"""The words that a condition may begin with. `saw-` is a deed, `expect-` a state of the workspace."""
 PANE_WORDS = frozenset(
     ("overview", "parameters", "logs", "graph", "plot", "world", "steering", "profiles", "launch", "topics", "history")
 )
 PLUGIN = "plugin_"
-"""What the name of a pane of another package begins with."""
+"""The beginning of the name of a pane of another package."""
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ def read_condition(text: str, line: int = 0) -> Condition:
 
 
 def _wrong(verb: str, words: tuple[str, ...]) -> str:
-    """What is wrong with the words of a verb; empty if nothing is."""
+    """The problem with the words of a verb; empty if there is none."""
     if verb == "saw-move":
         return "" if re.fullmatch(r"\d+(\.\d+)?", words[0]) else "a length in m"
     if verb == "saw-pane":

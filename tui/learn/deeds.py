@@ -1,4 +1,4 @@
-"""What has been seen of a system and of the command lines in its domain: the deeds that conditions ask about. Pure."""
+"""The deeds that conditions ask about: what a person has done in a system and on its domain's command lines. Pure."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LOOKING = frozenset(("-h", "--help", "-p", "--print", "--print-description", "-s
 """Options of `launch` with which nothing is launched."""
 
 REFUSED = "Setting parameter failed"
-"""What `param set` says when the node refuses a value."""
+"""The beginning of `param set`'s message when the node refuses a value."""
 
 
 class Launched(NamedTuple):

@@ -13,7 +13,7 @@ from bot_console.tui.cli.check.stepped import USAGE
 from bot_console.tui.learn.conditions import VERBS, Condition, read_condition
 
 STARTERS = ("run", "launch")
-"""What a line that starts something begins with: a command of the program."""
+"""The commands with which a line that starts something begins."""
 DRIVE = re.compile(r"drive (\d+) s (.+?) (?:>|more than) (\d+(?:\.\d+)?) m")
 DRIVE_USAGE = "drive SECONDS s PACKAGE FILE [NAME:=VALUE ...] > METRES m"
 

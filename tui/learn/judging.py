@@ -28,7 +28,7 @@ def missing(
     *,
     driven_before: float = 0.0,
 ) -> str:
-    """What is missing, in a sentence; empty if the condition holds. `names` gets the names that `as` introduces.
+    """The missing part, in a sentence; empty if the condition holds. `names` gets the names that `as` introduces.
 
     `driven_before` is the distance (m) that does not count, since the robot drove it before it was asked to.
     """

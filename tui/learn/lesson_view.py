@@ -1,4 +1,4 @@
-"""What the lesson pane needs of a lesson: plain data, and the few things that its keys do. Pure."""
+"""The interface of a lesson that the lesson pane needs: plain data, and the few things that its keys do. Pure."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class LessonView:
 
 @dataclass(frozen=True)
 class OnScreen:
-    """What a person has done in the console, as far as no snapshot says so."""
+    """The deeds of a person in the console, as far as no snapshot shows them."""
 
     panes: frozenset[str] = frozenset()
     """The panes that were opened."""

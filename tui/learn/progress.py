@@ -1,4 +1,4 @@
-"""What a student has done, kept in the workspace so that it moves with it."""
+"""The progress of a student, kept in the workspace so that it moves with it."""
 
 from __future__ import annotations
 

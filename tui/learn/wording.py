@@ -1,4 +1,6 @@
-"""What conditions ask for, as sentences for a student: without the verbs and patterns of the course's author. Pure."""
+"""The requirements of conditions, as sentences for a student: without the verbs and patterns of the course's author.
+Pure.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +8,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 
 ANYTHING = re.compile(r"(?: ?\*(?!\.) ?)+")
-"""What a `*` of a pattern stands for, with the blanks around it; the one of `*.py` is read by everybody."""
+"""A `*` of a pattern, with the blanks around it; the one of `*.py` is read by everybody."""
 
 
 def command_text(words: Sequence[str]) -> str:
@@ -34,7 +36,7 @@ def node_text(name: str, parameter: str) -> str:
 
 
 def held_text(verb: str, words: Sequence[str]) -> str:
-    """What is true when a condition holds."""
+    """The statement that is true when a condition holds."""
     return _SENTENCES[verb](words)
 
 

@@ -41,5 +41,5 @@ def ask_transition(pane: Pane, graph: GraphInfo, nodes: Sequence[str]) -> None:
 
 
 def about(state: str, verb: str) -> str:
-    """What stands behind a transition."""
+    """The text behind a transition."""
     return f"is {state}" + (", for good" if verb in FINAL else "")

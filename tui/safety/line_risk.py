@@ -10,7 +10,9 @@ from bot_console.tui.format import parse_value
 
 
 def risk_of(line: str, snapshot: ConsoleSnapshot) -> str:
-    """What makes the robot less safe, as the end of a sentence; empty if nothing does, and for every other line."""
+    """The way in which a line makes the robot less safe, as the end of a sentence; empty if nothing does, and for every
+    other line.
+    """
     try:
         words = shlex.split(line)
     except ValueError:  # a quotation mark that is still open

@@ -35,7 +35,7 @@ def stop_text(drive: DriveInfo) -> str:
 
 
 def stop_key(drive: DriveInfo, ends: str) -> str:
-    """What the stop key does to a stopped robot; `ends` is the word for ending this console's stop."""
+    """The effect of the stop key on a stopped robot; `ends` is the word for ending this console's stop."""
     if drive.refused:
         return "released elsewhere: read-only console"
     if drive.key_is_text:

@@ -1,4 +1,4 @@
-"""What a console shows, and what is launched for it; imported after the first frame."""
+"""The console's parts once a system is reached, and the launch that belongs to it; imported after the first frame."""
 
 from __future__ import annotations
 

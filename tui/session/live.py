@@ -52,7 +52,7 @@ class Session:
 
     @property
     def launcher(self) -> ClosableLauncher:
-        """What starts processes."""
+        """The launcher that starts processes."""
         return self.connected.launcher
 
     def _embedded(self) -> Connected:

@@ -12,7 +12,7 @@ class ClosableLauncher(Launcher, Protocol):
     """A launcher with its state and its end: what a console holds, and what a launch host serves."""
 
     def info(self) -> LaunchInfo:
-        """What is known now; the same object until something changes."""
+        """The newest state; the same object until something changes."""
         ...
 
     def close(self) -> None:

@@ -32,7 +32,7 @@ class ReachedStop:
 
     @property
     def info(self) -> StopInfo:
-        """What the locks have reported."""
+        """The reports of the locks."""
         return self.link.info
 
     def follow(self) -> None:

@@ -39,7 +39,7 @@ class RobotProcess(Protocol):
 
 @dataclass(frozen=True)
 class System:
-    """What is launched, as far as the decision about a robot requires."""
+    """The launched system, as far as the decision about a robot requires."""
 
     processes: Callable[[], tuple[int, int]]
     """The number of running processes, and of delayed starts."""

@@ -22,7 +22,7 @@ class Appearance:
     keys: Mapping[str, str] = field(default_factory=dict[str, str])
     """Other keys for actions, by the ids of `keymap.TABLE`, in which they stand already."""
     state_store: StateStore = field(default_factory=MemoryStore)
-    """What the panes keep from run to run."""
+    """The store for what panes keep from run to run."""
     notes: tuple[str, ...] = ()
     graph_hides: tuple[str, ...] = TOOL_NAMES
     """Patterns of the names of topics and nodes that the graph leaves out."""

@@ -1,4 +1,4 @@
-"""What panes remember, as the user's files: alarms next to the settings, view state in the state folder."""
+"""The memory of panes, as the user's files: alarms next to the settings, view state in the state folder."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the terminal shows, cell by cell, and the shortest output that turns it into something else."""
+"""The content of the terminal, cell by cell, and the shortest output that turns it into something else."""
 
 from __future__ import annotations
 

@@ -73,7 +73,7 @@ def change(before: str | None, after: str) -> str:
 
 @lru_cache(maxsize=4096)
 def codes_on_blank(codes: str) -> str:
-    """What a blank shows of a style: its background, but all of it if there are lines or exchanged colours."""
+    """The part of a style that a blank shows: its background, but all of it if there are lines or exchanged colours."""
     style = parsed(codes)
     return codes if style.attributes & LINES else style.background
 

@@ -8,7 +8,7 @@ UNREADABLE = (yaml.YAMLError, ValueError, TypeError, AttributeError, LookupError
 
 
 def fault_of(error: Exception) -> str:
-    """What is wrong, on one line, with the line number if it is known."""
+    """The fault, on one line, with the line number if it is known."""
     mark = getattr(error, "problem_mark", None)
     where = f"line {mark.line + 1}: " if mark else ""
     if isinstance(error, yaml.YAMLError):

@@ -32,7 +32,7 @@ class Trial:
 
 @dataclass(frozen=True)
 class TuningSpecification:
-    """What to search for, and with which runs."""
+    """The subject of a search, and the runs that it takes."""
 
     tunables: tuple[Tunable, ...]
     score: Score
@@ -85,7 +85,7 @@ class TuningSpecification:
         return hashlib.blake2b(text.encode(), digest_size=8).hexdigest()
 
     def problem(self) -> str:
-        """What is wrong with the numbers; empty if nothing is."""
+        """The problem with the numbers; empty if there is none."""
         if self.seeds < 1 or self.held_out < 0 or not self.duration > 0:
             return "seeds and duration must be positive"
         per = self.seeds * len(self.worlds)

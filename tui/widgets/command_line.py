@@ -25,11 +25,11 @@ class Lines(Protocol):
     """Runs lines."""
 
     def wrong(self, line: str) -> str:
-        """What is wrong with a line; empty if nothing is."""
+        """The problem with a line; empty if there is none."""
         ...
 
     def preview(self, line: str) -> str:
-        """What a line would cause, or its usage."""
+        """The effect of a line, or its usage."""
         ...
 
     def run(self, line: str) -> None:
@@ -61,7 +61,7 @@ class CommandField(Vertical):
         self._tried = -1
         """The index of the candidate in the line; -1: what was typed."""
         self._typed = ""
-        """What was typed before the first candidate replaced it."""
+        """The text that was typed before the first candidate replaced it."""
         self._own_change = ""
 
     def _make(self) -> None:

@@ -76,7 +76,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
 
     EMPTY: ClassVar[Digraph] = Digraph()
     placeholder = NO_PLACEHOLDER
-    """What is shown while nothing is drawn."""
+    """The text that is shown while nothing is drawn."""
 
     def show_placeholder(self, placeholder: Placeholder) -> None:
         """Change the text that is shown while nothing is drawn."""

@@ -28,7 +28,7 @@ class Shown(NamedTuple):
 
     written: str
     word: str
-    """What it does."""
+    """The word for its action."""
     key: str
     """Its name for Textual."""
     id: str

@@ -60,7 +60,7 @@ class Picture(StyledByPart):
         self.lines: Sequence[Line] = ()
 
     placeholder = NO_PLACEHOLDER
-    """What is shown while there are no lines."""
+    """The text that is shown while there are no lines."""
 
     def show_placeholder(self, placeholder: Placeholder) -> None:
         """Change the text that is shown while there are no lines."""

@@ -56,7 +56,7 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
     _by_person = False
     """Whether the user is moving the cursor."""
     placeholder = NO_PLACEHOLDER
-    """What is shown while there are no rows."""
+    """The text that is shown while there are no rows."""
 
     def show_placeholder(self, placeholder: Placeholder) -> None:
         """Change the text that is shown while there are no rows."""

@@ -130,7 +130,7 @@ class IncludeLaunchDescription(Action, IncludesDescription):
 
 
 class IncludeBoundary(Action):
-    """What an include visits before and after its description; not a part of the launch file."""
+    """The actions that an include visits before and after its description; not a part of the launch file."""
 
 
 class _EnterInclude(IncludeBoundary):

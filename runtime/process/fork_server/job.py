@@ -1,4 +1,4 @@
-"""What a child of the fork server runs, as plain data."""
+"""The work of a child of the fork server, as plain data."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ HELD_BACK = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGCHLD)
 
 @dataclass
 class Birth:
-    """What a new child receives."""
+    """The data that a new child receives."""
 
     job: Job
     stdio: tuple[int, int, int]

@@ -21,7 +21,7 @@ Operation = tuple[Any, ...]
 
 
 class Welcome(NamedTuple):
-    """What a process is given when it joins a run."""
+    """The data that a process receives when it joins a run."""
 
     system_offset: int
     """System time (ns) at steady time 0."""

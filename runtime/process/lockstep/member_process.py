@@ -62,7 +62,7 @@ class Reader:
     end: Callable[[], None]
     at_once: bool
     held: list[bytes] = field(default_factory=list[bytes])
-    """What is passed on at the end of the turn."""
+    """The frames that are passed on at the end of the turn."""
 
 
 class MemberProcess:

@@ -30,7 +30,7 @@ SIGNAL_CHECK_S = 0.2
 
 
 class Awaited(Protocol):
-    """What threads wait for, as seen by the scheduler."""
+    """Something that threads wait for, as seen by the scheduler."""
 
     flag: bool
     """Whether it is set."""

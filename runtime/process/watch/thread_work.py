@@ -25,7 +25,7 @@ AT_WORK = ("R", "D")
 
 
 class ThreadWork:
-    """What one thread of the real process has done since the first check."""
+    """The work of one thread of the real process since the first check."""
 
     def __init__(self, native_id: int, ident: int) -> None:
         self._task = f"self/task/{native_id}"

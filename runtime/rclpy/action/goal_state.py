@@ -19,7 +19,7 @@ TERMINAL = frozenset((SUCCEEDED, CANCELED, ABORTED))
 
 
 class GoalEvent(Enum):
-    """What happens to a goal."""
+    """The events in the life of a goal."""
 
     EXECUTE = 0
     CANCEL_GOAL = 1

@@ -26,7 +26,7 @@ class Ordered(Protocol):
 
     @property
     def key(self) -> OrderKey:
-        """What `order_key` has returned for it."""
+        """The result of `order_key` for it."""
         ...
 
 
@@ -42,7 +42,7 @@ def next_creation() -> int:
 
 
 def order_key(kind: int, node_order: int, creation: int) -> OrderKey:
-    """What entities are sorted by."""
+    """The key by which entities are sorted."""
     return -1 if kind == WAITABLE else node_order, kind, creation
 
 

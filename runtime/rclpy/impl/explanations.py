@@ -118,7 +118,7 @@ def _refused_value(exception: object) -> str:
 
 
 def _not_declared(exception: Any) -> str:
-    """What a parameter is called that was used without being declared, or how to declare it."""
+    """The name of a parameter that was used without being declared, or how to declare it."""
     if type(exception).__name__ != "ParameterNotDeclaredException" or not is_read():
         return ""
     declared = getattr(exception, DECLARED, None)

@@ -61,7 +61,7 @@ class LifecycleServices:
         return response
 
     def _fatal(self, transition: int) -> str:
-        """What a request for an invalid transition does, and what to request instead."""
+        """The effect of a request for an invalid transition, and what to request instead."""
         rows = [f"{number} ({label})" for number, label, *_ in self._machine.available_transitions]
         return (
             f"somebody requested transition {transition} by {self.change_state.service_name}, which does not start "

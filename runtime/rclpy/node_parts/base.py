@@ -1,4 +1,4 @@
-"""What the parts of a node share, and what the modules below `rclpy.node` know of one."""
+"""The interface that the parts of a node share, and that the modules below `rclpy.node` need of one."""
 
 # ruff: noqa: D102 -- the methods are documented where they are implemented
 

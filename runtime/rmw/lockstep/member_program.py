@@ -1,4 +1,4 @@
-"""What a process forked for a stepped run does first: it joins the run, and its middleware is that of the run."""
+"""The first steps of a process forked for a stepped run: it joins the run, and its middleware is that of the run."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ Way = RemotePublisher | RemoteSubscription | Served | Asking
 
 
 class Bridge(NamedTuple):
-    """What the session holds for one endpoint of this process."""
+    """The session's objects for one endpoint of this process."""
 
     way: Way
     token: Declaration

@@ -1,4 +1,6 @@
-"""What is sent first, what waits, and what is dropped when a link is full or slow; all figures are measured."""
+"""Priorities on a link: what is sent first, what waits, and what is dropped when a link is full or slow; all figures
+are measured.
+"""
 
 from __future__ import annotations
 

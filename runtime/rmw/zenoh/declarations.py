@@ -25,7 +25,7 @@ Declare = Callable[[Any], Any]
 
 
 class DeclarationOwner(Protocol):
-    """What a declaration needs of its session."""
+    """The interface of a session that a declaration needs."""
 
     settled: threading.Event
 

@@ -1,4 +1,4 @@
-"""What is in the graph when a watch of it begins."""
+"""The contents of the graph when a watch of it begins."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ KEEP_ALL_DEPTH = 1000
 
 
 class RemotePublisher:
-    """What a subscription knows of a publisher in another process."""
+    """A publisher in another process, as a subscription knows it."""
 
     def __init__(self) -> None:
         self.fits = True

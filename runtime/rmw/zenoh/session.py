@@ -42,7 +42,9 @@ if TYPE_CHECKING:
 ROLL_CALL_KEY = "@bot_console/"
 """Prefix of the token that each session declares; the first 8 digits of its id follow."""
 ADDRESS_SPACE_KIB = 100_000
-"""What Zenoh and its threads reserve (55,000), and as much for a while; it aborts the process if it gets none."""
+"""The address space that Zenoh and its threads reserve (55,000), and as much for a while; it aborts the process if it
+gets none.
+"""
 
 
 class SessionError(RuntimeError):

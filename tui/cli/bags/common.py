@@ -1,4 +1,4 @@
-"""What the `bag` verbs share: argument types, a node, and the folder of a new bag."""
+"""Shared by the `bag` verbs: argument types, a node, and the folder of a new bag."""
 
 from __future__ import annotations
 

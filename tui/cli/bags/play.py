@@ -76,7 +76,7 @@ def burst(given: argparse.Namespace) -> int:
 
 
 def press(player: Player, key: str, stopped: threading.Event) -> None:
-    """What a key does while a bag is played."""
+    """Carry out a key that is pressed while a bag is played."""
     if key == "space":
         player.paused = not player.paused
     elif key == "right":

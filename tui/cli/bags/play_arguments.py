@@ -80,7 +80,7 @@ def _add_reading(parser: argparse.ArgumentParser) -> None:
 
 
 def wrong_play(given: argparse.Namespace) -> str:
-    """What is wrong with a combination of options; empty if nothing is."""
+    """The problem with a combination of options; empty if there is none."""
     if given.bag is None and not given.input:
         return "Name a bag, or several with --input"
     for each in given.input:

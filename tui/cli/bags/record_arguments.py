@@ -82,7 +82,7 @@ def _add_discovery(record: argparse.ArgumentParser) -> None:
 
 
 def wrong_record(given: argparse.Namespace) -> str:
-    """What is wrong with a combination of options, in rosbag2's words where it has them; empty if nothing is."""
+    """The problem with a combination of options, in rosbag2's words where it has them; empty if there is none."""
     everything = given.all or given.all_topics or given.topic_types or given.regex
     named = given.topics or given.topics_positional or given.services
     if not (everything or given.all_services or named):

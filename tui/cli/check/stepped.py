@@ -19,7 +19,7 @@ from bot_console.tui.cli.check.script import Step
 LINK_TIMEOUT_S = 10.0
 """Simulated seconds within which the console is connected."""
 NOT_REACHED = "not reached: "
-"""What begins the reason for a step before which the run had ended."""
+"""The beginning of the reason for a step before which the run had ended."""
 STARTS = ("run", "launch")
 USAGE = "write `run PACKAGE EXECUTABLE [ARGUMENT ...]` or `launch PACKAGE FILE [NAME:=VALUE ...]`"
 HEAD = """\
@@ -39,7 +39,7 @@ class StartError(ValueError):
 
 @dataclass(frozen=True)
 class Start:
-    """What is to be started: a launch file with its arguments, or an executable of a package with its own."""
+    """The program to be started: a launch file with its arguments, or an executable of a package with its own."""
 
     launch_file: str = ""
     package: str = ""

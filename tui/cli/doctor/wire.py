@@ -32,7 +32,7 @@ _numbers = itertools.count(1)
 
 @dataclass
 class Wire:
-    """What was observed: tokens as text, and (attachment, size, arrival time in ns) by key."""
+    """The traffic that was observed: tokens as text, and (attachment, size, arrival time in ns) by key."""
 
     domain: int
     tokens: list[str] = field(default_factory=list[str])
@@ -93,7 +93,7 @@ def _listen(session: Session, wire: Wire, publisher: Token) -> Declaration:
 
 
 def wire_findings(wire: Wire, delay: float) -> list[DoctorFinding]:
-    """What is wrong on the wire; `delay` (s) is the round-trip time of the link."""
+    """The faults on the wire; `delay` (s) is the round-trip time of the link."""
     good, bad = wire.parsed()
     nodes = sum(each.kind == "NN" for each in good)
     findings = [

@@ -113,7 +113,7 @@ def _lines(descriptor: int, ended: int) -> Iterator[str]:
 
 
 def _blocks(descriptor: int, ended: int) -> Iterator[bytes]:
-    """What is written until `ended` is closed, even if a child goes on writing after that."""
+    """The bytes that are written until `ended` is closed, even if a child goes on writing after that."""
     readable: list[int] = []
     while ended not in readable:
         readable, _, _ = select.select([descriptor, ended], [], [])

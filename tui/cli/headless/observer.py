@@ -118,7 +118,7 @@ class Observer:
         self.done.set()
 
     def report(self) -> dict[str, Any]:
-        """What is known so far; times in s, lateness in ms."""
+        """The figures that are known so far; times in s, lateness in ms."""
         late = sorted(self._late.elements())
         if late:
             self._figures["timer_lateness_ms"] = {

@@ -73,7 +73,7 @@ def run(options: Options) -> int:
 
 
 class Watcher(Protocol):
-    """What goes on beside the nodes of a run, in a process of its own."""
+    """A task beside the nodes of a run, in a process of its own."""
 
     done: threading.Event
     """Set when the run may end."""
@@ -89,7 +89,7 @@ class Watcher(Protocol):
         ...
 
     def report(self) -> dict[str, Any]:
-        """What is known at the end."""
+        """The figures that are known at the end."""
         ...
 
 

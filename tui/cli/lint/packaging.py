@@ -1,4 +1,6 @@
-"""What works here, where packages are read from their sources, and not on ROS 2, where `colcon build` installs them."""
+"""Finds what works here, where packages are read from their sources, and not on ROS 2, where `colcon build` installs
+them.
+"""
 
 from __future__ import annotations
 
@@ -172,7 +174,7 @@ def _not_installed(package: Package) -> Iterator[Obstacle]:
 
 
 def _what_is_there(folder: Path, written: str) -> str:
-    """What a pattern was probably meant for: the files in a folder that it names."""
+    """The files in a folder that a pattern names, which it was probably meant for."""
     for name in ("launch", "config", "params", "rviz", "urdf", "worlds", "maps", "meshes"):
         there = sorted(each.name for each in (folder / name).glob("*") if each.is_file()) if name in written else []
         if there:

@@ -89,7 +89,7 @@ def _of_files(what: str) -> tuple[str, list[LintFinding]]:
 
 
 def _of_packages(files: Iterable[Path], where: Path) -> Iterator[LintFinding]:
-    """What keeps the packages that contain these files from working on ROS 2."""
+    """The problems that keep the packages of these files from working on ROS 2."""
     from bot_console.runtime.importer import install
     from bot_console.runtime.workspace.package import read_package
     from bot_console.tui.cli.lint.packaging import obstacles

@@ -45,7 +45,7 @@ MODULES = (
 
 
 def warm_up() -> None:
-    """What the fork server does once at its start."""
+    """Import, once at the start of the fork server, the modules that every run needs."""
     from bot_console.runtime.children.warm_up import warm_up as warm_runtime
 
     warm_runtime()

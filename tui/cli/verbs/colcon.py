@@ -53,7 +53,9 @@ def answers(words: Sequence[str]) -> list[str]:
 
 
 def _obstacles(words: Sequence[str]) -> Iterator[str]:
-    """What works here and not on ROS 2, in the packages of the workspace; only the selected ones, if any are."""
+    """The faults that a build on ROS 2 would stop at, though the packages work here; only the selected ones, if any
+    are.
+    """
     selected = {word for _, word in _selected(words)}
     for name, package in sorted(workspace().packages.items()):
         if name in selected or not selected:

@@ -13,7 +13,7 @@ from bot_console.tui.console.topics.node_topics import NodeTopics
 from bot_console.tui.console.topics.port import LiveMessage, Measure, RequestedQos
 
 UNREADABLE = (ImportError, AttributeError, ValueError, RuntimeError)
-"""What is raised for a message whose type is missing here, or does not match."""
+"""The exceptions for a message whose type is missing here, or does not match."""
 
 
 class BagTopics(NodeTopics):
@@ -28,7 +28,7 @@ class BagTopics(NodeTopics):
         self._means: Mapping[str, Measure] | None = None
         self._wanted: Collection[str] = ()
         self._values: dict[tuple[str, int], str] = {}
-        """What the messages in view say, by topic and number."""
+        """The values of the messages in view, by topic and number."""
 
     def time_moved(self, stamp: int | None) -> None:
         """Show the messages at a time (ns since the epoch); None stands for the end."""

@@ -17,7 +17,7 @@ FREE_BYTES = 1024**3
 FRAME_HEADER_BYTES = 18
 """The largest header of a zstd frame."""
 PIECE_BYTES = 1024**2
-"""What is unpacked at a time."""
+"""Bytes that are unpacked at a time."""
 
 
 class TooLarge(ValueError):

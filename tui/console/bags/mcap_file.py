@@ -31,7 +31,7 @@ class Chunk(NamedTuple):
 
 
 class McapFile:
-    """What an MCAP file contains. Raises `ValueError` and the like if it is damaged."""
+    """The contents of an MCAP file. Raises `ValueError` and the like if it is damaged."""
 
     def __init__(self, path: Path) -> None:
         self._path = path

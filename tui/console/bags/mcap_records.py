@@ -82,7 +82,7 @@ def message(content: bytes) -> Packed:
 
 
 class Tables:
-    """What records say about the messages of a file: schemas, channels, statistics, chunks."""
+    """The tables that the records of a file give: schemas, channels, statistics, chunks."""
 
     def __init__(self) -> None:
         self.schemas: dict[int, Schema] = {}

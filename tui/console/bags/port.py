@@ -33,7 +33,7 @@ class Keeper(Protocol):
 
 
 class GenericTypes(Protocol):
-    """What rclpy cannot do: receive the bytes of messages whose type has no definition here."""
+    """A service that rclpy lacks: it receives the bytes of messages whose type has no definition here."""
 
     def generic_class(self, type_name: str, type_hash: str) -> Any:
         """A class by which they are received and published; raises `ValueError` if there is none."""

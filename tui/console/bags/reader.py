@@ -54,7 +54,7 @@ class Bag:
         about = _about(path)
         self.files = _files(path, about if listed else {})
         self.repaired: list[str] = []
-        """What was done to files that were unfinished."""
+        """The repairs made to files that were unfinished."""
         self._unpacked: Path | None = None
         self._opened = [(each, self._open(each, self._plain(each))) for each in self.files]
         self.metadata = Metadata([], storage=self.storage, compression=_compression(about), custom=_custom(about))

@@ -47,11 +47,11 @@ class Sink(Protocol):
 
 
 UNAVAILABLE = (ImportError, AttributeError, ValueError)
-"""What is raised for a type, or a type it contains, that is not available here."""
+"""The exceptions for a type, or a type it contains, that is not available here."""
 
 
 def remarks(unknown: Mapping[str, str], generic: Iterable[str]) -> str:
-    """What a bag lacks: topics, each with the reason, and definitions; empty if it lacks nothing."""
+    """The gaps of a bag: topics, each with the reason, and definitions; empty if it lacks nothing."""
     missing = [f"{name} was not recorded: {why}" for name, why in sorted(unknown.items())]
     return "; ".join([*missing, *(f"{name} was recorded without a definition" for name in sorted(generic))])
 

@@ -14,7 +14,7 @@ OPTIONAL = ("serialization_format", "offered_qos_profiles", "type_description_ha
 
 
 class SqliteFile:
-    """What a file contains. Raises `sqlite3.Error` and `ValueError` if it is damaged."""
+    """The contents of a file. Raises `sqlite3.Error` and `ValueError` if it is damaged."""
 
     def __init__(self, path: Path) -> None:
         self._path = path

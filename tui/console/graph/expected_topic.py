@@ -1,4 +1,4 @@
-"""What is expected of one topic, and whether its measurements are as expected. Standard library only."""
+"""The expectations of one topic, and whether its measurements meet them. Standard library only."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ NO_GRAPH = GraphInfo()
 
 
 class NodeGraph:
-    """What is known of the graph."""
+    """The graph, as far as it is known."""
 
     _watch: GraphWatch | None = None
     _lifecycle: LifecycleWatch

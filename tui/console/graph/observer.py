@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 NAME = "_bot_console_graph"
 UNNAMED = "_NODE_NAME_UNKNOWN_"
-"""What rmw reports as the node of an endpoint whose node it does not know."""
+"""The name that rmw gives to the node of an endpoint whose node it does not know."""
 TOPIC = "/parameter_events"
 """A topic to which every node publishes."""
 UNNAMED_POLLS = 4

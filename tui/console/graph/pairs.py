@@ -35,7 +35,7 @@ class UnheardPairs:
         """The nodes that publish (True) and subscribe (False), by topic."""
         self._known: dict[str, tuple[str, ...]] = {}
         self.found: tuple[str, ...] = ()
-        """What the types of endpoints keep from passing, in words; the same object if nothing has changed."""
+        """Why the types of endpoints keep messages from passing, in words; the same object if nothing has changed."""
         self.incompatible: Mapping[str, tuple[IncompatiblePair, ...]] = {}
         """By topic, what their QoS keeps from passing; the same object if nothing has changed."""
 
@@ -126,7 +126,7 @@ def _ends(node: NodeInfo | None) -> set[tuple[bool, Endpoint]]:
 def unheard(
     topic: str, publishers: Sequence[TopicEndpointInfo], subscriptions: Sequence[TopicEndpointInfo]
 ) -> Iterable[str]:
-    """What keeps messages of one topic from passing, each with a remedy."""
+    """The obstacles that keep messages of one topic from passing, each with a remedy."""
     seen: set[str] = set()
     for publisher in publishers:
         for subscription in subscriptions:

@@ -22,7 +22,7 @@ the type is unavailable, as a phrase about the node, or an empty text once it ca
 
 
 class TypeSource(Protocol):
-    """What rclpy cannot do: find hashes of unknown types, and build interfaces from their definitions."""
+    """A service that rclpy lacks: it finds hashes of unknown types, and builds interfaces from their definitions."""
 
     def inquiries(self, domain: int, type_name: str) -> Mapping[str, Inquiry]:
         """The requests to send for a type, by the nodes that can be asked."""

@@ -31,7 +31,7 @@ Pairs = Sequence[tuple[str, Sequence[str]]]
 """Names of topics or services with their types."""
 
 Answer = tuple[Pairs, Pairs, Pairs, Pairs]
-"""What a node publishes, subscribes to, offers and calls."""
+"""The topics that a node publishes and subscribes to, and the services that it offers and calls."""
 
 NOTHING: Answer = ([], [], [], [])
 

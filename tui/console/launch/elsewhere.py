@@ -68,7 +68,7 @@ class Elsewhere:
         self._merged: tuple[tuple[object, ...], LaunchInfo] | None = None
 
     def beside(self, launch: LaunchInfo) -> LaunchInfo:
-        """What was launched, with what runs elsewhere; the same object until something changes."""
+        """The launched processes, together with those that run elsewhere; the same object until something changes."""
         now = self._clock()
         if self._polled is None or now - self._polled >= ELSEWHERE_POLL_S:
             self._polled = now

@@ -19,7 +19,7 @@ Place: TypeAlias = "tuple[str, int | None]"
 def fault_text(
     error: BaseException, path: str, file_of: Callable[[Any], str] = lambda entity: "", *, reading: bool = False
 ) -> str:
-    """What went wrong and where.
+    """The fault of a launch, and where it is.
 
     `path` is the requested launch file; `reading` says that no other file had been read yet; `file_of` returns the file
     that contains an entity. The embedded launch records on the exception what it was doing; for others, the place comes

@@ -51,7 +51,7 @@ def generate_launch_description() -> LaunchDescription:
 
 @dataclass(frozen=True)
 class RunningSystem:
-    """What is known of a system."""
+    """A running system, as far as it is known."""
 
     graph: GraphInfo
     launch: LaunchInfo = field(default_factory=LaunchInfo)

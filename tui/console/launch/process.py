@@ -25,7 +25,7 @@ ENDED = (ProcessState.EXITED, ProcessState.CRASHED, ProcessState.ABANDONED, Proc
 
 
 class Order(Enum):
-    """What to do with the process next."""
+    """The next thing to do with a process."""
 
     NOTHING = 0
     START = 1
@@ -73,7 +73,7 @@ class LaunchedProcess:
         return self.info.program is not None and self.info.program.respawn
 
     def due(self) -> Order:
-        """What to do at this time: start it if its delay after a failure is over."""
+        """The order that is due at this time: to start the process if its delay after a failure is over."""
         if self._due is None or self._clock() < self._due:
             return Order.NOTHING
         return self._start()

@@ -1,4 +1,4 @@
-"""What processes print, as log records. A mark, not the wording, distinguishes a logger's lines from printed text.
+"""The output of processes, as log records. A mark, not the wording, distinguishes a logger's lines from printed text.
 
 `/rosout` takes precedence: it brings the lines of every node, whoever has started it. A marked line says whether it
 was published there too, so no line is added twice: only those that were not published are added here (from a node

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Recipe:
-    """What is needed to restart a process; `package` is None if the path of the program suffices."""
+    """The data that are needed to restart a process; `package` is None if the path of the program suffices."""
 
     command: list[str]
     label: str
@@ -56,7 +56,7 @@ class Recipe:
 
 
 def recipe(event: ProcessStarted, context: LaunchContext) -> Recipe:
-    """What a process was started with, taken from its `ProcessStarted` event."""
+    """The data that a process was started with, taken from its `ProcessStarted` event."""
     from launch_ros.actions import Node
 
     action = event.action

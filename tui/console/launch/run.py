@@ -111,7 +111,7 @@ class LaunchRun:
             context.emit_event_sync(event)
 
     def fault(self, error: BaseException) -> str:
-        """What went wrong, with file and line."""
+        """The fault, with file and line."""
         return fault_text(error, self.path, self.tree.file_of)
 
     def _handlers(self) -> Iterable[Any]:

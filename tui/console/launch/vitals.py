@@ -1,4 +1,4 @@
-"""What launch's events do not report about a running process: CPU time, and code that survives a SIGKILL."""
+"""Facts about a running process that launch's events do not report: CPU time, and code that survives a SIGKILL."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ FindVitals: TypeAlias = Callable[[int], "Vitals | None"]
 
 
 class Usage:
-    """What a process uses, measured every second: CPU and memory."""
+    """The consumption of a process, measured every second: CPU and memory."""
 
     def __init__(self, vitals: Vitals, now: float) -> None:
         self._vitals = vitals

@@ -43,7 +43,7 @@ class _PendingView:
         self._view: LogView | None = None
 
     def poll(self) -> LogFindings:
-        """What has been found so far."""
+        """The records found so far."""
         if self._view is None and self._logs.exists:
             self._view = self._logs.view(self._which)
         return self._view.poll() if self._view else LogFindings(_NoNumbers())

@@ -33,7 +33,7 @@ class LogNumbers(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class LogFindings:
-    """What a filter has matched so far, among the records from `begin` up to but not including `end`."""
+    """The matches of a filter so far, among the records from `begin` up to but not including `end`."""
 
     numbers: LogNumbers
     begin: int = 0
@@ -48,7 +48,7 @@ class LogView(Protocol):
     """The records that match a filter; the search runs in the background, newest records first."""
 
     def poll(self) -> LogFindings:
-        """What has been found so far; the same object until there is more."""
+        """The records found so far; the same object until there is more."""
         ...
 
 

@@ -47,7 +47,7 @@ class SearchedView:
             self._found = replace(self._found, problem=str(error), complete=True)
 
     def poll(self) -> SearchResult:
-        """What has been found so far; the same object until there is more."""
+        """The records found so far; the same object until there is more."""
         self._wake()
         return self._found
 
@@ -91,7 +91,7 @@ class SearchedView:
         return replace(found, complete=True)
 
     def _keys(self, segment: LogSegment, numbers: Block) -> Block | None:
-        """What distinguishes the records of a segment, if runs of equal records are to be folded."""
+        """The keys that distinguish the records of a segment, if runs of equal records are to be folded."""
         return segment.key[numbers - segment.first] if self._folds else None
 
 

@@ -23,7 +23,7 @@ class ProcessState(str, Enum):
 
 @dataclass(frozen=True, slots=True)
 class Program:
-    """What a process runs: its command without the prefix, and what launch did with it."""
+    """The program of a process: its command without the prefix, and what launch did with it."""
 
     command: tuple[str, ...]
     package: str = ""
@@ -79,7 +79,9 @@ class LaunchEvent:
 
 @dataclass(frozen=True, slots=True)
 class LaunchInfo:
-    """What the launcher knows; `problem` says why a launch file could not be run, `delayed` counts postponed starts."""
+    """The processes that the launcher knows; `problem` says why a launch file could not be run, `delayed` counts
+    postponed starts.
+    """
 
     files: tuple[str, ...] = ()
     processes: tuple[ProcessInfo, ...] = ()

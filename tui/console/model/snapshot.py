@@ -32,7 +32,7 @@ class LinkInfo:
 
 @dataclass(frozen=True, slots=True)
 class Capabilities:
-    """What this system supports: each text is empty if it does, and otherwise says why it does not."""
+    """The abilities of this system: each text is empty if it has the ability, and otherwise says why it does not."""
 
     launch: str = ""
     launched_elsewhere: str = ""

@@ -1,4 +1,4 @@
-"""What a person has edited, until it is done: staged, sent and refused values, and those that are in no file.
+"""The edits of a person until they are done: staged, sent and refused values, and those that are in no file.
 
 A view model: the parameters pane draws it and passes keys on to it. It knows no widget.
 """
@@ -72,7 +72,7 @@ class ParameterEdits:
         self._kept_continues: dict[Key, bool] = {}
         """Whether values that follow once an earlier one is answered belong to its burst."""
         self._starts: dict[Key, Value] = {}
-        """What values had before their first change in this run."""
+        """The values before their first change in this run."""
         self._read = 0
         """Changes below this number are known."""
 

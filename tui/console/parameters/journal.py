@@ -28,7 +28,7 @@ class Move:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """What one undo reverts: an edit of one node, or a profile on all of them."""
+    """One step of undo: an edit of one node, or a profile on all of them."""
 
     moves: tuple[Move, ...]
     profiles: tuple[str, str] | None = None

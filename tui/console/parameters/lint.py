@@ -1,4 +1,4 @@
-"""What a parameter's descriptor lacks. Uses nothing but the model."""
+"""Finds what a parameter's descriptor lacks. Uses nothing but the model."""
 
 from __future__ import annotations
 

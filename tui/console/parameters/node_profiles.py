@@ -72,7 +72,7 @@ class NodeProfiles:
         return differences(profile, self._parameters.trees)
 
     def differences(self, name: str) -> Sequence[ProfileDifference]:
-        """What a profile would change."""
+        """The changes that a profile would make."""
         return self._differences(self._profile(name))
 
     def apply(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:

@@ -17,7 +17,7 @@ class Profiles(Protocol):
     """The profiles of all folders."""
 
     def differences(self, name: str) -> Sequence[ProfileDifference]:
-        """What applying a profile now would change."""
+        """The changes that applying a profile now would make."""
         ...
 
     def apply(self, name: str, *, reset_world: bool = False) -> Future[tuple[SetOutcome, ...]]:

@@ -106,7 +106,7 @@ def _argument(value: Any) -> str:
 
 
 def differences(profile: Profile, trees: Mapping[str, ParameterTree]) -> Sequence[ProfileDifference]:
-    """What a profile would change in the running system, with the refusals that the descriptors predict.
+    """The changes that a profile would make in the running system, with the refusals that the descriptors predict.
 
     Keys that match no running node are left out, see `unmatched`. A parameter that a node lacks is unknown; below a
     wildcard key it is simply not meant for that node.
@@ -144,7 +144,7 @@ def _by_key(profile: Profile) -> dict[str, list[_Entry]]:
 
 
 def _given(entries: Mapping[str, list[_Entry]], node: str) -> dict[str, tuple[str, Value]]:
-    """What a profile gives a node, with the key of each value; as in ROS, the later of two keys wins."""
+    """The values that a profile gives a node, with the key of each; as in ROS, the later of two keys wins."""
     meant = chain.from_iterable(below for key, below in entries.items() if means(key, node))
     return {name: (key, value) for _, name, key, value in sorted(meant, key=itemgetter(0))}
 

@@ -25,7 +25,7 @@ def steered_of(robots: Iterable[CommandTopics], chosen: str) -> CommandTopics:
 
 @dataclass(frozen=True)
 class Scope:
-    """What belongs to one robot, and what to others."""
+    """The topics and nodes that belong to one robot, and those of others."""
 
     namespace: str
     """Its namespace, which ends in a slash."""
@@ -98,7 +98,7 @@ class Fleet:
         return found
 
     def scope(self, robot: CommandTopics) -> Scope:
-        """What belongs to a robot; without one, everything does."""
+        """The topics and nodes that belong to a robot; without one, everything does."""
         if robot.robot not in self._reached:
             return Scope("/")
         nodes, topics = self._reached[robot.robot]

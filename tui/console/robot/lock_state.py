@@ -1,4 +1,4 @@
-"""What a robot's lock reports, in this version or an older one. The interface is that of `docs/safety.md`."""
+"""The report of a robot's lock, in this version or an older one. The interface is that of `docs/safety.md`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the console knows about the surroundings: the map, the robot's pose and speed, and its LIDAR beams' end points.
+"""The surroundings as the console knows them: the map, the robot's pose and speed, and its LIDAR beams' end points.
 
 The topics are found by type, so that a robot in a namespace, or of another make, is shown as well.
 """

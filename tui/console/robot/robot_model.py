@@ -1,4 +1,4 @@
-"""What is known about the robot: its surroundings, and the path of its velocity commands. Standard library only.
+"""The robot as the console knows it: its surroundings, and the path of its velocity commands. Standard library only.
 
 Distances are m, angles rad, speeds m/s and rad/s.
 """
@@ -45,7 +45,7 @@ class Turtle:
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """What turtles have drawn, as RGBA rows from the top; alpha is 255 where something is drawn, else 0.
+    """The drawing of turtles, as RGBA rows from the top; alpha is 255 where something is drawn, else 0.
 
     Where nothing is drawn, the background's colour is shown.
     """
@@ -66,7 +66,7 @@ class TurtleField:
 
 @dataclass(frozen=True, slots=True)
 class WorldInfo:
-    """What is known about the surroundings: map, robot, trail, and the end points of the LIDAR beams (x, y in m)."""
+    """The surroundings as far as known: map, robot, trail, and the end points of the LIDAR beams (x, y in m)."""
 
     map: GridMap | None = None
     pose: Pose | None = None

@@ -1,4 +1,4 @@
-"""What a ROS system needs from a robot that is missing: scans, odometry, a subscription to velocities."""
+"""The topics that a ROS system needs from a missing robot: scans, odometry, a subscription to velocities."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 SOURCES = {"/scan": "sensor_msgs/msg/LaserScan", "/odom": "nav_msgs/msg/Odometry"}
-"""What a robot publishes, by resolved names; our simulator cannot provide it under other names or types."""
+"""The topics that a robot publishes, by resolved names; our simulator cannot provide it under other names or types."""
 VELOCITY = "/cmd_vel"
 TWIST, STAMPED = KINDS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
 """The types of velocities; a robot takes one of them."""

@@ -44,7 +44,7 @@ MIN_REPEAT_S = 0.05
 
 @dataclass(frozen=True, slots=True)
 class StopInfo:
-    """What is known about the stop: requested or reported, acknowledged by every lock, by whom and why."""
+    """The stop, as far as it is known: requested or reported, acknowledged by every lock, by whom and why."""
 
     stopped: bool = False
     confirmed: bool = False

@@ -1,4 +1,4 @@
-"""What the console knows about turtles: where they are, and what they have drawn.
+"""Turtles as the console knows them: where they are, and what they have drawn.
 
 Any `turtlesim` is recognised by the type of its poses; without the hidden topic of its drawing, short trails are shown.
 """

@@ -1,4 +1,4 @@
-"""What a velocity arbiter reports about its last decision."""
+"""The report of a velocity arbiter on its last decision."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Velocity = tuple[float, float]
 
 @dataclass(frozen=True)
 class Verdict:
-    """What an arbiter did with the command it selected: the rule or parameter that limited it, and the result."""
+    """An arbiter's decision about the command it selected: the rule or parameter that limited it, and the result."""
 
     limited_by: str = ""
     asked: Velocity | None = None

@@ -36,7 +36,7 @@ class Frame:
 
 @dataclass(frozen=True, slots=True)
 class Frames:
-    """What is known about all frames; `problem` says why nothing is, and is empty when all is well."""
+    """All frames, as far as they are known; `problem` says why nothing is, and is empty when all is well."""
 
     frames: tuple[Frame, ...] = ()
     moving_by: tuple[str, ...] = ()
@@ -66,7 +66,7 @@ def loop_of(name: str, parents: Mapping[str, str]) -> tuple[str, ...]:
 
 
 def findings(info: Frames, clock: float) -> Iterator[tuple[str, str]]:
-    """What is wrong, each with the frame concerned."""
+    """The faults of the frames, each with the frame concerned."""
     parents = {each.name: each.parent for each in info.frames}
     reported: set[str] = set()
     for each in info.frames:

@@ -86,7 +86,7 @@ class Picture:
     pixels: bytes = b""
     """Red, green and blue of each pixel shown, row by row."""
     message: str = ""
-    """What black and white stand for, if they are not colours."""
+    """The meaning of black and white, if they are not colours."""
     seconds: float = 0.0
     """How long scaling took."""
     problem: str = ""

@@ -48,7 +48,7 @@ class NodeSensors:
             self._frames.follow(graph)
 
     def _explained(self) -> tuple[Diagnostics, Picture, Frames]:
-        """What there is before the system is reached: nothing, with the reason; the same objects until that changes."""
+        """The contents before the system is reached: nothing, with the reason; the same objects until that changes."""
         why = self._gate.unreached
         if self._nothing[0].problem != why:
             self._nothing = Diagnostics(problem=why), Picture(problem=why), Frames(problem=why)

@@ -118,7 +118,7 @@ def stamp(message: Any, paths: Sequence[str], clock: Callable[[], Any]) -> None:
 
 
 def typed_fields(payload: Payload, type_name: str, values: Values) -> dict[str, Any]:
-    """What was typed, as nested fields for a command line; times that are `now` stay that word."""
+    """The typed values, as nested fields for a command line; times that are `now` stay that word."""
     message, now = filled(payload, type_name, values)
     whole = message_to_ordereddict(message)
     found: dict[str, Any] = {}

@@ -51,7 +51,7 @@ class Listening(FollowedTopic):
             raise ValueError(self._explain(kind, str(error))) from None
 
     def _profile(self, offer: Offer) -> QoSProfile:
-        """What was asked for; the rest as it is offered."""
+        """The requested profile; the rest as it is offered."""
         profile, qos = offer.profile(), self._qos
         if qos.reliability:
             profile.reliability = RELIABILITY[qos.reliability]

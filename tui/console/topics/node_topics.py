@@ -182,7 +182,7 @@ class NodeTopics:
         return shlex.join(["ros2", *verbs[payload].split(), *how, name, type_name, text])
 
     def earlier(self, name: str) -> Sequence[Values]:
-        """What was sent from here."""
+        """The values that were sent from here."""
         return tuple(self._earlier.get(name, ()))
 
     def _remember(self, name: str, values: Values) -> None:

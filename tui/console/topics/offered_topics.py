@@ -20,7 +20,7 @@ class Offer:
 
     @property
     def key(self) -> tuple[bool, bool]:
-        """What must stay the same for a subscription to remain suitable."""
+        """The settings that must stay the same for a subscription to remain suitable."""
         return self.reliable, self.latched
 
     def profile(self) -> QoSProfile:
@@ -34,7 +34,7 @@ class Offer:
 
 
 def offered_qos(graph: GraphInfo, topic: str) -> Offer:
-    """What all publishers of a topic offer; the usual QoS if nobody publishes yet."""
+    """The QoS that all publishers of a topic offer; the usual QoS if nobody publishes yet."""
     profiles = [each.qos for node in graph.nodes for each in node.publishers if each.name == topic and each.qos]
     return Offer(
         all(not each.startswith("best effort") for each in profiles),

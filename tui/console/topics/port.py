@@ -12,7 +12,7 @@ from bot_console.tui.console.answer import Answer
 
 
 class Payload(Enum):
-    """What a form fills in: a message of a topic, the request of a service, or the goal of an action."""
+    """The content of a form: a message of a topic, the request of a service, or the goal of an action."""
 
     MESSAGE = "message"
     REQUEST = "request"
@@ -54,7 +54,7 @@ class RequestedQos:
 
     @property
     def text(self) -> str:
-        """What was asked for, in the words of the list; empty: nothing."""
+        """The requested settings, in the words of the list; empty: nothing."""
         words = [each.replace("_", " ") for each in (self.reliability, self.durability, self.history) if each]
         return " ".join([*words, *([f"depth {self.depth}"] if self.depth else [])])
 
@@ -146,7 +146,7 @@ class Goal:
 
 
 Values = Mapping[str, str]
-"""What was typed into a form, by path; unchanged fields are left out."""
+"""The values typed into a form, by path; unchanged fields are left out."""
 
 
 class Topics(Protocol):
@@ -193,7 +193,7 @@ class Topics(Protocol):
         ...
 
     def earlier(self, name: str) -> Sequence[Values]:
-        """What was sent from here to a topic, service or action before, newest last."""
+        """The values sent from here to a topic, service or action before, newest last."""
         ...
 
     def publish(self, topic: str, type_name: str, values: Values, rate: float = 0.0) -> Answer:

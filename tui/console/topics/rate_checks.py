@@ -22,7 +22,9 @@ REQUESTER = "expected rates"
 
 
 class RateChecks:
-    """What is expected comes from a file, from the active profile and from running monitors; the last one counts."""
+    """The expectations of topics: they come from a file, from the active profile and from running monitors; the last
+    one counts.
+    """
 
     def __init__(self, topics: Topics, clock: Callable[[], float] = time.monotonic) -> None:
         self._topics = topics

@@ -73,7 +73,7 @@ class AlarmsPane(ListPane):
         """The topics whose rates are expected."""
         self._polled = self._drawn = self._asked = float("-inf")
         self._suggested: list[Alarm] = []
-        """What is suggested while there is no alarm and the pane is visible; only then is it watched."""
+        """The suggestions that are shown while there is no alarm and the pane is visible; only then is it watched."""
 
     def compose(self) -> ComposeResult:
         """The alarms, details of the one at the cursor, and a prompt."""

@@ -1,4 +1,4 @@
-"""What is known about a node, a topic, a service or an action, in a line. Pure."""
+"""A node, a topic, a service or an action, described in a line. Pure."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def server_types(info: GraphInfo, item: str) -> list[str]:
 
 
 def warning(publishers: list[str], subscribers: list[str]) -> str:
-    """What is unusual about a topic with these endpoints; empty if nothing is."""
+    """The unusual thing about a topic with these endpoints; empty if there is none."""
     if not publishers:
         return " - nobody publishes it: is the name right?"
     return " - nobody listens" if not subscribers else ""

@@ -32,7 +32,7 @@ class Bundles:
     chart: Chart = field(default_factory=Chart)
     links: Mapping[str, tuple[str, ...]] = field(default_factory=dict[str, tuple[str, ...]])
     looped: frozenset[str] = frozenset()
-    """What leads from a node to itself."""
+    """The topics that lead from a node to itself."""
     faults: frozenset[Pair] = frozenset()
     """Edges of the drawing on which something does not arrive."""
 
@@ -181,7 +181,7 @@ class _Names:
 
 
 def state_mark(state: str) -> str:
-    """What stands behind the name of a lifecycle node."""
+    """The mark behind the name of a lifecycle node."""
     return f" ({sanitize(state)})" if state else ""
 
 

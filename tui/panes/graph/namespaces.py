@@ -24,12 +24,12 @@ def namespace_of(node: str) -> str:
 
 
 def folds_of(nodes: Sequence[str], maximum: int) -> frozenset[str]:
-    """What is folded until a person says otherwise: with more than `most` nodes, the outermost namespaces."""
+    """The namespaces that are folded until a person says otherwise: with more than `most` nodes, the outermost ones."""
     return outermost(nodes) if len(nodes) > maximum else frozenset()
 
 
 def unfolded(folded: frozenset[str], space: str, nodes: Iterable[str], maximum: int) -> frozenset[str]:
-    """What is folded once a namespace is not: if it has more than `most` nodes, the namespaces in it."""
+    """The namespaces that are folded once one is not: if it has more than `most` nodes, those in it."""
     inside = [each for each in nodes if each.startswith(f"{space}/")]
     return folded - {space} | (outermost(inside, space) if len(inside) > maximum else frozenset[str]())
 

@@ -1,4 +1,4 @@
-"""What stands below the drawing and in the frame: what is drawn, dead ends, and the selected item. Pure."""
+"""Texts below the drawing and in its frame: what is drawn, dead ends, and the selected item. Pure."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ INDENT = 7
 
 
 def caption(info: GraphInfo, found: Shown, view: GraphView, words: str) -> str:
-    """What is drawn, for the lower edge of the frame."""
+    """A summary of the drawing, for the lower edge of the frame."""
     parts = [view.mode.value]
     if view.mode is Mode.FLOW and found.every:
         nodes = counted(sum(1 for each in info.nodes if not each.hidden), "node")
@@ -52,7 +52,7 @@ def summary_of(info: GraphInfo, found: Shown, item: str) -> str:
 
 
 def nothing_drawn(info: GraphInfo) -> Placeholder:
-    """What is said while nothing is drawn."""
+    """The text that is shown while nothing is drawn."""
     return FILTERED_OUT if any(not each.hidden for each in info.nodes) else EMPTY
 
 
@@ -103,7 +103,9 @@ def _folded(names: Iterable[str]) -> list[tuple[str, int]]:
 
 
 def _node_notes(snapshot: ConsoleSnapshot, name: str, rates: Mapping[str, str], width: int, maximum: int) -> list[str]:
-    """What a node sends and reads, and to and from whom, in at most so many lines; empty without room or node."""
+    """The topics that a node sends and reads, and to and from whom, in at most so many lines; empty without room or
+    node.
+    """
     info = snapshot.graph
     node = node_of(info, name)
     if node is None or maximum < 2:
@@ -118,8 +120,8 @@ def _node_notes(snapshot: ConsoleSnapshot, name: str, rates: Mapping[str, str], 
 def _space_notes(
     snapshot: ConsoleSnapshot, space: str, rates: Mapping[str, str], width: int, maximum: int
 ) -> list[str]:
-    """What leads out of a namespace and into it, then what each of its nodes sends and reads, in at most so many lines;
-    empty without room.
+    """The topics that lead out of a namespace and into it, then those that each of its nodes sends and reads, in at
+    most so many lines; empty without room.
     """
     info = snapshot.graph
     nodes = [each for each in info.nodes if each.name.startswith(f"{space}/") and not each.hidden]

@@ -24,7 +24,7 @@ MAX_LENGTH, SHORT = 40, 16
 
 
 class Mode(Enum):
-    """What is drawn, by rqt_graph's names where it has the same; in the order in which a key goes through them."""
+    """The modes of drawing, by rqt_graph's names where it has them; in the order in which a key goes through them."""
 
     FLOW = "Flow"
     NODES = "Nodes only"

@@ -1,4 +1,4 @@
-"""What the speed of the robot did after a change. Pure."""
+"""The effect of a change on the speed of the robot. Pure."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class Effects:
         self._found: dict[int, str] = {}
 
     def of(self, change: int) -> str:
-        """What came after a change, by its number; empty if the speed stayed, or is not known yet."""
+        """The effect of a change, by its number; empty if the speed stayed, or is not known yet."""
         return self._found.get(change, "")
 
     def observe(self, speed: float | None, now: float) -> bool:

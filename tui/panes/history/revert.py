@@ -19,7 +19,8 @@ class Return:
 
 
 def values_at(changes: Sequence[Change], row: Change) -> dict[tuple[str, str], Value]:
-    """What parameters had right after a change, oldest change first, of those that its run had set or set later.
+    """The values of parameters right after a change, oldest change first, of those that its run had set or set later.
+    Values that other runs have set are left out.
 
     Nothing is said of what other runs have set: nodes that were started again have begun with their start values.
     """
@@ -36,7 +37,9 @@ def values_at(changes: Sequence[Change], row: Change) -> dict[tuple[str, str], V
 def returns(
     then: Mapping[tuple[str, str], Value], trees: Mapping[str, ParameterTree]
 ) -> tuple[list[Return], list[str]]:
-    """What has to be set for that, and what cannot be, in words: a node that has left, a parameter that is no more."""
+    """The values that have to be set for that, and those that cannot be, in words: a node that has left, a parameter
+    that is no more.
+    """
     found: list[Return] = []
     missing: list[str] = []
     for (node, name), value in sorted(then.items()):

@@ -28,7 +28,7 @@ WHO = {
     ChangeSource.OTHER: "another program or the node",
 }
 MARKS = {"": " ", "refused": "✗", "not set": "?"}
-"""What stands before an entry, by its verdict."""
+"""The mark before an entry, by its verdict."""
 GAP = "  "
 NODE, NAME, VALUES = 18, 24, 22
 """Cells that node, name and values take at most."""
@@ -40,7 +40,7 @@ MOMENT, MARK = 12, 2
 BARS = 4
 """Cells of the old and the new value as bars, with a gap; left out first."""
 INDENT = "  "
-"""What stands before the name of a change of an open set."""
+"""The text before the name of a change of an open set."""
 NARROW = 70
 """Below so many cells no node is named in a row; what is known of the row at the cursor names it."""
 
@@ -53,7 +53,7 @@ def who(change: Change) -> str:
 
 
 def words(change: Change) -> str:
-    """What a filter looks at, besides the node."""
+    """The words that a filter looks at, besides the node."""
     verdict = verdict_of_change(change) or "taken"
     values = f"{value_text(change.old)} {value_text(change.new)}"
     return f"{change.name} {values} {who(change)} {verdict} {change.reason}"
@@ -180,7 +180,7 @@ class ChangeRows(ItemList[HistoryRow]):
         ]
 
     def _after(self, change: Change, room: int) -> list[Segment]:
-        """What came after a change, where there is room for all of it."""
+        """The effect of a change, where there is room for all of it."""
         text = self._effect(change.seq)
         fits = text and cell_len(text) + len(GAP) <= room
         return [Segment(f"{GAP}{text}", self._style("good"))] if fits else []

@@ -1,4 +1,4 @@
-"""What the launch pane gathers about each process over time: CPU, warnings and errors, and its newest lines."""
+"""The measurements of the launch pane for each process over time: CPU, warnings and errors, and its newest lines."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class OutputLine:
 
 @dataclass
 class Followed:
-    """What was gathered about one process."""
+    """The measurements of one process."""
 
     cpu: deque[float] = field(default_factory=lambda: deque[float](maxlen=CPU_SAMPLES))
     """Shares of one CPU, the newest last."""
@@ -52,7 +52,7 @@ class Follower:
         self._cursor = 0
 
     def of(self, key: str) -> Followed:
-        """What was gathered about a process; nothing for one that has just appeared."""
+        """The measurements of a process; nothing for one that has just appeared."""
         return self._known.get(key) or Followed()
 
     def know(self, processes: tuple[ProcessInfo, ...]) -> None:

@@ -79,7 +79,7 @@ class LaunchPane(ListPane):
         self._folded: frozenset[tuple[str, ...]] = frozenset()
         self._query = Query()
         self._output: object = None
-        """What stands in the lines below the tree."""
+        """The object that the lines below the tree show."""
 
     def compose(self) -> ComposeResult:
         """The tree, a line on the process at the cursor, the newest events."""

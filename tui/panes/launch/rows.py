@@ -117,7 +117,7 @@ class ProcessRows(ItemList[Row]):
         super().__init__()
         self.follower = Follower()
         self._drawn: dict[str, tuple[str, str, str]] = {}
-        """What of the follower stands in the rows, by the key of the process."""
+        """The follower's part of the rows, by the key of the process."""
         self._counts = 0
         """Cells of the numbers of errors and warnings, so that the names of nodes stand in a column."""
 

@@ -69,7 +69,7 @@ class LogsPane(LinePane):
         self._found: LogFindings | None = None
         self._match_search = MatchSearch(self._view_of)
         self._sought_for = ""
-        """What the search looks for, in words."""
+        """The aim of the search, in words."""
         self._searched_for: int | None = None
         """The record that was gone to by what was looked for: to stand on it is to read, not to follow."""
         self._moment: int | None = None

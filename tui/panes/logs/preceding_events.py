@@ -1,4 +1,4 @@
-"""What happened just before a log line: parameter changes and launch events, newest first."""
+"""The events just before a log line: parameter changes and launch events, newest first."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ MAX_BARS = 400
 FIGURE = 7
 """Cells of the number behind the bars."""
 ROWS = ((Severity.ERROR, (Severity.ERROR, Severity.FATAL), "error"), (Severity.WARN, (Severity.WARN,), "warn"))
-"""What the rows show: their name, the severities that they count, their style."""
+"""The rows of the strip: their name, the severities that they count, their style."""
 
 
 class SeverityStrip:

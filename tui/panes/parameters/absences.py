@@ -1,4 +1,4 @@
-"""What the pane says of nodes whose parameters are gone, or that are in the graph but do not answer."""
+"""The pane's texts about nodes whose parameters are gone, or that are in the graph but do not answer."""
 
 from __future__ import annotations
 

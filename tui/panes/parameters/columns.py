@@ -38,7 +38,9 @@ DESCRIPTION = 20
 
 @dataclass(frozen=True)
 class Measures:
-    """What the rows need, in cells: the longest name with its indentation, the longest number that has a slider."""
+    """The measures that the rows need, in cells: the longest name with its indentation, the longest number that has a
+    slider.
+    """
 
     name: int = 0
     number: int = VALUE

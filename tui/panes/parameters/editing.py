@@ -53,7 +53,7 @@ def _calculated(text: str, parameter: ParameterInfo) -> Value:
 
 
 def wrong(parameter: ParameterInfo, text: str) -> str:
-    """What is wrong with a typed value; empty when nothing is."""
+    """The problem with a typed value; empty if there is none."""
     try:
         typed_value(text, parameter)
     except ValueError as error:

@@ -41,16 +41,17 @@ class Row:
 
 @dataclass(frozen=True)
 class View:
-    """What the user has chosen to see of the parameters."""
+    """The user's choice of the parameters to be seen."""
 
     query: Query = field(default_factory=Query)
     only_changed: bool = False
     built_in: bool = False
     folded: Collection[str] = frozenset()
-    """What is folded while no filter is active."""
+    """The rows that are folded while no filter is active."""
 
     folded_matches: Collection[str] = frozenset()
-    """What was folded since the filter was set; its matches are visible however the tree was folded before."""
+    """The rows that were folded since the filter was set; its matches are visible however the tree was folded before.
+    """
 
     essential: bool = False
     """Whether, without a filter, only the parameters that decide how the robot drives are shown, in a flat list."""
@@ -62,12 +63,12 @@ class View:
 
     @property
     def closed(self) -> Collection[str]:
-        """What is folded now."""
+        """The rows that are folded now."""
         return self.folded_matches if self.filtering else self.folded
 
 
 def opened(folded: Collection[str], node: str, name: str) -> frozenset[str]:
-    """What stays folded to make a parameter visible: all but its namespaces, node and groups."""
+    """The rows that stay folded when a parameter is made visible: all but its namespaces, node and groups."""
 
     def holds(fold: str) -> bool:
         if fold.startswith(f"{node}:"):
@@ -82,7 +83,7 @@ MAX_OPEN_NODES = 14
 
 
 def folds_at_start(nodes: Iterable[str]) -> frozenset[str]:
-    """What is folded in a tree that nobody has folded or opened yet."""
+    """The rows that are folded in a tree that nobody has folded or opened yet."""
     names = tuple(nodes)
     if len(names) <= MAX_OPEN_NODES:
         return frozenset()

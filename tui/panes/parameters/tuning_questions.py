@@ -39,7 +39,7 @@ def ranges_text(tunables: Sequence[Tunable]) -> str:
 
 
 def wrong_ranges(known: Sequence[Tunable], text: str) -> str:
-    """What is wrong with typed ranges; empty when nothing is."""
+    """The problem with typed ranges; empty if there is none."""
     try:
         find_tunables(text.split(), [*known])
     except ValueError as error:
@@ -99,7 +99,7 @@ def specification_of(
 
 
 def running_values(trees: Mapping[str, ParameterTree]) -> dict[str, dict[str, Any]]:
-    """What the nodes of the running system are set to, as far as a run can be told."""
+    """The values of the nodes of the running system, as far as a run can be given them."""
     values: dict[str, dict[str, Any]] = {}
     for tree in trees.values():
         for each in tree.parameters if "/_" not in tree.node else ():

@@ -39,7 +39,7 @@ class Curve:
     by_header: bool = False
     """Whether samples lie where their headers say, instead of where they came."""
     _room: Array = field(default_factory=lambda: np.zeros((3, 0)), repr=False, compare=False)
-    """What times, values and headers are parts of; what lies behind their end is free."""
+    """The arrays that times, values and headers are parts of; what lies behind their end is free."""
     _end: int = field(default=0, repr=False, compare=False)
 
     @property

@@ -57,7 +57,9 @@ class PlotPane(PlotQuestions):
         self._responses = Responses(self.console.plots)
         self._form = "framed"
         self._expected: dict[str, str] = {}
-        """What waits to be plotted, and why it cannot be yet where more is known than that it is not there."""
+        """The paths that wait to be plotted, and why they cannot be yet where more is known than that they do not
+        exist.
+        """
         self._journal: JournalState | None = None
         self._graph: object = None
         self._parameters: object = None
@@ -220,7 +222,7 @@ class PlotPane(PlotQuestions):
         self.time_moved(None)
 
     def _at_cursor(self) -> str:
-        """What was changed at the moment that is looked at."""
+        """The changes at the moment under the cursor."""
         timeline, across = self._timeline, self.query_one("#plot-picture", Picture).size.width
         marks = timeline.axes(across).marks_at_cursor(timeline.marks, across)
         stamp = self.time_cursor.stamp

@@ -1,4 +1,4 @@
-"""What the plot asks a person for: curves, limits, thresholds, names and files."""
+"""The plot's questions to a person: for curves, limits, thresholds, names and files."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class PlotQuestions(Pane):
 
     @property
     def paths(self) -> list[str]:
-        """What is plotted."""
+        """The plotted paths."""
         return [each.path for each in self._timeline.curves]
 
     def action_add(self) -> None:

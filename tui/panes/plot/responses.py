@@ -21,7 +21,7 @@ HOW = "No responses yet: mark values in the Parameters pane (m), then A there se
 
 @dataclass
 class Responses:
-    """What is compared: the curve that is chosen, against a reference, by a formula of one's own."""
+    """The comparison: the chosen curve, against a reference, by a formula of one's own."""
 
     plots: Plots
     shown: bool = False
@@ -63,7 +63,7 @@ class Responses:
         return lines
 
     def _reference_value(self, curves: Sequence[Curve], of: Response) -> float | None:
-        """What the reference was at the end of a response."""
+        """The value of the reference at the end of a response."""
         curve = next((each for each in curves if each.path == self.reference), None)
         if curve is None:
             return None
@@ -71,14 +71,14 @@ class Responses:
         return curve.at(end)
 
     def caption(self, curves: Sequence[Curve], chosen: int) -> str:
-        """What is compared with what."""
+        """A text that names the curve and its reference."""
         path = curves[chosen].path if chosen < len(curves) else ""
         parts = [f"responses of {path}", f"reference {self.reference}" if self.reference else "r sets the reference"]
         return sanitize(" · ".join([*parts, f"score {self.formula}" if self.formula else "s: a score"]))
 
 
 def wrong_formula(text: str) -> str:
-    """What is wrong with a score's formula; empty when nothing is."""
+    """The problem with a score's formula; empty if there is none."""
     try:
         if text.strip():
             score(text, Figures(1.0, 1.0, 1.0, 1.0))

@@ -12,7 +12,7 @@ from bot_console.tui.panes.plot.curves import Array
 from bot_console.tui.text.expression.numbers import evaluate
 
 SETS = ("set A", "set B")
-"""What changes belong to whose responses are compared."""
+"""The names of the two sets of changes whose responses are compared."""
 BAND = 0.05
 """The response has settled within this share of its step."""
 RISE = (0.1, 0.9)
@@ -89,7 +89,7 @@ def _first(times: Array, where: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> f
 
 
 def score(formula: str, of: Figures) -> float:
-    """What a person's formula makes of the figures; raises `ValueError` with what is wrong with it."""
+    """The score of the figures by a person's formula; raises `ValueError` with what is wrong with it."""
     names: Mapping[str, float] = {name: getattr(of, name) for name in FIGURES}
     return float(evaluate(formula, names))
 

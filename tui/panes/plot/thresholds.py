@@ -27,7 +27,7 @@ class Threshold:
 
 
 def thresholds_of(text: str) -> tuple[Threshold, ...]:
-    """What `> 1.5, < 0.2` means; empty for an empty text; raises `ValueError` with a mend."""
+    """The thresholds in a text such as `> 1.5, < 0.2`; empty for an empty text; raises `ValueError` with the remedy."""
     found: list[Threshold] = []
     for part in filter(None, (each.strip() for each in text.split(","))):
         match = re.fullmatch(r"([<>])=?\s*(.+)", part)
@@ -38,7 +38,7 @@ def thresholds_of(text: str) -> tuple[Threshold, ...]:
 
 
 def wrong_thresholds(text: str) -> str:
-    """What is wrong with typed thresholds; empty when nothing is."""
+    """The problem with typed thresholds; empty if there is none."""
     try:
         thresholds_of(text)
     except ValueError as error:

@@ -21,7 +21,7 @@ WINDOWS = (1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0)
 """Lengths of the time window, s."""
 
 DEFAULTS = ("/odom/twist.twist.linear.x", "/robot_navigator:max_speed")
-"""What is plotted before anybody has asked for something: ends of paths."""
+"""The curves that are plotted before anybody has asked for something: ends of paths."""
 
 COLOURS = 6
 
@@ -184,7 +184,7 @@ class Timeline:
         return self.stamp_of(at + step * self.window / max(1, across))
 
     def crossed(self) -> list[str]:
-        """What lies beyond one of its thresholds, at the cursor or else now."""
+        """The paths whose value lies beyond one of its thresholds, at the cursor or else now."""
         found: list[str] = []
         for each in self.curves:
             value = each.latest if self.cursor is None else each.at(self.cursor)
@@ -204,7 +204,9 @@ class Timeline:
         return max(streams) if streams else self._plots.time()
 
     def moment(self, across: int) -> object:
-        """What a picture of so many cells tells of now; while it stays the same only the newest dots may differ."""
+        """The part of the present that a picture of so many cells shows; while it stays the same only the newest dots
+        may differ.
+        """
         if not self.curves:
             return None
         dot = min(self.window / max(1, 2 * across), LATEST)
@@ -263,7 +265,7 @@ def zoomed(limits: tuple[float, float], value: float | None, factor: float) -> t
 
 
 def wrong_limits(text: str) -> str:
-    """What is wrong with typed limits; empty when nothing is."""
+    """The problem with typed limits; empty if there is none."""
     try:
         limits_of(text)
     except ValueError as error:

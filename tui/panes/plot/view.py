@@ -39,7 +39,7 @@ class Mark:
 
 @dataclass(frozen=True)
 class Axes:
-    """What is shown: times in s, and the limits of the values where a person gave them."""
+    """The visible range: times in s, and the limits of the values where a person gave them."""
 
     start: float
     end: float
@@ -131,7 +131,7 @@ def style_of(curve: Curve) -> str:
 
 
 def reach_of(curve: Curve, axes: Axes, across: int) -> Reach:
-    """What of a curve is seen in so many cells."""
+    """The part of a curve that is seen in so many cells."""
     times, values = curve.between(axes.start, axes.end)
     return reach(times, values.clip(-MAX_VALUE, MAX_VALUE), axes.start, axes.end, across * 2)
 

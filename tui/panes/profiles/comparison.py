@@ -108,7 +108,9 @@ _Changes = Mapping[tuple[str, str], ProfileDifference]
 
 
 def _rank(parameter: ParameterInfo, changes: Sequence[_Changes]) -> tuple[bool, int]:
-    """What takes from the robot's safety in any profile comes first, then what decides most of how it drives."""
+    """Sort key: parameters that take from the robot's safety in any profile come first, then those that decide most of
+    how it drives.
+    """
     key = (parameter.node, parameter.name)
     unsafe = any(key in each and each[key].unsafe for each in changes)
     rank = importance(parameter)

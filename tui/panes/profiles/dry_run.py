@@ -15,7 +15,7 @@ from bot_console.tui.format import counted
 from bot_console.tui.panes.pane import answer_of
 
 Asked = tuple[ParameterTree, Mapping[str, Value]]
-"""What a node was asked: its parameters at that time, and the new values."""
+"""A question to a node: its parameters at that time, and the new values."""
 
 
 @dataclass

@@ -89,7 +89,7 @@ class Entry:
 
 
 class DifferenceRows(ItemList[Entry]):
-    """What a profile would change, by node."""
+    """The changes that a profile would make, by node."""
 
     can_focus = False
 

@@ -65,7 +65,7 @@ class TopicsPane(ListPane):
         self._folded: frozenset[str] | None = None
         """The namespaces that a person has left folded; None: nobody has folded or unfolded any."""
         self._folded_matches: frozenset[str] = frozenset()
-        """What was folded since the filter was set: its matches are listed however the list was folded before."""
+        """The namespaces that were folded since the filter was set."""
         self._measuring: list[str] = []
         self._topic = ""
         """The topic whose message is open."""
@@ -88,7 +88,7 @@ class TopicsPane(ListPane):
 
     @property
     def key_words(self) -> Mapping[str, str]:
-        """What Enter does, and no key that is for topics alone where services or actions are listed."""
+        """The action of Enter, and no key that is for topics alone where services or actions are listed."""
         if self._kind is Kind.TOPICS:
             return {}
         for_topics = dict.fromkeys(("topics.fill", "topics.plot", "topics.freeze"), "")
@@ -233,7 +233,7 @@ class TopicsPane(ListPane):
         return f"{self._topic}  {qos}{', '.join(filter(None, parts))}"
 
     def _report(self) -> None:
-        """What is listed, and all about the row at the cursor."""
+        """Report the list, and everything about the row at the cursor."""
         shown, row = self._list, self._list.current
         self.report_filter(self._listed, self._every, "hidden ones too" if self._hidden else "")
         shown.show_placeholder(FILTERED_OUT if self.words else _empty(self._kind))
@@ -478,6 +478,6 @@ def _paths(paths: list[str], typed: str) -> list[Option]:
 
 
 def _empty(kind: Kind) -> Placeholder:
-    """What is said while nothing of a kind is there."""
+    """The text that is shown while nothing of a kind exists."""
     actions = (("m", f"List {_next(kind).value}"), ("8", "Start nodes"), ("?", "Help"))
     return Placeholder(f"All {kind.value} of the system, with rates and messages: there are none yet.", actions)

@@ -23,7 +23,7 @@ BUILT_IN = (
 
 
 class Kind(Enum):
-    """What is listed."""
+    """The kinds of things that are listed."""
 
     TOPICS = "topics"
     SERVICES = "services"
@@ -31,7 +31,7 @@ class Kind(Enum):
 
     @property
     def payload(self) -> Payload:
-        """What is filled in for one of them."""
+        """The form for one of them."""
         return {Kind.TOPICS: Payload.MESSAGE, Kind.SERVICES: Payload.REQUEST, Kind.ACTIONS: Payload.GOAL}[self]
 
 
@@ -46,9 +46,9 @@ class Row:
     gives: tuple[str, ...] = ()
     takes: tuple[str, ...] = ()
     qos: str = ""
-    """What is offered; of several different ones the first, and a plus."""
+    """The offered QoS; of several different ones the first, and a plus."""
     problem: str = ""
-    """What is wrong with it, in words."""
+    """The problem with it, in words."""
     space: str = ""
     """The namespace below which it is listed; empty: none."""
     members: tuple[str, ...] = ()
@@ -63,12 +63,12 @@ class Row:
 
     @property
     def label(self) -> str:
-        """What is shown of its name: below a namespace the rest of it."""
+        """The visible part of its name: below a namespace the rest of it."""
         return self.name.removeprefix(f"{self.space}/") if self.space else self.name
 
 
 class _Endpoints:
-    """What was found of one name."""
+    """The endpoints found under one name."""
 
     def __init__(self) -> None:
         self.types: dict[str, None] = {}

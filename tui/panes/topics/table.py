@@ -115,7 +115,7 @@ class TopicRows(ItemList[Row]):
         """Whose message stands beside the list."""
 
         self.checks: Mapping[str, RateCheck] = {}
-        """What is expected of topics."""
+        """The expectations of topics."""
         self._measured: dict[str, Measure] = {}
         self._values: Mapping[str, str] = {}
         self._texts: dict[object, str] = {}
@@ -157,7 +157,7 @@ class TopicRows(ItemList[Row]):
                 self.row_changed(index)
 
     def measure_of(self, name: str) -> Measure:
-        """What is known of a topic."""
+        """The measurements of a topic."""
         return self._measured.get(name, Measure())
 
     def _mark(self, name: str) -> str:

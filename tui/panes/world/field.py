@@ -44,7 +44,7 @@ class FieldDrawing:
 
 
 def _of_trails(field: TurtleField) -> Drawing:
-    """What is known of a drawing from where the turtles have been."""
+    """A drawing made of the places where the turtles have been."""
     pixels = np.zeros((PIXELS, PIXELS, 4), np.uint8)
     pixels[:] = (*BACKGROUND.to_bytes(3, "big"), 0)
     scale = (PIXELS - 1) / SIDE

@@ -44,7 +44,7 @@ class WorldMap(Picture):
         self._drawing: WorldDrawing | None = None
         self._field_drawing: FieldDrawing | None = None
         self._reported: object = None
-        """What the lines tell; None where they show something else."""
+        """The object that the lines describe; None where they show something else."""
         self._age = -1
         self._field = ""
         """The node of the field that is shown; empty for a robot's place."""

@@ -21,7 +21,7 @@ ARROWS = "→↗↑↖←↙↓↘"
 
 @dataclass(frozen=True)
 class Window:
-    """What part of the world is drawn: the centre (m) and dots per metre."""
+    """The visible part of the world: the centre (m) and dots per metre."""
 
     x: float
     y: float
@@ -117,7 +117,9 @@ def _written(pieces: list[Piece], column: int, character: str, style: str) -> li
 
 
 def visible_content(world: WorldInfo, window: Window, width: int, height: int) -> object:
-    """What a drawing tells; worlds of which it tells the same look the same, though the robot has moved a little."""
+    """The data that a drawing shows; worlds of which it tells the same look the same, though the robot has moved a
+    little.
+    """
     return world.map, world.hits, world.trail, window, width, height, _characters(world, window, width, height)
 
 

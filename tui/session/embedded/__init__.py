@@ -1,1 +1,1 @@
-"""What a session takes from the runtime: its domain, workspace, processes and log files."""
+"""The session's imports from the runtime: its domain, workspace, processes and log files."""

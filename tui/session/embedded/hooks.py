@@ -1,4 +1,4 @@
-"""What the console asks the runtime because no ROS interface answers it."""
+"""Questions of the console to the runtime that no ROS interface answers."""
 
 from __future__ import annotations
 

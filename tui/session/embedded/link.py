@@ -17,7 +17,7 @@ class LinkWords:
         self._info = LinkInfo()
 
     def info(self) -> LinkInfo:
-        """What is known now."""
+        """The newest information."""
         info = words_of(self._buses.link(), time.monotonic())
         if info != self._info:
             self._info = info

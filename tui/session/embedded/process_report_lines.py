@@ -1,4 +1,4 @@
-"""What launched processes report about themselves, as log lines."""
+"""Reports of launched processes about themselves, as log lines."""
 
 from __future__ import annotations
 

@@ -72,7 +72,7 @@ class Ros2CommandLine:
         return text
 
     def _done(self, words: Sequence[str]) -> tuple[str, int]:
-        """What a line prints, and its exit code."""
+        """The output of a line, and its exit code."""
         if words[:1] == ["colcon"]:
             return "\n".join(answers(words[1:])), 0
         wanted = launched_by(words) if self._launcher is not None else None
@@ -143,7 +143,7 @@ def _start(
 
 
 def _printed_by(words: Sequence[str]) -> tuple[str, int]:
-    """What a line prints, and its exit code; that of an interrupt if it did not end in time."""
+    """The output of a line, and its exit code; that of an interrupt if it did not end in time."""
     printed: list[str] = []
     process = _start(words, printed)
     code = process.wait(LINE_TIMEOUT_S)

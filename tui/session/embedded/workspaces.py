@@ -22,7 +22,7 @@ PROGRAM_LAUNCH = ROOT / "launch" / "program.launch.py"
 SIMULATOR_LAUNCH = str(ROOT / "launch" / "simulator.launch.py")
 """Starts the simulated robot beside something else."""
 SYSTEM_LAUNCH = str(ROOT / "launch" / "robot_system.launch.py")
-"""What `bot-console` starts."""
+"""The launch file that `bot-console` starts."""
 PANE_GROUP = PANES
 """The entry points by which packages offer panes."""
 SYSTEM_NODES = frozenset(

@@ -1,4 +1,4 @@
-"""What launch itself prints, as log lines."""
+"""The messages of launch itself, as log lines."""
 
 from __future__ import annotations
 

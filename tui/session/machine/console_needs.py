@@ -1,4 +1,4 @@
-"""What the console needs from the machine's ROS 2 besides `rclpy`, which comes with few message packages."""
+"""The packages that the console needs of the machine's ROS 2 besides `rclpy`, which comes with few message packages."""
 
 from __future__ import annotations
 

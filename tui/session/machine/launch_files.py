@@ -39,7 +39,7 @@ class LaunchFiles:
         self._begin()
 
     def now(self) -> Sequence[str]:
-        """What is known now; starts another search for the next caller."""
+        """The files that are known now; starts another search for the next caller."""
         if self._polled.wait(SEARCH_TIMEOUT_S):
             self._begin()
         return self._found

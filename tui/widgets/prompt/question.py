@@ -45,7 +45,7 @@ class Line(Question[str]):
 
     text: str = ""
     check: Callable[[str], str] = _all_well
-    """What is wrong with a text; empty if nothing is."""
+    """Returns the problem with a text; empty if there is none."""
 
     preview: Callable[[str], str] = _all_well
     """The effect of a valid text, shown beside the field before it is accepted."""
@@ -100,7 +100,7 @@ class Form(Question[dict[str, str]]):
 
     arguments: Sequence[LaunchArgument] = ()
     verb: str = "launches"
-    """What Enter does."""
+    """The word for the action of Enter."""
     check: Callable[[dict[str, str]], str] = lambda _: ""
     """Why the answer cannot be taken; empty if it can."""
 
@@ -122,7 +122,7 @@ class Fill(Question[None]):
     """The name of the topic, service or action."""
     type: str
     traffic: Topics
-    """What sends it."""
+    """The service that sends it."""
 
 
 class Requester(Generic[A]):

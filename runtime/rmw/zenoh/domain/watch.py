@@ -58,7 +58,7 @@ LAST_ANSWER_TIMEOUT_S = 10.0
 
 
 class Watched(Protocol):
-    """What the watch needs of a session."""
+    """The interface of a session that the watch needs."""
 
     zid: str
     socket: Socket
@@ -201,7 +201,7 @@ class Watch:
 
 
 Identity = tuple[str, int]
-"""What distinguishes a socket from a later one at the same path: its session's id and its inode number."""
+"""The identity of a socket, which tells it from a later one at the same path: its session's id and its inode number."""
 
 
 def identity(socket: Socket) -> Identity:

@@ -177,7 +177,7 @@ def _merged(found: list[Section]) -> dict[str, _Places]:
 
 
 def _given(merged: dict[str, _Places], node: str) -> _Places:
-    """What a file gives a node: the key and position of each value. As in ROS, the later of two keys wins."""
+    """The values that a file gives a node: the key and position of each. As in ROS, the later of two keys wins."""
     given: _Places = {}
     for key, places in merged.items():
         if means(key, node):

@@ -34,7 +34,7 @@ Array = npt.NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Held:
-    """What a path was over time: each value holds until the next one."""
+    """The values of a path over time: each holds until the next one."""
 
     times: Array
     values: Array

@@ -43,7 +43,7 @@ class Stroke:
 
 @dataclass
 class VectorDrawing:
-    """What is drawn, in this order; sizes in pixels."""
+    """The elements of a drawing, in this order; sizes in pixels."""
 
     width: int = WIDTH
     height: int = HEIGHT

@@ -16,7 +16,7 @@ class ChartBox:
     members: tuple[tuple[str, str], ...]
     """The item and the label of each row."""
     loop: str = ""
-    """What leads from the box to itself; written into its upper edge."""
+    """The topics that lead from the box to itself; written into its upper edge."""
 
     def texts(self, framed: bool) -> list[str]:
         """The text of each row; without a frame, what leads from the box to itself stands in the first one."""

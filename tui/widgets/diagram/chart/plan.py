@@ -356,7 +356,7 @@ class _Builder:
 
 @dataclass(frozen=True)
 class _Wants:
-    """What a box needs at its place."""
+    """The needs of a box at its place."""
 
     box: ChartBox
     ins: list[ChartLink]
