@@ -118,7 +118,7 @@ class NodeProcess:
         state = local.state
         if state is None or state is not self.main_state:
             return
-        # A stepped run has one thread at work, so nothing can be pending; waiting would keep the baton.
+        # A stepped run has one thread at work, so nothing can be pending; waiting would keep the turn.
         while self.signals.sending and not self.clock.stepped:
             unpatched.sleep(0.0005)
         state.deliver()
