@@ -1,10 +1,9 @@
 """The entry point of the process `bot-console`."""
 
-import signal
-from typing import NoReturn
+signal = __import__("_signal")  # `signal` imports other modules, which takes longer than all that is done here
 
 
-def program() -> NoReturn:
+def program() -> None:
     """Import the command line and run it; a Ctrl-C during the imports ends the process as it ends `cat`, silently.
 
     A `KeyboardInterrupt` would be printed, or lost, by whatever is being imported at that moment.

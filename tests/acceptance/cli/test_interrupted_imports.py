@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import signal
 import subprocess
 import sys
@@ -47,6 +48,15 @@ def test_interrupted_import_of_the_command_line_ends_silently_by_the_signal(
 def test_interrupted_import_of_a_command_ends_silently_with_the_code_of_ctrl_c(tmp_path: Path) -> None:
     done = interrupted("tui.cli.doctor", "command", tmp_path, "doctor")
     assert (done.returncode, done.stdout, done.stderr) == (128 + signal.SIGINT, "", "")
+
+
+def test_entry_point_imports_nothing_before_it_expects_an_interrupt(tmp_path: Path) -> None:
+    code = "import sys; before = set(sys.modules); import bot_console.tui.cli.entry; print(set(sys.modules) - before)"
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=TIMEOUT_S, check=True
+    )
+    imported = {each for each in ast.literal_eval(done.stdout) if not each.startswith("bot_console")}
+    assert imported <= {"_signal"}
 
 
 def test_ignored_interrupt_stays_ignored_during_imports(tmp_path: Path) -> None:
