@@ -37,7 +37,7 @@ class TurnTaker(Protocol):
     """Whether the thread was considered hung, so that others run beside it."""
 
     def take(self) -> None:
-        """Wait for the first turn; called in the thread that occupies this seat from now on."""
+        """Wait for the first turn; called in the thread that this task stands for."""
         ...
 
     def hold_clock(self) -> None:
@@ -95,5 +95,5 @@ class ClockSource(Protocol):
         ...
 
     def task(self, thread: WaitingThread) -> TurnTaker | None:
-        """Return a seat for a new thread of a node process; None if threads run freely."""
+        """Return a task for a new thread of a node process; None if threads run freely."""
         ...

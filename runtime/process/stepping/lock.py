@@ -1,4 +1,4 @@
-"""Locks of a stepped run: a thread that waits for one hands the baton on, which built-in locks cannot do."""
+"""Locks of a stepped run: a thread that waits for one passes the turn on, which built-in locks cannot do."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The scheduler of a stepped run. The thread with the baton runs; when it waits, it hands it on in a fixed order.
+"""The scheduler of a stepped run. The thread with the turn runs; when it waits, it hands it on in a fixed order.
 
 Threads run in the order in which they became ready. When none is ready, time jumps to the earliest deadline, and the
 threads with that deadline become ready in order of creation.
@@ -39,7 +39,7 @@ class Awaited(Protocol):
 
 
 class ScheduledTask:
-    """One thread's seat in the run."""
+    """One thread, as a task of the run."""
 
     __slots__ = (
         "detached",
@@ -74,7 +74,7 @@ class ScheduledTask:
         self.ident = self.native_id = 0
 
     def take(self) -> None:
-        """Wait for the first turn; called in the thread that occupies this seat from now on."""
+        """Wait for the first turn; called in the thread that this task stands for."""
         self.native_id = get_native_id()
         self.ident = get_ident()
         self.lock.acquire()
@@ -132,12 +132,12 @@ class Scheduler:
         self._instant_waits = 0
 
     def driver_task(self) -> ScheduledTask:
-        """Return the seat of a thread that has the baton from the start and may keep it as long as it likes."""
+        """Return the task of a thread that has the turn from the start and may keep it as long as it likes."""
         self.holder = task = self.tasks[LAST] = ScheduledTask(self, LAST, None)
         return task
 
     def task(self, state: WaitingThread | None) -> ScheduledTask:
-        """Return a seat for a new thread, which is ready to run."""
+        """Return a task for a new thread, which is ready to run."""
         with self._guard:
             self._next_rank += 1
             task = self.tasks[self._next_rank] = ScheduledTask(self, self._next_rank, state)
@@ -158,7 +158,7 @@ class Scheduler:
                 self._grant_next()
 
     def wait(self, task: ScheduledTask, wakeup: Awaited | None, deadline: int | None) -> bool:
-        """Hand the baton on; return True if the wakeup was set, False if due or roused."""
+        """Pass the turn on; return True if the wakeup was set, False if due or roused."""
         with self._guard:
             self.turns += 1
             self._instant_waits += 1
@@ -206,7 +206,7 @@ class Scheduler:
         )
 
     def wait_outside(self, wakeup: Awaited, deadline: int | None) -> bool:
-        """Wait in a thread that never has the baton and runs beside the one that does."""
+        """Wait in a thread that never has the turn and runs beside the one that does."""
         with self._guard:
             if wakeup.flag:
                 return True
@@ -243,7 +243,7 @@ class Scheduler:
                     self._grant_next()
 
     def detach(self, task: ScheduledTask, turns: int, note: Callable[[ScheduledTask], Note]) -> Note | None:
-        """Take the baton from a thread that blocks elsewhere, unless it has moved on since.
+        """Take the turn from a thread that blocks elsewhere, unless it has moved on since.
 
         Returns the result of `note`, called before the next thread runs; None if the thread has moved on.
         """
@@ -344,11 +344,11 @@ class Scheduler:
             task.lock.release()
 
     def _hand_on(self, task: ScheduledTask) -> bool:
-        """Let the next thread run; return whether `seat` has to wait for its turn."""
+        """Let the next thread run; return whether `task` has to wait for its turn."""
         if len(self._deadlines) > STALE_DEADLINES + 4 * len(self.tasks):
             self._drop_stale_deadlines()
         if task.detached:
-            # It was considered hung, and another thread may have the baton by now.
+            # It was considered hung, and another thread may have the turn by now.
             task.detached = False
             if self.holder is not None:
                 return True
@@ -369,7 +369,7 @@ class Scheduler:
         heapify(self._deadlines)
 
     def _reclaim(self, task: ScheduledTask) -> None:
-        """Get the baton back before anything else runs, for a thread that no longer waits."""
+        """Get the turn back before anything else runs, for a thread that no longer waits."""
         with self._guard:
             if self.holder is not task:
                 self._make_ready(task)

@@ -91,7 +91,7 @@ class SteppedTime:
             self.stalls += stalls
 
     def task(self, thread: WaitingThread | None) -> ScheduledTask:
-        """Return a seat for a new thread, which is ready to run."""
+        """Return a task for a new thread, which is ready to run."""
         self._watch.start()
         return self._scheduler.task(thread)
 

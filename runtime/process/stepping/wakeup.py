@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class SteppedWakeup:
-    """Like `threading.Event`, for threads that hand the baton on while they wait."""
+    """Like `threading.Event`, for threads that pass the turn on while they wait."""
 
     __slots__ = ("__weakref__", "_scheduler", "flag", "waiters")
 
@@ -35,7 +35,7 @@ class SteppedWakeup:
         return self.flag
 
     def wait(self, deadline_ns: int | None = None) -> bool:
-        """Hand the baton on until set or until virtual time reaches the deadline (ns); return whether it was set."""
+        """Pass the turn on until set or until virtual time reaches the deadline (ns); return whether it was set."""
         task = local.task
         if not isinstance(task, ScheduledTask) or task.scheduler is not self._scheduler:
             return self._scheduler.wait_outside(self, deadline_ns)

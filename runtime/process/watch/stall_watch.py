@@ -1,4 +1,4 @@
-"""The watchdog of a stepped run: a thread that hangs while it holds the baton must not stop all others for ever.
+"""The watchdog of a stepped run: a thread that hangs while it holds the turn must not stop all others for ever.
 
 It checks at intervals of wall time, but decides by the state it finds, never by the time that has passed: see
 `thread_work`.
@@ -23,7 +23,7 @@ Report = Callable[["ScheduledTask", bool], Callable[[], None]]
 
 
 class StallWatch:
-    """Takes the baton from a thread that hangs, in a wait that the run does not see or in a computation."""
+    """Takes the turn from a thread that hangs, in a wait that the run does not see or in a computation."""
 
     def __init__(self, scheduler: Scheduler, stall_s: float, report: Report) -> None:
         """`report(task, busy)` is called before others continue; the function it returns is called once they can.

@@ -18,7 +18,7 @@ from bot_console.tui.text.expression.parse import Reader
 from bot_console.tui.text.expression.tree import Span, Tree, paths_of, walk
 
 MAX_CHARACTERS = 400
-"""Letters of a condition at most."""
+"""Maximum characters of a condition."""
 NOTHING_NAMED = "name a field or a parameter in it, for instance /battery/percentage < 0.2"
 COMPARISON = re.compile(r"<=|>=|==|!=|<|>")
 OPERATORS: Mapping[str, Callable[[float, float], bool]] = {

@@ -16,7 +16,7 @@ LINE = "line:"
 """Begins the id of a line between two boxes."""
 KINDS = {TOPIC: "", SERVICE: "srv ", ACTION: "act "}
 MAX_LENGTH = 40
-"""Letters of a name at most."""
+"""Maximum characters of a name."""
 RATE_CELLS = 6
 """Cells kept for a rate, so that the drawing stays as it is while the rate changes."""
 LOOP = "↺"

@@ -233,7 +233,7 @@ def change_text(change: Change) -> str:
 
 
 def limits_of(text: str) -> tuple[float, float] | None:
-    """Two numbers, or None for an empty text; raises `ValueError` with a mend."""
+    """Two numbers, or None for an empty text; raises `ValueError` with the remedy."""
     parts = text.replace(",", " ").replace("..", " ").split()
     if not parts:
         return None
