@@ -175,3 +175,38 @@ VARIABLES = tuple(
         "RMW_IMPLEMENTATION=rmw_zenoh_cpp ROS_DISTRO=jazzy ROS_LOG_DIR=/dev/null/x TMPDIR=/y run",
     )
 )
+
+SCRIPTS = (
+    "# a comment\nstart indoor\nwait 2 s\nexpect /odom/twist.twist.linear.x > 0.1 within 5 s\nset /n:max_speed 0.5\n",
+    "rate /scan >= 9.5 for 3 s\nlog warn 'too close' within 500 ms\ncall /reset std_srvs/srv/Trigger\nstop\nrelease\n",
+)
+EXPECTED = (
+    "nodes: [/a, b]\ntopics:\n  /scan: {type: sensor_msgs/msg/LaserScan, publishers: 1, rate: 10, tolerance: 0.2}\n"
+    "services: {/reset: std_srvs/srv/Trigger}\nactions: {}\nexact: true\n",
+    "greenwave_monitor:\n  ros__parameters:\n    topics:\n      /scan:\n        expected_frequency: 10.0\n"
+    "        tolerance: 5.0\n",
+)
+JSONC = ('{\n  // words\n  "a": [1, "x",],\n  "paths": ["/old/x", "/z"], /* more */\n}\n', '{"paths": []}', "{}")
+SETUP_PY = """from glob import glob
+from setuptools import find_packages, setup
+package_name = 'mine'
+setup(name=package_name, version='0.1.0', packages=find_packages(exclude=['test']),
+      data_files=[('share/' + package_name, ['package.xml']), (f'share/{package_name}/launch', glob('launch/*.py'))],
+      entry_points={'console_scripts': ['talker = mine.talker:main']})
+"""
+CMAKE = """cmake_minimum_required(VERSION 3.8)
+project(mine)
+set(SCRIPTS a.py b.py)
+install(PROGRAMS ${SCRIPTS} DESTINATION lib/${PROJECT_NAME} RENAME c)
+install(DIRECTORY launch config DESTINATION share/${PROJECT_NAME} PATTERN "*.py" EXCLUDE) # words
+ament_python_install_package(${PROJECT_NAME})
+"""
+CONVERT = (
+    "output_bags:\n- uri: a\n  storage_id: sqlite3\n  topics: [/chatter]\n  max_bagfile_size: 100\n",
+    "output_bags:\n- {uri: b, all: true, regex: '^/c', exclude: x, compression_mode: file, custom_data: {a: b}}\n",
+)
+QOS_OVERRIDES = (
+    "/chatter:\n  reliability: best_effort\n  history: keep_last\n  depth: 5\n  deadline: {sec: 1, nsec: 0}\n",
+    "/a: {durability: transient_local, liveliness: automatic, lease_duration: {sec: 0, nsec: 5}}\n",
+)
+TUNING = ("0.5..2", "0.1:1.0", "distance - 3 * collisions", "mean(/odom/twist.twist.linear.x) + 0.5*time")

@@ -8,12 +8,15 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import bags
+import browser
 import files
 import messages
 import programs
 import seeds
 import stores
 import typed
+import wire
+import workspaces
 import yaml
 from mutation import mutated
 
@@ -37,8 +40,10 @@ def targets() -> list[Target]:
     from bot_console.runtime.rmw.parameter_overrides import ParameterYamlError
     from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
     from bot_console.runtime.rosidl.parse import DefinitionError
+    from bot_console.tui.cli.check.script import ScriptError
     from bot_console.tui.console.bags.damage import NoBag
     from bot_console.tui.console.plot.arrays import NotPlottable
+    from bot_console.tui.files.jsonc import JsoncError
     from bot_console.tui.files.plot_presets import NoPreset
     from bot_console.tui.files.save_file import NotSaved
     from bot_console.tui.layout.form import NoLayout
@@ -181,6 +186,35 @@ def targets() -> list[Target]:
         Target("control topics in MCAP", bags.control_seeds("mcap"), bags.control_bag(".mcap"), (NoBag,), share=0.5),
         Target(
             "control topics in SQLite", bags.control_seeds("sqlite3"), bags.control_bag(".db3"), (NoBag,), share=0.5
+        ),
+        Target("chapter of a course", seeds.files("tui/learn/courses/week6/*.md"), workspaces.chapter, (ValueError,)),
+        Target("check script", seeds.texts(*seeds.SCRIPTS), workspaces.check_script, (ScriptError,)),
+        Target("expected graph", seeds.texts(*seeds.EXPECTED), workspaces.expected_graph, (ValueError,)),
+        Target("settings of an editor", seeds.texts(*seeds.JSONC), workspaces.editor_settings, (JsoncError,)),
+        Target(
+            "setup.py",
+            seeds.texts(seeds.SETUP_PY),
+            workspaces.build_file("setup.py", "setup_py.read_setup_py"),
+            (ValueError,),
+        ),
+        Target(
+            "CMakeLists.txt",
+            seeds.texts(seeds.CMAKE),
+            workspaces.build_file("CMakeLists.txt", "cmake_lists.read_cmake_lists"),
+            (ValueError,),
+        ),
+        Target("options of bag convert", seeds.texts(*seeds.CONVERT), workspaces.convert_options, share=0.3),
+        Target("QoS overrides", seeds.texts(*seeds.QOS_OVERRIDES), workspaces.qos_overrides, (ValueError,)),
+        Target("words of a tuning", seeds.texts(*seeds.TUNING), workspaces.tuning),
+        Target("liveliness token", wire.token_seeds, wire.token, (FormatError,)),
+        Target("attachment", wire.attachment_seeds, wire.attachment, (FormatError,)),
+        Target("reports of a process", seeds.texts(*wire.NEWS), wire.news),
+        Target("terminal input", seeds.texts(*wire.INPUT), wire.terminal_input),
+        Target("request of a browser", browser.http_seeds, browser.http, share=0.05),
+        Target(
+            "message of a page",
+            seeds.texts('["stdin", "abc"]', '["resize", {"width": 80, "height": 24}]', '["alive"]'),
+            browser.page_message,
         ),
         Target("bytes of a command line", seeds.texts(*seeds.WORDS), programs.command_line, share=0.02),
         Target("bytes of the environment", seeds.texts(*seeds.VARIABLES), programs.environment, share=0.02),

@@ -25,8 +25,8 @@ KEYBOARD_PROTOCOL = re.compile(
 """A key in kitty's keyboard protocol, with all optional parts."""
 OTHER_KEYS = re.compile(r"\x1b\[27;(?P<modifiers>\d+);(?P<code>\d+)~")
 """A key in the form of xterm's modifyOtherKeys."""
-MOUSE = re.compile(r"\x1b\[(?:M.*|(<?\d+);[-\d;]+[Mm])", re.DOTALL)
-"""A mouse report; the group is the button number."""
+MOUSE = re.compile(r"\x1b\[(?:M.*|(<?\d{1,9});[-\d;]+[Mm])", re.DOTALL)
+"""A mouse report; the group is the button number, of no more digits than any terminal sends."""
 MOVE, WHEEL = 32, 64
 """Bits of the button number."""
 STRINGS = frozenset("]PX^_")

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 from aiohttp import ClientSession, CookieJar, WSServerHandshakeError, web
 from bot_console.tui.cli.main import main
-from bot_console.tui.cli.serve.server import Server
+from bot_console.tui.cli.serve.server import Server, one_line_log
 
 CONSOLE = """
 import os, shutil, signal, sys, tty
@@ -103,6 +103,52 @@ def test_foreign_hosts_and_origins_are_refused() -> None:
             assert await socket_status(session, port) == 403, "no Origin"
             assert await socket_status(session, port, Host="evil.example", Origin="http://evil.example") == 403
             assert await socket_status(session, port, Origin=here) == 101
+
+    run(work)
+
+
+def test_token_and_cookie_of_any_characters_are_refused() -> None:
+    async def work() -> None:
+        async with served() as (_, [address], port), a_browser() as session:
+            here = f"http://127.0.0.1:{port}"
+            assert await status(session, f"{here}/?token=%C3%A4%FF") == 403
+            assert await status(session, here, Cookie=f"bot-console-{port}=ä") == 403
+            await status(session, address)
+            assert await status(session, here, Host='localhost:1"x') == 403
+
+    run(work)
+
+
+def test_request_that_is_none_takes_one_line_of_the_terminal(capsys: pytest.CaptureFixture[str]) -> None:
+    async def work() -> None:
+        runner = web.AppRunner(Server(["true"], "127.0.0.1").application(), logger=one_line_log())
+        await runner.setup()
+        try:
+            await web.TCPSite(runner, "127.0.0.1", 0).start()
+            reader, writer = await asyncio.open_connection("127.0.0.1", runner.addresses[0][1])
+            writer.write(b"GET / HTTP/1.1\r\nHost: \x1b]0;x\x07\r\n\r\n")
+            assert (await reader.readline()).startswith(b"HTTP/1.0 400")
+            writer.close()
+        finally:
+            await runner.cleanup()
+
+    run(work)
+    lines = capsys.readouterr().err.splitlines()
+    assert len(lines) == 1 and lines[0].startswith("bot-console serve: ") and "\x1b" not in lines[0]
+
+
+def test_page_that_has_gone_before_its_socket_is_open_is_no_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    async def gone(*_: object) -> None:
+        raise ConnectionResetError
+
+    async def work() -> None:
+        async with served() as (_, [address], port), a_browser() as session:
+            await status(session, address)
+            here = f"http://127.0.0.1:{port}"
+            with monkeypatch.context() as patched:
+                patched.setattr(web.WebSocketResponse, "prepare", gone)
+                assert await status(session, f"{here}/ws", Origin=here) == 200
+            assert await socket_status(session, port, Origin=here) == 101, "the place is free again"
 
     run(work)
 

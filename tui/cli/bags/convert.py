@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 import yaml
 from bot_console.tui.cli.bags.play import report_repaired
@@ -29,6 +29,7 @@ DONE_HERE = frozenset(
      "include_hidden_topics", "include_unpublished_topics"]
 )  # fmt: skip
 """Keys of an output that are followed; others are ignored with a line."""
+_V = TypeVar("_V")
 
 
 def add_convert_arguments(parser: argparse.ArgumentParser) -> None:
@@ -71,7 +72,7 @@ def _write(bags: list[Any], output: Mapping[str, Any]) -> None:
     from bot_console.tui.console.bags.together import BagsTogether
     from bot_console.tui.console.bags.writer import BagWriter, Writing
 
-    unknown = sorted(output.keys() - DONE_HERE)
+    unknown = sorted(map(str, output.keys() - DONE_HERE))
     if unknown:
         print(
             sanitize(f"{output['uri']}: ignored, since nothing here depends on it: {', '.join(unknown)}"),
@@ -83,8 +84,8 @@ def _write(bags: list[Any], output: Mapping[str, Any]) -> None:
         Path(str(output["uri"])),
         Writing(
             str(output.get("storage_id") or "mcap"), str(output.get("storage_preset_profile") or "none"),
-            str(output.get("compression_mode") or "none").lower(), int(output.get("max_bagfile_size") or 0),
-            float(output.get("max_bagfile_duration") or 0), dict(output.get("custom_data") or {}),
+            str(output.get("compression_mode") or "none").lower(), _read(output, "max_bagfile_size", int, 0),
+            _read(output, "max_bagfile_duration", float, 0.0), _read(output, "custom_data", dict, {}),
         ),
     )  # fmt: skip
     for name, topic in bag.topics.items():
@@ -102,10 +103,24 @@ def _write(bags: list[Any], output: Mapping[str, Any]) -> None:
     print(sanitize(f"{writer.metadata.count} messages of {len(writer.metadata.topics)} topics in {writer.folder}"))
 
 
+def _listed(value: Any) -> list[Any]:
+    if not isinstance(value, list):
+        raise TypeError
+    return cast("list[Any]", value)
+
+
+def _read(output: Mapping[str, Any], name: str, kind: Callable[[Any], _V], default: _V) -> _V:
+    """The value of a key, which may be missing; raises `ValueError` if it is none of this kind."""
+    value = output.get(name)
+    try:
+        return kind(value) if value else default
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f"{output['uri']}: {name} cannot be {str(value)[:40]!r}") from None
+
+
 def _filters(output: Mapping[str, Any]) -> argparse.Namespace:
     def several(name: str) -> list[str]:
-        listed: list[Any] = output.get(name) or []
-        return [str(each) for each in listed]
+        return [str(each) for each in _read(output, name, _listed, [])]
 
     patterns = {
         name: re.compile(str(output[name])) if output.get(name) else None for name in ("regex", "exclude_regex")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import hmac
+import logging
 import secrets
 import signal
 from collections.abc import Awaitable, Callable, Sequence
@@ -15,6 +16,7 @@ from pathlib import Path
 import textual_serve
 from aiohttp import web
 from bot_console.tui.cli.serve.terminal import Terminal
+from bot_console.tui.format import sanitize
 
 PAGE = Path(__file__).resolve().parent / "page"
 FONT_SIZE = 14
@@ -82,7 +84,8 @@ class Server:
         host = request.headers.get("Host", "")
         origin = request.headers.get("Origin")
         try:
-            if host.rpartition(":")[0] not in own and host not in own:
+            name, _, port = host.rpartition(":")
+            if host not in own and not (name in own and port.isdecimal()):
                 raise web.HTTPForbidden(text="This is not the address of this server.")
             if origin is None and request.path == "/ws":
                 raise web.HTTPForbidden(text="A socket is opened by the page only.")
@@ -98,7 +101,7 @@ class Server:
 
     def _admission(self, request: web.Request) -> Admission | None:
         given = request.cookies.get(self._cookie_name, "")
-        return next((each for each in self._admissions if hmac.compare_digest(each.cookie, given)), None)
+        return next((each for each in self._admissions if _is_same(each.cookie, given)), None)
 
     @property
     def _cookie_name(self) -> str:
@@ -116,7 +119,7 @@ class Server:
 
     def _let_in(self, token: str, admission: Admission | None) -> web.StreamResponse:
         """Exchange a token for a cookie, once, and lead to the address without it."""
-        meant = next((each for each in self._admissions if each.token and hmac.compare_digest(each.token, token)), None)
+        meant = next((each for each in self._admissions if each.token and _is_same(each.token, token)), None)
         if meant is None and admission is None:
             raise web.HTTPForbidden(text=USED)
         response = web.Response(status=303, headers={"Location": "/"})
@@ -143,7 +146,10 @@ class Server:
         admission.terminal = Terminal(self._console, size)
         try:
             socket = web.WebSocketResponse(max_msg_size=MAX_MESSAGE_BYTES)
-            await socket.prepare(request)
+            try:
+                await socket.prepare(request)
+            except ConnectionError:  # it has gone already
+                return web.Response()
             await admission.terminal.show(socket)
             return socket
         finally:
@@ -160,7 +166,7 @@ def serve(server: Server, port: int) -> int:
 
 
 async def _serve(server: Server, port: int) -> int:
-    runner = web.AppRunner(server.application(), access_log=None, shutdown_timeout=0.5)
+    runner = web.AppRunner(server.application(), access_log=None, logger=one_line_log(), shutdown_timeout=0.5)
     await runner.setup()
     try:
         site = web.TCPSite(runner, server.host, port)
@@ -176,6 +182,28 @@ async def _serve(server: Server, port: int) -> int:
     finally:
         await runner.cleanup()
     return 0
+
+
+class _OneLine(logging.Formatter):
+    """The fault of a request in one line, without a traceback: anybody on this machine may send anything."""
+
+    def format(self, record: logging.LogRecord) -> str:
+        fault = record.exc_info[1] if record.exc_info else ""
+        return sanitize(" ".join(f"bot-console serve: {record.getMessage()}: {fault}".split()))
+
+
+def one_line_log() -> logging.Logger:
+    """The log of the web server, on stderr."""
+    log = logging.Logger("bot-console serve", logging.WARNING)
+    handler = logging.StreamHandler()
+    handler.setFormatter(_OneLine())
+    log.addHandler(handler)
+    return log
+
+
+def _is_same(secret: str, given: str) -> bool:
+    """Whether a secret was given, in a time that reveals nothing about it."""
+    return hmac.compare_digest(secret.encode(), given.encode("utf-8", "surrogatepass"))
 
 
 def _headers(host: str) -> dict[str, str]:

@@ -76,18 +76,19 @@ def _profile(topic: str, policies: Any) -> QoSProfile:
         raise ValueError(f"{topic}: it has to map policies to values")
     given: dict[str, Any] = {}
     for name, value in cast("dict[str, Any]", policies).items():
-        kind = POLICIES.get(name)
+        if name == "avoid_ros_namespace_conventions":
+            continue
+        if name not in (*POLICIES, *DURATIONS, "depth"):
+            raise ValueError(f"{topic}: there is no policy '{str(name)[:40]}'")
         try:
-            if kind is not None:
-                given[name] = kind[str(value).upper()]
+            if name in POLICIES:
+                given[name] = POLICIES[name][str(value).upper()]
             elif name in DURATIONS:
-                given[name] = Duration(seconds=value["sec"], nanoseconds=value["nsec"])
-            elif name == "depth":
+                given[name] = Duration(seconds=int(value["sec"]), nanoseconds=int(value["nsec"]))
+            else:
                 given[name] = max(0, int(value))
-            elif name != "avoid_ros_namespace_conventions":
-                raise ValueError(f"{topic}: there is no policy '{name}'")
-        except (KeyError, TypeError):
-            raise ValueError(f"{topic}: {name} cannot be '{value}'") from None
+        except (KeyError, TypeError, ValueError, OverflowError):
+            raise ValueError(f"{topic}: {name} cannot be '{str(value)[:40]}'") from None
     if "depth" not in given and given.get("history") != HistoryPolicy.KEEP_ALL:
         given["depth"] = 10
     return QoSProfile(**given)

@@ -100,6 +100,13 @@ def test_moves_and_wheel_steps_read_together_are_merged() -> None:
     assert sum(isinstance(each, events.Key) for each in found) == 1
 
 
+def test_stop_is_noticed_behind_a_mouse_report_with_an_endless_number() -> None:
+    noticed: list[events.Key] = []
+    source = TerminalEvents(False, lambda key: key.character == "!", lambda key, alone: noticed.append(key))
+    source.feed(b"\x1b[<" + b"9" * 5000 + b";1;1M!", 0.0)
+    assert [each.character for each in noticed] == ["!"]
+
+
 def test_keys_with_extended_reports_are_parsed() -> None:
     found = Reader().read(
         b"\x1b[97:65;2u", b"\x1b[97;2u", b"\x1b[1;1:2A", b"\x1b[1;1:3A", b"\x1b[13u", b"\x1b[27;5;105~"

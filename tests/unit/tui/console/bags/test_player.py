@@ -208,6 +208,7 @@ def test_recorded_profiles_can_be_overridden(bag: Bag) -> None:
     [
         ("a: [", "not YAML"), ("[]", "map topics"), ("/a: 5", "map policies"), ("/a: {relability: x}", "no policy"),
         ("/a: {reliability: strong}", "cannot be 'strong'"), ("/a: {lifespan: 5}", "cannot be '5'"),
+        ("/a: {deadline: {sec: x, nsec: 0}}", "deadline cannot"), ("/a: {depth: .inf}", "depth cannot"),
     ],
 )  # fmt: skip
 def test_wrong_profiles_are_explained(text: str, why: str) -> None:

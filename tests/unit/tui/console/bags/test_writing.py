@@ -100,7 +100,21 @@ def test_bags_are_converted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
 
 @pytest.mark.parametrize(
     ("text", "message"),
-    [("a: [", "is not YAML"), ("5", "has to list"), ("output_bags: [{}]", "each with a"), ("", "has to list")],
+    [
+        ("a: [", "is not YAML"),
+        ("5", "has to list"),
+        ("output_bags: [{}]", "each with a"),
+        ("", "has to list"),
+        *(
+            (f"output_bags: [{{uri: out, {name}: {value}}}]", f"out: {name} cannot be")
+            for name, value in {
+                "max_bagfile_size": ".inf",
+                "max_bagfile_duration": "[1]",
+                "custom_data": "5",
+                "topics": "true",
+            }.items()
+        ),
+    ],
 )
 def test_wrong_output_options_are_explained(
     tmp_path: Path, text: str, message: str, capsys: pytest.CaptureFixture[str]
