@@ -14,7 +14,7 @@ from bot_console.tui.cli.undecodable import undecodable
 from bot_console.tui.cli.verbs import ros2
 from bot_console.tui.learn.command_log import recorded
 from bot_console.tui.session.embedded.domain import begin_program, end_program, others_take_part
-from bot_console.tui.session.embedded.reaching import report_unused_router
+from bot_console.tui.session.embedded.reaching import report_left_router
 
 Words = list[str]
 
@@ -90,7 +90,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     os.getcwd()  # Raises if the folder was deleted, which is reported in one line; nodes could not be started in it.
     options = parse(words)
     if options.headless:
-        report_unused_router()
+        report_left_router()
         from bot_console.tui.cli.headless.run import run
 
         return run(options)

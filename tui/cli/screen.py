@@ -29,7 +29,7 @@ from bot_console.tui.session.embedded.domain import (
     why_alone,
 )
 from bot_console.tui.session.embedded.named_launch import with_launch_file
-from bot_console.tui.session.embedded.reaching import why_router_is_unused
+from bot_console.tui.session.embedded.reaching import leave_router
 from bot_console.tui.session.launch_host.child import Host
 from bot_console.tui.session.live import Session
 from bot_console.tui.settings.settings import read_settings
@@ -52,6 +52,9 @@ def run(options: Options) -> int:
     if alone and options.attach:
         print(alone, file=sys.stderr)
         return 1
+    warnings = [f"Other terminals cannot reach this system: {alone}"] if alone else []
+    if left := leave_router():
+        warnings.append(left)
     with ExitStack() as hosts:
         if not (alone or options.attach or options.launch) and is_in_range():
             claim = robot_claim()
@@ -73,7 +76,7 @@ def run(options: Options) -> int:
 
         together = not alone and is_in_range()
         own = start() if together and not options.attach else None  # While this process imports the screen.
-        return Session(options, partial(_connect, options, alone, own, start)).run()
+        return Session(options, partial(_connect, options, warnings, own, start)).run()
 
 
 def _prepare(options: Options) -> None:
@@ -86,16 +89,14 @@ def _prepare(options: Options) -> None:
     take_part()
 
 
-def _connect(options: Options, alone: str, own: Host | None, start: Callable[[], Host]) -> Connected:
+def _connect(options: Options, warnings: list[str], own: Host | None, start: Callable[[], Host]) -> Connected:
     """Build what is shown, after the first frame: these imports take longer than everything before it."""
     _prepare(options)
     from bot_console.tui.session.composition import attached, embedded, hosted, overhear
     from bot_console.tui.session.connected import Connected
     from bot_console.tui.session.launch_host.hosted_snapshot_buffer import HostedSnapshotBuffer
 
-    message = [(Severity.WARN, f"Other terminals cannot reach this system: {alone}")] if alone else []
-    if why := why_router_is_unused():
-        message.append((Severity.WARN, why))
+    message = [(Severity.WARN, each) for each in warnings]
     if options.attach:
         message.append((Severity.INFO, ATTACHED.format(domain())))
         return Connected(options, message, attached(start))

@@ -15,6 +15,12 @@ GOING_ON: Mapping[str, tuple[str, ...]] = {
 }
 """Commands and their subcommands that take as long as what they are about: a goal may take the robot minutes."""
 ONCE = ("--once", "-h", "--help")
+HELP = ("-h", "--help")
+ONLY_PRINTING: Mapping[str, tuple[str, ...]] = {
+    "launch": (*HELP, "-p", "--print", "--print-description", "-s", "--show-args", "--show-arguments"),
+    "run": HELP,
+}
+"""Commands that start nodes, and the options with which they start nothing."""
 LINE_TIMEOUT_S = 15.0
 """Seconds after which any other line that does not end by itself is interrupted, as by Ctrl-C."""
 
@@ -22,6 +28,12 @@ LINE_TIMEOUT_S = 15.0
 def goes_on(words: Sequence[str]) -> bool:
     """Whether a `ros2` line (without that word) may run for any time, printing meanwhile."""
     return len(words) > 2 and words[1] in GOING_ON.get(words[0], ()) and not any(each in ONCE for each in words)
+
+
+def starts_nodes(words: Sequence[str]) -> bool:
+    """Whether a `ros2` line (without that word) starts nodes."""
+    printing = ONLY_PRINTING.get(words[0]) if len(words) > 1 else None
+    return printing is not None and not any(each in printing for each in words)
 
 
 def interrupted(seconds: float) -> str:

@@ -9,7 +9,7 @@ from bot_console.tui.console.model import Capabilities, Severity
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.session.attached import AttachedSession
-from bot_console.tui.session.embedded.connecting import connect
+from bot_console.tui.session.embedded.connecting import connect, lead_children_to
 from bot_console.tui.session.embedded.domain import domain
 from bot_console.tui.session.embedded.hooks import DomainTypes, graph_events, halted_nodes, take_over_streams
 from bot_console.tui.session.embedded.link import LinkWords
@@ -35,6 +35,7 @@ def run_network(options: AttachOptions) -> int:
     except RuntimeError as error:
         print(error, file=sys.stderr)
         return 1
+    lead_children_to(options.way)
     choose(options.appearance.workspace)
     settings = read_settings()
     console = RosConsole(
@@ -56,7 +57,11 @@ def run_network(options: AttachOptions) -> int:
     forget = log_process_reports(console.printed, console.learn)
     try:
         return AttachedSession(
-            console, Ros2CommandLine(), options.appearance, message=message, on_first_frame=take_over_streams
+            console,
+            Ros2CommandLine(None, CAPABILITIES.launch),
+            options.appearance,
+            message=message,
+            on_first_frame=take_over_streams,
         ).run()
     finally:
         forget()

@@ -55,6 +55,17 @@ class SettingsError(SessionError):
     """Zenoh rejects the settings of a session."""
 
 
+def endpoints_of_file(file: str, last: Iterable[tuple[str, str]]) -> Sequence[str]:
+    """The endpoints that a client with this configuration connects to; `last` (path, JSON5) overrides the file."""
+    import zenoh
+
+    config = zenoh.Config.from_file(file)
+    for path, value in last:
+        config.insert_json5(path, value)
+    found: Any = json.loads(config.get_json("connect/endpoints"))
+    return found.get("client", ()) if isinstance(found, dict) else found
+
+
 class Session(Lifetime):
     """A session of one domain; a subclass defines how it connects. To be called from any thread but Zenoh's own."""
 

@@ -12,6 +12,7 @@ import pytest
 from bot_console.tui.bag_app import BagApp, PlayerBar
 from bot_console.tui.console.bags.contents import Contents
 from bot_console.tui.console.bags.opened_bag import OpenedBag
+from bot_console.tui.console.bags.playing import discovery
 from bot_console.tui.console.bags.playing.bag_playback import BagPlayback
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.bags.writer import BagWriter
@@ -40,13 +41,26 @@ class Published:
         numbers = self.numbers
 
         class Publisher:
+            topic_name = topic
+
+            def get_subscription_count(self) -> int:
+                return 0
+
             def publish(self, data: bytes) -> None:
                 numbers.put(deserialize_message(data, Int32).data)
 
         return Publisher()
 
+    def count_subscribers(self, topic: str) -> int:
+        return 0
+
     def next(self) -> int:
         return self.numbers.get(timeout=WAIT_S)
+
+
+@pytest.fixture(autouse=True)
+def nobody_to_wait_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(discovery, "MIN_S", 0.0)
 
 
 @pytest.fixture

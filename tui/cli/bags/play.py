@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from bot_console.tui.console.bags.playing.player import Player
     from rclpy.node import Node
 
-READY_S = 0.5
-"""How long a player waits for subscribers before the first message."""
 PROGRESS_S = 0.1
 """Time between two updates of the line of progress."""
 SEEK_S = 5.0
@@ -41,7 +39,8 @@ def play(given: argparse.Namespace) -> int:
     keys = nullcontext(False) if given.disable_keyboard_controls else keys_read(lambda key: press(player, key, stopped))
 
     def run() -> None:
-        if not stopped.wait(READY_S + given.delay):
+        player.await_subscriptions(stopped)
+        if not stopped.wait(given.delay):
             player.run(stopped)
 
     with keys as readable:
@@ -69,7 +68,8 @@ def burst(given: argparse.Namespace) -> int:
     stopped = threading.Event()
 
     def run() -> None:
-        if not stopped.wait(READY_S):
+        player.await_subscriptions(stopped)
+        if not stopped.is_set():
             player.burst(given.num_messages)
 
     return _report(player, _run(node, run, stopped))

@@ -39,7 +39,7 @@ from bot_console.tui.session.embedded.domain import (
     why_no_robot,
 )
 from bot_console.tui.session.embedded.named_launch import with_launch_file
-from bot_console.tui.session.embedded.reaching import named_routers, reach_system, report_unused_router
+from bot_console.tui.session.embedded.reaching import named_routers, reach_system, report_left_router
 from bot_console.tui.session.embedded.start_lock import start_lock
 from bot_console.tui.session.launch_host.address import ADDRESS_SUFFIX
 from bot_console.tui.session.system_log import new_log
@@ -86,7 +86,7 @@ def up(words: Sequence[str]) -> int:
     if problem := no_robot_here():
         print(problem, file=sys.stderr)
         return 1
-    report_unused_router()
+    report_left_router()
     alone = take_part() or _unreachable()
     options, problem = with_launch_file(options)
     if problem := problem or alone:

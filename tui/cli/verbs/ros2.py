@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from bot_console.tui.cli.machine_limits import no_node_here
 from bot_console.tui.session.embedded.domain import take_part
-from bot_console.tui.session.embedded.reaching import reach_system, reach_when_asked, report_unused_router
+from bot_console.tui.session.embedded.reaching import reach_system, reach_when_asked, report_left_router
 
 VERBS = ("action", "component", "interface", "lifecycle", "node", "param", "pkg", "service", "topic")
 ALONE = ("interface", "pkg")
@@ -55,7 +55,7 @@ def launch(words: Sequence[str]) -> int:
     from bot_console.tui.session.embedded.workspaces import report_workspace
 
     report_workspace(next((each for each in words if not each.startswith("-")), ""))
-    report_unused_router()
+    report_left_router()
     problem = take_part()
     if problem:
         print(problem, file=sys.stderr)

@@ -10,7 +10,7 @@ from bot_console.tui.cli.machine_limits import no_node_here
 from bot_console.tui.cli.programs import program
 from bot_console.tui.cli.verbs import ros2
 from bot_console.tui.session.embedded.domain import take_part
-from bot_console.tui.session.embedded.reaching import named_routers, reach_system, report_unused_router
+from bot_console.tui.session.embedded.reaching import named_routers, reach_system, report_left_router
 from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH, report_workspace
 
 
@@ -41,8 +41,8 @@ def run(words: list[str]) -> int:
         print(problem, file=sys.stderr)
         return 1
     options = _options(given, arguments)
-    report_unused_router()
     if given.headless:
+        report_left_router()
         from bot_console.tui.cli.headless.run import run as run_headless
 
         return run_headless(options)
@@ -53,7 +53,7 @@ def run(words: list[str]) -> int:
 
 def _prefixed(prefix: str, words: list[str]) -> int:
     """Run an executable behind a command prefix, in its own process."""
-    report_unused_router()
+    report_left_router()
     problem = no_node_here() or take_part()
     if problem:
         print(problem, file=sys.stderr)

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import atexit
+import os
 from collections.abc import Sequence
 
 from bot_console.runtime.importer import install
 from bot_console.runtime.rmw.middleware import bus_of, choose_middleware
 from bot_console.runtime.rmw.qos_matching import RMW_ZENOH
-from bot_console.runtime.rmw.zenoh.network.client import Way, with_environment
+from bot_console.runtime.rmw.zenoh.network.client import OVERRIDE_VARIABLE, Way, endpoints_of, with_environment
 from bot_console.runtime.rmw.zenoh.network.network_bus import NetworkBuses
 from bot_console.runtime.rmw.zenoh.network.reachability import place_of
 from bot_console.runtime.rmw.zenoh.session import SessionError
-from bot_console.tui.session.embedded.domain import domain, note_connection
+from bot_console.runtime.rmw.zenoh.settings import leaves
+from bot_console.tui.session.embedded.domain import CONNECT_VARIABLE, domain, note_connection
 
 
 def connect(way: Way) -> NetworkBuses:
@@ -24,6 +26,15 @@ def connect(way: Way) -> NetworkBuses:
     bus_of(domain())  # Connect now, so that a failure is reported before there is a screen.
     note_connection()
     return buses
+
+
+def lead_children_to(way: Way) -> None:
+    """Make the programs that this one starts reach the same router, by the environment that they inherit."""
+    tls = leaves({"transport": {"link": {"tls": way.tls.as_client()}}})
+    settings = [f"{path}={value.replace(';', chr(92) + 'u003b')}" for path, value in tls]
+    given = os.environ.get(OVERRIDE_VARIABLE, "")
+    os.environ[CONNECT_VARIABLE] = " ".join(endpoints_of(with_environment(way)))
+    os.environ[OVERRIDE_VARIABLE] = ";".join([*settings, *filter(None, [given])])
 
 
 def connect_to(endpoints: Sequence[str]) -> str:

@@ -17,9 +17,13 @@ def named_routers() -> list[str]:
     return os.environ.get(CONNECT_VARIABLE, "").split()
 
 
-def why_router_is_unused() -> str:
-    """That nodes are started on this machine although the environment names a robot's router; empty if it does not."""
+def leave_router() -> str:
+    """Forget the robot's router that the environment names, for this program and all that it starts.
+
+    Returns that nodes are started on this machine all the same; empty if no router was named.
+    """
     endpoints = " ".join(named_routers())
+    os.environ.pop(CONNECT_VARIABLE, None)
     if not endpoints:
         return ""
     return (
@@ -28,9 +32,9 @@ def why_router_is_unused() -> str:
     )
 
 
-def report_unused_router() -> None:
-    """Print that, for programs that start nodes."""
-    if why := why_router_is_unused():
+def report_left_router() -> None:
+    """The same for programs that start nodes; prints it."""
+    if why := leave_router():
         print(f"[WARN] [bot-console]: {why}", file=sys.stderr)
 
 

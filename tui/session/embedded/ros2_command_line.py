@@ -18,7 +18,7 @@ from bot_console.tui.commanding.completing import live_names
 from bot_console.tui.console.command_line import Stream
 from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.running_lines import LINE_TIMEOUT_S, RunningLine, goes_on, interrupted
+from bot_console.tui.console.running_lines import LINE_TIMEOUT_S, RunningLine, goes_on, interrupted, starts_nodes
 from bot_console.tui.learn.command_log import log_for, record, recorded
 
 START_TIMEOUT_S = 30.0
@@ -28,11 +28,12 @@ START_TIMEOUT_S = 30.0
 class Ros2CommandLine:
     """Runs each line in its own node process; implements `tui.console.command_line.CommandLine`."""
 
-    def __init__(self, launcher: Launcher | None = None) -> None:
+    def __init__(self, launcher: Launcher | None = None, no_launch: str = "") -> None:
         """`launcher` starts what `ros2 run` and `ros2 launch` name: it keeps running, and is listed in the Launch
-        pane.
+        pane. `no_launch` is why nothing can be started where the console's system is.
         """
         self._launcher = launcher
+        self._no_launch = no_launch
         self._known: dict[tuple[str, ...], list[str]] = {}
         """Output of verbs that does not change while the console runs: packages, types."""
 
@@ -75,6 +76,8 @@ class Ros2CommandLine:
         """The output of a line, and its exit code."""
         if words[:1] == ["colcon"]:
             return "\n".join(answers(words[1:])), 0
+        if self._no_launch and starts_nodes(words):
+            raise ValueError(self._no_launch)
         wanted = launched_by(words) if self._launcher is not None else None
         if wanted is None or self._launcher is None:
             return _printed_by(words)

@@ -16,7 +16,7 @@ from bot_console.tui.cli.in_background import in_background
 from bot_console.tui.console.command_gate import done
 from bot_console.tui.console.command_line import Stream
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.running_lines import LINE_TIMEOUT_S, RunningLine, goes_on, interrupted
+from bot_console.tui.console.running_lines import HELP, LINE_TIMEOUT_S, RunningLine, goes_on, interrupted, starts_nodes
 
 COMMANDS = (
     "action",
@@ -41,8 +41,6 @@ COMMANDS = (
 )
 OWN_COMMANDS = ("action", "interface", "lifecycle", "node", "param", "service", "topic")
 """The commands that our `ros2` has without the packages of an installed ROS 2."""
-ONLY_PRINTING = ("-h", "--help", "--print", "--print-description", "--show-args", "--show-arguments")
-"""Options with which `ros2 launch`, `run` and `bag` start nothing."""
 INTERRUPT_TIMEOUT_S = 3.0
 """Seconds that it has to end after the interrupt."""
 
@@ -129,8 +127,8 @@ def _words(line: str) -> list[str]:
 
 def _starts(words: Sequence[str]) -> bool:
     """Whether a line (without `ros2`) starts nodes, or records or plays a bag; as typed in a terminal, until Ctrl-C."""
-    starts = words[:1] in (["launch"], ["run"]) or words[:2] in (["bag", "play"], ["bag", "record"])
-    return starts and len(words) > 1 and not any(each in ONLY_PRINTING for each in words)
+    bag = list(words[:2]) in (["bag", "play"], ["bag", "record"]) and not any(each in HELP for each in words)
+    return bag or starts_nodes(words)
 
 
 def _program(words: Sequence[str]) -> Sequence[str]:

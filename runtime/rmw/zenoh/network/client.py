@@ -10,7 +10,7 @@ from bot_console.runtime.rmw.qos_matching import RMW_ZENOH, QosRules
 from bot_console.runtime.rmw.zenoh.link_probe import LinkProbe, LinkState
 from bot_console.runtime.rmw.zenoh.network.frozen_processes import StoppedBehind
 from bot_console.runtime.rmw.zenoh.network.reachability import Tls, why_unreachable
-from bot_console.runtime.rmw.zenoh.session import ROLL_CALL_KEY, Session, SessionError, SettingsError
+from bot_console.runtime.rmw.zenoh.session import ROLL_CALL_KEY, Session, SessionError, SettingsError, endpoints_of_file
 
 CONFIG_VARIABLE = "ZENOH_SESSION_CONFIG_URI"
 """Environment variable that names the session's configuration file, as in rmw_zenoh."""
@@ -49,6 +49,11 @@ def with_environment(way: Way) -> Way:
             raise SessionError(f"{OVERRIDE_VARIABLE} is to be `path=value;path=value`, not {each!r}")
         pairs.append((path.strip(), value.strip()))
     return replace(way, file=file, override=tuple(pairs))
+
+
+def endpoints_of(way: Way) -> Sequence[str]:
+    """Return the endpoints that a client on this way connects to, be they its own or those of its file."""
+    return way.endpoints or (endpoints_of_file(way.file, way.override) if way.file else ())
 
 
 def client_settings(zid: str, way: Way) -> dict[str, object]:

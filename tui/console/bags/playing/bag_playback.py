@@ -107,6 +107,7 @@ class BagPlayback:
 
     def _run(self, player: Player) -> None:
         try:
+            player.await_subscriptions(self._stopped)
             player.run(self._stopped)
         except NoBag as error:
             self._wait(problem=str(error))

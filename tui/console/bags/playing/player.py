@@ -11,6 +11,7 @@ from typing import Any, Protocol
 
 from bot_console.tui.console.bags.metadata import Topic
 from bot_console.tui.console.bags.playing.control_topics import controls
+from bot_console.tui.console.bags.playing.discovery import await_subscriptions
 from bot_console.tui.console.bags.playing.playback import PlaybackState
 from bot_console.tui.console.bags.port import GenericTypes
 from bot_console.tui.console.bags.qos import offered
@@ -85,13 +86,14 @@ class Player:
         Topics that control a robot are listed in `left_out`, unless `how.topics` names them. A topic that is remapped
         to such a name counts as one.
         """
+        self._node = node
         self._bag = bag
         self._how = how
         self._publishers: dict[str, Any] = {}
         self.unknown: dict[str, str] = {}
         self.left_out: list[str] = []
         self.published = 0
-        self._choose(node, find, generic)
+        self._choose(find, generic)
         clock_topics = how.clock_topics is None or bool(how.clock_topics)
         self._clock = Clock(node, how.clock) if how.clock > 0 or clock_topics else None
         self._changed = threading.Condition()
@@ -101,6 +103,8 @@ class Player:
         self._position, self._since = self._from, time.monotonic()
         """A time of the bag, and the time (s) at which it was reached."""
         self._rate, self._paused, self._loop = how.rate, how.paused, how.loop
+        self._running = False
+        """Whether time passes, unless it is paused; not before there are subscriptions."""
         self._steps = 0
         self._jump: int | None = None
 
@@ -167,15 +171,15 @@ class Player:
 
     def run(self, stopped: threading.Event) -> None:
         """Play until the end, or until `stopped` is set; blocks."""
-        begin: int | None = self._from
-        with self._changed:
-            self._anchor(self._from)
+        begin: int | None = self._begin()
         while begin is not None and not stopped.is_set():
             begin = self._play(begin, stopped)
             if begin is None and self._loop and not stopped.is_set():
-                begin = self._from
-                with self._changed:
-                    self._anchor(begin)
+                begin = self._begin()
+
+    def await_subscriptions(self, stopped: threading.Event) -> None:
+        """Wait until the subscriptions of its topics have been found; blocks for a second or two."""
+        await_subscriptions(self._publishers.values(), self._node.count_subscribers, stopped)
 
     def burst(self, count: int) -> None:
         """Publish the next messages at once; 0 means all."""
@@ -191,7 +195,7 @@ class Player:
         for each in self._publishers.values():
             each.wait_for_all_acked(timeout)
 
-    def _choose(self, node: Node, find: Callable[[str], Any], generic: GenericTypes | None) -> None:
+    def _choose(self, find: Callable[[str], Any], generic: GenericTypes | None) -> None:
         how = self._how
         named = None if how.topics is None else {_absolute(each) for each in how.topics}
         remaps = {_absolute(old): new for old, new in how.remaps.items()}
@@ -208,9 +212,18 @@ class Player:
                 self.unknown[name] = f"its type {topic.type} is not available here ({error})"
                 continue
             try:
-                self._publishers[name] = node.create_publisher(kind, target, how.qos.get(name) or offered(topic.qos))
+                profile = how.qos.get(name) or offered(topic.qos)
+                self._publishers[name] = self._node.create_publisher(kind, target, profile)
             except InvalidTopicNameException:  # recorded by others, or damaged
                 self.unknown[name] = f"'{target}' is not a valid topic name; remapped to one, it is played"
+
+    def _begin(self) -> int:
+        """Let the time run from the start of what is played, or from where it was moved to meanwhile."""
+        with self._changed:
+            begin = self._from if self._jump is None else self._jump
+            self._jump, self._running = None, True
+            self._anchor(begin)
+            return begin
 
     def _play(self, begin: int, stopped: threading.Event) -> int | None:
         """Play from a time on; returns where to continue if it was moved, None at the end."""
@@ -264,7 +277,7 @@ class Player:
             return jump
 
     def _now(self) -> int:
-        passed = 0.0 if self._paused else time.monotonic() - self._since
+        passed = 0.0 if self._paused or not self._running else time.monotonic() - self._since
         return self._position + int(passed * 1e9 * self._rate)
 
     def _anchor(self, position: int) -> None:

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 import rclpy
-from bot_console.tui.cli.bags import common, play
+from bot_console.tui.cli.bags import common
 from bot_console.tui.cli.verbs import bag as verb
+from bot_console.tui.console.bags.playing import discovery
 from bot_console.tui.console.bags.playing.control_topics import controls
 from bot_console.tui.console.bags.playing.player import Player, Playing
 from bot_console.tui.console.bags.reader import Bag
@@ -87,7 +88,7 @@ def test_the_warning_reports_what_is_left_out_and_how_to_include_it(
     recorded: Bag, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(common, "reach_system", lambda: "")
-    monkeypatch.setattr(play, "READY_S", 0.0)
+    monkeypatch.setattr(discovery, "MIN_S", 0.0)
     try:
         assert verb.run(["play", str(recorded.path), "-r", "1e6"]) == 0
     finally:

@@ -112,6 +112,21 @@ def test_seeking_continues_elsewhere_in_both_directions(bag: Bag) -> None:
         assert player.position == BEGIN + (COUNT - 1) * SECOND
 
 
+def test_a_player_that_was_moved_before_it_runs_begins_there_at_once(bag: Bag) -> None:
+    published, stopped = Published(), threading.Event()
+    player = Player(published, bag, Playing(paused=True, rate=0.01), class_of)  # type: ignore[arg-type] -- it only publishes
+    player.seek(BEGIN + 7 * SECOND)
+    player.paused = False
+    assert player.position == BEGIN + 7 * SECOND, "no time passes before it runs"
+    thread = threading.Thread(target=player.run, args=[stopped], daemon=True)
+    thread.start()
+    try:
+        assert published.next() == 7
+    finally:
+        stopped.set()
+        thread.join(WAIT_S)
+
+
 def test_a_paused_player_at_the_end_can_go_back(bag: Bag) -> None:
     with playing(bag, paused=True) as (player, published, ended):
         player.step(COUNT)
