@@ -128,6 +128,8 @@ def _report(verb: str, done: bool, info: StopInfo) -> int:
         print("held: the robot is locked until a person releases it" if verb == "stop" else "released")
         return 0
     why = "it did not answer" if info.locks else "no robot with an emergency stop was found (see docs/safety.md)"
+    if verb == "release" and any(each.by_node for each in info.stops):
+        why = f"still held by {sanitize('; '.join(_last_message(info)))}"
     sent = "stop sent, not confirmed" if verb == "stop" else "not released"
     print(f"{sent}: {why}", file=sys.stderr)
     return 1

@@ -1,10 +1,12 @@
 """Who holds a robot, as printed by `bot-console status`."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import pytest
 from bot_console.tui.cli.verbs import background, stop
-from bot_console.tui.console.robot.stop_link import FOLDER, LATCHED
+from bot_console.tui.console.robot.robot_model import RobotStop
+from bot_console.tui.console.robot.stop_link import FOLDER, LATCHED, StopInfo
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from domains import unused_domain
 from rclpy.context import Context
@@ -42,3 +44,12 @@ def test_status_reports_robot_that_does_not_answer(
 def test_nobody_holds_a_robot_that_does_not_exist(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     assert stop.holders(to_find=0.0) == []
+
+
+def test_release_after_which_a_node_holds_the_robot_names_the_node(capsys: pytest.CaptureFixture[str]) -> None:
+    """A lock that answers, but cannot write its stop file, stops the robot for a reason of its own."""
+    full = RobotStop("n1", "simulator", "stops cannot be kept: No space left on device", by_node=True)
+    assert stop._report("release", False, StopInfo(stopped=True, locks=2, stops=(full,))) == 1
+    assert capsys.readouterr().err == f"not released: still held by simulator: {full.reason}\n"
+    assert stop._report("release", False, StopInfo(stopped=True, locks=2, stops=(replace(full, by_node=False),))) == 1
+    assert capsys.readouterr().err == "not released: it did not answer\n"
