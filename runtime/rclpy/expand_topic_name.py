@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from bot_console.runtime.rmw import names
+from rclpy._rclpy_pybind11 import RCLError
 
 
 def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> str:
     """The full name of a topic as named in a node; raises `ValueError` if any of the three names is invalid."""
+    if topic_name is None:  # pyright: ignore[reportUnnecessaryComparison] -- a user's argument
+        raise RCLError("failed to do name expansion: input_topic_name argument is null")
     problem = names.validate_topic_name(topic_name)
     if problem:
         raise ValueError(f"topic name '{topic_name}' is invalid: {problem[0]}")

@@ -123,6 +123,8 @@ class Node(NodeParameters, NodeGraph):
 
     def _ros_choose_name(self, name: str, namespace: str, arguments: list[Arguments]) -> None:
         """Check and remap name and namespace; rules of the node's own command line take precedence."""
+        if name is None:  # pyright: ignore[reportUnnecessaryComparison] -- a user's argument
+            raise RCLError("error creating node: name argument is null")
         if not isinstance(name, str):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
             raise TypeError(f"node name must be a string, not {type(name).__name__}")
         problem = names.validate_node_name(name)

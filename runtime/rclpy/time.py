@@ -70,7 +70,9 @@ class Time:
     def __add__(self, other: object) -> Time:
         if isinstance(other, Duration):
             total = self._nanoseconds + other.nanoseconds
-            if not 0 <= total < MAX_NS:
+            if total < 0:
+                raise ValueError("Nanoseconds value must not be negative")
+            if total >= MAX_NS:
                 raise OverflowError("Addition leads to overflow in C storage.")
             return Time._of(total, self._clock_type)
         return NotImplemented

@@ -9,7 +9,6 @@ from collections.abc import Iterable, Sequence
 
 from bot_console.runtime.programs.hints import assignment, did_you_mean
 from bot_console.runtime.rmw.lexer import GrammarError, Lexeme, Lexer
-from bot_console.runtime.rmw.names import validate_namespace
 from bot_console.runtime.rmw.parameter_precedence import ParameterTable, ParameterYamlError
 from bot_console.runtime.rmw.remapping import RemapRule, parse_rule
 
@@ -181,10 +180,6 @@ def _log_file_name(word: str, value: str, parsed: Arguments) -> None:
 
 
 def _enclave(word: str, value: str, parsed: Arguments) -> None:
-    problem = validate_namespace(value)
-    if problem:
-        text = problem[0].replace("namespace", "context name", 1)
-        raise ArgumentsError(f"Enclave name is not valid: '{text}'. Invalid index: {problem[1]}")
     parsed.enclave = value
 
 

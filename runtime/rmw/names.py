@@ -10,6 +10,7 @@ import re
 MAX_NODE_NAME = 255
 MAX_TOPIC_NAME = 247
 MAX_NAMESPACE = 245
+MAX_ENCLAVE = 255
 
 Problem = tuple[str, int]
 
@@ -49,6 +50,18 @@ def validate_namespace(namespace: str) -> Problem | None:
     return None
 
 
+def validate_enclave(enclave: str) -> Problem | None:
+    """Check the path of an enclave, which is a longer kind of namespace."""
+    if not enclave:
+        return "context name must not be empty", 0
+    if enclave == "/":
+        return None
+    problem = _validate_full(enclave, "context name")
+    if not problem and len(enclave) > MAX_ENCLAVE:
+        return "context name should not exceed 'RCL_ENCLAVE_NAME_MAX_NAME_LENGTH'", MAX_ENCLAVE - 1
+    return problem
+
+
 def validate_full_topic_name(name: str) -> Problem | None:
     """Check a topic or service name after expansion."""
     if not name:
@@ -65,8 +78,8 @@ def _validate_full(name: str, what: str) -> Problem | None:
     if name[0] != "/":
         return f"{what} must be absolute, it must lead with a '/'", 0
     if name[-1] == "/":
-        unless = ", unless only a '/'" if what == "namespace" else ""
-        return f"{what} must not end with a '/'{unless}", len(name) - 1
+        unless = "" if what == "topic name" else ", unless only a '/'"
+        return f"{what} must not end with a '/'{unless}", _last_byte(name)
     outside = _OUTSIDE_FULL.search(name)
     if outside:
         return f"{what} must not contain characters other than alphanumerics, '_', or '/'", outside.start()
@@ -79,6 +92,11 @@ def _validate_full(name: str, what: str) -> Problem | None:
     return None
 
 
+def _last_byte(name: str) -> int:
+    """Return the index of the last byte: rcl counts bytes, not characters."""
+    return len(name.encode("utf-8", "surrogateescape")) - 1
+
+
 def validate_topic_name(name: str) -> Problem | None:
     """Check a topic or service name as typed: relative, private or absolute, with substitutions."""
     if _PLAIN.match(name):
@@ -88,7 +106,7 @@ def validate_topic_name(name: str) -> Problem | None:
     if name[0].isdigit():
         return "topic name token must not start with a number", 0
     if name[-1] == "/":
-        return "topic name must not end with a forward slash", len(name) - 1
+        return "topic name must not end with a forward slash", _last_byte(name)
     problem = _validate_characters(name)
     if problem:
         return problem

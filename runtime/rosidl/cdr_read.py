@@ -225,7 +225,8 @@ def fixed(data: bytes, at: int, length: int, wire: str, end: int) -> Any:
     dtype = numpy.dtype(wire)
     if at + length * dtype.itemsize > end:
         raise missing(at, at + length * dtype.itemsize)
-    return numpy.frombuffer(data, dtype, length, at).astype(wire[1])
+    # By size, not by letter: an array of the letter q is no int64 for NumPy's repr.
+    return numpy.frombuffer(data, dtype, length, at).astype(f"{dtype.kind}{dtype.itemsize}")
 
 
 def octets(data: bytes, at: int, length: int, end: int) -> tuple[list[bytes], int]:

@@ -11,6 +11,8 @@ from typing import Any, ClassVar, cast
 
 from bot_console.runtime.rosidl.slot_types import SlotTypes
 
+NUMBER_SEQUENCES = ("sequence<float", "sequence<double", "sequence<int", "sequence<uint")
+
 CHECK_VARIABLE = "ROS_PYTHON_CHECK_FIELDS"
 
 
@@ -87,7 +89,9 @@ class Message(metaclass=MessageType):
 
     def __repr__(self) -> str:
         name = ".".join([*type(self).__module__.split(".")[:-1], type(self).__name__])
-        fields = ", ".join(f"{name}={_shown(getattr(self, name))}" for name in self._fields_and_field_types)
+        fields = ", ".join(
+            f"{name}={_shown(getattr(self, name), kind)}" for name, kind in self._fields_and_field_types.items()
+        )
         return f"{name}({fields})"
 
     def __eq__(self, other: object) -> bool:
@@ -96,8 +100,10 @@ class Message(metaclass=MessageType):
         return all(_equal(getattr(self, name), getattr(other, name)) for name in self._fields_and_field_types)
 
 
-def _shown(value: object) -> str:
-    return repr(cast("array[Any]", value).tolist()) if isinstance(value, array) else repr(value)
+def _shown(value: object, kind: str) -> str:
+    """Return the text of a field: a sequence of numbers without its type, another value as it is."""
+    numbers = isinstance(value, array) and kind.startswith(NUMBER_SEQUENCES) and "/" not in kind
+    return repr(cast("array[Any]", value).tolist()) if numbers else repr(value)
 
 
 def _equal(one: Any, other: Any) -> bool:

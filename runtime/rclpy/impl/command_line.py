@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from bot_console.runtime.process.crashes import HINT
 from bot_console.runtime.programs.hints import is_read
-from bot_console.runtime.rmw import arguments
+from bot_console.runtime.rmw import arguments, names
 from bot_console.runtime.rmw.arguments import Arguments, ArgumentsError
 from rclpy._rclpy_pybind11 import RCLError, RCLInvalidROSArgsError, UnknownROSArgsError
 from rclpy.impl.log_file import LogFile
@@ -32,6 +32,7 @@ def parse_global(words: Sequence[str]) -> Arguments:
         if is_read():
             setattr(refused, HINT, error.hint)
         raise refused from None
+    _refuse_enclave(parsed.enclave)
     _refuse_unknown(parsed)
     if parsed.log_config_file:
         raise RCLError(f"failed to initialize logging: {NO_LOG_CONFIG}")
@@ -78,6 +79,14 @@ def _parse(words: Sequence[str]) -> Arguments:
     for rule in parsed.deprecated_rules:
         RcutilsLogger("rcl").warning(DEPRECATED.format(rule))
     return parsed
+
+
+def _refuse_enclave(enclave: str | None) -> None:
+    """Refuse an invalid enclave of a context; that of one node (`cli_args`) is ignored, as upstream."""
+    problem = None if enclave is None else names.validate_enclave(enclave)
+    if problem:
+        words = f"Enclave name is not valid: '{problem[0]}'. Invalid index: {problem[1]}"
+        raise RCLError(f"failed to initialize rcl: {words}")
 
 
 def _refuse_unknown(parsed: Arguments) -> None:

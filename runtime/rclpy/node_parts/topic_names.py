@@ -21,6 +21,8 @@ def checked(node: NodeBase, name: str, *, service: bool = False) -> str:
     Raises `InvalidTopicNameException` or `InvalidServiceNameException`, and `ValueError` for an unknown substitution.
     """
     kind = InvalidServiceNameException if service else InvalidTopicNameException
+    if name is None and not service:  # pyright: ignore[reportUnnecessaryComparison] -- a user's argument
+        raise RCLError("failed to validate name: topic_name argument is null")
     problem = names.validate_topic_name(name)
     if problem:
         raise kind(name, *problem)

@@ -314,6 +314,16 @@ def test_remove_ros_args_rejects_unknown_ros_arguments() -> None:
         rclpy.utilities.remove_ros_args(["p", "--ros-args", "--nope"])
 
 
+def test_invalid_enclave_is_refused_for_a_context_alone(capfd):
+    words = ["p", "--ros-args", "-e", "x"]
+    problem = "'context name must be absolute, it must lead with a '/''"
+    with pytest.raises(RCLError) as refused:
+        rclpy.init(args=words, context=Context())
+    assert str(refused.value) == f"failed to initialize rcl: Enclave name is not valid: {problem}. Invalid index: 0"
+    assert capfd.readouterr().err == ""
+    assert rclpy.utilities.remove_ros_args(words) == ["p"]
+
+
 def test_refused_parameter_file_gets_an_explanation_at_a_terminal(tmp_path, monkeypatch):
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     path = tmp_path / "p.yaml"

@@ -54,6 +54,7 @@ def test_seconds_and_nanoseconds_add_up(parts: dict[str, Any], nanoseconds: int)
         (lambda: Time() + Time(), TypeError, "unsupported operand type(s) for +: 'Time' and 'Time'"),
         (lambda: Time() * 2, TypeError, "unsupported operand type(s) for *: 'Time' and 'int'"),
         (lambda: Time(seconds=1) - Duration(seconds=2), ValueError, "Subtraction leads to negative time."),
+        (lambda: Time() + Duration(seconds=-1), ValueError, "Nanoseconds value must not be negative"),
         (
             lambda: Time(nanoseconds=2**63 - 1) + Duration(seconds=1),
             OverflowError,

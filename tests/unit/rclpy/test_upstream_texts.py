@@ -7,12 +7,14 @@ from typing import Any
 
 import pytest
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
+from rclpy._rclpy_pybind11 import RCLError, RMWError
 from rclpy.clock import ClockChange, JumpThreshold, ROSClock
 from rclpy.clock_type import ClockType
 from rclpy.context import Context
 from rclpy.duration import Duration
 from rclpy.event_handler import QoSPublisherEventType
 from rclpy.exceptions import InvalidParameterValueException
+from rclpy.expand_topic_name import expand_topic_name
 from rclpy.logging import get_logger
 from rclpy.parameter import get_parameter_value
 from rclpy.qos import QoSCompatibility, QoSPresetProfiles, QoSProfile, ReliabilityPolicy
@@ -21,6 +23,10 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.time import Time
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 from rclpy.utilities import timeout_sec_to_nsec
+from rclpy.validate_full_topic_name import validate_full_topic_name
+from rclpy.validate_namespace import validate_namespace
+from rclpy.validate_node_name import validate_node_name
+from rclpy.validate_topic_name import validate_topic_name
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
@@ -85,6 +91,28 @@ def test_handle_of_a_node_cannot_be_set(ros: Any) -> None:
 def test_namespace_must_be_a_string(ros: Any) -> None:
     with pytest.raises(TypeError, match="namespace must be a string, not int"):
         ros.node(namespace=3)
+
+
+def test_name_of_none_is_refused_in_upstreams_words(ros: Any) -> None:
+    node = ros.node()
+    missing = "failed to validate name: topic_name argument is null"
+    for call, error, text in (
+        (lambda: ros.node(None), RCLError, "error creating node: name argument is null"),
+        (lambda: node.create_publisher(String, None, 1), RCLError, missing),
+        (lambda: node.create_subscription(String, None, print, 1), RCLError, missing),
+        (lambda: validate_topic_name(None), RCLError, missing),
+        (lambda: validate_full_topic_name(None), RMWError, "failed to validate name: error not set"),
+        (lambda: validate_namespace(None), RMWError, "failed to validate namespace: error not set"),
+        (lambda: validate_node_name(None), RMWError, "failed to validate node name: error not set"),
+        (
+            lambda: expand_topic_name(None, "n", "/"),
+            RCLError,
+            "failed to do name expansion: input_topic_name argument is null",
+        ),
+    ):
+        with pytest.raises(error) as refused:
+            call()
+        assert str(refused.value) == text
 
 
 def test_context_can_be_initialized_without_logging() -> None:

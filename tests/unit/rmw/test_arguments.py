@@ -61,8 +61,6 @@ def test_parameter_names_are_accepted(name: str) -> None:
         (["-p", "a.:=1"], "Couldn't parse parameter override rule: '-p a.:=1'. Error: Expecting token or wildcard"),
         (["-r", "a"], "Couldn't parse remap rule: '-r a'. Error: "
          "Expected lexeme type (19) not found, search ended at index 1"),
-        (["-e", "x"], "Enclave name is not valid: 'context name must be absolute, it must lead with a '/''. "
-         "Invalid index: 0"),
     ],
 )  # fmt: skip
 def test_invalid_ros_arguments_are_rejected(words: list[str], error: str) -> None:

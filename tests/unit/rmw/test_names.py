@@ -58,6 +58,7 @@ def test_namespaces_are_validated(namespace: str, problem: tuple[str, int] | Non
         ("a", ("topic name must be absolute, it must lead with a '/'", 0)),
         ("/", ("topic name must not end with a '/'", 0)),
         ("/a/", ("topic name must not end with a '/'", 2)),
+        ("/é/", ("topic name must not end with a '/'", 3)),
         ("/a-b", (f"topic name {UNALLOWED}, '_', or '/'", 2)),
         ("/~/a", (f"topic name {UNALLOWED}, '_', or '/'", 1)),
         ("//a", ("topic name must not contain repeated '/'", 1)),
@@ -90,6 +91,7 @@ BRACES = "topic name must not have unmatched (unbalanced) curly braces '{}'"
         ("1a", ("topic name token must not start with a number", 0)),
         ("a/1b", ("topic name token must not start with a number", 2)),
         ("a/", ("topic name must not end with a forward slash", 1)),
+        ("é/", ("topic name must not end with a forward slash", 2)),
         ("/", ("topic name must not end with a forward slash", 0)),
         ("a b", (TYPED, 1)),
         ("a.b", (TYPED, 1)),
@@ -150,3 +152,18 @@ def test_namespace_error_is_phrased_as_for_node_names(namespace: str, words: str
     problem = names.validate_namespace(namespace)
     assert problem is not None
     assert names.in_words_for_node_names(problem[0]) == words
+
+
+@pytest.mark.parametrize(
+    ("enclave", "problem"),
+    [
+        ("/", None),
+        ("/" + "a" * 254, None),
+        ("", ("context name must not be empty", 0)),
+        ("/a/", ("context name must not end with a '/', unless only a '/'", 2)),
+        ("/a//b", ("context name must not contain repeated '/'", 3)),
+        ("/" + "a" * 255, ("context name should not exceed 'RCL_ENCLAVE_NAME_MAX_NAME_LENGTH'", 254)),
+    ],
+)
+def test_enclaves_are_validated(enclave: str, problem: tuple[str, int] | None) -> None:
+    assert names.validate_enclave(enclave) == problem

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 from bot_console.runtime.rosidl.cdr import CdrError, deserialize, serialize
+from bot_console.runtime.rosidl.cdr_read import fixed
 from bot_console.runtime.rosidl.conversion import FieldTypeError
 from example_interfaces.msg import WString
 from example_interfaces.srv import AddTwoInts
@@ -35,6 +36,10 @@ KNOWN = [
 def test_messages_have_known_bytes(message: Any, digits: str) -> None:
     assert serialize(message) == bytes.fromhex(digits)
     assert deserialize(bytes.fromhex(digits), type(message)) == message
+
+
+def test_received_array_of_64_bit_integers_prints_like_a_new_one() -> None:
+    assert repr(fixed(bytes(16), 0, 2, "<q", 16)) == "array([0, 0])"
 
 
 def test_deserialized_messages_are_mutable() -> None:

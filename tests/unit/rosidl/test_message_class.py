@@ -169,6 +169,10 @@ def test_fields_dict_is_a_copy() -> None:
 def test_repr_is_that_of_rosidl() -> None:
     assert repr(LaserScan(ranges=[1.0]).ranges) == "array('f', [1.0])"
     assert "ranges=[1.0], intensities=[])" in repr(LaserScan(ranges=[1.0]))
+    assert repr(String(data=array("i", [1]))) == "std_msgs.msg.String(data=array('i', [1]))"
+    assert "name=array('d', [1.0]), position=[2.0]" in repr(
+        JointState(name=array("d", [1.0]), position=array("d", [2.0]))
+    )
     assert repr(SetBool.Request(data=True)) == "std_srvs.srv.SetBool_Request(data=True)"
     assert repr(Fibonacci.Goal(order=3)) == "example_interfaces.action.Fibonacci_Goal(order=3)"
 
