@@ -1,5 +1,9 @@
 #!/usr/bin/env python3
-"""Node `simulator`: a robot in a world, in constant 10 ms steps on steady time, with services to pause and reset it."""
+"""Node `simulator`: a robot in a world, in constant 10 ms steps on steady time, with services to pause and reset it.
+
+The steps since the last one are made when something depends on them: when a pose or a scan is to be published, and
+before a command or a setting changes. While somebody subscribes to the time or the bumper, that is each step.
+"""
 
 from __future__ import annotations
 
@@ -37,6 +41,8 @@ from visualization_msgs.msg import MarkerArray
 
 CATCH_UP = 25
 """Maximum number of steps made at once; any further lag is dropped, so that a stall does not cause a burst."""
+MAX_STEPS_AHEAD = 5
+"""Maximum number of steps until the next call of the timer: 50 ms, so that a collision is reported in time."""
 QUIET_NS = 60_000_000_000
 """Nanoseconds without a lag after which the next one is reported again."""
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -83,8 +89,8 @@ class Simulator(Node):
         self._signals = Signals(self, self._model)
         self._left_out = 0.0
         self._health = HealthReport(self, "time", self._poll)
+        self._timer = self.create_timer(STEP, self._tick, clock=self._steady)
         self._begin()
-        self.create_timer(STEP, self._tick, clock=self._steady)
 
     def _create_publishers(self) -> None:
         self._clock_messages = self.create_publisher(ClockMessage, "/clock", 10)
@@ -124,6 +130,22 @@ class Simulator(Node):
     def _restart_time(self) -> None:
         self._origin = self._steady.now().nanoseconds
         self._done = 0
+        self._schedule()
+
+    def _schedule(self) -> None:
+        """Set the timer to the next step at which something is published, counted from the origin."""
+        if self._paused:
+            self._timer.cancel()
+            return
+        due = self._origin + (self._done + self._steps_ahead()) * STEP_NS
+        self._timer.timer_period_ns = max(1, due - self._steady.now().nanoseconds)
+        self._timer.reset()
+
+    def _steps_ahead(self) -> int:
+        if self._clock_messages.get_subscription_count() or self._bumper.get_subscription_count():
+            return 1
+        steps = self._simulation.steps
+        return min(MAX_STEPS_AHEAD, *(every - steps % every for every in (self._scan_every, self._odom_every)))
 
     def _read_rates(self) -> None:
         self._scan_every = max(1, round(1.0 / (float(self.get_parameter("scan_rate").value) * STEP)))
@@ -142,6 +164,7 @@ class Simulator(Node):
         return accepted()
 
     def _apply(self, changes: list[Parameter]) -> None:
+        self._catch_up()
         self._simulation.configure(settings(self))
         self._read_rates()
         for change in changes:
@@ -150,11 +173,13 @@ class Simulator(Node):
     def _hold(self) -> None:
         """Stop at once when the emergency stop has been locked."""
         if self._stop.lock.held:
+            self._catch_up()
             self._simulation.command(0.0, 0.0)
 
     def _on_command(self, message: Twist) -> None:
         if self._stop.lock.held:
             return
+        self._catch_up()
         try:
             self._simulation.command(message.linear.x, message.angular.z)
         except ValueError as error:
@@ -166,6 +191,7 @@ class Simulator(Node):
     def _on_pose(self, message: PoseWithCovarianceStamped) -> None:
         place = message.pose.pose
         pose = Pose(place.position.x, place.position.y, messages.heading_of(place.orientation))
+        self._catch_up()
         try:
             self._simulation.place(self._frames.in_world(pose))
         except ValueError as error:
@@ -186,6 +212,7 @@ class Simulator(Node):
         return response
 
     def _on_pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        self._catch_up()
         self._paused = bool(request.data)
         self._restart_time()
         response.success = True
@@ -205,11 +232,17 @@ class Simulator(Node):
         return response
 
     def _on_report(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        self._catch_up()
         response.success = True
         response.message = json.dumps(self._simulation.report())
         return response
 
     def _tick(self) -> None:
+        self._catch_up()
+        self._schedule()
+
+    def _catch_up(self) -> None:
+        """Make the steps that are due."""
         if self._paused:
             return
         due = (self._steady.now().nanoseconds - self._origin) // STEP_NS - self._done
