@@ -48,8 +48,10 @@ class SearchedView:
 
     def poll(self) -> SearchResult:
         """The records found so far; the same object until there is more."""
-        self._wake()
-        return self._found
+        found, there = self._found, self._store.state
+        if not found.complete or there.end != found.end or there.first > found.begin:
+            self._wake()
+        return found
 
     def work(self) -> bool:
         """Search one slice; False if there is nothing to do."""
