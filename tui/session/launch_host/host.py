@@ -20,6 +20,8 @@ from bot_console.tui.session.protocol import ClosableLauncher
 
 LAUNCHER_POLL_S = 0.1
 """Seconds between two checks for changes."""
+UNSEEN_POLL_S = 0.5
+"""The same while no console is connected: then only a process that has failed is restarted, and its output settled."""
 MAX_LINES = 1000
 """Past lines of output that are sent to a console which connects later."""
 MAX_FACTS = 10_000
@@ -111,7 +113,7 @@ class LaunchHost:
     def _poll(self) -> None:
         """Send what is new; a lock serializes this, or an older state might follow a newer one."""
         while not self.over.is_set():
-            self._wake.wait(LAUNCHER_POLL_S)
+            self._wake.wait(LAUNCHER_POLL_S if self._consoles else UNSEEN_POLL_S)
             self._wake.clear()
             ended = self._ended
             replies = [self._replies.popleft() for _ in range(len(self._replies))]
