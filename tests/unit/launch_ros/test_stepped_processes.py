@@ -138,6 +138,70 @@ def test_program_may_do_what_a_process_may(step: Any, nodes: Any) -> None:
     assert done.exit_codes == [3] and done.deterministic
 
 
+VISION = """
+    import threading, time
+    import rclpy
+
+    {library}
+
+    def compute_in_thread(number):
+        found = []
+        thread = threading.Thread(target=lambda: found.append(compute(number)))
+        thread.start()
+        thread.join()
+        return found[0]
+
+    rclpy.init()
+    node = rclpy.create_node('vision')
+    began, results = time.monotonic(), []
+    node.create_timer(0.1, lambda: results.append((compute(len(results)), compute_in_thread(len(results) + 1))))
+    while len(results) < 3:
+        rclpy.spin_once(node)
+    print(*results, sep='\\n')
+    print(time.monotonic() - began >= 0.3, threading.active_count(), flush=True)
+"""
+C_LIBRARY = """
+    import ctypes, hashlib
+    import numpy
+
+    libc, PICTURE = ctypes.CDLL(None), numpy.arange(256 * 256, dtype=numpy.float32).reshape(256, 256)
+
+    def compute(number):
+        # As a library for pictures does: a library's own threads, work without the interpreter lock, and a call from
+        # a thread of C.
+        product, called = PICTURE @ PICTURE.T % (97 + number), []
+        callback = ctypes.CFUNCTYPE(ctypes.c_void_p, ctypes.c_void_p)(lambda given: called.append(given))
+        thread = ctypes.c_ulong()
+        libc.pthread_create(ctypes.byref(thread), None, callback, ctypes.c_void_p(number))
+        libc.pthread_join(thread, None)
+        return called, hashlib.sha256(product.tobytes()).hexdigest()
+"""
+OPENCV_LIBRARY = """
+    import cv2, numpy
+
+    def compute(number):
+        picture = numpy.zeros((480, 640, 3), numpy.uint8)
+        cv2.circle(picture, (320, 240), 50 + number, (255, 255, 255), -1)
+        blurred = cv2.GaussianBlur(cv2.resize(picture, (1280, 960)), (15, 15), 0)
+        edges = cv2.Canny(cv2.cvtColor(blurred, cv2.COLOR_BGR2GRAY), 50, 150)
+        contours, _ = cv2.findContours(edges, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_SIMPLE)
+        return cv2.getNumThreads() > 0, len(contours), int(blurred.sum())
+"""
+
+
+@pytest.mark.parametrize(
+    "library", [pytest.param(C_LIBRARY, id="c"), pytest.param(OPENCV_LIBRARY, id="opencv", marks=pytest.mark.soak)]
+)
+def test_program_with_a_c_library_computes_as_in_a_live_run(run: Launch, step: Any, nodes: Any, library: str) -> None:
+    if library is OPENCV_LIBRARY:
+        pytest.importorskip("cv2")
+    program = VISION.format(library=library.strip())
+    live = Run(run(nodes(program)).text, [], True, []).lines
+    assert len(live) == 4 and live[3] == "True 1"
+    done = step(*nodes(program))
+    assert done.lines == live * 2 and done.exit_codes == [0] and done.deterministic  # the log has both runs
+
+
 TALKER = """
     import random, threading, time
     import rclpy
