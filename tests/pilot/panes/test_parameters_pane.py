@@ -13,6 +13,7 @@ from bot_console.tui.console.model import (
     Change,
     ChangeSource,
     JournalState,
+    Kind,
     ParameterTree,
     ProcessState,
     SetOutcome,
@@ -50,6 +51,21 @@ def test_note_of_a_value_that_cannot_be_set_is_whole_or_left_out(length: int, is
         await session.press("1")
         row = next(line for line in session.lines() if "ssss" in line)
         assert ("read only" in row) == is_noted and "…" not in row
+
+    run(live(), play, (60, 20))
+
+
+def test_refusal_is_readable_beside_a_short_value_where_another_value_is_long() -> None:
+    async def play(session: Session) -> None:
+        console = session.console
+        one = replace(console.current.parameters["/simulator"].get("seed"), name="short", value=1)
+        other = replace(one, name="long", value="x" * 60, kind=Kind.STRING)
+        trees = {**console.current.parameters, "/simulator": ParameterTree("/simulator", (other, one))}
+        console.change(parameters=MappingProxyType(trees))
+        refused = SetOutcome("/simulator", "short", 2, False, "this console is read-only", "gate")
+        session.pane(ParametersPane).edits.refused = {("/simulator", "short"): refused}
+        await session.press("1")
+        assert "✗ 2: this console is read-only" in next(line for line in session.lines() if "short" in line)
 
     run(live(), play, (60, 20))
 

@@ -132,13 +132,13 @@ class ParameterRows(ItemList[Row]):
         value, dim = shown_value(row), self._style("dim")
         refused, late, staged = self._edits.refused.get(key), self._edits.late, self._edits.staging.marked
         if refused or key in late:
-            value = cut(value, min(own.value, left), pad=True)
-            room = max(0, left - own.value - GAP)
             waits = f"… {sanitize(value_text(late[key]))}: not answered yet" if key in late else ""
-            output = Segment(cut(waits, room), self._style("warn"))
-            if refused and not waits:
-                output = Segment(cut(beside_row(refused), room), self._style("error"))
-            return [*segments, Segment(value + " " * GAP), output]
+            note = waits or (beside_row(refused) if refused else "")
+            cells = min(own.value, left)
+            if left - cells - GAP < len(note):  # the column is as wide as the longest value, which is another one
+                cells = min(cells, len(value))
+            output = Segment(cut(note, max(0, left - cells - GAP)), self._style("warn" if waits else "error"))
+            return [*segments, Segment(cut(value, cells, pad=True) + " " * GAP), output]
         if key in staged:
             unit = f" {parameter.unit}" if parameter.unit else ""
             text = f"{sanitize(value_text(parameter.value))} → {sanitize(value_text(staged[key]))}{unit}"
