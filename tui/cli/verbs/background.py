@@ -32,6 +32,7 @@ from bot_console.tui.session.embedded.domain import (
     domain,
     frozen,
     is_in_range,
+    others_take_part,
     report_of_other_start,
     robot_claim,
     robot_there,
@@ -264,23 +265,26 @@ def status(words: Sequence[str]) -> int:
         print(f"running in {where}: {there.reported()}")
     if robot:
         print(f"robot in {where}: {', '.join(robot)}")
-        _print_holders()
+    # Robots in namespaces are none of those above.
+    is_held = (bool(robot or routers) or others_take_part()) and _print_holders()
     stopped = [] if routers else frozen()  # a pid of another machine means nothing here
     for pid in stopped:
         print(f"process {pid} is stopped: it does nothing for the others; kill -CONT {pid} lets it continue")
-    if not there and not robot and not stopped:
+    if not (there or robot or is_held or stopped):
         print(f"nothing runs in {where}", file=sys.stderr)
         return 1
     return 0
 
 
-def _print_holders() -> None:
+def _print_holders() -> bool:
+    """Print who holds the robots of the domain, or that it is not known; returns whether anything was printed."""
     found = holders()
     if found is None:
         print("whether somebody holds it is not known: its emergency stop did not answer")
-        return
+        return True
     for each in found:
         print(f"held by {sanitize(each)}; bot-console release --all releases it")
+    return bool(found)
 
 
 def _no_words(command: str, what: str, words: Sequence[str]) -> None:

@@ -41,6 +41,20 @@ def test_status_reports_robot_that_does_not_answer(
     assert capsys.readouterr().out == "whether somebody holds it is not known: its emergency stop did not answer\n"
 
 
+def test_status_names_who_holds_a_robot_in_a_namespace(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Its nodes are none of those of a robot without a namespace."""
+    for name, value in {"reach_system": "", "_known": None, "robot_there": [], "frozen": []}.items():
+        monkeypatch.setattr(background, name, lambda value=value: value)
+    monkeypatch.setattr(background, "holders", lambda: ["anna: my foot"])
+    monkeypatch.setattr(background, "others_take_part", lambda: True)
+    assert background.status([]) == 0
+    assert capsys.readouterr().out == "held by anna: my foot; bot-console release --all releases it\n"
+    monkeypatch.setattr(background, "others_take_part", lambda: False)
+    assert background.status([]) == 1
+
+
 def test_nobody_holds_a_robot_that_does_not_exist(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     assert stop.holders(to_find=0.0) == []

@@ -87,6 +87,7 @@ def test_status_reports_a_stopped_process(monkeypatch, capsys):
         monkeypatch.setattr(sockets, "sockets", lambda folder: there)
         monkeypatch.setattr(background, "take_part", lambda: "")
         monkeypatch.setattr(background, "robot_there", lambda: [])
+        monkeypatch.setattr(background, "others_take_part", lambda: False)
         monkeypatch.setattr(background, "_known", lambda: None)
         try:
             assert background.status([]) == 1
