@@ -6,7 +6,7 @@ import itertools
 from typing import Any
 
 import pytest
-from bot_console.tui.keymap import stops
+from bot_console.tui.keymap import TABLE, stops
 from bot_console.tui.keys.input_queue import MAX_WHEEL_STEPS
 from bot_console.tui.keys.sequences import PASTE_BEGIN, PASTE_END
 from bot_console.tui.keys.terminal_events import TerminalEvents
@@ -26,6 +26,8 @@ STOPS = [
     b"\x1b[49:33;2;33u", b"\x1b[33;2:1;33u", b"\x1b[33;2:2u", b"\x1b[33;129;33u", b"\x1b[27;2;33~", b"\x1bO!",
     b"\xe2\x98!", b"\xff!",
 ]  # fmt: skip
+TILDES = [f"{number}{modifier}~" for number in (2, 3, 5, 6) for modifier in ("", ";2", ";5")]
+"""Insert, Delete, Page Up and Page Down, also with Shift and Ctrl."""
 INPUT = st.lists(st.one_of(st.sampled_from(SANITIZED), st.sampled_from(STOPS), st.sampled_from([b"a", "ä".encode()])))
 
 
@@ -112,3 +114,12 @@ def test_keys_with_extended_reports_are_parsed() -> None:
         b"\x1b[97:65;2u", b"\x1b[97;2u", b"\x1b[1;1:2A", b"\x1b[1;1:3A", b"\x1b[13u", b"\x1b[27;5;105~"
     )
     assert [each.key for each in found] == ["A", "shift+a", "up", "enter", "ctrl+i"]
+
+
+def test_every_key_of_the_table_is_what_its_bytes_are_read_as() -> None:
+    plain = [bytes([each]) for each in (*range(1, 27), 27, *range(32, 128))]
+    letters = [(letter, *(f"1;{modifier}{letter}" for modifier in (2, 5))) for letter in "ABCDHF"]
+    special = [f"\x1b[{each}".encode() for each in (*(each for some in letters for each in some), "Z", *TILDES)]
+    read = {event.key for data in (*plain, b"\x1bOP", *special) for event in Reader().read(data)}
+    wanted = {each for keys in TABLE.values() for key in keys for each in key.keys.split(",")}
+    assert not wanted - read
