@@ -48,6 +48,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
     .diagram--box { color: $foreground; text-style: bold; }
     .diagram--chip { color: $foreground; background: $panel; }
     .diagram--line { color: $secondary; }
+    .diagram--key { color: $primary; text-style: bold; }
     .diagram--linked { color: $primary; }
     .diagram--linked-chip { color: $primary; background: $panel; }
     .diagram--selected { color: $block-cursor-foreground; background: $block-cursor-background; text-style: bold; }
@@ -63,6 +64,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
             "box",
             "chip",
             "line",
+            "key",
             "linked",
             "linked-chip",
             "selected",
@@ -113,7 +115,8 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         self._selecting = False
         self._downward = False
         self._room = Size()
-        self._footer: Sequence[str] = ()
+        self._footer: tuple[str, ...] = ()
+        self._legend = ""
         self._drawing_beside = False
 
     def show(
@@ -218,11 +221,22 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         """The rows below the drawing."""
         return max(0, self.size.height - len(self.drawing.rows))
 
-    def set_footer(self, lines: Sequence[str]) -> None:
-        """Write lines into the last of the free rows, below a rule; the first line is a heading."""
-        if list(lines) != list(self._footer):
-            self._footer = tuple(lines)
+    def set_footer(self, lines: Sequence[str], legend: str = "") -> None:
+        """Write lines into the last of the free rows, below a rule; the first line is a heading.
+
+        The legend stands above them if there is another free row.
+        """
+        if (tuple(lines), legend) != (self._footer, self._legend):
+            self._footer, self._legend = tuple(lines), legend
             self.refresh()
+
+    def _below(self, at: int, width: int) -> tuple[str, str] | None:
+        """The text and style of a row below the drawing, counted from the first line of the footer."""
+        if at >= 0:
+            return (f" {self._footer[at]}", "" if at else "box") if at < len(self._footer) else None
+        if self._footer and at == -1:
+            return "─" * width, "line"
+        return (f" {self._legend}", "line") if self._legend and at == (-2 if self._footer else -1) else None
 
     def choose(self, item: str) -> None:
         """Select a drawn item; it remains selected as long as it is drawn."""
@@ -250,14 +264,17 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         width = self.size.width
         base = self.own_style
         at = y - (self.size.height - len(self._footer))
-        if self._footer and at >= -1 and row >= len(self.drawing.rows):
-            text, name = ("─" * width, "line") if at < 0 else (f" {self._footer[at]}", "" if at else "box")
+        if self.drawing.rows and row >= len(self.drawing.rows) and (below := self._below(at, width)):
+            text, name = below
             return Strip(
                 [Segment(text, base + self.part_style(f"diagram--{name}") if name else base)]
             ).adjust_cell_length(width, base)
         lines = () if self.drawing.rows else placeholder_lines(self.placeholder, width, self.size.height)
         if y < len(lines):
-            return Strip([Segment(text, base) for text, _ in lines[y]]).adjust_cell_length(width, base)
+            styles = {"": base} | {
+                name: base + self.part_style(f"diagram--{part}") for name, part in (("dim", "line"), ("key", "key"))
+            }
+            return Strip([Segment(text, styles[name]) for text, name in lines[y]]).adjust_cell_length(width, base)
         runs = self.drawing.rows[row] if row < len(self.drawing.rows) else ()
         segments: list[Segment] = []
         at = 0

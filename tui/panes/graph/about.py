@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+
 from bot_console.tui.console.graph.findings import SILENT, debugger_text
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.format import counted, sanitize
 from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, SPACE, TOPIC
 
 
-def summary(info: GraphInfo, item: str) -> str:
-    """One line on a node or a topic."""
+def summary(info: GraphInfo, item: str, hides_name: Callable[[str], bool]) -> str:
+    """One line on a node or a topic; of the topics of a node, those whose names are hidden are counted apart."""
     if not item:
         return ""
     if item.startswith(SPACE):
@@ -26,13 +28,19 @@ def summary(info: GraphInfo, item: str) -> str:
     node = node_of(info, item)
     if node is None:
         return ""
-    parts = [f"publishes {len(node.publishers)}", f"subscribes {len(node.subscriptions)}"]
+    parts = [f"publishes {_number(node.publishers, hides_name)}"]
+    parts += [f"subscribes to {_number(node.subscriptions, hides_name)}"]
     parts += [f"{counted(len(node.services), 'service')}", f"{counted(len(node.clients), 'client')}"]
     stopped = "".join(f" - frozen: process {pid} is stopped" for name, pid in info.frozen if name == item)
     stopped = stopped or "".join(f" - {debugger_text(line)}" for name, line in info.debugged if name == item)
     stopped = stopped or (f" - {SILENT}" if item in info.silent else "")
     state = f"{info.lifecycle[item]} (T changes it), " if item in info.lifecycle else ""
     return sanitize(f"{item}  {state}{', '.join(parts)}{stopped}")
+
+
+def _number(ends: Sequence[Endpoint], hides_name: Callable[[str], bool]) -> str:
+    hidden = sum(hides_name(each.name) for each in ends)
+    return f"{len(ends) - hidden} + {hidden} hidden" if hidden else str(len(ends))
 
 
 def server_types(info: GraphInfo, item: str) -> list[str]:
@@ -52,7 +60,7 @@ def warning(publishers: list[str], subscribers: list[str]) -> str:
     """The unusual thing about a topic with these endpoints; empty if there is none."""
     if not publishers:
         return " - nobody publishes it: is the name right?"
-    return " - nobody listens" if not subscribers else ""
+    return " - no subscriber" if not subscribers else ""
 
 
 def ends_of(info: GraphInfo, topic: str) -> tuple[list[str], list[str]]:

@@ -35,7 +35,7 @@ def details(snapshot: ConsoleSnapshot, item: str) -> list[Option]:
 def _node(snapshot: ConsoleSnapshot, name: str) -> Iterator[Option]:
     node = node_of(snapshot.graph, name)
     if node is None:
-        yield Option("The node has left.")
+        yield Option("The node is no longer running.")
         return
     if name in snapshot.graph.lifecycle:
         yield Option(f"lifecycle {snapshot.graph.lifecycle[name]}", "T in the graph changes it")
@@ -59,7 +59,9 @@ def _node(snapshot: ConsoleSnapshot, name: str) -> Iterator[Option]:
 def _topic(info: GraphInfo, name: str) -> Iterator[Option]:
     types = types_of(info, name)
     for each in types:
-        yield Option(f"type {each}", "more than one: not all hear each other" if len(types) > 1 else "", TYPE + each)
+        yield Option(
+            f"type {each}", "more than one type: these ends do not connect" if len(types) > 1 else "", TYPE + each
+        )
     qos = {
         (node.name, publishing): each.qos
         for node in info.nodes
@@ -68,7 +70,7 @@ def _topic(info: GraphInfo, name: str) -> Iterator[Option]:
         if each.name == name
     }
     publishers, subscribers = ends_of(info, name)
-    for word, nodes, publishing in (("published by", publishers, True), ("heard by", subscribers, False)):
+    for word, nodes, publishing in (("published by", publishers, True), ("subscribed by", subscribers, False)):
         for each in nodes:
             yield Option(f"{word} {each}", qos.get((each, publishing), ""), ITEM + each)
         if not nodes:
@@ -93,7 +95,7 @@ def line_options(info: GraphInfo, links: Iterable[str]) -> list[Option]:
 def _service(info: GraphInfo, item: str) -> Iterator[Option]:
     kind, _, name = item.partition(":")
     given, taken = ("services", "clients") if kind == "service" else ("action_servers", "action_clients")
-    for word, field in (("served by", given), ("asked by", taken)):
+    for word, field in (("served by", given), ("called by", taken)):
         found = [(node.name, each) for node in info.nodes for each in _named(getattr(node, field), name)]
         for node, each in found:
             yield Option(f"{word} {node}", ", ".join(each.types), ITEM + node)

@@ -82,9 +82,9 @@ def _wrong(info: Frames, clock: float) -> dict[str, str]:
 def summary(row: FrameRow | None, info: Frames) -> str:
     """One line on a frame."""
     if row is None:
-        return info.problem or ("Nothing matches." if info.frames else "Nobody has told of a frame yet.")
+        return info.problem or ("Nothing matches." if info.frames else "No transforms have been received yet.")
     if row.frame is None:
-        return f"{row.name}  stands in no other frame"
+        return f"{row.name}  has no parent frame"
     x, y, z = row.frame.place
     roll, pitch, yaw = (math.degrees(each) for each in row.frame.turn)
     return (

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 
-from bot_console.tui.console.graph.connections import TOOL_NAMES, is_hidden
 from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.format import counted, cut, sanitize
 from bot_console.tui.panes.graph.about import ends_of, node_of, summary
-from bot_console.tui.panes.graph.bundles import LINE
+from bot_console.tui.panes.graph.bundles import LINE, LOOP
 from bot_console.tui.panes.graph.namespaces import SPACE, TOPIC
-from bot_console.tui.panes.graph.view import GraphView, Mode, Shown
+from bot_console.tui.panes.graph.rates import IDLE
+from bot_console.tui.panes.graph.view import GraphView, Shown
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from rich.cells import cell_len
 
@@ -28,24 +28,25 @@ INDENT = 7
 def caption(info: GraphInfo, found: Shown, view: GraphView, words: str) -> str:
     """A summary of the drawing, for the lower edge of the frame."""
     parts = [view.mode.value]
-    if view.mode is Mode.FLOW and found.every:
-        nodes = counted(sum(1 for each in info.nodes if not each.hidden), "node")
-        parts.append(f"{nodes} · {len(found.bundles.drawn)} of {counted(found.links_there, 'topic')}")
+    if info.nodes:
+        parts.append(counted(sum(1 for each in info.nodes if not view.hides_name(each.name)), "node"))
+    if found.links_there:
+        what = "topics and services" if view.services else "topic" if found.links_there == 1 else "topics"
+        parts.append(f"{found.links_drawn} of {found.links_there} {what}")
+    parts += [f"D {found.links_hidden} hidden"] if found.links_hidden else []
     parts += [f"/{words}"] if words else []
     focus = view.focus
     parts += [f"around {focus.item.removeprefix(TOPIC)}, {counted(focus.hops, 'hop')}"] if focus.item else []
     odd = len(findings(info)) if info.nodes else 0
     parts += [f"w {counted(odd, 'finding')}"] if odd else []
-    if view.mode is not Mode.FLOW and found.hidden:
-        parts.append(f"{found.every - found.hidden} of {found.every}")
     return " · ".join(parts)
 
 
-def summary_of(info: GraphInfo, found: Shown, item: str) -> str:
+def summary_of(info: GraphInfo, found: Shown, view: GraphView, item: str) -> str:
     """One line on an item of the drawing; a line stands for all that is on it."""
     links = found.bundles.links.get(item)
     if links is None:
-        return summary(info, item)
+        return summary(info, item, view.hides_name)
     source, _, target = item.removeprefix(LINE).partition(">")
     names = " ".join(each.partition(":")[2] for each in links)
     return sanitize(f"{source.removeprefix(SPACE)} → {target.removeprefix(SPACE)}  {names}")
@@ -57,14 +58,20 @@ def nothing_drawn(info: GraphInfo) -> Placeholder:
 
 
 def item_notes(
-    snapshot: ConsoleSnapshot, found: Shown, item: str, rates: Mapping[str, str], width: int, maximum: int
+    snapshot: ConsoleSnapshot,
+    found: Shown,
+    view: GraphView,
+    item: str,
+    rates: Mapping[str, str],
+    width: int,
+    maximum: int,
 ) -> list[str]:
     """Everything about the ends of an item, in at most so many lines."""
     links = found.bundles.links.get(item)
     if item.startswith(SPACE):
-        return _space_notes(snapshot, item.removeprefix(SPACE), rates, width, maximum)
+        return _space_notes(snapshot, view, item.removeprefix(SPACE), rates, width, maximum)
     if links is None:
-        return _node_notes(snapshot, item, rates, width, maximum)
+        return _node_notes(snapshot, view, item, rates, width, maximum)
     return _link_notes(snapshot.graph, links, rates, width, maximum)
 
 
@@ -75,6 +82,24 @@ def dead_ends(found: Shown, width: int) -> list[str]:
         for title, items in ((UNSENT, found.unsent), (UNHEARD, found.unheard))
         if items
     ]
+
+
+def legend(found: Shown, width: int) -> str:
+    """The meaning of the marks in a flow chart, as far as there are any and they fit."""
+    chart = found.bundles.chart
+    loops = [box.loop for box in chart.boxes if box.loop]
+    words = [word for link in chart.links for word in link.words]
+    marks = {
+        "✗ QoS does not match": any(word.startswith("✗") for word in words),
+        f"{LOOP} sends it to itself": bool(loops),
+        "×2 that many topics of a namespace": any(" ×" in word for word in (*words, *loops, *dead_ends(found, width))),
+        f"{IDLE}: no messages now": any(word.rstrip().endswith(f" {IDLE}") for word in words),
+    }
+    text = ""
+    for mark in (mark for mark, there in marks.items() if there):
+        longer = f"{text}{GAP * 2 if text else ''}{mark}"
+        text = longer if cell_len(longer) <= width else text
+    return text
 
 
 def named(title: str, names: Sequence[str], width: int) -> str:
@@ -102,7 +127,9 @@ def _folded(names: Iterable[str]) -> list[tuple[str, int]]:
     return sorted(words.items(), key=lambda each: (each[1] > 1, each[0]))
 
 
-def _node_notes(snapshot: ConsoleSnapshot, name: str, rates: Mapping[str, str], width: int, maximum: int) -> list[str]:
+def _node_notes(
+    snapshot: ConsoleSnapshot, view: GraphView, name: str, rates: Mapping[str, str], width: int, maximum: int
+) -> list[str]:
     """The topics that a node sends and reads, and to and from whom, in at most so many lines; empty without room or
     node.
     """
@@ -111,14 +138,14 @@ def _node_notes(snapshot: ConsoleSnapshot, name: str, rates: Mapping[str, str], 
     if node is None or maximum < 2:
         return []
     lines = [
-        *_ends(info, "sends", node.publishers, rates, width, publishing=True),
-        *_ends(info, "reads", node.subscriptions, rates, width, publishing=False),
+        *_ends(info, view, "sends", node.publishers, rates, width, publishing=True),
+        *_ends(info, view, "reads", node.subscriptions, rates, width, publishing=False),
     ]
     return _fitted(_head(snapshot, name, [node]), lines, width, maximum, "press enter")
 
 
 def _space_notes(
-    snapshot: ConsoleSnapshot, space: str, rates: Mapping[str, str], width: int, maximum: int
+    snapshot: ConsoleSnapshot, view: GraphView, space: str, rates: Mapping[str, str], width: int, maximum: int
 ) -> list[str]:
     """The topics that lead out of a namespace and into it, then those that each of its nodes sends and reads, in at
     most so many lines; empty without room.
@@ -131,20 +158,20 @@ def _space_notes(
     published = {end.name: end for each in nodes for end in each.publishers}
     subscribed = {end.name: end for each in nodes for end in each.subscriptions}
     lines = [
-        *_ends(info, "sends", published.values(), rates, width, publishing=True, inside=names),
-        *_ends(info, "reads", subscribed.values(), rates, width, publishing=False, inside=names),
+        *_ends(info, view, "sends", published.values(), rates, width, publishing=True, inside=names),
+        *_ends(info, view, "reads", subscribed.values(), rates, width, publishing=False, inside=names),
     ]
     longest = max(cell_len(each.name) for each in nodes) - len(space) - 1
-    lines += [_member_line(each, space, longest, width) for each in nodes]
+    lines += [_member_line(each, view, space, longest, width) for each in nodes]
     return _fitted(_head(snapshot, space, nodes), lines, width, maximum, "enter unfolds it")
 
 
-def _member_line(node: NodeInfo, space: str, longest: int, width: int) -> str:
+def _member_line(node: NodeInfo, view: GraphView, space: str, longest: int, width: int) -> str:
     """A node of a namespace with the names of its topics."""
     parts = [
         f"{verb} {' '.join(names)}"
         for verb, ends in (("sends", node.publishers), ("reads", node.subscriptions))
-        if (names := [_below(each.name, space) for each in ends if not is_hidden(each.name, TOOL_NAMES)])
+        if (names := [_below(each.name, space) for each in ends if not view.hides_name(each.name)])
     ]
     return cut(f"{' ' * INDENT}{node.name.removeprefix(f'{space}/'):<{longest}}{GAP}{GAP.join(parts)}", width)
 
@@ -176,6 +203,7 @@ def _fitted(head: str, lines: Sequence[str], width: int, maximum: int, how: str)
 
 def _ends(
     info: GraphInfo,
+    view: GraphView,
     verb: str,
     ends: Iterable[Endpoint],
     rates: Mapping[str, str],
@@ -186,12 +214,14 @@ def _ends(
 ) -> list[str]:
     """The topics of one direction with the nodes at their other ends, as words that fill lines.
 
-    A topic between nodes that are all `inside` is left out.
+    A topic between nodes that are all `inside` is left out; those that the view hides are counted.
     """
     words: list[str] = []
     lonely: list[str] = []
+    hidden = 0
     for each in ends:
-        if is_hidden(each.name, TOOL_NAMES):
+        if view.hides_name(each.name):
+            hidden += 1
             continue
         others = [one for one in ends_of(info, each.name)[1 if publishing else 0] if "/_" not in one]
         if not others:
@@ -203,8 +233,11 @@ def _ends(
         rate = f" {rates[each.name]}" if rates.get(each.name) else ""
         arrow = "→" if publishing else "←"
         words.append(f"{each.name}{rate} {arrow} {' '.join(others)}")
+    last = [f"{hidden} hidden"] if hidden else []
     if lonely:
-        words.append(named("no subscriber:" if publishing else "no publisher:", lonely, width - INDENT - 1))
+        room = width - INDENT - 1 - sum(len(GAP) * 2 + len(each) for each in last)
+        words.append(named("no subscriber:" if publishing else "no publisher:", lonely, room))
+    words += last
     lines: list[str] = []
     for word in words:
         if lines and cell_len(lines[-1]) + len(GAP) * 2 + cell_len(word) <= width:

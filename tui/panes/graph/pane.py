@@ -40,7 +40,7 @@ from bot_console.tui.panes.graph.namespaces import (
     namespace_of,
     unfolded,
 )
-from bot_console.tui.panes.graph.notes import caption, dead_ends, item_notes, nothing_drawn, summary_of
+from bot_console.tui.panes.graph.notes import caption, dead_ends, item_notes, legend, nothing_drawn, summary_of
 from bot_console.tui.panes.graph.rates import Rates
 from bot_console.tui.panes.graph.view import GraphView, Mode, Shown, shown
 from bot_console.tui.panes.graph.view_state import STATE_NAME, ViewState, view_state_of
@@ -67,8 +67,9 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
     TITLE = "Graph"
     HELP = (
         "Nodes are boxes. The words on a line are the topics that lead from one box to another, along the arrow;\n"
-        "`name ×3` are three topics of one namespace, ↺ is what a node sends to itself. Topics without a publisher or\n"
-        "a subscriber stand below. Boxes with the same topics and the same partners share a frame and its lines.\n"
+        "`name ×3` are three topics of one namespace, ↺ is what a node sends to itself, `idle` is a topic without\n"
+        "messages now. Topics without a publisher or a subscriber are listed below, and D shows the hidden ones.\n"
+        "Boxes with the same topics and the same partners share a frame and its lines.\n"
         "m goes on to rqt's drawings, in which topics are items of their own, and to a list.\n"
         "What is linked to the selected item is coloured; where QoS does not match so that nothing arrives, the line\n"
         "is red and the topic marked ✗. Namespaces fold into boxes, by themselves where there are many nodes.\n"
@@ -202,7 +203,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             return
         info = self._info or GraphInfo()
         self.caption(caption(info, self._shown, self._view, self.words))
-        text = summary_of(info, self._shown, self._picture.selected)
+        text = summary_of(info, self._shown, self._view, self._picture.selected)
         self._picture.show_placeholder(nothing_drawn(info))
         self.query_one("#graph-status", StaticText).show_text(text or self._problem)
         self._report_more()
@@ -216,12 +217,13 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         words.show_text(Text("\n".join(lines)))
 
     def _report_more(self) -> None:
-        """Describe the selected item in the rows that the drawing leaves free."""
+        """Explain the marks, and describe the selected item, in the rows that the drawing leaves free."""
         picture, rates = self._picture, self._rates.shown(self._measures)
         width, lines = picture.outer_size.width - 2, list[str]()
         if self._view.mode is Mode.FLOW and width >= WIDE - 2:
-            lines = item_notes(self._snapshot, self._shown, picture.selected, rates, width, picture.free_rows - 1)
-        picture.set_footer(lines)
+            free = picture.free_rows - 2
+            lines = item_notes(self._snapshot, self._shown, self._view, picture.selected, rates, width, free)
+        picture.set_footer(lines, legend(self._shown, width) if self._view.mode is Mode.FLOW else "")
 
     def on_diagram_view_selected(self, event: DiagramView.Selected) -> None:
         """Describe the selected item."""
@@ -285,7 +287,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             return
         links = self._shown.bundles.links.get(item)
         if links is not None:
-            self._offer(summary_of(info, self._shown, item), line_options(info, links), "Nothing matches.")
+            self._offer(summary_of(info, self._shown, self._view, item), line_options(info, links), "Nothing matches.")
             return
         self._list_details(item)
 
@@ -348,7 +350,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             if self._focus_history.now.item:
                 self._picture.choose(self._focus_history.now.item)
         else:
-            self.notify("There is nothing further back." if where == "back" else "There is nothing further on.")
+            self.notify("There is no earlier focus." if where == "back" else "There is no later focus.")
 
     def action_fold(self, closed: bool) -> None:
         """Fold the namespace of the selected node, or unfold the selected box."""

@@ -9,6 +9,8 @@ from bot_console.tui.text.figures import coarse_rate, steady
 
 RATE_POLL_S = 2.0
 READER = "graph"
+IDLE = "idle"
+"""Stands for a rate of 0, which also a topic has that is published once and kept for whoever comes later."""
 
 
 class Rates:
@@ -33,7 +35,7 @@ class Rates:
         traffic.measure(topics, READER)
         known = traffic.measured()
         self._rates = {topic: self._steady(topic, known[topic]) for topic in topics if topic in known}
-        texts = {topic: coarse_rate(rate) for topic, rate in self._rates.items()}
+        texts = {topic: IDLE if rate == 0 else coarse_rate(rate) for topic, rate in self._rates.items()}
         before, self.texts = self.texts, texts
         return texts != before
 

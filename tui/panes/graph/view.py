@@ -55,19 +55,17 @@ class GraphView:
     whole: bool = False
     """Whether names are never cut, however long: in a file there is room."""
 
+    def hides_name(self, name: str) -> bool:
+        """Whether a node or a topic of that name is left out."""
+        return not self.debug and is_hidden(name, self.hides)
+
 
 @dataclass(frozen=True)
 class Shown:
-    """The graph to draw, the topics without a publisher or a subscriber, and how much is omitted."""
+    """The graph to draw, the topics without a publisher or a subscriber, and how many are omitted."""
 
     graph: Digraph
     dead_ends: frozenset[str] = frozenset()
-    hidden: int = 0
-    """Nodes and topics that are not drawn."""
-
-    every: int = 0
-    """Nodes and topics that there are."""
-
     faults: frozenset[tuple[str, str]] = frozenset()
     """Edges on which nothing arrives, since the QoS of their ends does not match."""
 
@@ -86,8 +84,14 @@ class Shown:
     unheard: tuple[str, ...] = ()
     """Items that nobody subscribes to or calls."""
 
+    links_drawn: int = 0
+    """Topics, and services and actions where they are wanted, in the drawing."""
+
     links_there: int = 0
-    """Topics, and services and actions where they are wanted, that pass the filter or not."""
+    """Those that are not hidden, whether they pass the filter or not."""
+
+    links_hidden: int = 0
+    """Those that the view hides."""
 
     @property
     def topics_drawn(self) -> list[str]:
@@ -103,11 +107,11 @@ class Shown:
 
 def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingProxyType({})) -> Shown:
     """Select nodes and topics, and convert them to items and edges; `rates` are appended to topic names."""
-    nodes = [each for each in info.nodes if view.debug or not is_hidden(each.name, view.hides)]
+    nodes = [each for each in info.nodes if not view.hides_name(each.name)]
     edges = _edges(nodes, view)
     topics = {TOPIC + each.name for each in info.topics} | {each for edge in edges for each in edge if is_link(each)}
-    everything = len(nodes) + len(topics)
-    kept = {each for each in topics if view.debug or not is_hidden(each.partition(":")[2], view.hides)}
+    kept = {each for each in topics if not view.hides_name(each.partition(":")[2])}
+    there, hidden = len(kept), len(topics) - len(kept)
     sources, sinks = {b for _, b in edges}, {a for a, _ in edges}
     dead_ends = frozenset(each for each in kept if each not in sources or each not in sinks)
     counts = Counter(each for edge in edges for each in edge)
@@ -122,7 +126,6 @@ def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingPr
         if TOPIC + topic in ids
         for _, subscriber, _ in pairs
     }
-    hidden = everything - len(ids)
     if view.folded and view.mode is not Mode.LIST:
         drawn, inside = folded_edges(edges, view.folded, {each for each in ids if is_link(each)})
         edges = sorted(drawn)
@@ -130,16 +133,16 @@ def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingPr
         faults = {(topic, box_of(node, view.folded)) for topic, node in faults if topic in ids}
     if view.focus.item:
         near = around(view.focus, edges)
-        hidden += len(ids - near)
         ids &= near
         edges = [(a, b) for a, b in edges if a in ids and b in ids]
     silent = frozenset((*info.silent, *(name for name, _ in info.frozen)))
     if view.mode is Mode.NODES:
         graph = _nodes_only([each for each in ids if not is_link(each)], edges, _Labels(info, view, {}, ids, set()))
-        return Shown(graph, hidden=hidden, every=everything, silent=silent)
+        return Shown(graph, silent=silent)
     label = _Labels(info, view, rates, ids, {topic for topic, _ in faults})
     items = tuple(Item(each, label.of(each), not is_link(each), int(is_link(each))) for each in sorted(ids))
-    found = Shown(Digraph(items, tuple(sorted(edges))), dead_ends & ids, hidden, everything, frozenset(faults), silent)
+    found = Shown(Digraph(items, tuple(sorted(edges))), dead_ends & ids, frozenset(faults), silent)
+    found = replace(found, links_drawn=sum(map(is_link, ids)), links_there=there, links_hidden=hidden)
     if view.mode is Mode.LIST:
         return replace(found, listing=_listing(info, {each.name for each in nodes}, ids, view))
     if view.mode is not Mode.FLOW:
@@ -154,7 +157,7 @@ def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingPr
     return replace(
         found,
         bundles=bundles,
-        links_there=len(topics),
+        links_drawn=len(bundles.drawn),
         unsent=tuple(each for each in dead if each not in sources),
         unheard=tuple(each for each in dead if each in sources),
     )

@@ -55,7 +55,7 @@ def test_filter_selects_nodes_and_topics(words: str, expected: set[str]) -> None
 
 def test_a_topic_with_two_types_is_reported() -> None:
     info = GraphInfo((NodeInfo("/a", (Endpoint("/t", ("x/msg/A",)),), (Endpoint("/t", ("x/msg/B",)),)),))
-    assert "x/msg/A, x/msg/B" in summary(info, "topic:/t")
+    assert "x/msg/A, x/msg/B" in summary(info, "topic:/t", GraphView().hides_name)
 
 
 def test_exports_quote_special_characters() -> None:
@@ -75,16 +75,16 @@ def test_names_are_not_cut_in_a_file() -> None:
 
 def test_a_node_of_a_stopped_process_is_marked_in_the_line_below():
     info = GraphInfo(nodes=(NodeInfo("/a"), NodeInfo("/b")), frozen=(("/b", 42),))
-    assert "frozen: process 42 is stopped" in summary(info, "/b")
-    assert "frozen" not in summary(info, "/a")
+    assert "frozen: process 42 is stopped" in summary(info, "/b", GraphView().hides_name)
+    assert "frozen" not in summary(info, "/a", GraphView().hides_name)
     (text,) = [each.text for each in findings(info) if each.fault]
     assert text.startswith("/b is frozen") and "kill -CONT 42" in text
 
 
 def test_a_node_in_a_debugger_is_no_fault_and_is_not_drawn_as_dead() -> None:
     info = GraphInfo((NodeInfo("/a"), NodeInfo("/b")), debugged=(("/b", "/ws/b.py:12, in tick"),))
-    assert summary(info, "/b").endswith("- stopped in debugger at /ws/b.py:12, in tick")
-    assert "debugger" not in summary(info, "/a")
+    assert summary(info, "/b", GraphView().hides_name).endswith("- stopped in debugger at /ws/b.py:12, in tick")
+    assert "debugger" not in summary(info, "/a", GraphView().hides_name)
     assert "/b is stopped in debugger at /ws/b.py:12, in tick" in [
         each.text for each in findings(info) if not each.fault
     ]
@@ -95,6 +95,8 @@ def test_a_node_in_a_debugger_is_no_fault_and_is_not_drawn_as_dead() -> None:
 def test_nodes_that_do_not_answer_are_distinguished(mode: Mode) -> None:
     info = GraphInfo((NodeInfo("/arm"), NodeInfo("/base")), silent=("/arm",), frozen=(("/base", 7),))
     assert shown(info, GraphView(mode=mode)).silent == {"/arm", "/base"}
-    assert summary(info, "/arm").endswith(" - has not answered for a second: it was killed, it hangs, or it is busy")
-    assert summary(info, "/base").endswith("- frozen: process 7 is stopped")
+    assert summary(info, "/arm", GraphView().hides_name).endswith(
+        " - has not answered for a second: it was killed, it hangs, or it is busy"
+    )
+    assert summary(info, "/base", GraphView().hides_name).endswith("- frozen: process 7 is stopped")
     assert "/arm has not answered for a second" in " ".join(each.text for each in findings(info))

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo, NodeInfo
-from bot_console.tui.panes.graph.notes import item_notes
-from bot_console.tui.panes.graph.view import GraphView, shown
+from bot_console.tui.panes.graph.notes import caption, item_notes, legend, summary_of
+from bot_console.tui.panes.graph.rates import IDLE
+from bot_console.tui.panes.graph.view import GraphView, Mode, shown
 
 KIND = ("a/msg/B",)
 
@@ -24,8 +25,8 @@ SYSTEM = GraphInfo(
 
 
 def notes(item: str, maximum: int, rates: dict[str, str] | None = None) -> list[str]:
-    found = shown(SYSTEM, GraphView(folded=frozenset({"/arm"})))
-    return item_notes(ConsoleSnapshot(graph=SYSTEM), found, item, rates or {}, 80, maximum)
+    view = GraphView(folded=frozenset({"/arm"}))
+    return item_notes(ConsoleSnapshot(graph=SYSTEM), shown(SYSTEM, view), view, item, rates or {}, 80, maximum)
 
 
 def test_folded_namespace_names_what_leads_out_and_in_and_the_topics_of_each_node() -> None:
@@ -48,3 +49,44 @@ def test_what_does_not_fit_of_a_namespace_is_counted() -> None:
 
 def test_node_names_what_it_sends_and_reads() -> None:
     assert notes("/fleet", 9)[1:] == ["sends  /map → /arm/planner", "reads  /arm/path ← /arm/planner"]
+
+
+def test_topics_that_are_hidden_are_counted_wherever_topics_are() -> None:
+    info = GraphInfo((node("/a", "/rosout /x /y /own/_state"), node("/b", "/rosout", "/x /parameter_events")))
+    view = GraphView()
+    found = shown(info, view)
+    assert caption(info, found, view, "").startswith("Flow · 2 nodes · 1 of 2 topics · D 3 hidden")
+    assert (
+        summary_of(info, found, view, "/b")
+        == "/b  publishes 0 + 1 hidden, subscribes to 1 + 1 hidden, 0 services, 0 clients"
+    )
+    lines = item_notes(ConsoleSnapshot(graph=info), found, view, "/a", {}, 80, 9)
+    assert lines[1:] == ["sends  /x → /b    no subscriber:  y    2 hidden"]
+    view = GraphView(debug=True)
+    found = shown(info, view)
+    assert "1 of 5 topics" in caption(info, found, view, "") and "hidden" not in caption(info, found, view, "")
+    assert "hidden" not in summary_of(info, found, view, "/b")
+
+
+def test_each_drawing_counts_its_own_items() -> None:
+    info = GraphInfo((node("/a", "/x /y"), node("/b", "", "/x")))
+    captions = {mode: caption(info, shown(info, view), view, "") for mode in Mode for view in [GraphView(mode=mode)]}
+    ends = {mode: text.partition(" · ")[2].partition(" · w")[0] for mode, text in captions.items()}
+    assert ends == {
+        Mode.FLOW: "2 nodes · 1 of 2 topics",
+        Mode.NODES: "2 nodes",
+        Mode.ACTIVE: "2 nodes · 1 of 2 topics",
+        Mode.ALL: "2 nodes · 2 of 2 topics",
+        Mode.LIST: "2 nodes · 2 of 2 topics",
+    }
+
+
+def test_legend_explains_the_marks_that_are_drawn_and_no_others() -> None:
+    def words(info: GraphInfo, rates: dict[str, str], width: int = 118) -> str:
+        return legend(shown(info, GraphView(), rates), width)
+
+    assert words(GraphInfo((node("/a", "/x"), node("/b", "", "/x"))), {}) == ""
+    marked = GraphInfo((node("/a", "/stop/x /stop/y /own /map", "/own"), node("/b", "", "/stop/x /stop/y /map")))
+    assert words(marked, {}) == "↺ sends it to itself    ×2 that many topics of a namespace"
+    assert words(marked, {"/map": IDLE}).endswith("    idle: no messages now")
+    assert words(marked, {"/map": IDLE}, 30) == "↺ sends it to itself", "what does not fit is left out"
