@@ -380,6 +380,29 @@ def test_warnings_and_output_of_the_process_at_the_cursor_are_shown() -> None:
         assert "a line of severity ERROR" in session.text() and "a line of severity ERROR" not in before
         assert f"what {process.label} logged and printed" in session.text()
         row = next(line for line in session.lines() if process.label in line and "running" in line)
-        assert " 1 E" in row and " W" in row
+        assert "1 error" in row and "warning" in row
+        output, rows = (
+            session.pane(LaunchPane).query_one("#launch-output"),
+            session.pane(LaunchPane).query_one(ProcessRows),
+        )
+        assert rows.size.height == rows.row_count() and output.size.height > 15, "free rows show what was printed"
 
     run(live(), play, (120, 40))
+
+
+def test_names_of_nodes_stand_in_a_column_and_a_problem_beside_them_where_there_is_room() -> None:
+    def rows(session: Session) -> list[str]:
+        return [line for line in session.lines() if any(f" {glyph} " in line for glyph in "●✗")][:6]
+
+    async def wide(session: Session) -> None:
+        await session.press("8")
+        assert len({row.index("  /") for row in rows(session)}) == 1, rows(session)
+        assert "/telemetry_publisher  ended with exit code 1; its last lines are in the log" in session.text()
+
+    async def narrow(session: Session) -> None:
+        await session.press("8")
+        failed = next(row for row in rows(session) if "✗" in row)
+        assert "exit 1  ended with" in failed and "/telemetry" not in failed
+
+    run(live(), wide, (200, 50))
+    run(live(), narrow, (80, 24))

@@ -42,6 +42,10 @@ from textual.app import ComposeResult
 
 EVENTS = 4
 """Launch events shown below the tree."""
+FEW_EVENTS, MANY_EVENTS_FROM = 2, 30
+"""Launch events in a pane with fewer rows than that."""
+OUTPUT_FROM = 19
+"""Rows of the pane from which on the output of the process at the cursor has room."""
 
 ALIVE = (ProcessState.RUNNING, ProcessState.STARTING, ProcessState.STOPPING)
 STYLES = {Severity.WARN: "warn", Severity.ERROR: "error", Severity.FATAL: "error"}
@@ -156,6 +160,7 @@ class LaunchPane(ListPane):
 
     def _arrange(self) -> None:
         info = self._info or LaunchInfo()
+        self._make_room()
         there = tuple(each for each in info.processes if matches(each, self._query))
         self._list.exchange(rows(replace(info, processes=there), self._folded))
         self.report_filter(len(there), len(info.processes))
@@ -174,10 +179,12 @@ class LaunchPane(ListPane):
         events = self.query_one("#launch-events", Picture)
         width = events.size.width
         lines: list[Line] = [
-            ((cut(event_text(each), width), STYLES.get(each.severity, "dim")),) for each in until[-EVENTS:]
+            ((cut(f" {event_text(each)}", width), STYLES.get(each.severity, "dim")),) for each in until[-EVENTS:]
         ]
         if stamp is not None:
-            lines = [*lines[1 - EVENTS :], ((f"◆ {clock_text(stamp)}", "accent"),)]
+            lines = [*lines[1 - EVENTS :], ((f" ◆ {clock_text(stamp)}", "accent"),)]
+        lines = lines[-FEW_EVENTS:] if self.size.height < MANY_EVENTS_FROM else lines
+        events.styles.height = len(lines)
         events.set_lines(lines)
 
     def on_picture_resized(self, event: Picture.Resized) -> None:
@@ -205,8 +212,8 @@ class LaunchPane(ListPane):
         else:
             text = self._about(row.process)
         status = self.query_one("#launch-status", StaticText)
-        status.show_text(text)
-        status.set_class(text == info.problem, "wrong")
+        status.show_or_hide(text)
+        status.set_class(bool(text) and text == info.problem, "wrong")
 
     def _about(self, process: ProcessInfo) -> str:
         """How a process ended, or what is wrong with it, or its nodes."""
@@ -237,7 +244,12 @@ class LaunchPane(ListPane):
     def on_resize(self) -> None:
         """No events where there is little room, and no output where there is not much."""
         self.set_class(self.size.height < 12, "short")
-        self.set_class(self.size.height < 19, "no-output")
+        self._make_room()
+
+    def _make_room(self) -> None:
+        """Give the rows that the tree leaves free to what its processes print."""
+        info = self._info or LaunchInfo()
+        self.set_class(self.size.height >= OUTPUT_FROM and bool(info.processes), "with-output")
 
     def action_fold(self, closed: bool) -> None:
         """Close or open the group at the cursor."""
@@ -274,8 +286,8 @@ class LaunchPane(ListPane):
             self.time_cursor.move(events[seq].stamp, self)
             self.time_moved(events[seq].stamp)
 
-        hint = "words of an event; enter shows its moment in log, plot and world"
-        self.ask(Choice("Launch events", poll, find=find, hint=hint, empty="Nothing of that kind has happened."))
+        hint = "type to filter, Enter shows that moment in Logs, Plot and World"
+        self.ask(Choice("Launch events", poll, find=find, hint=hint, empty="No event matches."))
 
     def action_do(self, verb: str) -> None:
         """Start, stop, restart or kill what is at the cursor."""
@@ -434,7 +446,7 @@ def _belongs(process: ProcessInfo, group: tuple[str, ...]) -> bool:
 
 def event_text(event: LaunchEvent) -> str:
     """A launch event on one line."""
-    return f"{clock_text(event.stamp)} {sanitize(event.text)}"
+    return f"{clock_text(event.stamp)[:8]} {sanitize(event.text)}"
 
 
 def _output_line(line: OutputLine, width: int, *, named: bool) -> str:

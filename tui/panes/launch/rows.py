@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
 from bot_console.tui.console.query import Query
-from bot_console.tui.format import cut, sanitize
+from bot_console.tui.format import counted, cut, sanitize
 from bot_console.tui.panes.launch.follow import CPU_SAMPLES, Followed, Follower
 from bot_console.tui.text.bars import strip
 from bot_console.tui.widgets.item_list import ItemList
@@ -25,10 +26,16 @@ STATES = {
     ProcessState.ABANDONED: ("⚠", "warn"),
 }
 
+FOR_WORDS = 110
+"""Cells of a row from which on errors and warnings are written out."""
+FOR_NODES = 90
+"""Cells of a row from which on the nodes of a process have room."""
 FOR_TRACE = 84
 """Cells of a row from which on the CPU usage over time has room."""
 STATE_AND_PID = 20
 """Cells of the columns after the name that are always visible."""
+RESTARTS = 5
+"""Cells of the number of restarts."""
 
 
 @dataclass(frozen=True)
@@ -88,10 +95,22 @@ def _inside(group: tuple[str, ...], folded: Collection[tuple[str, ...]]) -> bool
     return any(group[:depth] in folded for depth in range(1, len(group) + 1))
 
 
-def _gathered(followed: Followed) -> tuple[str, str, str]:
+def _gathered(followed: Followed, width: int) -> tuple[str, str, str]:
     """The CPU usage over time as bars, and the numbers of errors and of warnings."""
-    errors = f"{followed.errors} E" if followed.errors else ""
-    return strip(followed.cpu, 1.0), errors, f"{followed.warnings} W" if followed.warnings else ""
+    return strip(followed.cpu, 1.0), *_counts(followed, width)
+
+
+def _counts(followed: Followed, width: int) -> tuple[str, str]:
+    """The numbers of errors and of warnings, in words where there is room."""
+
+    def text(number: int, word: str) -> str:
+        return "" if not number else counted(number, word) if width >= FOR_WORDS else f"{number} {word[0].upper()}"
+
+    return text(followed.errors, "error"), text(followed.warnings, "warning")
+
+
+def _node_words(process: ProcessInfo) -> str:
+    return sanitize("  " + " ".join(short_names(process.nodes))) if process.nodes else ""
 
 
 def _cells_of_counts(*counts: str) -> int:
@@ -119,18 +138,18 @@ class ProcessRows(ItemList[Row]):
         self._drawn: dict[str, tuple[str, str, str]] = {}
         """The follower's part of the rows, by the key of the process."""
         self._counts = 0
-        """Cells of the numbers of errors and warnings, so that the names of nodes stand in a column."""
+        """Cells that the numbers of errors and warnings last took."""
 
     def follow(self) -> None:
         """Redraw the rows for which the follower has gathered something new; all, if a column becomes wider."""
-        every = [_gathered(self.follower.of(each.process.key)) for each in self.rows if each.process]
-        counts = max((_cells_of_counts(errors, warnings) for _, errors, warnings in every), default=0)
+        width = self.across
+        counts = self._count_cells(width)
         if counts != self._counts:
             self._counts = counts
             self.refresh()
         for index, each in enumerate(self.rows):
             key = each.process.key if each.process else ""
-            if key and self._drawn.get(key) != (drawn := _gathered(self.follower.of(key))):
+            if key and self._drawn.get(key) != (drawn := _gathered(self.follower.of(key), width)):
                 self._drawn[key] = drawn
                 self.row_changed(index)
 
@@ -165,23 +184,40 @@ class ProcessRows(ItemList[Row]):
         name = cut(f"{head} {sanitize(process.label)}", names, pad=True)
         columns = [f"  {process.state.value:<10}", f"{process.pid or '':>8}"]
         columns.append(f"{f'↻{process.restarts}' if process.restarts or process.restart_policy else '':>5}")
-        columns.append("" if process.exit_code is None else f"  exit {process.exit_code}")
+        trace, errors, warnings = _gathered(self.follower.of(process.key), width)
         states = max((len(self._states(each.process)) for each in self.rows if each.process), default=0)
-        columns.append(self._states(process).ljust(0 if process.exit_code is not None else states))
-        trace, errors, warnings = _gathered(self.follower.of(process.key))
-        columns += self._usage(process, trace, width)
-        nodes = "  " + " ".join(short_names(process.nodes)) if width >= 90 and process.nodes else ""
-        if process.problem and (process.exit_code is None or width >= 60):
-            columns.append(f"  {sanitize(process.problem)}")
+        count_cells = self._count_cells(width)
+        room = width - names - STATE_AND_PID - RESTARTS - states - count_cells
+        usage = "".join((self._states(process).ljust(states), *self._usage(process, trace, width, room)))
+        exit_code = "" if process.exit_code is None else f"  exit {process.exit_code}"
+        nodes = _node_words(process) if width >= FOR_NODES else ""
+        problem = f"  {sanitize(process.problem)}" if process.problem and (not exit_code or width >= 60) else ""
+        end = exit_code.ljust(len(usage)) if not usage.strip() else exit_code + usage
+        used = names + STATE_AND_PID + RESTARTS + cell_len(end) + count_cells
+        if problem and used + cell_len(nodes + problem) > width:
+            # Where the row is too short, it stands in place of empty columns and of what follows.
+            end, nodes, problem = (end if usage.strip() else exit_code) + problem, "", ""
+        columns.append(end)
         plain = None if process.state is ProcessState.RUNNING else self._style(style)
         loud = [Segment(name[: len(head)], self._style(style)), Segment(name[len(head) :], plain)]
-        blank = " " * (self._counts - _cells_of_counts(errors, warnings))
+        blank = " " * (count_cells - _cells_of_counts(errors, warnings))
         counts = (
             Segment(f"  {errors}" if errors else "", self._style("error")),
             Segment(f"  {warnings}" if warnings else "", self._style("warn")),
             Segment(blank),
         )
-        return [*loud, Segment("".join(columns), plain), *counts, Segment(sanitize(nodes), self._style("dim"))]
+        return [
+            *loud,
+            Segment("".join(columns), plain),
+            *counts,
+            Segment(nodes, self._style("dim")),
+            Segment(problem, plain),
+        ]
+
+    def _count_cells(self, width: int) -> int:
+        """Cells of the numbers of errors and warnings, so that the names of nodes stand in a column."""
+        every = (_counts(self.follower.of(each.process.key), width) for each in self.rows if each.process)
+        return max((_cells_of_counts(*each) for each in every), default=0)
 
     def _states(self, process: ProcessInfo) -> str:
         """The states of its lifecycle nodes."""
@@ -189,8 +225,10 @@ class ProcessRows(ItemList[Row]):
             return ""
         return "".join(f"  {sanitize(self.lifecycle[each])}" for each in process.nodes if each in self.lifecycle)
 
-    def _usage(self, process: ProcessInfo, trace: str, width: int) -> list[str]:
-        """CPU and memory; blanks where only other processes have them, so that what follows stands in columns."""
+    def _usage(self, process: ProcessInfo, trace: str, width: int, room: int) -> list[str]:
+        """CPU and memory, as far as there is room (cells); blanks where only other processes have them, so that what
+        follows stands in columns.
+        """
         every = [each.process for each in self.rows if each.process is not None]
         columns: list[str] = []
         if width >= 60 and any(each.cpu is not None for each in every):
@@ -200,8 +238,8 @@ class ProcessRows(ItemList[Row]):
         if width >= 76 and any(each.memory is not None for each in every):
             columns.append("" if process.memory is None else f"  {f'{process.memory} MB':>6}")
         widths = (10, 1 + CPU_SAMPLES, 8)[: len(columns)] if width >= FOR_TRACE else (10, 8)
-        blank = process.problem and process.exit_code is not None  # its problem takes the room
-        return columns if blank else [each.ljust(cells) for each, cells in zip(columns, widths, strict=False)]
+        fitting = [each <= room for each in accumulate(widths)]
+        return [each.ljust(cells) for each, cells, fits in zip(columns, widths, fitting, strict=False) if fits]
 
     def _names(self, width: int) -> int:
         """Cells of the name column: what the longest name needs, if state and process id still fit."""
