@@ -31,7 +31,7 @@ class Picture(StyledByPart):
     """Shows styled lines; `Picture.STYLES` are the style names that their pieces may use."""
 
     STYLES: ClassVar[tuple[str, ...]] = (
-        "dim", "strong", "good", "warn", "error", "accent", "robot",
+        "dim", "strong", "good", "warn", "error", "accent", "key", "robot",
         "curve-0", "curve-1", "curve-2", "curve-3", "curve-4", "curve-5",
     )  # fmt: skip
     DEFAULT_CSS = """
@@ -42,6 +42,7 @@ class Picture(StyledByPart):
     .picture--warn { color: $warning; }
     .picture--error { color: $error; }
     .picture--accent { color: $primary; }
+    .picture--key { color: $primary; text-style: bold; }
     .picture--robot { color: $background; background: $success; text-style: bold; }
     .picture--curve-0 { color: $curve-0; }
     .picture--curve-1 { color: $curve-1; }

@@ -41,5 +41,5 @@ def placeholder_lines(placeholder: Placeholder, width: int, height: int) -> Sequ
         block = key_width + 2 + max(len(text) for _, text in actions)
         indent = " " * max(0, (width - block) // 2)
         lines.append(())
-        lines += [((f"{indent}{key:>{key_width}}  ", "accent"), (text, "")) for key, text in actions]
+        lines += [((f"{indent}{key:>{key_width}}  ", "key"), (text, "")) for key, text in actions]
     return [*[()] * ((height - len(lines)) // 2), *lines]

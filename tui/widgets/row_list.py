@@ -124,7 +124,7 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
         lines = placeholder_lines(self.placeholder, width, self.size.height) if not self.row_count() else ()
         if y >= len(lines):
             return Strip.blank(width, base)
-        styles = {"": base, "dim": self.part_style("row-list--dim"), "accent": self.part_style("row-list--head")}
+        styles = {"": base, "dim": self.part_style("row-list--dim"), "key": self.part_style("row-list--head")}
         segments = [Segment(text, base + styles[name]) for text, name in lines[y]]
         return Strip(segments).adjust_cell_length(width, base)
 

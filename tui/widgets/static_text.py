@@ -20,6 +20,7 @@ class StaticText(Static):
     DEFAULT_CSS = """
     StaticText { height: 1; padding: 0 1; color: $text-muted; background: $surface;
             text-wrap: nowrap; text-overflow: ellipsis; }
+    StaticText.-blank { display: none; }
     """
 
     def __init__(self, *, id: str | None = None) -> None:
@@ -41,6 +42,11 @@ class StaticText(Static):
                 self.update(message, layout=False)
             finally:
                 self._other = ()
+
+    def show_or_hide(self, what: str | Text) -> None:
+        """Show a text; without one, leave the room to others."""
+        self.set_class(not what, "-blank")
+        self.show_text(what)
 
     def show_whole(self, what: str, maximum: int) -> None:
         """Show a text in as many lines as it needs, up to `maximum`; the widget's style must wrap."""

@@ -108,7 +108,7 @@ class DiagnosticsPane(ListPane):
         row, detail = self._list.current, self.query_one("#diagnostics-detail", StaticText)
         self._list.show_placeholder((ALL_OK if self._bad_only else FILTERED_OUT) if self._info.statuses else EMPTY)
         detail.set_class(row is None, "sentence")
-        detail.show_text(self._details(row))
+        detail.show_or_hide(self._details(row))
 
     def _details(self, row: Row | None) -> Text:
         if row is None:

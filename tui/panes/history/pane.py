@@ -138,7 +138,7 @@ class HistoryPane(ListPane):
             text = set_details(row)
         else:
             text = details(row, self._effects.of(row.seq)) if row is not None else Text(sanitize(self._problem), "dim")
-        self.query_one("#history-detail", StaticText).show_text(text)
+        self.query_one("#history-detail", StaticText).show_or_hide(text)
 
     def on_resize(self) -> None:
         """Draw the line of time for the new width."""

@@ -149,7 +149,7 @@ class ImagesPane(Pane):
         else:
             parts = [topic, f"{seen.width}x{seen.height} {seen.encoding}", *([seen.message] if seen.message else [])]
             text = "  ".join([*parts, self._state()])
-        self.query_one("#images-head", StaticText).show_text(text)
+        self.query_one("#images-head", StaticText).show_or_hide(text)
 
     def _state(self) -> str:
         newer = self.console.sensors.picture().count - self._seen.count
@@ -157,7 +157,7 @@ class ImagesPane(Pane):
         if self._slow:
             return f"slow link: frozen{new}; space takes one picture"
         if self._frozen:
-            return f"frozen{new}; space goes on"
+            return f"frozen{new}; space resumes"
         wait = self._frame_limit.wait(self.clock())
         if newer > 0 and wait > 2.0 / self._frame_limit.rate:
             return f"the next one in {wait:.0f} s (5 kB/s); g shows letters, which cost less"
@@ -187,7 +187,7 @@ class ImagesPane(Pane):
             words = typed.lower().split()
             return [Option(each) for each in self._topics() if all(word in each.lower() for word in words)]
 
-        self.ask(Choice("Images of", self._choose, find=find, hint="words of a topic", empty=EMPTY.sentence))
+        self.ask(Choice("Images of", self._choose, find=find, hint="type part of a topic", empty=EMPTY.sentence))
 
     def action_next(self) -> None:
         """Show the next topic."""
