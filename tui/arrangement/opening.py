@@ -109,7 +109,7 @@ def rqt_opening(words: Sequence[str]) -> tuple[Opening, list[str]]:
         elif option in PERSPECTIVE:
             perspective = value
         elif takes_value or option in WITHOUT_VALUE:
-            notes.append(f"{option}{f' {value}' if takes_value else ''} of {program} is not taken over")
+            notes.append(f"{option}{f' {value}' if takes_value else ''} of {program} is ignored")
         elif option == "--args":
             pass
         elif option.endswith((".yaml", ".yml")):
@@ -125,7 +125,7 @@ def rqt_opening(words: Sequence[str]) -> tuple[Opening, list[str]]:
         notes.append(f"there is no pane for {program}; there are: {', '.join(sorted(RQT_PANES))}")
     of_steering = parameters if program == STEERING else {}
     topic, rate = of_steering.pop(TOPIC_PARAMETER, ""), _rate(of_steering.pop(RATE_PARAMETER, ""), notes)
-    notes += [f"the parameter {each} of {program} is not taken over" for each in parameters]
+    notes += [f"the parameter {each} of {program} is ignored" for each in parameters]
     pane = RQT_PANES.get(program, "overview")
     return Opening(pane, tuple(curves), node, tuple(notes), perspective, topic, rate), left
 

@@ -74,8 +74,8 @@ class CommandHandler:
                     "Commands",
                     lambda chosen: known[chosen].run() if chosen in known else self.runner.run(chosen),
                     find=partial(options_for, known, lambda line: risk_of(line, self._console.snapshot())),
-                    hint="words of a command, or a ros2 line",
-                    empty="No command has these words; a line that begins with ros2 is run.",
+                    hint="type a command, or a line of ros2",
+                    empty="No command matches; a line that begins with ros2 is run.",
                 )
             )
         )
@@ -164,6 +164,4 @@ def which_stream(streams: StreamPanels) -> Choice:
         for each in panels:
             streams.end(each)
 
-    return Choice(
-        "End which line?", end, find=find, hint="its number, or words of it", empty="No line has these words."
-    )
+    return Choice("End which line?", end, find=find, hint="type its number, or part of it", empty="No line matches.")

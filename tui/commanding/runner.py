@@ -81,7 +81,7 @@ class LineRunner:
         try:
             words = shlex.split(line)
         except ValueError:
-            return "a quotation mark has no twin"
+            return "a quotation mark is not closed"
         if not words:
             return ""
         if words[0] in VERBS:
@@ -146,7 +146,7 @@ class LineRunner:
 
     def _open(self, words: Sequence[str]) -> None:
         opening, left = rqt_opening(words)
-        notes = [*opening.notes, *(f"{each} is not taken over" for each in left)]
+        notes = [*opening.notes, *(f"{each} is ignored" for each in left)]
         if opening.perspective:
             file = opening.perspective
             notes.append(f"perspective {file} is opened at the start only: bot-console --perspective-file {file}")
@@ -167,7 +167,7 @@ class LineRunner:
         starts = words[words[:1] == ["ros2"] :][:1] in (["run"], ["launch"])
         # the console shows what was started elsewhere: no key closes this
         if starts and len(printed.strip().splitlines()) <= 1:
-            reported_text = printed.strip() or f"{line}: over, it said nothing"
+            reported_text = printed.strip() or f"{line}: done, no output"
             self._host.notify(sanitize(reported_text), severity="error" if error else "information")
         else:
             self._host.push_screen(OutputScreen(line, printed))

@@ -29,7 +29,7 @@ def tree_of(data: object, known: Collection[str]) -> Tree:
     tree = _tree(data, known, 0)
     twice = sorted({pane for pane in panes(tree) if panes(tree).count(pane) > 1})
     if twice:
-        raise NoLayout(f"{twice[0]} stands twice; a pane can be on the screen once")
+        raise NoLayout(f"{twice[0]} is listed twice; a pane can be shown only once")
     return tree
 
 

@@ -27,7 +27,7 @@ def perspective_tree(text: str, panes: Mapping[str, str]) -> tuple[Tree, list[st
     wanted = list(dict.fromkeys(panes[each] for each in packages if each in panes))
     unknown = [each for each in packages if each not in panes]
     if not wanted:
-        raise NoLayout(f"nothing here does the work of {', '.join(unknown)}")
+        raise NoLayout(f"there is no pane for {', '.join(unknown)}")
     return tiled(wanted), unknown
 
 

@@ -66,4 +66,4 @@ class SafetyNews:
         self._reported.add(key)
         values = f"{value_text(change.old)} → {value_text(change.new)}"
         way_back = f"{BACK[change.source]} in the Parameters pane" if goes_back else "b in the History pane"
-        return f"⚠ {change.name} {values} {why}. {way_back} takes it back."
+        return f"⚠ {change.name} {values} {why}. {way_back} undoes it."

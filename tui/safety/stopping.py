@@ -66,7 +66,7 @@ class Stopping:
         drive = self._console.snapshot().drive
         others = [each for each in drive.stops if not each.here]
         if not drive.stopped_here and not others:
-            self._app.notify("Nobody holds the robot.")
+            self._app.notify("The robot is not held.")
         elif all(each.by_node for each in others):
             self._release(others)
         elif not self._asking:

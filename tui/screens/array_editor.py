@@ -23,7 +23,7 @@ from textual.app import ComposeResult
 from textual.binding import BindingType
 
 Element: TypeAlias = "bool | int | float | str | bytes"
-HINT = "enter edit · i insert · a add · d delete · J K move · u undo · s set"
+HINT = "Enter Edit · i Insert · a Add · d Delete · J K Move · u Undo · s Set"
 
 
 class ElementRows(RowList):

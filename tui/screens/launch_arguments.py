@@ -44,7 +44,7 @@ class ArgumentsScreen(QuestionScreen[dict[str, str]]):
         """Name, value and description of each argument."""
         with Box() as box:
             box.border_title = Text(sanitize(self._form.label))
-            box.border_subtitle = f"↑↓ move · enter {self._form.verb} · esc closes"
+            box.border_subtitle = f"↑↓ Move · Enter {self._form.verb} · Esc Cancel"
             with VerticalScroll(can_focus=False):
                 for each in self._arguments:
                     with Vertical(classes="argument"):
@@ -60,7 +60,7 @@ class ArgumentsScreen(QuestionScreen[dict[str, str]]):
     def _about(argument: LaunchArgument) -> str:
         parts = [sanitize(argument.description)]
         parts.append("required" if argument.default is None else "")
-        parts.append("page up, page down choose" if argument.choices else "")
+        parts.append("Page up, Page down Choose" if argument.choices else "")
         return " · ".join(each for each in parts if each)
 
     def on_mount(self) -> None:

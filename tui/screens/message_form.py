@@ -23,9 +23,9 @@ from textual.app import ComposeResult
 from textual.binding import BindingType
 
 WORDS = {
-    Payload.MESSAGE: ("Publish to", "s once · r at a rate"),
-    Payload.REQUEST: ("Call", "s calls"),
-    Payload.GOAL: ("Goal for", "s sends · x cancels"),
+    Payload.MESSAGE: ("Publish to", "s Send once · r Send at a rate"),
+    Payload.REQUEST: ("Call", "s Call"),
+    Payload.GOAL: ("Goal for", "s Send · x Cancel"),
 }
 USUAL_RATE = "10"
 """The rate in Hz that is offered first."""
@@ -115,7 +115,7 @@ class FillScreen(QuestionScreen[None]):
         what, keys = WORDS[self._asked.payload]
         with Box() as box:
             box.border_title = Text(sanitize(f"{what} {self._asked.name}  {self._asked.type}"))
-            box.border_subtitle = f"enter edits · {keys} · [ ] earlier · y copies · esc"
+            box.border_subtitle = f"Enter Edit · {keys} · [ ] Earlier · y Copy · Esc Close"
             yield SlotRows()
             yield StaticText(id="fill-state")
             yield ReplyRows()

@@ -47,6 +47,6 @@ class Overlay(DimmedScreen, Boxed):  # pyright: ignore[reportIncompatibleMethodO
         """The box."""
         with VerticalScroll(can_focus=False) as box:
             box.border_title = Text(sanitize(self._heading))
-            box.border_subtitle = "esc closes"
+            box.border_subtitle = "Esc Close"
             for each in self.content():
                 yield each if isinstance(each, Widget) else Static(each)

@@ -31,7 +31,7 @@ CURVE = 5
 """Lines of the curve."""
 BAR = 24
 """Cells of the progress bar."""
-HINT = "enter takes this setting · S saves it as a profile · esc closes"
+HINT = "Enter Apply · S Save as profile · Esc Close"
 
 
 class SettingRows(RowList):

@@ -59,7 +59,7 @@ graph_hides: [{", ".join(TOOL_NAMES)}]
 # and `graph --check` reads it; empty: none, until E in the Topics pane names one.
 expected: ""
 
-# Launched processes that fail: leave-ended, or on-failure to restart them all until R in the Launch pane says otherwise
+# Launched processes that fail: leave-ended, or on-failure to restart them all until P in the Launch pane says otherwise
 # for one; at most so many times in a row, after a delay that doubles (s). What its launch file respawns is left to it.
 restart: leave-ended
 restart_attempts: {DEFAULT_RESTARTS.attempts}

@@ -15,7 +15,7 @@ from textual.containers import Horizontal, Vertical
 from textual.widget import Widget
 from textual.widgets import Input, Label, Static
 
-HINT = "tab completes · ↑ ↓ lines that begin so · ^r lines that have it · esc closes"
+HINT = "Tab Complete · ↑ ↓ History · ^r Search history · Esc Close"
 
 AROUND = 4
 """Columns of the colon, and at the end of the line."""

@@ -189,8 +189,8 @@ def drive_figures(drive: DriveInfo) -> list[str]:
         figures.append(f"sent {_fixed(drive.final[0])}")
     if drive.actual is not None:
         linear, angular = drive.actual
-        arrow = "" if not _is_visible(angular) else LEFT if angular > 0 else RIGHT
-        figures.append(f"robot {_fixed(linear)} m/s {arrow + figure(abs(angular)):>4}")
+        turn = f"{LEFT if angular > 0 else RIGHT}{figure(abs(angular))}" if _is_visible(angular) else ""
+        figures.append(f"robot {_fixed(linear)} m/s {turn:<4}")
     return figures
 
 

@@ -130,7 +130,7 @@ def test_next_match_without_search_or_matches_is_reported_in_each_pane() -> None
             await session.press(digit)
             assert "Nothing was" not in session.text() and "Nothing here" not in session.text()
             await session.press("n")
-            assert "Nothing was looked for yet" in session.text()
+            assert "Nothing was searched for yet" in session.text()
             await session.press("slash", *"zzz", "enter", "escape", "n")
             assert "Nothing here matches zzz" in session.text()
 

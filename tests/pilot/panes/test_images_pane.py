@@ -60,7 +60,7 @@ def test_frame_rate_is_limited_and_freezing_stops_updates() -> None:
         await session.press("space")
         session.console.sensors.shown = picture(200, 5)
         await later(session, 10.0)
-        assert "on #222222" in drawn(session) and "frozen, +3 new; space goes on" in session.text()
+        assert "on #222222" in drawn(session) and "frozen, +3 new; space resumes" in session.text()
         await session.press("space")
         assert "on #cccccc" in drawn(session)
         await session.press("minus", "minus")

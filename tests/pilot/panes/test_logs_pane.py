@@ -55,7 +55,7 @@ def test_lines_are_filtered_by_severity_words_and_node() -> None:
         await session.press("x", "enter")
         assert len(seqs(session)) == 0 and "1 rule hides" in session.pane(LogsPane).status_text()
         await session.press("t")
-        assert len(seqs(session)) == 5 and "filters off, t puts them back" in session.pane(LogsPane).status_text()
+        assert len(seqs(session)) == 5 and "filters off, t restores them" in session.pane(LogsPane).status_text()
         await session.press("t", "escape")
         assert len(seqs(session)) == 2, "a rule stays"
 

@@ -82,7 +82,7 @@ def test_refusal_or_loss_of_safety_asks_and_no_applies_nothing() -> None:
         assert applied(session) == []
         await session.press("a", "y")
         assert applied(session) == [("competition", False)]
-        assert "3 taken, 1 refused" in session.text()
+        assert "3 accepted, 1 refused" in session.text()
         assert "✗ refused" in session.text() and "Parameter turn_rate must be" in session.text()
 
     run(live(), play, (120, 40))
@@ -95,7 +95,7 @@ def test_safe_profile_is_applied_without_a_question() -> None:
     async def play(session: Session) -> None:
         await session.press("7", "down", "a")
         assert applied(session) == [("competition", False)]
-        assert "✓ taken" in session.text() and "● competition" in session.text()
+        assert "✓ accepted" in session.text() and "● competition" in session.text()
         await session.press("w")
         assert applied(session)[-1] == ("competition", True)
         assert "simulator was reset" in session.text()
@@ -136,7 +136,7 @@ def test_list_of_differences_stays_while_values_are_applied() -> None:
         assert "applying competition" in session.text() and "1.0 → 3.0" in session.text()
         slow.set_result((SetOutcome("/robot_navigator", "max_speed", 3.0, True),))
         await session.settle()
-        assert "✓ taken" in session.text()
+        assert "✓ accepted" in session.text()
 
     run(live(), play, (120, 40))
 
@@ -184,7 +184,7 @@ def test_node_that_can_check_values_is_asked_before_applying() -> None:
         assert (
             "✗ checked:" in session.text()
             and "not in this hall" in session.text()
-            and "1 node against it" in session.text()
+            and "1 node would refuse it" in session.text()
         )
         await session.press("a")
         assert "and with it every other value" in session.text() and applied(session) == []
@@ -209,7 +209,7 @@ def test_read_only_console_asks_no_node_to_check() -> None:
     async def play(session: Session) -> None:
         await session.press("7", "down")
         text = session.text()
-        assert SANITIZED.name in text and "checking ..." not in text and "against it" not in text
+        assert SANITIZED.name in text and "checking ..." not in text and "would refuse it" not in text
         assert not [each for each in console.asked if each[0] == "call"]
 
     run((console, *rest), play, (120, 40))

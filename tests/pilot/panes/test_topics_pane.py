@@ -418,7 +418,7 @@ def test_qos_of_the_open_topic_is_asked_for_in_several_fields_at_once() -> None:
         pane.go_to(ODOM_TOPIC)
         await session.settle()
         await session.press("enter", "Q")
-        assert f"QoS of {ODOM_TOPIC}" in session.text() and "enter subscribes" in session.text()
+        assert f"QoS of {ODOM_TOPIC}" in session.text() and "Enter Subscribe" in session.text()
         await session.press("pagedown", "down", "pagedown", "pagedown", "down", "down")
         await session.type("0")
         await session.press("enter")

@@ -23,7 +23,7 @@ def test_holder_that_has_ended_is_marked_gone_at_80_columns() -> None:
         await session.settle()
         assert "ALL STOP held (! twice releases) by bot-console of ben@lab (gone)" in session.text()
         await session.press("6")
-        assert "! twice lets it go: held by bot-console of ben@lab (gone)" in session.text()
+        assert "! twice releases: held by bot-console of ben@lab (gone)" in session.text()
         await session.press(STOP, STOP)
         assert "bot-console of ben@lab (gone): ALL STOP" in session.text()
         await session.press("y")

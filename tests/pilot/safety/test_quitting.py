@@ -174,9 +174,7 @@ def test_unsafe_edit_is_announced_once_with_the_undo_key() -> None:
             session.console.parameters.set(NODE, {"safety_distance": value})
             await session.settle()
         reported = [each.message for each in session.app._notifications]
-        assert reported == [
-            "⚠ safety_distance 0.8 → 0.4 lowers a safety margin. u in the Parameters pane takes it back."
-        ]
+        assert reported == ["⚠ safety_distance 0.8 → 0.4 lowers a safety margin. u in the Parameters pane undoes it."]
         session.console.parameters.set(NODE, {"safety_distance": 0.6})
         session.console.parameters.set(NODE, {"turn_rate": 0.5})
         await session.settle()
@@ -184,6 +182,6 @@ def test_unsafe_edit_is_announced_once_with_the_undo_key() -> None:
         session.console.parameters.undo()
         await session.settle()
         *_, last = (each.message for each in session.app._notifications)
-        assert last.startswith("⚠ turn_rate 0.5 → 1.0 raises a safety limit. U in the Parameters pane takes it back.")
+        assert last.startswith("⚠ turn_rate 0.5 → 1.0 raises a safety limit. U in the Parameters pane undoes it.")
 
     run(live(), play)

@@ -124,6 +124,6 @@ def test_ignored_options_are_reported() -> None:
         await session.press("enter")
         text = " ".join(each.message for each in session.app._notifications)
         assert "perspective mine.ini" in text
-        assert "wrong is not taken over" in text
+        assert "wrong is ignored" in text
 
     run(live(), play, (120, 40))

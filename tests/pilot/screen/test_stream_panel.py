@@ -155,7 +155,7 @@ def test_smaller_terminal_shows_the_newest_panels_and_counts_the_others(streams:
         await session.pilot.resize_terminal(60, 20)
         panels.poll()
         await session.settle()
-        assert "2 more not seen" in session.text() and "3 topic hz" in session.text()
+        assert "2 more not shown" in session.text() and "3 topic hz" in session.text()
         assert "1 topic hz" not in session.text() and not any(each.stopped for each in streams)
 
     run(live(), play, (80, 24))

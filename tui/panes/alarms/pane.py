@@ -53,8 +53,8 @@ class AlarmsPane(ListPane):
         "Conditions over fields of topics and parameters, such as  low battery: /battery/percentage < 0.2  or\n"
         "/scan/ranges[0] < 0.4 and /odom/twist.twist.linear.x > 1, or over rates: rate(/scan) < 8. While there are\n"
         "none, some are suggested, and Enter adds one. Alarms are watched all the time, at each message;\n"
-        "each time that one begins to hold it is told once, with the terminal's bell where b asks for it. They are\n"
-        "kept for the next start. Topics whose rates are expected (E in Topics) are listed first."
+        "each time that one becomes active it is announced once, with the terminal's bell if b has switched it on.\n"
+        "They are kept for the next start. Topics whose rates are expected (E in Topics) are listed first."
     )
     BINDINGS = keymap.bindings("alarms")
 
@@ -215,7 +215,7 @@ class AlarmsPane(ListPane):
     def action_add(self) -> None:
         """Ask for a new alarm."""
         if len(self._alarms) >= MAX_ALARMS:
-            self.notify(f"There are {MAX_ALARMS} alarms; d takes one away.", severity="warning")
+            self.notify(f"There are {MAX_ALARMS} alarms; d deletes one.", severity="warning")
             return
         self._ask("alarm", "", None)
 
@@ -269,7 +269,7 @@ class AlarmsPane(ListPane):
     def _keep(self) -> None:
         why = self.state_store.put(STATE_NAME, [each.text.data for each in self._alarms])
         if why:
-            self.notify(f"The alarms are not kept: {why}", severity="warning")
+            self.notify(f"The alarms are not saved: {why}", severity="warning")
         self._arrange()
 
     def action_delete(self) -> None:

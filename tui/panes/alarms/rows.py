@@ -104,7 +104,7 @@ class AlarmRows(ItemList[Row]):
 
     def _suggestion(self, row: Row, width: int) -> list[Segment]:
         """Name, condition, and the value now."""
-        name = min(NAME, max(cell_len(sanitize(each.name)) for each in self.rows))
+        name = min(max(NAME, width // 4), max(cell_len(sanitize(each.name)) for each in self.rows))
         condition = min(
             max(cell_len(sanitize(each.condition)) for each in self.rows), max(12, width - name - SUGGESTED_VALUE)
         )

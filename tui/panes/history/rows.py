@@ -18,13 +18,13 @@ from rich.style import Style
 from rich.text import Text
 
 WHO = {
-    ChangeSource.EDIT: "here",
+    ChangeSource.EDIT: "this console",
     ChangeSource.UNDO: "undo",
     ChangeSource.REDO: "redo",
     ChangeSource.PROFILE: "profile",
     ChangeSource.FILE: "file",
     ChangeSource.HISTORY: "history",
-    ChangeSource.ROLLBACK: "taken back",
+    ChangeSource.ROLLBACK: "rolled back",
     ChangeSource.OTHER: "another program or the node",
 }
 MARKS = {"": " ", "refused": "✗", "not set": "?"}

@@ -61,5 +61,5 @@ class Filtering:
         ]
         reported = [each for each in parts if each]
         if self.off and reported:
-            reported = [f"filters off, t puts them back ({', '.join(reported)})"]
+            reported = [f"filters off, t restores them ({', '.join(reported)})"]
         return reported

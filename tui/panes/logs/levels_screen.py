@@ -22,7 +22,7 @@ from rich.text import Text
 from textual.app import App, ComposeResult
 from textual.binding import BindingType
 
-HINT = "d i w e f level · u as its parent · esc closes"
+HINT = "d i w e f Set level · u Inherit · Esc Close"
 LEVELS = (Severity.DEBUG, Severity.INFO, Severity.WARN, Severity.ERROR, Severity.FATAL)
 
 

@@ -201,7 +201,7 @@ class LogsPane(LinePane):
         text = problem or self.status_text()
         self._list.show_placeholder(FILTERED_OUT if self._filtering.texts() else EMPTY)
         self.caption(text if self.has_class("compact") else "")
-        self.query_one("#log-status", StaticText).show_text(text)
+        self.query_one("#log-status", StaticText).show_or_hide(text)
 
     def on_resize(self) -> None:
         """Where there is little room, write what is shown into the frame."""
@@ -213,10 +213,12 @@ class LogsPane(LinePane):
             self._draw_strip()
 
     def status_text(self) -> str:
-        """The line below the log."""
+        """The line below the log; empty as long as there is nothing to count."""
         state, counts = self._state, self._state.counts
         # What was found may be newer than the snapshot: lines come all the time.
         end = max(state.end, self._found.end if self._found else 0)
+        if end == state.first and not state.dropped and not self._filtering.texts():
+            return ""
         parts = [f"{self._list.row_count()} of {end - state.first}"]
         if self._found is None or not self._found.complete or self._match_search.under_way:
             parts.append("searching")
@@ -272,7 +274,7 @@ class LogsPane(LinePane):
         """Show everything for now, or put the filters back."""
         filtering = self._filtering
         if not filtering.off and not filtering.texts():
-            self.notify("Nothing is filtered; / asks for words, x hides lines like this one.")
+            self.notify("Nothing is filtered; / filters, x hides lines like this one.")
             return
         filtering.off = not filtering.off
         self._search()

@@ -87,7 +87,7 @@ class RuleBook:
         try:
             save_file(self.path, "".join(lines))
         except NotSaved as error:
-            return f"these rules are for now only: {error}"
+            return f"the rules are not saved: {error}"
         return ""
 
     def add(self, words: str, *, hide: bool) -> tuple[Rule, str]:

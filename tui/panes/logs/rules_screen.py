@@ -21,7 +21,7 @@ from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import BindingType
 
-HINT = "space on/off · enter words · c colour · a add · d delete · esc"
+HINT = "Space On/off · Enter Edit · c Colour · a Add · d Delete · Esc Close"
 
 
 class RuleRows(ItemList[Rule]):

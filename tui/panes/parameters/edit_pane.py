@@ -170,7 +170,7 @@ class EditPane(ListPane):
             return
         value = editing.at_share(parameter, share)
         if value is None:
-            self.notify(f"{parameter.name} has no range, so no least and no greatest value.")
+            self.notify(f"{parameter.name} has no range, so no minimum or maximum.")
         else:
             self.edits.set(parameter, value)
 
@@ -271,7 +271,7 @@ class EditPane(ListPane):
         values: dict[Key, Value] = {
             (tunable.node, tunable.name): value for tunable, value in zip(tunables, setting, strict=True)
         }
-        self._asked_first("Take what was tuned?", values, partial(self.edits.apply, values))
+        self._asked_first("Apply the tuned values?", values, partial(self.edits.apply, values))
 
     def _asked_first(self, question: str, values: Mapping[Key, Value], then: Callable[[], None]) -> None:
         """Call `then`; if the values make the robot less safe, ask first."""

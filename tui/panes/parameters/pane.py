@@ -249,11 +249,12 @@ class ParametersPane(EditPane):
         self._list.show_placeholder(self._placeholder())
         words, text = self.query_one("#parameter-detail", StaticText), self._details(self._list.current)
         maximum = max(MIN_DETAIL_LINES, self.size.height // SHARE)
-        need = len(text.wrap(self.host.console, max(1, words.size.width))) if words.size.width else MIN_DETAIL_LINES
+        width = words.size.width or self.content_size.width - 2  # it is hidden while there is nothing to say
+        need = len(text.wrap(self.host.console, width)) if width > 0 else MIN_DETAIL_LINES
         height = min(max(need, MIN_DETAIL_LINES), maximum) + 1  # one is the line above
         if words.styles.height is None or words.styles.height.value != height:
             words.styles.height = height
-        words.show_text(text)
+        words.show_or_hide(text)
 
     def _placeholder(self) -> Placeholder:
         if self.words or self._view.only_changed:

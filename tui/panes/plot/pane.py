@@ -30,7 +30,7 @@ EMPTY = Placeholder(
     "Numbers over time: there are no curves.",
     (
         ("a", "Add /topic/field, or /node:parameter"),
-        ("p", "Show curves that were kept"),
+        ("p", "Show saved curves"),
         ("9", "Topics to choose from"),
     ),
 )

@@ -52,8 +52,8 @@ class PlotQuestions(Pane):
                 "Plot",
                 self._add_all,
                 find=partial(suggested, known),
-                hint="letters of a path, or an expression such as /a/x - /b/x or mean(/a/x, 1 s)",
-                empty="No number has these letters.",
+                hint="type part of a path, or an expression such as /a/x - /b/x or mean(/a/x, 1 s)",
+                empty="Nothing that can be plotted matches.",
             )
         )
 
@@ -99,7 +99,7 @@ class PlotQuestions(Pane):
 
     def action_limits(self) -> None:
         """Ask for the limits of the values."""
-        label = "least and greatest value (empty: automatic)"
+        label = "minimum and maximum (empty: automatic)"
         self.ask(Asked(label, self._limit, text=self._limits_text(), check=wrong_limits))
 
     def action_zoom_values(self, factor: float) -> None:
@@ -163,9 +163,9 @@ class PlotQuestions(Pane):
     def action_keep(self) -> None:
         """Ask for a name for the curves that are shown."""
         if self.paths:
-            self.ask(Asked("keep these curves as", self._keep, check=plot_presets.preset_name_problem))
+            self.ask(Asked("save these curves as", self._keep, check=plot_presets.preset_name_problem))
         else:
-            self.notify("There are no curves to be kept.")
+            self.notify("There are no curves to save.")
 
     def _keep(self, name: str) -> None:
         timeline = self._timeline
@@ -174,21 +174,21 @@ class PlotQuestions(Pane):
             preset = Preset(tuple(curves), timeline.window, self._limits_text(), timeline.against)
             path = plot_presets.keep_preset(name, preset)
         except NotSaved as error:
-            self.report(Answer(False, f"not kept: {error}"))
+            self.report(Answer(False, f"not saved: {error}"))
         else:
-            self.report(Answer(True, f"curves kept in {path}; p shows them again"))
+            self.report(Answer(True, f"curves saved in {path}; p shows them again"))
 
     def action_kept(self) -> None:
         """Ask which of the curves that were kept are to be shown."""
         names = plot_presets.preset_names()
         if not names:
-            self.notify("No curves have been kept; w keeps those that are shown.")
+            self.notify("No curves have been saved; w saves those that are shown.")
             return
 
         def find(typed: str) -> Sequence[Option]:
             return [Option(each) for each in names if typed.strip().lower() in each.lower()]
 
-        self.ask(Choice("Curves", self.show_kept, find=find, hint="name", empty="No curves of this name were kept."))
+        self.ask(Choice("Curves", self.show_kept, find=find, hint="name", empty="No saved curves have this name."))
 
     def show_kept(self, name: str) -> None:
         """Show the curves of a name in place of those that are shown."""

@@ -137,7 +137,9 @@ class ProfilesPane(ListPane):
             width = shown.size.width or self.size.width
             shown.show_placeholder(NO_PLACEHOLDER if self._snapshot.profiles else EMPTY)
             shown.exchange(entries(self._differences, self._outcomes, self._asking, width))
-            self.query_one("#profile-head", StaticText).show_whole(self._head(profile), HEAD)
+            head = self.query_one("#profile-head", StaticText)
+            head.set_class(profile is None, "-blank")
+            head.show_whole(self._head(profile), HEAD)
         self.query_one("#profile-status", StaticText).show_whole(self._reported or self._summary(profile), STATUS)
 
     def _show_comparison(self, profile: Profile | None) -> bool:
@@ -168,7 +170,7 @@ class ProfilesPane(ListPane):
 
     def _summary(self, profile: Profile | None) -> str:
         if profile is None and self._snapshot.profiles:
-            return "Nothing matches the filter; escape takes it away."
+            return "Nothing matches the filter; Escape clears it."
         if profile is None:
             return self._snapshot.problem
         if profile.problem:
@@ -189,7 +191,7 @@ class ProfilesPane(ListPane):
         reset = any(each.needs_reset for each in self._differences)
         text = f"{counted(len(self._differences) - unknown, 'change')}"
         text += f", {refused} would be refused" if refused else ""
-        text += f", {counted(refusing, 'node')} against it" if refusing else ""
+        text += f", {counted(refusing, 'node')} would refuse it" if refusing else ""
         text += f", {unknown} unknown to its node and left out" if unknown else ""
         text += f", not running: {', '.join(absent)}" if absent else ""
         unasked = self._asking.unasked_text()
@@ -341,7 +343,7 @@ class ProfilesPane(ListPane):
             return
         running = [each for each in self._own_processes() if each.state is ProcessState.RUNNING]
         given = " ".join(f"{name}:={value}" for name, value in profile.arguments.items())
-        reasons = [f"{profile.launch} {given}".rstrip(), "It takes the place of what this console has started:"]
+        reasons = [f"{profile.launch} {given}".rstrip(), "It replaces what this console has started:"]
         reasons += [f"  {each.label}" for each in running] or ["  nothing"]
         reasons += stops_of_ending(self.console.snapshot(), running)
         self.ask(

@@ -18,8 +18,8 @@ LIST, CHANGE = "std_srvs/srv/Trigger", "diagnostic_msgs/srv/AddDiagnostics"
 """The types of `list`, and of `apply`, `save` and `delete`."""
 NOBODY = "No node here keeps presets. One that does: ros2 run bot_console_robot preset_node"
 UNSEEN = (
-    "{keeper} sets the values itself, all or none. Which they are, and whether they take from the robot's safety, "
-    "is not seen here before; they stand in the history, where each can be taken back."
+    "{keeper} sets the values itself, all or none. Which values those are, and whether any lowers "
+    "safety, cannot be shown here in advance; History lists them afterwards, and each can be undone there."
 )
 
 

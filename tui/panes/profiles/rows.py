@@ -121,7 +121,7 @@ class DifferenceRows(ItemList[Entry]):
 def _note(entry: Entry, change: ProfileDifference) -> tuple[str, str]:
     outcome = entry.outcome
     if outcome is not None:
-        return ("✓ taken", "good") if outcome.accepted else (f"✗ {verdict(outcome)}", "error")
+        return ("✓ accepted", "good") if outcome.accepted else (f"✗ {verdict(outcome)}", "error")
     if change.unknown:
         return "unknown to its node, left out", "dim"
     if change.refusal:
@@ -136,7 +136,7 @@ def outcome_text(name: str, outcomes: Sequence[SetOutcome], unknown: int) -> str
     taken = sum(each.accepted for each in outcomes)
     if not outcomes:
         return f"{name}: nothing to set" + (f", its {counted(unknown, 'value')} are unknown here" if unknown else "")
-    parts = [f"{taken} taken"]
+    parts = [f"{taken} accepted"]
     failed = Counter(verdict(each) for each in outcomes if not each.accepted)
     parts += [f"{count} {why}" for why, count in failed.items()]
     parts += [f"{unknown} unknown here, left out"] if unknown else []

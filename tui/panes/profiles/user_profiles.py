@@ -63,9 +63,7 @@ class OwnProfiles:
         """Ask whether to delete its file."""
         if not self._refused(profile, "deleted"):
             changed = f", changed {reported}" if (reported := _changed(profile.path)) else ""
-            reasons = (
-                f"{profile.path}{changed}.\nThe values that run stay as they are. The file cannot be brought back."
-            )
+            reasons = f"{profile.path}{changed}.\nThe values that run stay as they are. The file cannot be restored."
             delete = partial(self._delete, profile.name)
             gone = partial(self._gone, profile.name)
             self.ask(Confirmation(f"Delete the profile {profile.name}?", delete, gone=gone, reasons=reasons))

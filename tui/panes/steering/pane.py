@@ -45,8 +45,8 @@ class SteeringPane(Pane):
         "Space stops. While armed only a person's commands count, where a safety monitor chooses between them;\n"
         "without one the newest command wins, and the other nodes are named. When no key comes for the\n"
         "dead-man time, when the pane is left, and when this console is frozen or gone, the robot stands, locked:\n"
-        "Enter steers on, ! hands it back to its own program (h does so while armed). The limits are max_speed and\n"
-        "turn_rate. Below stands what became of the command, and what has limited it."
+        "Enter resumes steering, ! returns control to its own program (h does so while armed). The limits are\n"
+        "max_speed and turn_rate. Below stands what became of the command, and what has limited it."
     )
     BINDINGS = keymap.bindings("steering")
 
@@ -229,7 +229,7 @@ class SteeringPane(Pane):
     def tick(self) -> None:
         """Repeat the command, or stop if no key was pressed within the dead-man time."""
         if self.state.armed and not (self.has_focus and self.host.screen is self.screen):
-            self._disarm("Disarmed: the keyboard went elsewhere.")
+            self._disarm("Disarmed: another pane has the keyboard.")
         if self.state.armed and (self._repeating is None or self.state.expires(self.clock())):
             self._send()
         if self.state.armed:
@@ -379,7 +379,7 @@ class SteeringPane(Pane):
             named = robot_of(typed.strip(), robots)
             return [Option(each) for each in found or ([named] if named else [])]
 
-        empty = "Nobody takes velocity commands on such a topic."
+        empty = "No topic of that name takes velocity commands."
         choose = self.console.drive.choose
         self.ask(Choice("Steer which robot or topic?", choose, find=find, hint="type part of its name", empty=empty))
 

@@ -114,7 +114,7 @@ def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
     topic = sanitize(drive.topic) or "no robot listens for commands"
     if len(drive.robots) > 1 and drive.robot in drive.robots:
         # Of one robot or of several: from a graph nobody can tell where two topics end.
-        topic += f"  topic {drive.robots.index(drive.robot) + 1} of {len(drive.robots)}, r takes the next"
+        topic += f"  topic {drive.robots.index(drive.robot) + 1} of {len(drive.robots)}, r: the next one"
     if drive.unsent:
         return ((" STOP NOT SENT ", "error"), (f" {drive.unsent}", ""))
     if drive.stopped and drive.nothing_to_stop:
@@ -123,14 +123,14 @@ def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
         return _highlighted(drive, topic)
     if drive.stopped and not drive.lockable and stands_after_steering(drive):
         key = stop_key(drive, "ends them")
-        return ((" STANDS ", "warn"), (f" by zeros, having no emergency stop: enter steers on, {key}", ""))
+        return ((" STOPPED ", "warn"), (f" by zeros, having no emergency stop: Enter resumes steering, {key}", ""))
     if drive.stopped and not drive.stop_confirmed:
         return ((" STOP SENT, NOT CONFIRMED ", "error"), (_unconfirmed(drive), ""))
     if drive.stopped and stands_after_steering(drive):
-        key = stop_key(drive, "hands it back to its program")
-        return ((" STANDS ", "warn"), (f" enter steers on, {key}", ""))
+        key = stop_key(drive, "returns control to its program")
+        return ((" STOPPED ", "warn"), (f" Enter resumes steering, {key}", ""))
     if drive.stopped:
-        return ((" ALL STOP ", "error"), (f" {stop_key(drive, 'lets it go')}: held{held_by(drive)}", ""))
+        return ((" ALL STOP ", "error"), (f" {stop_key(drive, 'releases')}: held{held_by(drive)}", ""))
     if state.armed:
         return ((" ● ARMED ", "warn"), (f" keys drive, h hands back  {topic}", "dim"))
     return ((" ○ disarmed ", "dim"), (" enter arms  " if width >= 34 else " ", "strong"), (topic, "dim"))

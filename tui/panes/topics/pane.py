@@ -226,7 +226,7 @@ class TopicsPane(ListPane):
         if not heard.count:
             return f"{self._topic}  {qos}no message yet{unheard(asked, self._topic, self._info) if asked else ''}"
         if self._frozen:
-            return f"{self._topic}  frozen, +{heard.count - self._shown.count} new; space goes on"
+            return f"{self._topic}  frozen, +{heard.count - self._shown.count} new; space resumes"
         measure = self._list.measure_of(self._topic)
         rate = rate_text(measure.rate, provisional=measure.provisional) if measure.rate else ""
         parts = [counted(heard.count, "message"), age_text(heard.age), f"{rate} Hz" if rate else ""]
@@ -359,7 +359,7 @@ class TopicsPane(ListPane):
         if topic:
             fields = qos_fields(self._qos.get(topic) or RequestedQos())
             then = partial(self._hear, topic)
-            self.ask(Form(f"QoS of {topic}", then, arguments=fields, verb="subscribes", check=wrong_qos))
+            self.ask(Form(f"QoS of {topic}", then, arguments=fields, verb="Subscribe", check=wrong_qos))
 
     def _hear(self, topic: str, changed: Mapping[str, str]) -> None:
         qos = changed_qos(self._qos.get(topic) or RequestedQos(), changed)
@@ -402,7 +402,9 @@ class TopicsPane(ListPane):
             if not paths:
                 self.notify(f"{row.name} has no number that could be plotted.", severity="warning")
             else:
-                self.ask(Choice(f"Plot {row.name}", self._plot, find=partial(_paths, paths), hint="words of a field"))
+                self.ask(
+                    Choice(f"Plot {row.name}", self._plot, find=partial(_paths, paths), hint="type part of a field")
+                )
 
     def _plot(self, path: str) -> None:
         self.post_message(self.PlotWanted(path))

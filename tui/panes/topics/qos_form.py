@@ -15,7 +15,7 @@ CHOICES = {
     "history": (OFFERED, "keep_last", "keep_all"),
 }
 ABOUT = {
-    "reliability": "A reliable subscription hears nothing from a best-effort publisher",
+    "reliability": "A reliable subscription receives nothing from a best-effort publisher",
     "durability": "A transient-local subscription gets what was published earlier, from such publishers only",
     "history": "Whether the newest messages are kept, or all",
 }

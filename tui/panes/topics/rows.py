@@ -126,11 +126,11 @@ def _row(name: str, found: _Endpoints, kind: Kind, broken: Sequence[Incompatible
 
 def _problem(found: _Endpoints, kind: Kind, broken: Sequence[IncompatiblePair]) -> str:
     if len(found.types) > 1:
-        return f"different types, which do not hear each other: {', '.join(found.types)}"
+        return f"different types, which do not connect: {', '.join(found.types)}"
     for publisher, subscription, why in broken:
         return f"nothing arrives from {publisher} at {subscription}: {why}"
     if found.takes and not found.gives:
-        return "nobody publishes it: is the name right?" if kind is Kind.TOPICS else "no server: calls wait in vain"
+        return "nobody publishes it: is the name right?" if kind is Kind.TOPICS else "no server: calls get no answer"
     return ""
 
 

@@ -99,7 +99,7 @@ class Form(Question[dict[str, str]]):
     """Named values, such as the arguments of a launch file; the answer is those that differ from their defaults."""
 
     arguments: Sequence[LaunchArgument] = ()
-    verb: str = "launches"
+    verb: str = "Launch"
     """The word for the action of Enter."""
     check: Callable[[dict[str, str]], str] = lambda _: ""
     """Why the answer cannot be taken; empty if it can."""

@@ -122,7 +122,7 @@ class StreamPanels(Container):
         self.styles.grid_size_columns, self.styles.grid_size_rows = columns, rows
         seen[-1].styles.column_span = 1 + rows * columns - len(seen)
         if len(seen) < len(self._panels):
-            seen[-1].border_subtitle = f"{len(self._panels) - len(seen)} more not seen · {self._key} closes one"
+            seen[-1].border_subtitle = f"{len(self._panels) - len(seen)} more not shown · {self._key} closes one"
 
     def on_stream_panel_closed(self, event: StreamPanel.Closed) -> None:
         """End the stream of a panel whose title was clicked."""

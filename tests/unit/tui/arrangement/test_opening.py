@@ -62,12 +62,12 @@ def test_every_program_has_its_pane(program: str, pane: str) -> None:
 @pytest.mark.parametrize(
     ("line", "note"),
     [
-        ("rqt_plot -P /a", "-P of rqt_plot is not taken over"),
-        ("rqt_plot --default_topic /cmd", "--default_topic /cmd of rqt_plot is not taken over"),
+        ("rqt_plot -P /a", "-P of rqt_plot is ignored"),
+        ("rqt_plot --default_topic /cmd", "--default_topic /cmd of rqt_plot is ignored"),
         ("rqt_robot_steering --ros-args -p publish_rate:=500", "publish_rate:=500 is not a number from 1 to 50"),
         ("rqt_robot_steering --ros-args -p publish_rate:=fast", "publish_rate:=fast is not a number from 1 to 50"),
-        ("rqt_robot_steering --ros-args -p speed:=1", "the parameter speed of rqt_robot_steering is not taken over"),
-        ("rqt_plot --ros-args -p default_topic:=/a", "the parameter default_topic of rqt_plot is not taken over"),
+        ("rqt_robot_steering --ros-args -p speed:=1", "the parameter speed of rqt_robot_steering is ignored"),
+        ("rqt_plot --ros-args -p default_topic:=/a", "the parameter default_topic of rqt_plot is ignored"),
         ("rqt -s rqt_bag", "there is no pane for rqt_bag"),
     ],
 )

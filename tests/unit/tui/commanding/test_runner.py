@@ -69,7 +69,7 @@ def runner() -> tuple[LineRunner, Any, FakeCommandLine]:
         ("zzz", "^p finds an action"),
         ("stop now", "write it as: stop"),
         ("help topic", "ros2 topic -h"),
-        ("topic echo 'x", "a quotation mark has no twin"),
+        ("topic echo 'x", "a quotation mark is not closed"),
     ],
 )
 def test_invalid_line_is_rejected_with_a_hint(text: str, hint: str) -> None:

@@ -118,8 +118,8 @@ def test_keys_with_extended_reports_are_parsed() -> None:
 
 def test_every_key_of_the_table_is_what_its_bytes_are_read_as() -> None:
     plain = [bytes([each]) for each in (*range(1, 27), 27, *range(32, 128))]
-    letters = [(letter, *(f"1;{modifier}{letter}" for modifier in (2, 5))) for letter in "ABCDHF"]
-    special = [f"\x1b[{each}".encode() for each in (*(each for some in letters for each in some), "Z", *TILDES)]
+    moving = [f"{modifier}{final}" for final in "ABCDHF" for modifier in ("", "1;2", "1;5")]
+    special = [f"\x1b[{each}".encode() for each in (*moving, "Z", *TILDES)]
     read = {event.key for data in (*plain, b"\x1bOP", *special) for event in Reader().read(data)}
     wanted = {each for keys in TABLE.values() for key in keys for each in key.keys.split(",")}
     assert not wanted - read

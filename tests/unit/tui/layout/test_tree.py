@@ -136,7 +136,7 @@ def test_border_is_moved_at_its_position() -> None:
         ({"beside": ["a", "b"], "share": [1]}, "each of the 2 parts"),
         ({"beside": ["a", "b"], "share": [1, 0]}, "each of the 2 parts"),
         ({"beside": ["a", "b"], "share": [1, True]}, "each of the 2 parts"),
-        ({"below": ["a", "a"]}, "a stands twice"),
+        ({"below": ["a", "a"]}, "a is listed twice"),
     ],
 )
 def test_invalid_layout_is_rejected_with_a_reason(data: object, message_of: str) -> None:
@@ -162,7 +162,7 @@ def test_rqt_perspective_yields_its_panes() -> None:
     assert perspective_tree(ini, RQT_PANES) == (beside("parameters", "logs"), [])
     with pytest.raises(NoLayout, match="no plug-in"):
         perspective_tree("hello", RQT_PANES)
-    with pytest.raises(NoLayout, match="nothing here does the work of rqt_x"):
+    with pytest.raises(NoLayout, match="there is no pane for rqt_x"):
         perspective_tree("plugin__rqt_x__X__1", RQT_PANES)
 
 

@@ -32,7 +32,7 @@ def reported(news: SafetyNews, console: FakeConsole, calls: int = 1) -> Sequence
 def test_edit_is_announced_with_the_key_that_takes_it_back(news: SafetyNews, console: FakeConsole) -> None:
     console.set_parameters(NODE, {"safety_distance": 0.4})
     (text,) = reported(news, console)
-    assert text.endswith("lowers a safety margin. u in the Parameters pane takes it back.")
+    assert text.endswith("lowers a safety margin. u in the Parameters pane undoes it.")
 
 
 def test_value_that_a_refused_set_has_taken_back_is_not_announced(news: SafetyNews, console: FakeConsole) -> None:
@@ -48,4 +48,4 @@ def test_value_that_cannot_be_undone_is_announced_with_the_history(news: SafetyN
     console.take(NODE, {"safety_distance": 0.4}, ChangeSource.EDIT, atomically=True)
     assert reported(news, console, MAX_WAITING_CALLS) == []
     (text,) = reported(news, console)
-    assert text.endswith("lowers a safety margin. b in the History pane takes it back.")
+    assert text.endswith("lowers a safety margin. b in the History pane undoes it.")

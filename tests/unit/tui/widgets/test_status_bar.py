@@ -101,7 +101,7 @@ def test_figures_stay_in_place_whatever_the_state_and_the_speeds_are() -> None:
     lines = [status_text(ConsoleSnapshot(drive=each, active_profile="indoor")) for each in drives]
     places = {tuple(line.index(word) for word in ("asked", "sent", "robot", "m/s", "indoor")) for line in lines}
     assert len(places) == 1, lines
-    assert drive_figures(drives[2]) == ["asked -.04", "sent -1.0", "robot 0.04 m/s  0.0"]
+    assert drive_figures(drives[2]) == ["asked -.04", "sent -1.0", "robot 0.04 m/s     "]
 
 
 @pytest.mark.parametrize("drive", [each for each in STATES.values() if not each.stopped])

@@ -46,7 +46,7 @@ def test_rule_without_words_is_rejected(text: str) -> None:
 
 def test_unwritable_file_is_reported(tmp_path: Path) -> None:
     (tmp_path / "rules.txt").mkdir()
-    assert "for now only" in RuleBook(tmp_path / "rules.txt").change([Rule("a")])
+    assert "the rules are not saved" in RuleBook(tmp_path / "rules.txt").change([Rule("a")])
 
 
 @given(

@@ -70,8 +70,8 @@ def test_wide_characters_take_two_cells() -> None:
 @pytest.mark.parametrize(
     ("verdicts", "unknown", "text"),
     [
-        ([True, True], 0, "a: 2 taken"),
-        ([True, False], 3, "a: 1 taken, 1 refused, 3 unknown here, left out"),
+        ([True, True], 0, "a: 2 accepted"),
+        ([True, False], 3, "a: 1 accepted, 1 refused, 3 unknown here, left out"),
         ([], 399, "a: nothing to set, its 399 values are unknown here"),
         ([], 0, "a: nothing to set"),
     ],
@@ -83,4 +83,4 @@ def test_outcome_of_a_profile_counts_omitted_values(verdicts: list[bool], unknow
 
 def test_a_value_whose_node_has_not_answered_does_not_count_as_refused() -> None:
     outcomes = [SetOutcome("/n", "p", 1, False, "no answer", "node"), SetOutcome("/n", "q", 1, False, "no", "callback")]
-    assert outcome_text("a", outcomes, 0) == "a: 0 taken, 1 not set, 1 refused"
+    assert outcome_text("a", outcomes, 0) == "a: 0 accepted, 1 not set, 1 refused"
