@@ -82,8 +82,10 @@ def read_setup_py(folder: Path) -> SetupFile:
         tree = ast.parse(path.read_text(encoding="utf-8"))
     except SyntaxError as error:
         raise ValueError(f"{path}:{error.lineno}: {error.msg}") from None
-    except (OSError, UnicodeDecodeError) as error:
+    except (OSError, ValueError) as error:
         raise ValueError(f"{path}: {error}") from None
+    except (MemoryError, RecursionError):
+        raise ValueError(f"{path}: its expressions are nested too deeply") from None
     names: dict[str, Any] = {"__file__": str(path)}
     reader = _Reader(folder, names)
     for statement in _statements(tree):

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import ast
 from pathlib import Path
 
 import pytest
+from bot_console.runtime.workspace import setup_py
 from bot_console.runtime.workspace.setup_py import read_setup_py
 
 ABOVE = """\
@@ -49,3 +51,18 @@ def test_entry_points_that_need_execution_are_reported_with_line_and_fix(package
     (package / "setup.py").write_text(f"{ABOVE}setup(name='mine', entry_points={{'console_scripts': {scripts}}})\n")
     problem = read_setup_py(package).problem
     assert "line 6: " in problem and "Write them out" in problem
+
+
+@pytest.mark.parametrize("fault", [MemoryError(), RecursionError()], ids=["MemoryError", "RecursionError"])
+def test_setup_py_that_is_nested_too_deeply_is_refused(
+    package: Path, fault: BaseException, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Which of them Python's parser raises, and at what depth, depends on its version."""
+
+    def parse(text: str) -> ast.Module:
+        raise fault
+
+    (package / "setup.py").write_text("[[[]]]")
+    monkeypatch.setattr(setup_py.ast, "parse", parse)
+    with pytest.raises(ValueError, match="nested too deeply"):
+        read_setup_py(package)

@@ -55,7 +55,7 @@ def shadowed(path: Path) -> Iterator[Obstacle]:
     """The files beside a Python file that Python would import in place of a ROS package or of its own library."""
     try:
         tree = ast.parse(path.read_text(encoding="utf-8"))
-    except (OSError, SyntaxError, ValueError):
+    except (OSError, SyntaxError, ValueError, MemoryError, RecursionError):
         return
     names = known_names()
     for node in ast.walk(tree):
