@@ -47,8 +47,8 @@ POLL_S = 0.05
 WALKS: dict[str, tuple[str, ...]] = {
     "edit": (
         "textual/widget.py:_forward_event",
-        "rclpy/executors.py:create_task < tui/console/",
-        "rclpy/client.py:call_async < tui/console/",
+        "tui/console/command_gate.py:run < tui/console/parameters/",
+        "tui/console/calls.py:ask < tui/console/parameters/setter.py",
     ),
     "answer": (
         "tui/console/calls.py:ask < tui/console/parameters/setter.py",
