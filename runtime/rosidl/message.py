@@ -100,10 +100,10 @@ class Message(metaclass=MessageType):
         return all(_equal(getattr(self, name), getattr(other, name)) for name in self._fields_and_field_types)
 
 
-def _shown(value: object, kind: str) -> str:
+def _shown(value: Any, kind: str) -> str:
     """Return the text of a field: a sequence of numbers without its type, another value as it is."""
     numbers = isinstance(value, array) and kind.startswith(NUMBER_SEQUENCES) and "/" not in kind
-    return repr(cast("array[Any]", value).tolist()) if numbers else repr(value)
+    return repr(cast("array[Any]", value).tolist() if numbers else cast("Any", value))
 
 
 def _equal(one: Any, other: Any) -> bool:

@@ -11,6 +11,7 @@ from typing import Any
 
 from bot_console.tui import __version__
 from bot_console.tui.arrangement.opening import Opening, is_rqt, rqt_opening
+from bot_console.tui.cli.numbers import positive, seed
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.session.embedded.named_profile import (
     NamedProfile,
@@ -158,8 +159,6 @@ def parse(words: Sequence[str]) -> Options:
         pairs["allow_missing"] = "true"
     if given.fast and not given.headless:
         parser.error("--fast goes with --headless: a screen shows real time")
-    if given.duration is not None and not given.duration > 0:
-        parser.error(f"--duration must be positive, not {given.duration:g} s")
     return Options(
         profile=profile.name,
         profile_file=profile.path,
@@ -262,8 +261,8 @@ def option_parser() -> argparse.ArgumentParser:
     add("--fast", action="store_true", help="with --headless: simulated time, as fast as possible, reproducible")
     add_profile_folders(parser)
     add("--profile", metavar="PROFILE", help="the same as PROFILE")
-    add("--duration", type=float, metavar="S", help="with --headless: seconds to run")
-    add("--seed", type=int, metavar="N", help="seed of the world")
+    add("--duration", type=positive, metavar="S", help="with --headless: seconds to run")
+    add("--seed", type=seed, metavar="N", help="seed of the world")
     add("--world", metavar="NAME", help="world of the simulated robot")
     add("--simulator", action=argparse.BooleanOptionalAction, help=SIMULATOR_HELP)
     add(

@@ -33,14 +33,6 @@ def existing_file(text: str) -> Path:
     return path
 
 
-def positive(text: str) -> float:
-    """A number above zero; raises `ArgumentTypeError` or `ValueError`."""
-    value = float(text)
-    if not 0 < value < float("inf"):
-        raise argparse.ArgumentTypeError(f"must be positive, not {text}")
-    return value
-
-
 def report_unused(given: argparse.Namespace, unused: Mapping[str, str]) -> None:
     """Say which options were given that change nothing here, and why."""
     for name, why in unused.items():

@@ -7,8 +7,9 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
-from bot_console.tui.cli.bags.common import existing_file, named_folder, positive
+from bot_console.tui.cli.bags.common import existing_file, named_folder
 from bot_console.tui.cli.bags.record_arguments import SERVICE_EVENTS, pattern
+from bot_console.tui.cli.numbers import positive
 
 NOT_NEEDED = {
     "read_ahead_queue_size": "messages are read when they are due",

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from bot_console.tui.cli.check.runner import Outcome, Runner
 from bot_console.tui.cli.check.script import ScriptError, Step, read
+from bot_console.tui.cli.numbers import seed
 from bot_console.tui.format import counted, sanitize
 from bot_console.tui.session.reached_console import known, reached_console
 
@@ -52,7 +53,7 @@ def run(words: list[str]) -> int:
         help="start this and carry out the steps on it alone, in simulated time: `run PACKAGE EXECUTABLE` or `launch "
         "PACKAGE FILE`; may be repeated",
     )
-    parser.add_argument("--seed", type=int, default=1, metavar="N", help="with --start: seed of the run (1)")
+    parser.add_argument("--seed", type=seed, default=1, metavar="N", help="with --start: seed of the run (1)")
     parser.add_argument("--course", metavar="COURSE", help="grade the workspace SCRIPT by the rows of a course")
     parser.add_argument("--junit", metavar="FILE", help="with --course: also write a report of JUnit")
     parser.add_argument("--allow-network", action="store_true", help="with --course: also without isolation")

@@ -60,6 +60,9 @@ def _in_xml(path: Path) -> Iterator[tuple[str, int]]:
 
 
 def _is_there(package: str) -> bool:
+    from bot_console.runtime.importer import install
+
+    install()
     from ament_index_python.packages import get_package_prefix
     from bot_console.runtime.launch_ros.node_program import container_path
     from bot_console.runtime.workspace.executables import executables

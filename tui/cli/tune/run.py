@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from bot_console.tui.cli.arguments import add_profile_folders
+from bot_console.tui.cli.numbers import positive, seed
 from bot_console.tui.cli.tune.describing import result_line, result_of, tunables_of
 from bot_console.tui.cli.tune.pool import Pool
 from bot_console.tui.files.folders import state_folder
@@ -170,8 +171,8 @@ def command_parser() -> argparse.ArgumentParser:
     add("--runs", type=int, default=60, metavar="N", help="number of runs (60)")
     add("--seeds", type=int, default=3, metavar="N", help="seeds for each setting (3)")
     add("--held-out", type=int, default=5, metavar="N", help="further seeds that check the best setting at the end (5)")
-    add("--seed", type=int, default=1, metavar="N", help="first seed (1)")
-    add("--duration", type=float, default=60.0, metavar="S", help="simulated seconds of a run (60)")
+    add("--seed", type=seed, default=1, metavar="N", help="first seed (1)")
+    add("--duration", type=positive, default=60.0, metavar="S", help="simulated seconds of a run (60)")
     add("--search", default="adaptive", choices=sorted(SEARCHES), help="how settings are chosen (adaptive)")
     add("--profile", default="indoor", metavar="PROFILE", help="profile, by name or path, to tune (indoor)")
     add_profile_folders(parser)

@@ -7,6 +7,7 @@ import sys
 
 from bot_console.tui.cli.arguments import SIMULATOR_HELP, Options
 from bot_console.tui.cli.machine_limits import no_node_here
+from bot_console.tui.cli.numbers import positive, seed
 from bot_console.tui.cli.programs import program
 from bot_console.tui.cli.verbs import ros2
 from bot_console.tui.session.embedded.domain import take_part
@@ -106,8 +107,8 @@ def _parser() -> argparse.ArgumentParser:
     add("--watch", action="store_true", help="open the console on it")
     add("--headless", action="store_true", help="no screen: logs on stderr, a JSON report on stdout at the end")
     add("--fast", action="store_true", help="with --headless: simulated time, as fast as possible, reproducible")
-    add("--duration", type=float, metavar="S", help="with --headless: seconds to run")
-    add("--seed", type=int, metavar="N", help="seed of the simulated world")
+    add("--duration", type=positive, metavar="S", help="with --headless: seconds to run")
+    add("--seed", type=seed, metavar="N", help="seed of the simulated world")
     add("--world", metavar="NAME", help="world of the simulated robot")
     add("--simulator", action=argparse.BooleanOptionalAction, help=SIMULATOR_HELP)
     return parser

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -243,3 +245,11 @@ def test_without_argument_the_folder_is_linted_but_no_environment_in_it(
     assert run([]) == 1
     printed = capsys.readouterr().out
     assert "config/robot.yaml:2" in printed and ".venv" not in printed
+
+
+def test_folder_with_a_launch_file_is_linted_where_ros_is_not_installed(tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.delenv("PYTHONPATH", raising=False)
+    (tmp_path / "a.launch.py").write_text("from launch_ros.actions import Node\nNode(package='nope', executable='x')\n")
+    command = [sys.executable, "-m", "bot_console.tui", "lint", str(tmp_path)]
+    ended = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert "no such package" in ended.stdout
