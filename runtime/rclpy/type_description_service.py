@@ -61,7 +61,11 @@ class TypeDescriptionService:
 
     def _answer(self, request: Any, response: Any) -> Any:
         """Describe a type that an entity of this node uses, found by its hash; with the messages of rcl."""
-        if not _is_hash(request.type_hash):
+        from bot_console.runtime.rosidl.type_hash import digest_from
+
+        try:
+            digest_from(request.type_hash)
+        except ValueError:
             self._node.get_logger().error(f"Failed to parse type hash '{request.type_hash}'")
             response.failure_reason = "Failed to parse type hash"
             return response
@@ -96,11 +100,6 @@ def _nothing() -> None:
 def _vanish(bus: Bus, lingering: set[Thing], endpoint: ServiceEndpoint) -> None:
     lingering.discard(endpoint)
     bus.remove(endpoint)
-
-
-def _is_hash(text: str) -> bool:
-    version, _, digits = text.partition("_")
-    return version == "RIHS01" and len(digits) == 64 and not set(digits) - set("0123456789abcdef")
 
 
 def _fill(response: Any, cls: Any, with_sources: bool) -> None:

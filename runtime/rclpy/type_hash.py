@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from bot_console.runtime.rosidl.type_hash import VERSION, digest
-
-SIZE = 32
+from bot_console.runtime.rosidl.type_hash import DIGEST_BYTES, VERSION, digest
 
 
 class TypeHash:
     """A type's hash: version of the scheme (1 is RIHS01) and 32 bytes; raises `AssertionError` for other types."""
 
-    _TYPE_HASH_SIZE = SIZE
+    _TYPE_HASH_SIZE = DIGEST_BYTES
     __slots__ = ("_value", "_version")
 
-    def __init__(self, version: int = -1, value: bytes = bytes(SIZE)) -> None:
+    def __init__(self, version: int = -1, value: bytes = bytes(DIGEST_BYTES)) -> None:
         self.version = version
         self.value = value
 
@@ -43,7 +41,7 @@ class TypeHash:
     __hash__ = None  # type: ignore[assignment] -- not hashable, as upstream
 
     def __str__(self) -> str:
-        if self.version <= 0 or len(self.value) != SIZE:
+        if self.version <= 0 or len(self.value) != DIGEST_BYTES:
             return "INVALID"
         return f"RIHS{self.version:02}_{self.value.hex()}"
 

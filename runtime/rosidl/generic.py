@@ -8,9 +8,7 @@ from functools import cache
 from typing import Any, ClassVar
 
 from bot_console.runtime.rosidl.message import Message, MessageType
-
-SCHEME = "RIHS01_"
-DIGEST_SIZE = 32
+from bot_console.runtime.rosidl.type_hash import digest_from
 
 
 class GenericMessage(Message):
@@ -44,14 +42,10 @@ def generic_class(type_name: str, type_hash: str) -> type[GenericMessage]:
     kind, _, name = rest.partition("/")
     if not all(each.isidentifier() for each in (package, kind, name)):
         raise ValueError(f"'{type_name}' is not a message type")
-    scheme, digits = type_hash[: len(SCHEME)], type_hash[len(SCHEME) :]
-    digest = bytes.fromhex(digits) if scheme == SCHEME else b""
-    if len(digest) != DIGEST_SIZE:
-        raise ValueError(f"'{type_hash}' is not the hash of a type")
     body: dict[str, Any] = {
         "__slots__": (),
         "__module__": f"{package}.{kind}.generic",
         "_fields_and_field_types": {},
-        "_given_digest": digest,
+        "_given_digest": digest_from(type_hash),
     }
     return MessageType(name, (GenericMessage,), body)

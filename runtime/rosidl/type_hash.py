@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from bot_console.runtime.rosidl.type_description import Description
 
 VERSION = 1
+SCHEME = f"RIHS{VERSION:02}_"
+DIGEST_BYTES = 32
 
 
 @cache
@@ -46,7 +48,19 @@ def text_of_description(description: Description) -> str:
 
 
 def _text(hashed: bytes) -> str:
-    return f"RIHS{VERSION:02}_{hashed.hex()}"
+    return SCHEME + hashed.hex()
+
+
+def digest_from(text: str) -> bytes:
+    """Parse a hash in that notation; raises `ValueError` for any other text."""
+    scheme, digits = text[: len(SCHEME)], text[len(SCHEME) :]
+    try:
+        found = bytes.fromhex(digits) if scheme == SCHEME else b""
+    except ValueError:
+        found = b""
+    if len(found) != DIGEST_BYTES:
+        raise ValueError(f"'{text}' is not the hash of a type")
+    return found
 
 
 KNOWN = {

@@ -35,31 +35,30 @@ class SeverityStrip:
             for spans in self._spans.values():
                 spans.clear()
         self._seen = counts
-        for name, severities, _ in ROWS:
-            new = sum(counts.get(each, 0) - before.get(each, 0) for each in severities)
-            spans = self._spans[name]
-            if new:
-                spans[int(now // BAR_S)] += new
+        for spans, now_seen, seen in zip(self._spans.values(), _by_row(counts), _by_row(before), strict=True):
+            if now_seen > seen:
+                spans[int(now // BAR_S)] += now_seen - seen
             if len(spans) > MAX_BARS:
                 del spans[min(spans)]
 
     def is_changed(self, now: float, width: int, is_shown: bool) -> bool:
         """Whether anything is to be drawn otherwise than at the last call; while nothing is shown, nothing changes."""
-        drawn = (int(now // BAR_S), width, self._counts()) if is_shown else ()
+        drawn = (int(now // BAR_S), width, _by_row(self._seen)) if is_shown else ()
         before, self._drawn = self._drawn, drawn
         return drawn != before
-
-    def _counts(self) -> list[int]:
-        """How many lines there are for each row."""
-        return [sum(self._seen.get(each, 0) for each in severities) for _, severities, _ in ROWS]
 
     def lines(self, now: float, width: int) -> list[Line]:
         """A row for each severity that came at all, the newest bar last."""
         last, count = int(now // BAR_S), max(0, width - FIGURE - 3)
         found: list[Line] = []
-        for (name, _, style), total in zip(ROWS, self._counts(), strict=True):
+        for (name, _, style), total in zip(ROWS, _by_row(self._seen), strict=True):
             if total:
                 drawn = "".join(bars([self._spans[name][at] for at in range(last - count + 1, last + 1)]))
                 figure = f"{total:>{FIGURE - 1}}"
                 found.append(((f" {SEVERITY_CHARACTERS[name]} ", style), (drawn, style), (figure, "")))
         return found
+
+
+def _by_row(counts: Mapping[Severity, int]) -> list[int]:
+    """How many lines there are for each row."""
+    return [sum(counts.get(each, 0) for each in severities) for _, severities, _ in ROWS]
