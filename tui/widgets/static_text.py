@@ -20,7 +20,6 @@ class StaticText(Static):
     DEFAULT_CSS = """
     StaticText { height: 1; padding: 0 1; color: $text-muted; background: $surface;
             text-wrap: nowrap; text-overflow: ellipsis; }
-    StaticText.-blank { display: none; }
     """
 
     def __init__(self, *, id: str | None = None) -> None:
@@ -45,7 +44,7 @@ class StaticText(Static):
 
     def show_or_hide(self, what: str | Text) -> None:
         """Show a text; without one, leave the room to others."""
-        self.set_class(not what, "-blank")
+        self.styles.display = None if what else "none"  # at once; a class takes effect with the next idle moment
         self.show_text(what)
 
     def show_whole(self, what: str, maximum: int) -> None:

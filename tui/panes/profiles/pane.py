@@ -138,7 +138,7 @@ class ProfilesPane(ListPane):
             shown.show_placeholder(NO_PLACEHOLDER if self._snapshot.profiles else EMPTY)
             shown.exchange(entries(self._differences, self._outcomes, self._asking, width))
             head = self.query_one("#profile-head", StaticText)
-            head.set_class(profile is None, "-blank")
+            head.display = profile is not None
             head.show_whole(self._head(profile), HEAD)
         self.query_one("#profile-status", StaticText).show_whole(self._reported or self._summary(profile), STATUS)
 
