@@ -15,12 +15,14 @@ from bot_console.tui.format import clock_text
 
 NOW = 1_792_913_400 * SECOND
 """2026-10-25 07:30:00 UTC: a day on which clocks in Berlin are put back."""
+BERLIN = "CET-1CEST,M3.5.0,M10.5.0/3"
+"""Its rule: a small system has no files of time zones, and takes the name of one for UTC."""
 
 
 @pytest.fixture(autouse=True)
 def berlin(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     with monkeypatch.context() as patch:
-        patch.setenv("TZ", "Europe/Berlin")
+        patch.setenv("TZ", BERLIN)
         time.tzset()
         yield
     time.tzset()
