@@ -153,7 +153,7 @@ def test_ready_listener_runs_actions_when_text_appears() -> None:
 
 
 def test_test_actions_run_programs_with_a_timeout() -> None:
-    locked = Test(cmd=["sleep", "60"], timeout=1.0)  # as in ROS 2, a process that starts later than that is not killed
+    locked = Test(cmd=["sleep", "60"], timeout=4.0)  # as in ROS 2, a process that starts later than that is not killed
     service = LaunchService(noninteractive=True)
     service.include_launch_description(LaunchDescription([locked]))
     service.run()
