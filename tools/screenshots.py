@@ -22,6 +22,7 @@ install()
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.panes.parameters.table import ParameterRows
+from bot_console.tui.session.embedded.workspaces import choose
 from bot_console.tui.session.live import Session
 from textual.pilot import Pilot
 
@@ -187,7 +188,8 @@ async def main(folder: Path, play: Callable[[Photographer], Awaitable[None]], si
     os.environ["BOT_CONSOLE_USER_DIR"] = str(BEGINNER)
     shutil.rmtree(BEGINNER, ignore_errors=True)  # the history of a run that was interrupted
     BEGINNER.mkdir()
-    session = Session(Options(seed=1, workspace=[BEGINNER]))  # not this tree, whose example adds a pane
+    choose([BEGINNER])  # else the packages below the current directory add their panes
+    session = Session(Options(seed=1, workspace=[BEGINNER]))
     try:
         async with session.app.run_test(size=size) as pilot:
             await play(Photographer(session, pilot, folder))
