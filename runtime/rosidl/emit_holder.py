@@ -102,5 +102,5 @@ def __getattr__(name: str):
 
 
 def __dir__():
-    return sorted([*globals(), *_FILES])
+    return sorted({*globals(), *_FILES})
 """

@@ -14,7 +14,7 @@ from pathlib import Path
 from bot_console.runtime.workspace.setup_py import SetupFile
 
 _COMMENT = re.compile(r'("[^"]*")|#[^\n]*')
-_COMMAND = re.compile(r"(\w+)\s*\(([^()]*)\)")
+_COMMAND = re.compile(r"\b(\w+)\s*\(([^()]*)\)")
 _WORD = re.compile(r'"([^"]*)"|(\S+)')
 _VARIABLE = re.compile(r"\$\{(\w+)\}")
 _PROGRAMS, _FILES, _DIRECTORY = "PROGRAMS", "FILES", "DIRECTORY"

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 
 import numpy
 import pytest
+import std_msgs.msg
 from bot_console.runtime.rosidl.conversion import type_name
 from bot_console.runtime.rosidl.message import read_checks_again
 from diagnostic_msgs.msg import KeyValue
@@ -236,3 +237,9 @@ def test_constants_cannot_be_set() -> None:
     with pytest.raises(AttributeError, match="property 'STATUS_FIX' of 'Metaclass_NavSatStatus' object has no setter"):
         NavSatStatus.STATUS_FIX = 1
     assert NavSatStatus.STATUS_FIX == NavSatStatus().STATUS_FIX == 0
+
+
+def test_package_lists_each_message_once_whether_it_is_loaded_or_not() -> None:
+    listed = dir(std_msgs.msg)
+    assert {"String", "UInt64MultiArray"} <= set(listed)
+    assert len(listed) == len(set(listed))
