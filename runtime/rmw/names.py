@@ -38,27 +38,23 @@ def validate_node_name(name: str) -> Problem | None:
 
 def validate_namespace(namespace: str) -> Problem | None:
     """Check a namespace, which must be absolute."""
-    if not namespace:
-        return "namespace must not be empty", 0
-    if namespace == "/":
-        return None
-    problem = _validate_full(namespace, "namespace")
-    if problem:
-        return problem
-    if len(namespace) > MAX_NAMESPACE:
-        return "namespace should not exceed 'RMW_NAMESPACE_MAX_NAME_LENGTH'", MAX_NAMESPACE - 1
-    return None
+    return _validate_path(namespace, "namespace", MAX_NAMESPACE, "RMW_NAMESPACE_MAX_NAME_LENGTH")
 
 
 def validate_enclave(enclave: str) -> Problem | None:
     """Check the path of an enclave, which is a longer kind of namespace."""
-    if not enclave:
-        return "context name must not be empty", 0
-    if enclave == "/":
+    return _validate_path(enclave, "context name", MAX_ENCLAVE, "RCL_ENCLAVE_NAME_MAX_NAME_LENGTH")
+
+
+def _validate_path(path: str, what: str, maximum: int, constant: str) -> Problem | None:
+    """Check an absolute path, which may be `/` alone; `constant` is upstream's name for the maximum length."""
+    if not path:
+        return f"{what} must not be empty", 0
+    if path == "/":
         return None
-    problem = _validate_full(enclave, "context name")
-    if not problem and len(enclave) > MAX_ENCLAVE:
-        return "context name should not exceed 'RCL_ENCLAVE_NAME_MAX_NAME_LENGTH'", MAX_ENCLAVE - 1
+    problem = _validate_full(path, what)
+    if not problem and len(path) > maximum:
+        return f"{what} should not exceed '{constant}'", maximum - 1
     return problem
 
 
