@@ -16,6 +16,9 @@ from bot_console.runtime.rmw.zenoh.session import SessionError
 from bot_console.runtime.rmw.zenoh.settings import leaves
 from bot_console.tui.session.embedded.domain import CONNECT_VARIABLE, domain, note_connection
 
+ESCAPED_SEMICOLON = "\\u003b"
+"""In a JSON5 string; a plain one separates the settings of the variable."""
+
 
 def connect(way: Way) -> NetworkBuses:
     """Make the contexts of this process clients of a router from now on; raises `SessionError` with the reason."""
@@ -31,7 +34,7 @@ def connect(way: Way) -> NetworkBuses:
 def lead_children_to(way: Way) -> None:
     """Make the programs that this one starts reach the same router, by the environment that they inherit."""
     tls = leaves({"transport": {"link": {"tls": way.tls.as_client()}}})
-    settings = [f"{path}={value.replace(';', chr(92) + 'u003b')}" for path, value in tls]
+    settings = [f"{path}={value.replace(';', ESCAPED_SEMICOLON)}" for path, value in tls]
     given = os.environ.get(OVERRIDE_VARIABLE, "")
     os.environ[CONNECT_VARIABLE] = " ".join(endpoints_of(with_environment(way)))
     os.environ[OVERRIDE_VARIABLE] = ";".join([*settings, *filter(None, [given])])
