@@ -29,12 +29,18 @@ class LazyParts(Container):
     @property
     def has_parts(self) -> bool:
         """Whether the parts exist: not before they are made, nor at the end, when the screen is dismantled."""
-        return bool(self.children)
+        return bool(self.children) and not self._is_closing
 
     @property
     def is_ending(self) -> bool:
         """Whether the screen, and this with it, is being dismantled."""
-        return not (self.is_attached if self._missing else self.children)
+        return self._is_closing or not (self.is_attached if self._missing else self.children)
+
+    @property
+    def _is_closing(self) -> bool:
+        """Whether the parts disappear one after another; Textual has no public word for it before the unmount."""
+        private = cast(Any, self)
+        return bool(private._closing or private._pruning)
 
     def come_late(self) -> None:
         """Defer the parts: they are composed by `make_parts` instead of the mount."""
@@ -42,8 +48,7 @@ class LazyParts(Container):
 
     def make_parts(self) -> None:
         """Make the parts now, unless they exist; the next query finds all of them."""
-        private = cast(Any, self)
-        if self._missing and self.is_attached and not (private._closing or private._pruning):
+        if self._missing and self.is_attached and not self._is_closing:
             self._missing = False
             put(self, compose(self))
 

@@ -33,8 +33,12 @@ class OsChild(StreamedChild, asyncio.SubprocessProtocol):
         self.has_ended(self._transport.get_returncode() or 0)
 
     def send_signal(self, signum: int) -> None:
-        """Deliver a signal."""
-        self._transport.send_signal(signum)
+        """Deliver a signal; raises `ProcessLookupError` after the end."""
+        if self._transport.get_returncode() is not None:
+            raise ProcessLookupError
+        os.kill(
+            self.pid, signum
+        )  # `Popen.send_signal` polls, which can take the exit code away from asyncio (255 then)
 
     def write(self, data: bytes) -> None:
         """Write bytes to its standard input."""

@@ -160,7 +160,7 @@ class HistoryPane(ListPane):
 
     def time_moved(self, stamp: int | None) -> None:
         """Another pane looks at a moment: go to the last change before it."""
-        if stamp is None or not self.is_mounted:
+        if stamp is None or self.is_ending:
             return
         before = (index for index, each in enumerate(self._list.rows) if each.stamp <= stamp)
         at = next(before, None)
