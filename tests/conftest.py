@@ -13,9 +13,10 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.importer import install
-from bot_console.tui.session.machine.console_needs import provide_missing
+from bot_console.tui.session.machine import console_needs
 from hypothesis import settings
 from hypothesis.internal.conjecture import providers
+from package_under_test import difference
 
 pytest_plugins = ["second_tries"]
 
@@ -25,7 +26,7 @@ ON_ROS = os.environ.get("BOT_CONSOLE_TESTS_ON") == "ros"
 """Whether the ROS names are to mean what the machine has: for `-m ros`."""
 
 if ON_ROS:
-    provide_missing()
+    console_needs.provide_missing()
 else:
     install()
     for variable in ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE"):
@@ -100,8 +101,13 @@ def _takes_part() -> bool:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Each of several workers begins to read the tests at another file: what it compiles, the others find compiled."""
+    """Refuse to test another source than this one.
+
+    Each of several workers begins to read the tests at another file: what it compiles, the others find compiled.
+    """
     worker = getattr(config, "workerinput", None)
+    if worker is None and (different := difference(Path(console_needs.__file__).parents[3], TESTS.parent)):
+        raise pytest.UsageError(different)
     if worker is not None and [Path(each).absolute() for each in config.args] == [TESTS]:
         files = sorted(TESTS.rglob("test_*.py"))
         first = len(files) * int(worker["workerid"].removeprefix("gw")) // worker["workercount"]

@@ -3,11 +3,13 @@
 REAL_PYTHON has the project and an rclpy that is not ours, such as `pip install 'bot-console[ros-jazzy]'`. A robot in a
 process of its own logs 1,000 lines per second and publishes odometry, scans and 18 other topics at 50 Hz; a console
 attached to it (`attach --ros`) records the log, draws it, and follows the robot for panes that are not shown. Its own
-load includes the decoding of these messages by rclpy, which holds the interpreter.
+load includes the decoding of these messages by rclpy, which holds the interpreter. A run takes about a minute, most of
+it pauses between keys; stderr says which part of which run has begun.
 
 quiet, busy    milliseconds from a press to the letter on the screen, in the search of the log: median, 95th percentile,
                maximum; before and while the robot works
 busy / quiet   their ratio within one run, for comparison between machines
+lost           keys without a letter within 5 s; after three of them the rest of the part is not typed
 lines/s        log lines that the console has recorded: fewer than 1,000 where the machine is too busy for the robot
 load           processes that waited for a processor in the last minute, before the run: expect noise above 1
 """
@@ -23,7 +25,7 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "helpers"))
@@ -37,6 +39,7 @@ TIMES = 3
 """The text is typed so often in each part; each letter waits for the one before it and a pause."""
 PAUSE_S = 0.13
 START_TIMEOUT_S, KEY_TIMEOUT_S, SETTLE_S = 60.0, 5.0, 5.0
+MAX_LOST_KEYS = 3
 DOMAIN = "97"
 ROBOT = """
 import contextlib, signal, time
@@ -94,6 +97,8 @@ def typed(terminal: Terminal) -> dict[str, float]:
             terminal.press(TEXT[count - 1])
             seen = terminal.run(KEY_TIMEOUT_S, lambda count=count: TEXT[:count] in terminal.text())
             took.append((time.monotonic() - began) * 1e3 if seen else float("nan"))
+            if sum(each != each for each in took) == MAX_LOST_KEYS:
+                return summary(took)
         terminal.press("\x1b")
         terminal.run(1.0)
     return summary(took)
@@ -114,15 +119,18 @@ def summary(took: Sequence[float]) -> dict[str, float]:
     return {name: round(value, 1) for name, value in found.items()} | {"lost": len(took) - len(answered)}
 
 
-def run() -> dict[str, object]:
-    """One run."""
+def run(report: Callable[[str], None]) -> dict[str, object]:
+    """One run; `report` receives the name of each part before it begins."""
+    report("start")
     load = round(os.getloadavg()[0], 1)
     terminal = Terminal(CONSOLE, SIZE)
     with subprocess.Popen([sys.executable, "-c", ROBOT], stderr=subprocess.DEVNULL) as robot:
         try:
             assert terminal.run(START_TIMEOUT_S, lambda: "ready to work" in terminal.text()), terminal.text()
+            report("quiet")
             terminal.run(SETTLE_S)
             quiet = typed(terminal)
+            report("busy")
             robot.send_signal(signal.SIGUSR1)
             terminal.run(SETTLE_S)
             used, lines, began = terminal.cpu(), recorded(terminal), time.monotonic()
@@ -149,7 +157,12 @@ def main() -> None:
             ROS_DOMAIN_ID=DOMAIN, ROS_AUTOMATIC_DISCOVERY_RANGE="LOCALHOST",
             BOT_CONSOLE_USER_DIR=folder, ROS_LOG_DIR=folder,
         )  # fmt: skip
-        print(json.dumps([run() for _ in range(int(sys.argv[1]) if len(sys.argv) > 1 else 3)], indent=2))
+        runs = int(sys.argv[1]) if len(sys.argv) > 1 else 3
+
+        def reporter(number: int) -> Callable[[str], None]:
+            return lambda part: print(f"run {number} of {runs}: {part}", file=sys.stderr, flush=True)
+
+        print(json.dumps([run(reporter(number)) for number in range(1, runs + 1)], indent=2))
 
 
 if __name__ == "__main__":
