@@ -210,7 +210,7 @@ class FillScreen(QuestionScreen[None]):
         self._show_text(sent.text + again, ok=sent.ok)
 
     def _answered(self, done: Future[Reply]) -> None:
-        if not self.is_mounted:
+        if not self.is_running:
             return
         error = done.exception()
         reply = Reply(False, str(error)) if error else done.result()
@@ -227,7 +227,7 @@ class FillScreen(QuestionScreen[None]):
     def poll(self) -> bool:
         """Show the state of a goal; called with each snapshot."""
         goal = self._asked.traffic.goals().get(self._asked.name) if self._asked.payload is Payload.GOAL else None
-        if goal is not None and self.is_mounted and goal != self._goal:
+        if goal is not None and self.is_running and goal != self._goal:
             self._goal = goal
             count = f", {goal.feedback_count} feedback" if goal.feedback_count else ""
             ok = None if goal.active else goal.status == "succeeded"

@@ -15,6 +15,7 @@ from rich.console import Console
 from rich.text import Text
 from textual._context import active_message_pump
 from textual.dom import DOMNode
+from textual.events import Unmount
 from textual.message import Message
 from textual.screen import Screen
 
@@ -38,7 +39,14 @@ class GuardedApp(SparingApp, StyledOnceApp):
         """Whether an exception was handled."""
         return self.contain(error, culprits_of(error))
 
+    async def _shutdown(self) -> None:
+        # A timer calls what it is for in a task of its own, also while the screens are being dismantled.
+        self._exit = True
+        await super()._shutdown()
+
     async def _dispatch_message(self, message: Message) -> None:
+        if not (self.is_running or isinstance(message, Unmount)):
+            return  # it came before the screens were dismantled, and would act on what is left of them
         try:
             await super()._dispatch_message(message)
         except Exception as error:  # boundary of all drawing and input

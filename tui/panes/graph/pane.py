@@ -165,8 +165,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             self._frames.poll(self.console.sensors, self.clock(), seen=self.display)
             if self._frames.open:
                 self._report()
-        # At the end of the app the parts are taken away one by one, and this may still be called.
-        if not self.display or not self.query(DiagramView) or not self._measures:
+        if not self.display or not self._measures:
             self._rates.rest(self.console.topics)
         elif self._rates.poll(self.console.topics, self._shown.topics_drawn, self.clock()):
             self._draw()

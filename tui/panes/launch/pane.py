@@ -230,7 +230,7 @@ class LaunchPane(ListPane):
 
     def tick(self) -> None:
         """Say how long ago the process at the cursor has ended."""
-        row = self._list.current if self.display and self.is_mounted else None
+        row = self._list.current if self.display else None
         if row is not None and row.process is not None and row.process.ended:
             self._report()
 

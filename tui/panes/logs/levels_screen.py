@@ -97,7 +97,7 @@ class LevelsScreen(DimmedScreen):
         answer.add_done_callback(lambda done: self._host.call_later(self._came, node, done))
 
     def _came(self, node: str, done: Future[tuple[LoggerLevel, ...]]) -> None:
-        if not self.is_mounted:
+        if not self.is_running:  # the screen was closed meanwhile
             return
         error = done.exception()
         if error is not None:
@@ -114,7 +114,7 @@ class LevelsScreen(DimmedScreen):
             answer.add_done_callback(lambda done: self._host.call_later(partial(self._was_set, level.node), done))
 
     def _was_set(self, node: str, done: Future[Answer]) -> None:
-        if self.is_mounted:
+        if self.is_running:
             answer = answer_of(done)
             self._show_text(answer.text if answer.ok else f"not set: {answer.text}")
             self._ask(node)

@@ -123,7 +123,7 @@ class LogsPane(LinePane):
 
     def tick(self) -> None:
         """Take in what the search has found meanwhile, and what a file has more."""
-        if not (self.display and self.is_mounted):
+        if not self.display:
             return
         self._draw_strip()
         changed = False

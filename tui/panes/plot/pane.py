@@ -143,7 +143,7 @@ class PlotPane(PlotQuestions):
 
     def take_in(self, *, force: bool = False) -> None:
         """Fetch new samples and draw what can be told from what is seen, if the pane is seen."""
-        if not self.display or not self.is_mounted:
+        if not self.display or self.is_ending:
             return
         changed = self._timeline.take_in()
         self._undrawn = self._undrawn or changed
