@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import os
 import traceback
 from collections.abc import Callable
@@ -307,7 +308,8 @@ class ExecuteLocal(Action):
         if send_sigint:
             self.__escalation.interrupt()
         elif not child.gets_signals_of_terminal:
-            child.send_signal(2)
+            with contextlib.suppress(ProcessLookupError):  # it has just ended, and its last output is being read
+                child.send_signal(2)
 
     async def __run(self, context: LaunchContext) -> None:
         """Run the process, and respawn it while wanted."""

@@ -74,7 +74,9 @@ class ForkedChild(StreamedChild):
         self.has_ended(UNKNOWN)
 
     def send_signal(self, signum: int) -> None:
-        """Deliver a signal."""
+        """Deliver a signal; raises `ProcessLookupError` after the end."""
+        if self.report.exit_code is not None:
+            raise ProcessLookupError
         os.kill(self.pid, operator.index(signum))
 
     def write(self, data: bytes) -> None:

@@ -49,20 +49,6 @@ def test_lazily_composed_panes_look_like_eager_ones(monkeypatch: pytest.MonkeyPa
     assert seen[0] == seen[1]
 
 
-def test_no_pane_follows_the_time_while_its_parts_disappear() -> None:
-    async def play(session: Session) -> None:
-        for digit in DIGITS.values():
-            await session.press(digit)
-        for pane in session.app.panes():
-            pane._pruning = True  # as Textual marks it before the first part goes
-            for part in pane.children[:-1]:
-                pane._nodes._remove(part)
-            pane.time_moved(1)
-            pane.time_moved(None)
-
-    run(live(), play)
-
-
 def test_query_on_a_pane_composes_all_its_parts() -> None:
     async def play(session: Session) -> None:
         pane = session.pane(TopicsPane)
