@@ -26,19 +26,20 @@ Described = tuple[int, str, int, str, int, str]
 
 
 class LifecycleStateMachine:
-    """Holds the current state, and publishes each change on the topic `~/transition_event`."""
+    """Holds the current state, and publishes each change on the topic `~/transition_event`.
+
+    As upstream, it publishes also where the communication interface, which is then only the services, is off.
+    """
 
     def __init__(self, node: Node, enable_com_interface: bool) -> None:
-        if not isinstance(enable_com_interface, bool):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
+        if not hasattr(enable_com_interface, "__bool__"):  # what upstream's C++ converts: also numbers and None
             raise TypeError(f"enable_communication_interface must be a bool, not {type(enable_com_interface)}")
         self._state: int = State.PRIMARY_STATE_UNCONFIGURED
-        self._publish: Callable[[Any], None] | None = None
-        if enable_com_interface:
-            topic = checked(node, "~/transition_event")
-            kind = type_name(TransitionEvent)
-            endpoint = Endpoint(node._ros_id, topic, kind, QoSProfile(depth=10), new_gid(), TransitionEvent)
-            bus: Bus = node._ros_bus
-            self._publish = bus.create_publisher(endpoint, no_event).publish
+        topic = checked(node, "~/transition_event")
+        kind = type_name(TransitionEvent)
+        endpoint = Endpoint(node._ros_id, topic, kind, QoSProfile(depth=10), new_gid(), TransitionEvent)
+        bus: Bus = node._ros_bus
+        self._publish: Callable[[Any], None] = bus.create_publisher(endpoint, no_event).publish
 
     @property
     def initialized(self) -> bool:
@@ -95,7 +96,7 @@ class LifecycleStateMachine:
         if transition is None:
             raise RCLError("Failed to trigger lifecycle state machine transition: Transition is not registered.")
         self._state = transition.goal
-        if publish_update and self._publish is not None:
+        if publish_update:
             event = TransitionEvent()
             event.start_state = State(id=transition.start, label=STATES[transition.start])
             event.goal_state = State(id=transition.goal, label=STATES[transition.goal])

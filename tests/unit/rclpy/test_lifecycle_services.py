@@ -163,15 +163,27 @@ def test_transition_events_are_published(managed: Managed) -> None:
     ]
 
 
-def test_communication_interface_can_be_disabled(ros: Any) -> None:
+@pytest.mark.parametrize("off", [False, 0, None])
+def test_without_communication_interface_only_transition_events_remain(ros: Any, off: Any) -> None:
     ros.init()
-    node = LifecycleNode("managed", context=ros.context, enable_communication_interface=False)
+    node = LifecycleNode("managed", context=ros.context, enable_communication_interface=off)
+    ros._executor.add_node(node)
+    seen: list[str] = []
+    node.create_subscription(
+        TransitionEvent, "~/transition_event", lambda event: seen.append(event.goal_state.label), 10
+    )
     assert node.trigger_configure() is TransitionCallbackReturn.SUCCESS
     assert not [name for name, _ in node.get_service_names_and_types() if name.endswith("state")]
-    assert "/managed/transition_event" not in dict(node.get_topic_names_and_types())
     assert not hasattr(node, "_service_get_state")
+    ros.spin(lambda: len(seen) == 2)
+    assert seen == ["configuring", "inactive"]
+
+
+@pytest.mark.parametrize("value", ["yes", [], ()])
+def test_communication_interface_must_be_a_truth_value(ros: Any, value: Any) -> None:
+    ros.init()
     with pytest.raises(TypeError):
-        LifecycleNode("other", context=ros.context, enable_communication_interface="yes")  # type: ignore[arg-type]
+        LifecycleNode("other", context=ros.context, enable_communication_interface=value)
 
 
 def test_services_and_topic_leave_with_the_node(managed: Managed) -> None:
