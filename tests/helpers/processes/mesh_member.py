@@ -3,7 +3,8 @@
 Ids are given by their first eight digits. `linked` writes the ids of the sessions it has a link to; `call` publishes
 its id; `heard` writes the ids it has received; `answer` those of the sessions that respond to a query; `exit` closes
 the session and writes how long that took, in s. With the argument `hasty` its first session gives up links that take
-5 ms, and the watch has short timeouts.
+5 ms, and the watch has short timeouts. With `unwatched` it does not watch its place, and so leaves alone a note which
+says that it is in a debugger.
 """
 
 import sys
@@ -19,7 +20,8 @@ if "hasty" in sys.argv:
     watch.LINK_TIMEOUT_S = 3.0
 session = open_session(0)
 settings.OPEN_TIMEOUT_MS = timeout_s
-session.watch()
+if "unwatched" not in sys.argv:
+    session.watch()
 heard: set[str] = set()
 session.declare_subscriber("call", lambda payload, _: heard.add(payload.decode()))
 publisher = session.declare_publisher("call")

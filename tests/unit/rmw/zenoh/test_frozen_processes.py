@@ -24,7 +24,7 @@ if os.name == "nt":
 
 def test_frozen_or_debugged_process_is_reported_until_it_continues():
     place = f"tcp/127.0.0.1:{free_port()}"
-    with members(1) as [member]:
+    with members(1, "unwatched") as [member]:
         router = MeshSession(0, Serving((place,)))
         router.watch()
         client = open_network_session(0, Way((place,)))
