@@ -66,7 +66,7 @@ def of_package(named: str) -> Generator[None]:
         raise LaunchFileError(f"Package '{named}' not found: {error}") from None
     except ValueError as error:
         # Upstream's output for a mistyped path, with an explanation in between.
-        kind = "a folder" if os.path.isdir(named) else "no file here"
+        kind = "a folder" if os.path.isdir(named) else "not a file here"
         raise LaunchFileError(
             f"Traceback (most recent call last):\n  {named} is {kind}, so it was read as a package name\n"
             f"ValueError: {error}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -22,10 +22,12 @@ from bot_console.tui.session.embedded.named_profile import (
 )
 from bot_console.tui.settings.names import THEME_NAMES
 
+LEAST_SIMILARITY = 0.8
+"""Of a mistyped word to the one that is suggested, from 0 to 1."""
 EXAMPLES = """\
 examples:
-  bot-console                              a robot in a room, with its parameters, log and map
-  bot-console outdoor                      the same robot in the open
+  bot-console                              a robot in an office, with its parameters, log and map
+  bot-console outdoor                      the same robot outdoors
   bot-console --launch my.launch.py a:=1   any ROS 2 launch file; also --launch my_package my.launch.py
   bot-console run my_node.py               your own node, alone in this terminal
   bot-console run --watch my_node.py       the same, with the console open on it
@@ -35,10 +37,11 @@ examples:
   bot-console doctor                       what is wrong with terminal, machine, link and graph, and how to fix it
   bot-console --headless --fast --profile warehouse --duration 600 --seed 7
 
-other commands: attach, doctor, up, down, status, router, run, launch, lint, check, tune, test, launch_test, export,
-setup, config, stop, release, reset, and the verbs of ros2 (bot-console interface show std_msgs/msg/String)
+commands: attach, bag, check, config, doctor, down, export, graph, launch, launch_test, learn, lint, release, reset,
+router, run, serve, setup, status, stop, test, tune, up; also the verbs of ros2, such as
+bot-console interface show std_msgs/msg/String; `bot-console COMMAND --help` explains each
 
-exit codes: 0 done, 1 failed (one line says why), 2 wrong usage
+exit codes: 0 success, 1 failure (one line says why), 2 wrong usage
 """
 
 
@@ -89,11 +92,14 @@ def attach_parser() -> argparse.ArgumentParser:
     """The options that all ways of attaching have in common."""
     parser = argparse.ArgumentParser(
         "bot-console attach",
-        description="Open the console on a running system, without starting a robot; also by the names of rqt's tools.",
+        description="Open the console on a running system, without starting a robot. The names of rqt's tools do "
+        "the same, each with its pane.",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("--pane", default="overview", help="pane to open first")
-    parser.add_argument("--workspace", action="append", type=Path, metavar="DIR", help="folder with packages")
+    parser.add_argument("--pane", default="overview", help="pane to open first (default: overview)")
+    parser.add_argument(
+        "--workspace", action="append", type=Path, metavar="DIR", help="folder with packages; may be repeated"
+    )
     add_profile_folders(parser)
     _add_appearance(parser)
     return parser
@@ -118,14 +124,14 @@ def parse_attach(words: Sequence[str], parser: argparse.ArgumentParser) -> tuple
 
 def _add_appearance(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add("--read-only", action="store_true", help="only watch and stop: set, drive, start and end nothing")
-    add("--layout", default="", metavar="NAME", help="layout to start with; overview is what a new user sees")
-    add("--perspective-file", default="", metavar="FILE", help="a layout file, or a perspective of rqt")
+    add("--read-only", action="store_true", help="watch and stop only: set, drive, start and end nothing")
+    add("--layout", default="", metavar="NAME", help="layout to start with, such as overview, which a new user sees")
+    add("--perspective-file", default="", metavar="FILE", help="layout file or rqt perspective to start with")
     add(
         "--theme",
         default="",
         choices=THEME_NAMES,
-        help="colour theme; default: the one in the settings (`bot-console config`)",
+        help="colour theme (default: the one in the settings, see `bot-console config`)",
     )
     add(
         "--plain", action=argparse.BooleanOptionalAction, help="draw with ASCII characters instead of lines and braille"
@@ -140,13 +146,16 @@ def _with_perspective(opening: Opening, given: argparse.Namespace) -> Opening:
     return opening._replace(perspective=given.perspective_file) if given.perspective_file else opening
 
 
-def parse(words: Sequence[str]) -> Options:
-    """Read a command line; ends the program with exit code 2 for wrong usage."""
+def parse(words: Sequence[str], commands: Collection[str] = ()) -> Options:
+    """Read a command line; ends the program with exit code 2 for wrong usage.
+
+    `commands` are suggested for a mistyped word.
+    """
     parser = option_parser()
     opening, words = rqt_opening(words) if is_rqt(words) else (None, words)
     given = parser.parse_args(words)
     _check_pane(parser, given.pane)
-    profile, name, pairs = _words(parser, given)
+    profile, name, pairs = _words(parser, given, commands)
     if profile.launch:
         given.launch, pairs = profile.launch, {**profile.arguments, **pairs}
     if given.simulator is not None and not given.launch:
@@ -185,7 +194,9 @@ def _check_pane(parser: argparse.ArgumentParser, pane: str) -> None:
         parser.error(f"there is no pane '{pane}'; panes: {', '.join(sorted(named))}")
 
 
-def _words(parser: argparse.ArgumentParser, given: argparse.Namespace) -> tuple[NamedProfile, str, dict[str, str]]:
+def _words(
+    parser: argparse.ArgumentParser, given: argparse.Namespace, commands: Collection[str]
+) -> tuple[NamedProfile, str, dict[str, str]]:
     """The profile, the name of a package's launch file, and the arguments NAME:=VALUE."""
     pairs: dict[str, str] = {}
     profiles: list[str] = [] if given.profile is None else [given.profile]
@@ -197,6 +208,8 @@ def _words(parser: argparse.ArgumentParser, given: argparse.Namespace) -> tuple[
             profiles.append(word)
     if given.launch:
         return NamedProfile("indoor"), _launch_file(parser, profiles, given), pairs
+    if len(profiles) > 1 and (similar := _similar(profiles[0], commands)):
+        parser.error(similar)
     if len(profiles) == 2 and not {*profiles} & {*profile_names(given.profiles or ())}:
         how = "--headless" if given.headless else "--watch"
         parser.error(f"a node of a package runs with `bot-console run {how} {' '.join(profiles)}`")
@@ -210,8 +223,17 @@ def _words(parser: argparse.ArgumentParser, given: argparse.Namespace) -> tuple[
             expected="profile and no command",
         )
     except NoProfileError as error:
-        parser.error(str(error))
+        similar = _similar(profiles[0], [*commands, *profile_names(given.profiles or ())]) if profiles else ""
+        parser.error(similar or str(error))
     return profile, "", pairs
+
+
+def _similar(word: str, known: Collection[str]) -> str:
+    """A message that suggests a known word for a mistyped one; empty if none is similar."""
+    from difflib import get_close_matches
+
+    similar = [] if word in known else get_close_matches(word, known, n=1, cutoff=LEAST_SIMILARITY)
+    return f"there is no profile and no command '{word}'; did you mean '{similar[0]}'?" if similar else ""
 
 
 def _launch_file(parser: argparse.ArgumentParser, words: Sequence[str], given: argparse.Namespace) -> str:
@@ -235,7 +257,7 @@ def add_profile_folders(parser: argparse.ArgumentParser) -> None:
     )
 
 
-SIMULATOR_HELP = "run the simulated robot beside it, or not; default: if its nodes need a robot and there is none"
+SIMULATOR_HELP = "run the simulated robot beside it, or not (default: if its nodes need a robot and there is none)"
 
 
 def option_parser() -> argparse.ArgumentParser:
@@ -246,6 +268,24 @@ def option_parser() -> argparse.ArgumentParser:
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
+    _add_system(parser)
+    add = parser.add_argument
+    add("--pane", default="overview", help="pane to open first (default: overview)")
+    add("--headless", action="store_true", help="no console: logs on stderr, a JSON report on stdout at the end")
+    add("--fast", action="store_true", help="with --headless: in simulated time, as fast as possible, reproducibly")
+    add("--duration", type=positive, metavar="S", help="with --headless: seconds to run")
+    _add_appearance(parser)
+    add("--version", action="version", version=f"bot-console {__version__}")
+    return parser
+
+
+def background_help(parser: argparse.ArgumentParser) -> None:
+    """Add the options that describe a system, for the help of a command that starts it without a screen."""
+    _add_system(parser)
+    parser.add_argument("--duration", type=positive, metavar="S", help="seconds to run (default: until `down`)")
+
+
+def _add_system(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
     add(
         "words",
@@ -253,16 +293,12 @@ def option_parser() -> argparse.ArgumentParser:
         metavar="PROFILE | NAME:=VALUE",
         help=f"a profile: {', '.join(bundled_names())}, one of yours by name, or a parameter file",
     )
-    add("--launch", metavar="FILE", help="open the console on this launch file instead; also: --launch PACKAGE FILE")
-    add("--pane", default="overview", help="pane to open first")
+    add("--launch", metavar="FILE", help="start this launch file instead of the robot; also: --launch PACKAGE FILE")
     add("--workspace", action="append", type=Path, metavar="DIR", help="folder with packages; may be repeated")
-    add("--distro", metavar="NAME", help="ROS 2 distribution whose answers are given: jazzy (default) or kilted")
-    add("--headless", action="store_true", help="no screen: logs on stderr, a JSON report on stdout at the end")
-    add("--fast", action="store_true", help="with --headless: simulated time, as fast as possible, reproducible")
+    add("--distro", metavar="NAME", help="ROS 2 distribution to behave like: jazzy or kilted (default: jazzy)")
     add_profile_folders(parser)
-    add("--profile", metavar="PROFILE", help="the same as PROFILE")
-    add("--duration", type=positive, metavar="S", help="with --headless: seconds to run")
-    add("--seed", type=seed, metavar="N", help="seed of the world")
+    add("--profile", metavar="PROFILE", help="the same as the argument PROFILE")
+    add("--seed", type=seed, metavar="N", help="seed of the simulated world")
     add("--world", metavar="NAME", help="world of the simulated robot")
     add("--simulator", action=argparse.BooleanOptionalAction, help=SIMULATOR_HELP)
     add(
@@ -270,6 +306,3 @@ def option_parser() -> argparse.ArgumentParser:
         action="store_true",
         help="with --launch: continue without nodes whose executables are missing",
     )
-    _add_appearance(parser)
-    add("--version", action="version", version=f"bot-console {__version__}")
-    return parser

@@ -13,14 +13,14 @@ from bot_console.tui.cli.arguments import Options, attach_parser, parse_attach
 from bot_console.tui.session.embedded.domain import CONNECT_VARIABLE
 
 EPILOG = """\
-which system:
-  without an option it is what runs here: this program's own, or that of the ROS 2 that was sourced; where both are
-  there, attach lists them and asks (without a terminal it ends with exit code 2)
+Which system:
+  Without an option, attach shows what runs on this machine: a system of bot-console, or that of the sourced ROS 2. If
+  there are both, it lists them and asks (without a terminal it ends with exit code 2).
 
 examples:
   bot-console attach                             what runs on this machine
   bot-console attach --ros                       the ROS 2 that is sourced, whatever its middleware
-  bot-console attach --connect tcp/robot:7447    a robot whose middleware is rmw_zenoh, from a machine without ROS
+  bot-console attach --connect tcp/robot:7447    a robot with rmw_zenoh, from a machine without ROS
   bot-console attach --connect tls/robot:7447 --tls-ca ca.pem --tls-certificate me.pem --tls-key me.key
 """
 
@@ -46,17 +46,17 @@ def add_network_options(parser: argparse.ArgumentParser) -> None:
         nargs="?",
         const="",
         metavar="ENDPOINT",
-        help=f"a robot's Zenoh router, such as tcp/robot:7447; default: the one that {CONFIG_VARIABLE} names",
+        help=f"a robot's Zenoh router, such as tcp/robot:7447 (default: the one that {CONFIG_VARIABLE} names)",
     )
     add(
         "--tls-ca",
         default="",
         metavar="FILE",
-        help="certificate of the authority that has signed the router's certificate",
+        help="certificate of the authority that signed the router's certificate",
     )
     add("--tls-certificate", default="", metavar="FILE", help="certificate to present (mutual TLS)")
     add("--tls-key", default="", metavar="FILE", help="its private key")
-    add("--tls-any-name", action="store_true", help="accept a certificate that is for another host name")
+    add("--tls-any-name", action="store_true", help="accept a certificate for another host name")
 
 
 def network_way(parser: argparse.ArgumentParser, given: argparse.Namespace) -> Way | None:
@@ -89,8 +89,10 @@ def parse(words: Sequence[str]) -> AttachOptions:
     parser.epilog = EPILOG
     add_network_options(parser)
     which = parser.add_mutually_exclusive_group()
-    which.add_argument("--ros", action="store_true", help="the ROS 2 of this machine, through its own rclpy")
-    which.add_argument("--embedded", action="store_true", help="a system of bot-console, even if ROS 2 is installed")
+    which.add_argument("--ros", action="store_true", help="attach to the ROS 2 of this machine, through its own rclpy")
+    which.add_argument(
+        "--embedded", action="store_true", help="attach to a system of bot-console, even if ROS 2 is installed"
+    )
     appearance, given = parse_attach(words, parser)
     way = None if given.ros or given.embedded else network_way(parser, given)
     if given.connect is not None and way is None:

@@ -27,13 +27,19 @@ def run(words: list[str]) -> int:
     """Open a course; 0 when it was left, 1 if it cannot be opened, 2 for wrong usage or a course with mistakes."""
     parser = argparse.ArgumentParser(
         "bot-console learn",
-        description="Work through a course: its steps are shown beside the console, and are done when they were done.",
-        epilog=f"courses: {', '.join(names())}; a folder with a course of your own is also one (docs/courses.md)",
+        description="Work through a course beside the console. A step is done when the system shows that it is.",
+        epilog=f"courses: {', '.join(names())}; also the folder of a course of your own (docs/courses.md)",
     )
-    parser.add_argument("course", nargs="?", default=DEFAULT, metavar="COURSE", help=f"name or folder ({DEFAULT})")
-    parser.add_argument("--workspace", type=Path, default=Path(), metavar="DIR", help="your packages (this folder)")
-    parser.add_argument("--list", action="store_true", help="print all steps, and which are done, without a screen")
-    parser.add_argument("--new", type=Path, metavar="DIR", help="write the skeleton of a course into a new folder")
+    parser.add_argument(
+        "course", nargs="?", default=DEFAULT, metavar="COURSE", help=f"name or folder (default: {DEFAULT})"
+    )
+    parser.add_argument(
+        "--workspace", type=Path, default=Path(), metavar="DIR", help="folder with your packages (default: this one)"
+    )
+    parser.add_argument(
+        "--list", action="store_true", help="print all steps and which of them are done, without opening the console"
+    )
+    parser.add_argument("--new", type=Path, metavar="DIR", help="write the skeleton of a new course into a new folder")
     given = parser.parse_args(words)
     if given.new is not None:
         return _new(given.new)

@@ -88,7 +88,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     from bot_console.tui.cli.arguments import parse
 
     os.getcwd()  # Raises if the folder was deleted, which is reported in one line; nodes could not be started in it.
-    options = parse(words)
+    options = parse(words, commands=[*_COMMANDS, *ros2.VERBS])
     if options.headless:
         report_left_router()
         from bot_console.tui.cli.headless.run import run

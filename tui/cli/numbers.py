@@ -1,24 +1,56 @@
-"""Numbers among the words of a command line, as types of `argparse`."""
+"""Numbers among the words of a command line, as types of `argparse`; each raises `ArgumentTypeError`."""
 
 from __future__ import annotations
 
 import argparse
+import math
+from collections.abc import Callable
 
 MAX_SEED = 2**63 - 1
 """A seed is an integer parameter of the simulator."""
+MAX_PORT = 65535
+"""The greatest port of TCP."""
 
 
 def positive(text: str) -> float:
-    """A number above zero; raises `ArgumentTypeError` or `ValueError`."""
-    value = float(text)
-    if not 0 < value < float("inf"):
-        raise argparse.ArgumentTypeError(f"must be positive, not {text}")
+    """A finite number above zero."""
+    value = _number(text)
+    if not 0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"must be positive and finite, not {text}")
     return value
 
 
-def seed(text: str) -> int:
-    """The seed of a world; raises `ArgumentTypeError` or `ValueError`."""
-    value = int(text)
-    if not 0 <= value <= MAX_SEED:
-        raise argparse.ArgumentTypeError(f"must be from 0 to {MAX_SEED}, not {text}")
+def seconds(text: str) -> float:
+    """A finite duration in seconds; it may be zero."""
+    value = _number(text)
+    if not 0 <= value < math.inf:
+        raise argparse.ArgumentTypeError(f"must not be negative or infinite: {text}")
     return value
+
+
+def integer(least: int, greatest: int) -> Callable[[str], int]:
+    """The type of an integer in a range, both ends included."""
+
+    def parsed(text: str) -> int:
+        try:
+            value = int(text)
+        except ValueError:
+            raise argparse.ArgumentTypeError(f"'{text}' is not an integer") from None
+        if not least <= value <= greatest:
+            raise argparse.ArgumentTypeError(f"must be from {least} to {greatest}, not {text}")
+        return value
+
+    return parsed
+
+
+seed = integer(0, MAX_SEED)
+"""The seed of a world."""
+port = integer(0, MAX_PORT)
+"""A port of TCP; 0 is any free one."""
+
+
+def _number(text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number") from None

@@ -226,7 +226,7 @@ async def until(socket: Any, wanted: bytes) -> bytes:
         (["nowhere"], 2, "there is no profile and no command 'nowhere'"),
         (["--host", "0.0.0.0"], 2, "means every network"),
         (["--host", "robot"], 2, "'robot' is not an address"),
-        (["--sessions", "0"], 2, "--sessions: 1 to 100"),
+        (["--sessions", "0"], 2, "--sessions: must be from 1 to 100"),
     ],
 )
 def test_wrong_usage_is_reported(

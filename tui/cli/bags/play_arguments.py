@@ -9,7 +9,7 @@ from pathlib import Path
 
 from bot_console.tui.cli.bags.common import existing_file, named_folder
 from bot_console.tui.cli.bags.record_arguments import SERVICE_EVENTS, pattern
-from bot_console.tui.cli.numbers import positive
+from bot_console.tui.cli.numbers import positive, seconds
 
 NOT_NEEDED = {
     "read_ahead_queue_size": "messages are read when they are due",
@@ -27,7 +27,7 @@ def add_play_arguments(play: argparse.ArgumentParser) -> None:
     _add_reading(play)
     play.add_argument("-r", "--rate", type=positive, default=1.0, help="speed; 2 plays twice as fast")
     play.add_argument("-l", "--loop", action="store_true", help="start again at the end")
-    play.add_argument("-d", "--delay", type=_not_negative, default=0.0, metavar="S", help="wait before the start")
+    play.add_argument("-d", "--delay", type=seconds, default=0.0, metavar="S", help="wait before the start")
     play.add_argument("-p", "--start-paused", action="store_true", help="space begins")
     play.add_argument("--disable-keyboard-controls", action="store_true")
     clock = play.add_mutually_exclusive_group()
@@ -75,7 +75,7 @@ def _add_reading(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--qos-profile-overrides-path", type=existing_file, metavar="FILE", help="YAML, by topic")
     parser.add_argument("--remap", "-m", nargs="+", default=[], metavar="OLD:=NEW", help="rename topics")
     parser.add_argument("--storage-config-file", type=existing_file, metavar="FILE", help="not used")
-    parser.add_argument("--start-offset", type=_not_negative, default=0.0, metavar="S", help="skip the first seconds")
+    parser.add_argument("--start-offset", type=seconds, default=0.0, metavar="S", help="skip the first seconds")
     levels = ["debug", "info", "warn", "error", "fatal"]
     parser.add_argument("--log-level", choices=levels, default="info")
 
@@ -126,10 +126,3 @@ def end_of(given: argparse.Namespace, begin: int) -> int | None:
     if given.playback_until_nsec >= 0:
         ends.append(given.playback_until_nsec)
     return max(ends, default=None)
-
-
-def _not_negative(text: str) -> float:
-    value = float(text)
-    if not 0 <= value < float("inf"):
-        raise argparse.ArgumentTypeError(f"must not be negative, as {text} is")
-    return value

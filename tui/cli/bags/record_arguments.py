@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Sequence
 
 from bot_console.tui.cli.bags.common import existing_file, named_folder
+from bot_console.tui.cli.numbers import positive
 
 SERVICE_EVENTS = "/_service_event"
 """How the topic of a service's events ends."""
@@ -50,8 +51,10 @@ def add_record_arguments(record: argparse.ArgumentParser) -> None:
     record.add_argument("--compression-threads-priority", type=int, metavar="N", help="not used")
     record.add_argument("--compression-mode", choices=["none", "file", "message"], default="none")
     record.add_argument("--compression-format", choices=["", "zstd"], default="")
-    record.add_argument("--duration", type=float, metavar="S", help="stop after so many seconds")
-    record.add_argument("--snapshot-duration", type=float, default=300.0, metavar="S", help="seconds to keep (300)")
+    record.add_argument("--duration", type=positive, metavar="S", help="stop after this many seconds")
+    record.add_argument(
+        "--snapshot-duration", type=positive, default=300.0, metavar="S", help="seconds to keep (default: 300)"
+    )
 
 
 def _add_filters(record: argparse.ArgumentParser) -> None:

@@ -10,13 +10,13 @@ from pathlib import Path
 
 from bot_console.tui.cli.check.runner import Outcome, Runner
 from bot_console.tui.cli.check.script import ScriptError, Step, read
-from bot_console.tui.cli.numbers import seed
+from bot_console.tui.cli.numbers import seconds, seed
 from bot_console.tui.format import counted, sanitize
 from bot_console.tui.session.reached_console import known, reached_console
 
 MAX_SCRIPT_BYTES = 1_000_000
 """The largest script that is accepted."""
-EPILOG = """a step a line, # begins a comment; what waits does so for 5 s, or as `within` says:
+EPILOG = """one step per line, # starts a comment; a step that waits gives up after 5 s unless `within` says otherwise:
   set /robot_navigator max_speed 0.8
   expect-refused /robot_navigator max_speed 99 "out of range"
   expect /odom/twist.twist.linear.x > 0.1 within 10 s
@@ -29,7 +29,8 @@ EPILOG = """a step a line, # begins a comment; what waits does so for 5 s, or as
   wait 2 s
   stop
 
-exit codes: 0 all went as expected, 1 not, or nothing runs, 2 wrong usage or a script that cannot be read
+exit codes: 0 everything as expected, 1 something not as expected or nothing is running, 2 wrong usage or an unreadable
+script
 """
 
 
@@ -53,11 +54,17 @@ def run(words: list[str]) -> int:
         help="start this and carry out the steps on it alone, in simulated time: `run PACKAGE EXECUTABLE` or `launch "
         "PACKAGE FILE`; may be repeated",
     )
-    parser.add_argument("--seed", type=seed, default=1, metavar="N", help="with --start: seed of the run (1)")
+    parser.add_argument("--seed", type=seed, default=1, metavar="N", help="with --start: seed of the run (default: 1)")
     parser.add_argument("--course", metavar="COURSE", help="grade the workspace SCRIPT by the rows of a course")
-    parser.add_argument("--junit", metavar="FILE", help="with --course: also write a report of JUnit")
-    parser.add_argument("--allow-network", action="store_true", help="with --course: also without isolation")
-    parser.add_argument("--wait", type=float, default=10.0, metavar="S", help="seconds to wait for nodes (10)")
+    parser.add_argument("--junit", metavar="FILE", help="with --course: also write a report in JUnit's format")
+    parser.add_argument(
+        "--allow-network",
+        action="store_true",
+        help="with --course: grade even where programs cannot be isolated from the network",
+    )
+    parser.add_argument(
+        "--wait", type=seconds, default=10.0, metavar="S", help="seconds to wait for nodes (default: 10)"
+    )
     given = parser.parse_args(words)
     if not given.script:
         parser.error("name a script")

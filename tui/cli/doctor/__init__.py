@@ -17,6 +17,7 @@ from bot_console.tui.cli.attach_options import add_network_options, network_way
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level, as_json, exit_code
 from bot_console.tui.cli.doctor.machine import machine_findings
 from bot_console.tui.cli.doctor.terminal import terminal_findings
+from bot_console.tui.cli.numbers import seconds
 from bot_console.tui.session.embedded.domain import others_take_part
 from bot_console.tui.session.machine.choice import NO_ROS
 from bot_console.tui.session.machine.machine_ros import find_machine_ros, how_to_install
@@ -31,7 +32,7 @@ examples:
   bot-console doctor --connect tcp/robot:7447 --capture robot.json
   bot-console doctor --json                        for scripts
 
-exit codes: 0 all is well enough, 1 something fails, 2 wrong usage
+exit codes: 0 nothing fails, 1 something fails, 2 wrong usage
 """
 BEYOND_RANGE = "search the network: bot-console doctor --ros --range SUBNET"
 IN_NETWORK = (
@@ -92,12 +93,12 @@ def _parser() -> argparse.ArgumentParser:
     add("--ros", action="store_true", help="check the ROS 2 of this machine, through its own rclpy")
     add("--range", choices=RANGES, help="with --ros: search in this discovery range instead of the environment's")
     add("--json", action="store_true", help="print the findings as JSON, for scripts")
-    add("--seconds", type=float, metavar="S", help="seconds to listen to messages, or to search for nodes with --ros")
+    add("--seconds", type=seconds, metavar="S", help="seconds to listen to messages, or to search for nodes with --ros")
     add(
         "--capture",
         type=Path,
         metavar="FILE",
-        help="write the tokens and attachments of what runs, in the format of the tests",
+        help="write what the running programs announce (Zenoh tokens and attachments), for a bug report",
     )
     return parser
 

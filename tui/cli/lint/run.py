@@ -36,12 +36,12 @@ def run(words: list[str]) -> int:
         nargs="?",
         default=".",
         metavar="PACKAGE | FILE | FOLDER | COURSE | running",
-        help="running: the nodes of the domain; without: this folder",
+        help="what to check; `running`: the running nodes (default: this folder)",
     )
     parser.add_argument(
         "--json",
         action="store_true",
-        help="print the findings as JSON (`mend` is now `hint`, and is dropped in the next release)",
+        help="print the findings as JSON (use `hint`: its former name `mend` is left out from the next release on)",
     )
     given = parser.parse_args(words)
     if (Path(given.what) / INDEX).is_file():
@@ -145,7 +145,7 @@ def lint_files(files: Iterable[Path], named: Path | None = None) -> list[LintFin
         try:
             own, names = lint_python(path)
         except (SyntaxError, UnicodeDecodeError, OSError) as error:
-            print(f"{path}: cannot be read: {error}", file=sys.stderr)
+            found.append(LintFinding(str(path), getattr(error, "lineno", None) or 0, *_unreadable(error)))
             declared.whole = False
             continue
         found += own
@@ -163,6 +163,15 @@ def lint_files(files: Iterable[Path], named: Path | None = None) -> list[LintFin
     for path in launches if declared.parameters and declared.whole else ():
         found += dead_parameters(path, frozenset(declared.parameters))
     return sorted(found)
+
+
+def _unreadable(error: SyntaxError | UnicodeDecodeError | OSError) -> tuple[str, str, str]:
+    """Fault, subject and hint for a Python file that cannot be read."""
+    if isinstance(error, SyntaxError):
+        return "the file is not valid Python", error.msg, "correct it, then run lint again"
+    if isinstance(error, UnicodeDecodeError):
+        return "the file cannot be read", "not UTF-8", "save it as UTF-8, then run lint again"
+    return "the file cannot be read", error.strerror or str(error), "check its permissions"
 
 
 def _running() -> tuple[str, list[LintFinding]]:

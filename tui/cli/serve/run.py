@@ -9,9 +9,12 @@ from collections.abc import Sequence
 
 from bot_console.tui.child_command import child_command
 from bot_console.tui.cli.main import is_command
+from bot_console.tui.cli.numbers import integer, port
 
 EXPECTED = ("attach",)
 """Commands whose console can be served; without one it is the console with a robot of its own."""
+MAX_SESSIONS = 100
+"""Addresses that one server prints at most."""
 EPILOG = """\
 The address that is printed opens one console at a time, in one browser: its token is exchanged for a cookie. The
 console ends when its tab is closed. ! works in every console; --control allows the rest.
@@ -37,8 +40,6 @@ def run(words: Sequence[str]) -> int:
     parser = command_parser()
     given, rest = parser.parse_known_args(words)
     host = _address(parser, given.host)
-    if not 1 <= given.sessions <= 100:
-        parser.error("--sessions: 1 to 100")
     console = _console(parser, rest, control=given.control)
     try:
         from bot_console.tui.cli.serve.server import Server, serve
@@ -66,10 +67,21 @@ def command_parser() -> argparse.ArgumentParser:
         allow_abbrev=False,
     )
     add = parser.add_argument
-    add("--port", type=int, default=8000, metavar="N", help="port; 0 takes a free one (8000)")
-    add("--host", default="127.0.0.1", metavar="ADDRESS", help="address of this machine to listen on (127.0.0.1)")
-    add("--sessions", type=int, default=1, metavar="N", help="addresses to print, each for one browser (1)")
-    add("--control", action="store_true", help="let the browser set, drive, start and end, too")
+    add("--port", type=port, default=8000, metavar="N", help="port to listen on; 0: any free one (default: 8000)")
+    add(
+        "--host",
+        default="127.0.0.1",
+        metavar="ADDRESS",
+        help="address of this machine to listen on (default: 127.0.0.1)",
+    )
+    add(
+        "--sessions",
+        type=integer(1, MAX_SESSIONS),
+        default=1,
+        metavar="N",
+        help="addresses to print, each for one browser (default: 1)",
+    )
+    add("--control", action="store_true", help="also let the browser set parameters, drive, and start and end programs")
     return parser
 
 

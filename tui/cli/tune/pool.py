@@ -68,10 +68,10 @@ class Pool:
         )
         return self._threads.submit(self._run, run)
 
-    def probe(self, profile: str, arguments: Mapping[str, str]) -> Future[Mapping[str, Any]]:
-        """The parameters, by node and name, of the system that a profile starts."""
+    def probe(self, profile: str, arguments: Mapping[str, str], world: str = "") -> Future[Mapping[str, Any]]:
+        """The parameters, by node and name, of the system that a profile starts, in a world of its own or another."""
         words = [f"{name}:={value}" for name, value in arguments.items()]
-        run = _Run("probe", profile, profile_yaml(profile), "", 1, PARAMETERS_ASKED_AFTER_S, words)
+        run = _Run("probe", profile, profile_yaml(profile), world, 1, PARAMETERS_ASKED_AFTER_S, words)
         return self._threads.submit(self._run, run)
 
     def close(self) -> None:

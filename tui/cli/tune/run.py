@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from bot_console.tui.cli.arguments import add_profile_folders
-from bot_console.tui.cli.numbers import positive, seed
+from bot_console.tui.cli.numbers import integer, positive, seed
 from bot_console.tui.cli.tune.describing import result_line, result_of, tunables_of
 from bot_console.tui.cli.tune.pool import Pool
 from bot_console.tui.files.folders import state_folder
@@ -23,8 +23,10 @@ from bot_console.tui.tuning.search import SEARCHES
 from bot_console.tui.tuning.specification import TuningSpecification
 from bot_console.tui.tuning.tunable import Setting, find_tunables
 
+MAX_RUNS = 1_000_000
+"""More simulator runs than anybody waits for."""
 EPILOG = """\
-scores that stand ready, more is better:
+predefined scores (higher is better):
 {ready}
 a formula is arithmetic over {figures},
 and mean, least, greatest, last or rms of a topic's field: "mean_speed - rms(/odom/twist.twist.angular.z)"
@@ -60,15 +62,17 @@ def run(words: Sequence[str]) -> int:
         print(error, file=sys.stderr)
         return 1
     try:
-        system = pool.probe(profile.path or profile.name, arguments).result()
-        if problem := system.get("problem"):
+        worlds = tuple(given.worlds.split(",")) if given.worlds else ("",)
+        probes = [pool.probe(profile.path or profile.name, arguments, world) for world in worlds]
+        systems = [each.result() for each in probes]
+        if problem := next((each["problem"] for each in systems if each.get("problem")), ""):
             print(f"the system does not start: {problem}", file=sys.stderr)
             return 1
         specification = TuningSpecification(
-            _found(parser, named, system),
+            _found(parser, named, systems[0]),
             score,
             profile=profile.path or profile.name,
-            worlds=tuple(given.worlds.split(",")) if given.worlds else ("",),
+            worlds=worlds,
             runs=given.runs,
             seeds=given.seeds,
             held_out=given.held_out,
@@ -167,17 +171,28 @@ def command_parser() -> argparse.ArgumentParser:
         metavar="[NODE:]NAME[=LOW..HIGH]",
         help="parameter to tune; NAME:=VALUE: a launch argument",
     )
-    add("--score", default="swift", metavar="FORMULA", help=f"{', '.join(READY)}, or a formula; higher is better")
-    add("--runs", type=int, default=60, metavar="N", help="number of runs (60)")
-    add("--seeds", type=int, default=3, metavar="N", help="seeds for each setting (3)")
-    add("--held-out", type=int, default=5, metavar="N", help="further seeds that check the best setting at the end (5)")
-    add("--seed", type=seed, default=1, metavar="N", help="first seed (1)")
-    add("--duration", type=positive, default=60.0, metavar="S", help="simulated seconds of a run (60)")
-    add("--search", default="adaptive", choices=sorted(SEARCHES), help="how settings are chosen (adaptive)")
-    add("--profile", default="indoor", metavar="PROFILE", help="profile, by name or path, to tune (indoor)")
+    add(
+        "--score",
+        default="swift",
+        metavar="FORMULA",
+        help=f"{', '.join(READY)}, or a formula; higher is better (default: swift)",
+    )
+    add("--runs", type=integer(1, MAX_RUNS), default=60, metavar="N", help="number of runs (default: 60)")
+    add("--seeds", type=integer(1, MAX_RUNS), default=3, metavar="N", help="seeds for each setting (default: 3)")
+    add(
+        "--held-out",
+        type=integer(0, MAX_RUNS),
+        default=5,
+        metavar="N",
+        help="further seeds that check the best setting at the end (default: 5)",
+    )
+    add("--seed", type=seed, default=1, metavar="N", help="first seed (default: 1)")
+    add("--duration", type=positive, default=60.0, metavar="S", help="simulated seconds of a run (default: 60)")
+    add("--search", default="adaptive", choices=sorted(SEARCHES), help="how settings are chosen (default: adaptive)")
+    add("--profile", default="indoor", metavar="PROFILE", help="profile to tune, by name or path (default: indoor)")
     add_profile_folders(parser)
     add("--worlds", default="", metavar="A,B", help="worlds for each setting; default: the profile's")
-    add("--jobs", type=int, default=0, metavar="N", help="concurrent runs; default: one per processor")
+    add("--jobs", type=integer(0, MAX_RUNS), default=0, metavar="N", help="concurrent runs; default: one per processor")
     add("--resume", action="store_true", help="resume a tuning that was stopped")
     add("--json", action="store_true", help="print the result as JSON")
     add("--save", default="", metavar="NAME", help="save the best setting as one of your profiles")

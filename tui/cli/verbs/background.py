@@ -20,7 +20,7 @@ from bot_console.runtime.rmw.zenoh.domain.discovery_range import RANGE_VARIABLE
 from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
 from bot_console.runtime.stop_file_path import stop_file
 from bot_console.tui.child_command import child_command
-from bot_console.tui.cli.arguments import parse
+from bot_console.tui.cli.arguments import background_help, parse
 from bot_console.tui.cli.machine_limits import no_robot_here
 from bot_console.tui.cli.verbs import stop
 from bot_console.tui.cli.verbs.router import add_serving_options, serving_of, warning_of
@@ -79,6 +79,8 @@ class Background:
 
 def up(words: Sequence[str]) -> int:
     """Start a system in the background and wait until its robot is ready."""
+    if "-h" in words or "--help" in words:
+        return _print_help()
     serving, words = _serving(words)
     options = parse(["--headless", *words])
     if options.fast:
@@ -179,8 +181,7 @@ def _unreachable() -> str:
 def _serving(words: Sequence[str]) -> tuple[list[str], list[str]]:
     """The arguments for `bot-console router`, if other machines may connect, and the remaining ones."""
     parser = argparse.ArgumentParser("bot-console up", add_help=False)
-    parser.add_argument("--serve", action="append", metavar="ENDPOINT", default=[])
-    add_serving_options(parser)
+    _add_serving(parser)
     given, rest = parser.parse_known_args(words)
     if not given.serve:
         return [], list(words)
@@ -192,6 +193,30 @@ def _serving(words: Sequence[str]) -> tuple[list[str], list[str]]:
         if value := getattr(given, option):
             routed += [f"--{option.replace('_', '-')}", value]
     return routed, rest
+
+
+def _add_serving(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--serve",
+        action="append",
+        metavar="ENDPOINT",
+        default=[],
+        help="also let other machines connect at this endpoint, such as tcp/0.0.0.0:7447; may be repeated",
+    )
+    add_serving_options(parser)
+
+
+def _print_help() -> int:
+    parser = argparse.ArgumentParser(
+        "bot-console up",
+        usage="bot-console up [OPTION ...] [PROFILE | NAME:=VALUE ...]",
+        description="Start a robot, or a launch file, in the background, and wait until it is ready.",
+        epilog="`bot-console attach` shows it, `bot-console status` describes it, `bot-console down` ends it.",
+    )
+    background_help(parser)
+    _add_serving(parser)
+    parser.print_help()
+    return 0
 
 
 def _open_way_in(words: Sequence[str], log: Path) -> int:

@@ -14,7 +14,7 @@ from bot_console.tui.files.save_file import NotSaved, save_file, typed_path
 def run(words: list[str]) -> int:
     """Write the package and print its path; asks before it writes over an existing folder."""
     parser = argparse.ArgumentParser("bot-console export", description="Write the robot's package for colcon.")
-    parser.add_argument("folder", metavar="DIR", help="folder in which the package's folder is created")
+    parser.add_argument("folder", metavar="DIR", help="folder to create the package in, such as ~/ros2_ws/src")
     given = parser.parse_args(words)
     from bot_console.runtime.workspace.exporting import NAME, export
 

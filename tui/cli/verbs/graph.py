@@ -8,6 +8,7 @@ import time
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
+from bot_console.tui.cli.numbers import positive, seconds
 from bot_console.tui.console.graph.connections import connections, is_hidden, is_own_service, unconnected
 from bot_console.tui.console.graph.expected import Expected, differences, read_file, written
 from bot_console.tui.console.graph.findings import findings
@@ -24,17 +25,17 @@ GRAPH_SETTLED_S = 1.0
 """Seconds without a change after which the graph counts as known."""
 GRAPH_POLL_S = 0.1
 
-EPILOG = """exit codes: 0 as expected, or nothing wrong; 1 not; 2 wrong usage or a file that cannot be read
+EPILOG = """exit codes: 0 as expected or nothing wrong, 1 differences or findings, 2 wrong usage or an unreadable file
 
-the file is YAML, as `bot-console graph` writes it; all parts may be left out:
+The file is YAML, as `bot-console graph` writes it; every part is optional:
   nodes: [/robot_navigator, /safety_monitor]
   topics:
     /odom: {type: nav_msgs/msg/Odometry, publishers: [/simulator], rate: 50, tolerance: 0.1}
-    /scan: {rate: 10, max_age: 0.5}   # Hz, with a tolerance of 0.2 unless another is given; seconds
+    /scan: {rate: 10, max_age: 0.5}   # Hz (tolerance: 0.2 of it, unless given); seconds
   services: {/reset: std_srvs/srv/Trigger}
-  exact: false   # true: nothing else may be there
-a parameter file with rates as greenwave_monitor takes them (topics./scan.expected_frequency) will do, too
-E in the Topics pane checks the same file all the time, and so does `expected:` in the settings
+  exact: false   # true: anything else is a difference
+A parameter file with rates for greenwave_monitor (topics./scan.expected_frequency) works, too. E in the Topics pane, or
+`expected:` in the settings, checks the same file all the time.
 """
 
 
@@ -148,7 +149,7 @@ def _measured(console: RosConsole, topics: list[str], seconds: float) -> Mapping
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         "bot-console graph",
-        description="Write the ROS graph as a file or as lines of text, list its findings, or compare it with a file.",
+        description="Print the ROS graph as YAML or as lines of text, list what looks wrong, or compare with a file.",
         epilog=EPILOG,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -163,9 +164,14 @@ def _parser() -> argparse.ArgumentParser:
         nargs="?",
         const="live.launch.py",
         metavar="FILE",
-        help="write a launch file, and a parameter file beside it, that start the running nodes again (live.launch.py)",
+        help="write a launch file, and a parameter file beside it, that start the running nodes again (default: "
+        "live.launch.py)",
     )
     parser.add_argument("--rates", action="store_true", help="also write the rates of topics")
-    parser.add_argument("--wait", type=float, default=5.0, metavar="S", help="seconds to wait for the graph (5)")
-    parser.add_argument("--measure", type=float, default=5.0, metavar="S", help="seconds to measure rates (5)")
+    parser.add_argument(
+        "--wait", type=seconds, default=5.0, metavar="S", help="seconds to wait for the graph (default: 5)"
+    )
+    parser.add_argument(
+        "--measure", type=positive, default=5.0, metavar="S", help="seconds to measure rates (default: 5)"
+    )
     return parser

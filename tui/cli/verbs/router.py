@@ -104,12 +104,12 @@ def _parser() -> argparse.ArgumentParser:
         "--listen",
         action="append",
         metavar="ENDPOINT",
-        help=f"endpoint to listen on; default: {HERE}, for this machine alone",
+        help=f"endpoint to listen on; may be repeated (default: {HERE}, for this machine alone)",
     )
     add(
         "--mesh",
         action="store_true",
-        help="serve the programs of this machine's ROS domain, which have no ports",
+        help="also connect the programs of this machine's ROS domain, which listen on no port",
     )
     add("--config", default="", metavar="FILE", help="Zenoh configuration, for instance with an access list")
     add_serving_options(parser)

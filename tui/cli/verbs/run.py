@@ -105,8 +105,8 @@ def _parser() -> argparse.ArgumentParser:
     add = parser.add_argument
     add("--prefix", metavar="COMMAND", help="command to put before the executable, in quotes if it has spaces")
     add("--watch", action="store_true", help="open the console on it")
-    add("--headless", action="store_true", help="no screen: logs on stderr, a JSON report on stdout at the end")
-    add("--fast", action="store_true", help="with --headless: simulated time, as fast as possible, reproducible")
+    add("--headless", action="store_true", help="no console: logs on stderr, a JSON report on stdout at the end")
+    add("--fast", action="store_true", help="with --headless: in simulated time, as fast as possible, reproducibly")
     add("--duration", type=positive, metavar="S", help="with --headless: seconds to run")
     add("--seed", type=seed, metavar="N", help="seed of the simulated world")
     add("--world", metavar="NAME", help="world of the simulated robot")

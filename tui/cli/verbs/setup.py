@@ -102,5 +102,5 @@ def _parser() -> argparse.ArgumentParser:
         "shell, with completion, and lets every Python program that it starts import rclpy.",
     )
     parser.add_argument("shell", choices=tuple(_FILES), metavar="SHELL", help="bash, zsh or fish")
-    parser.add_argument("--undo", action="store_true", help="print the code that takes all of it back")
+    parser.add_argument("--undo", action="store_true", help="print code that undoes all of this")
     return parser

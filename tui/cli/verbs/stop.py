@@ -42,7 +42,7 @@ def run(verb: str, words: list[str]) -> int:
     what = f"{verb.capitalize()} the robot, and wait for its acknowledgement."
     parser = argparse.ArgumentParser(f"bot-console {verb}", description=what)
     if verb == "stop":
-        parser.add_argument("reason", nargs="?", default="ALL STOP", help="reason, shown to others")
+        parser.add_argument("reason", nargs="?", default="ALL STOP", help="why, shown to others (default: ALL STOP)")
     else:
         parser.add_argument("--all", action="store_true", help="also release what others have stopped")
     given = parser.parse_args(words)

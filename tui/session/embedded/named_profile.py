@@ -57,7 +57,7 @@ def named_profile(
     if is_path(word):
         path = Path(os.path.expanduser(word))
         if not os.path.isfile(path):  # which is false, where `Path` raises, for a name that is too long
-            raise NoProfileError(f"there is no profile {word}")
+            raise NoProfileError(f"there is no file {word}")
         return _loaded(path)
     for folder in _folders(folders):
         for path in _files(folder, word):

@@ -86,7 +86,7 @@ def test_launch_profile_runs_its_launch_file_and_given_arguments_win(place: Path
     ("words", "reported"),
     [
         (["fast"], "there is no profile 'fast'; profiles: competition, indoor, outdoor, slow, warehouse"),
-        (["./fast.yaml"], "there is no profile ./fast.yaml"),
+        (["./fast.yaml"], "there is no file ./fast.yaml"),
         (["broken.yaml"], "broken.yaml cannot be used as a profile: line 2: not YAML"),
     ],
 )
@@ -117,5 +117,5 @@ def test_profiles_are_completed_for_every_command_that_takes_one(place: Path) ->
 
 
 def test_path_with_a_name_that_is_too_long_is_not_there() -> None:
-    with pytest.raises(NoProfileError, match="there is no profile"):
+    with pytest.raises(NoProfileError, match="there is no file"):
         named_profile("./in" + "9" * 400)
