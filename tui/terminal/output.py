@@ -169,7 +169,8 @@ class SparingApp(App[None]):
         """The state on which drawing depends, on one line, to diagnose why nothing is drawn."""
         driver = self._driver_or_none()
         writer = getattr(driver, "_writer_thread", None)
-        waiting = writer._queue.qsize() if writer is not None else "no"
+        # In a signal handler: `qsize` takes a lock, which the interrupted code may hold.
+        waiting = len(writer._queue.queue) if writer is not None else "no"
         gone = getattr(getattr(driver, "_file", None), "gone", False)
         return (
             f"screens {len(self._screen_stack)}, a frame waits: {self._held}, next one in {self._waiting():.2f} s, "

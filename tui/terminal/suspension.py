@@ -5,6 +5,7 @@ The robot is stopped first.
 
 from __future__ import annotations
 
+import asyncio
 import os
 import subprocess
 import sys
@@ -88,24 +89,44 @@ def takes_up_again(driver: Any) -> None:
 
     Textual sets the terminal up at each SIGCONT. If it had not been left before, a second thread would read the
     keys alongside the first one: each gets some of them, and the end waits forever for the one that got nothing.
+    That is done from the running event loop, not in the signal handler: the code that it interrupts may hold the lock
+    of the queue of what is to be written, and would wait for itself.
     """
     set_up = driver.resume_application_mode
+    loop = asyncio.get_running_loop()
     wanted, at_it = False, False
 
-    def resume() -> None:
+    def in_use() -> bool:
+        return driver._writer_thread is not None and driver._writer_thread.is_alive()
+
+    def renew() -> None:
         nonlocal wanted, at_it
-        wanted = True
-        if at_it:  # a SIGCONT during this one
-            return
         at_it = True
         try:
             while wanted:
                 wanted = False
-                if driver._key_thread is not None and driver._key_thread.is_alive():
+                if in_use():
                     driver.suspend_application_mode()
                 set_up()
         finally:
             at_it = False
+
+    def renew_if_in_use() -> None:
+        nonlocal wanted
+        if in_use():
+            renew()
+        else:  # left meanwhile
+            wanted = False
+
+    def resume() -> None:
+        nonlocal wanted
+        wanted = True
+        if at_it:  # a SIGCONT during this one
+            return
+        if in_use():
+            loop.call_soon_threadsafe(renew_if_in_use)
+        else:
+            renew()
 
     driver.resume_application_mode = resume
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import asyncio
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -118,35 +119,62 @@ class Driver:
 
     def __init__(self) -> None:
         self.done: list[str] = []
-        self._key_thread: Any = None
+        self._writer_thread: Any = None
         self.then: Callable[[], object] = lambda: None
 
     def suspend_application_mode(self) -> None:
         self.done.append("left")
-        self._key_thread = None
+        self._writer_thread = None
 
     def resume_application_mode(self) -> None:
         self.done.append("set up")
-        self._key_thread = threading.current_thread()
+        self._writer_thread = threading.current_thread()
         then, self.then = self.then, lambda: None
         then()
 
 
-def test_a_terminal_that_was_not_left_is_left_before_it_is_set_up_again() -> None:
-    driver = Driver()
-    takes_up_again(driver)
-    driver.resume_application_mode()
-    assert driver.done == ["set up"]
-    driver.resume_application_mode()
-    assert driver.done == ["set up", "left", "set up"]
+def with_driver(play: Callable[[Driver], Coroutine[None, None, None]]) -> None:
+    """Play a scene with a driver that takes up again; nothing is set up at first."""
+
+    async def main() -> None:
+        driver = Driver()
+        takes_up_again(driver)
+        await play(driver)
+
+    asyncio.run(main())
+
+
+def test_a_terminal_that_was_not_left_is_left_and_set_up_again_outside_the_signal_handler() -> None:
+    async def play(driver: Driver) -> None:
+        driver.resume_application_mode()
+        assert driver.done == ["set up"]
+        driver.resume_application_mode()
+        driver.resume_application_mode()
+        assert driver.done == ["set up"], "what a signal handler interrupts may hold a lock that this needs"
+        await asyncio.sleep(0)
+        assert driver.done == ["set up", "left", "set up"]
+
+    with_driver(play)
+
+
+def test_a_terminal_that_was_left_meanwhile_is_not_set_up_again() -> None:
+    async def play(driver: Driver) -> None:
+        driver.resume_application_mode()
+        driver.resume_application_mode()
+        driver.suspend_application_mode()
+        await asyncio.sleep(0)
+        assert driver.done == ["set up", "left"]
+
+    with_driver(play)
 
 
 def test_concurrent_resumes_are_serialised() -> None:
-    driver = Driver()
-    takes_up_again(driver)
-    driver.then = driver.resume_application_mode
-    driver.resume_application_mode()
-    assert driver.done == ["set up", "left", "set up"]
+    async def play(driver: Driver) -> None:
+        driver.then = driver.resume_application_mode
+        driver.resume_application_mode()
+        assert driver.done == ["set up", "left", "set up"]
+
+    with_driver(play)
 
 
 def test_screen_is_cleared_on_suspension() -> None:
