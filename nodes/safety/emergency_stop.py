@@ -203,7 +203,8 @@ class EmergencyStop:
     def _keep(self) -> bool:
         """Update the file, and adopt what it contains; returns whether that has changed the lock.
 
-        A file that cannot be used locks the robot, since no stop would be known after the next start.
+        A file that cannot be used locks the robot, since no stop would be known after the next start. That lock is kept
+        as soon as the file can be used: it also stands for stops whose release could not be written.
         """
         if self._file is None or self.lock.kept == self._filed:
             return False
@@ -211,7 +212,7 @@ class EmergencyStop:
             both = self._file.merge(self.lock, replace_unreadable=self._unreadable and not self.lock.held)
         except StopFileError as error:
             self._unreadable = isinstance(error, UnreadableStopFileError)
-            return self._latch.stop(self._node.get_name(), _remedy(error, self._unreadable))
+            return self._latch.stop(self._node.get_name(), _remedy(error, self._unreadable), kept=True)
         changed = self._latch.follow(both)
         self._unreadable, self._filed = False, self.lock.kept
         return changed

@@ -92,13 +92,13 @@ class Latch:
             return []
         return [each.id for each in self._lock.stops if each.unnamed and each.key == request.key]
 
-    def stop(self, holder: str, reason: str) -> bool:
+    def stop(self, holder: str, reason: str, *, kept: bool = False) -> bool:
         """Lock for one of the node's own reasons, if it does not hold already; lasts until a release, or the node's
-        end.
+        end unless it is `kept`.
         """
-        if any(each.key == NODE and each.holder == holder for each in self._lock.stops):
+        if any(each.key == NODE and each.holder == holder and each.kept >= kept for each in self._lock.stops):
             return False
-        return self._stop(holder, reason, NODE, new_id(), kept=False)
+        return self._stop(holder, reason, NODE, new_id(), kept)
 
     def _stop(self, holder: str, reason: str, key: str, id: str, kept: bool = True) -> bool:
         if not id:

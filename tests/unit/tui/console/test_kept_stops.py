@@ -332,6 +332,38 @@ def test_no_release_frees_the_robot_while_the_stop_file_cannot_be_written(rig: S
     assert not held(rig)
 
 
+@pytest.mark.parametrize("everybody", [False, True])
+@pytest.mark.parametrize("reported", [False, True])
+def test_a_release_that_could_not_be_written_leaves_the_robot_held_after_repair_and_restart(
+    reported: bool, everybody: bool, rig: StopRig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def read_only(*words: object) -> int:
+        raise OSError(30, "Read-only file system")
+
+    anna, ben = rig.links["anna"], rig.links["ben"]
+    anna.stop("the arm swings")
+    for name, lock in rig.locks.items():
+        lock.stop(name, "a reason of its own, which ends with the node")
+    rig.settle(2)
+    with monkeypatch.context() as disk:
+        disk.setattr(os, "replace", read_only)
+        anna.release([each.key for each in ben.info.stops] if everybody else [])
+        rig.settle(2)
+        assert held(rig) and "Read-only file system" in str(ben.info.stops)
+    if reported:
+        rig.report()
+    rig.kill("anna")
+    restart(rig, MONITOR, BASE_NODE)
+    rig.settle(2)
+    assert held(rig), "it was reported as not released"
+    ben.release([each.key for each in ben.info.stops])
+    rig.settle(2)
+    assert not held(rig)
+    restart(rig, MONITOR, BASE_NODE)
+    rig.settle(2)
+    assert not held(rig)
+
+
 def test_a_stop_that_could_not_be_written_is_written_as_soon_as_there_is_space(
     rig: StopRig, monkeypatch: pytest.MonkeyPatch
 ) -> None:
