@@ -23,7 +23,7 @@ ANSWER_S = 0.05
 
 def http(text: str) -> None:
     """The bytes of a connection; whatever they are, the server answers with no error of its own."""
-    server, port, faults = _served()
+    server, port, faults = served("true")
     server._admissions[0].token = TOKEN
     data = text.replace("PORT", str(port)).encode("utf-8", "surrogatepass")
     with socket.create_connection(("127.0.0.1", port), WAIT_S) as link, suppress(ConnectionError):
@@ -51,13 +51,22 @@ def http_seeds() -> Sequence[str]:
     )
 
 
-@cache
-def _served() -> tuple[Any, int, list[str]]:
-    """A server on loopback, which serves until the program ends; its port, and what it logs of its own errors."""
-    from aiohttp import web
-    from bot_console.tui.cli.serve.server import Admission, Server
+def admit(server: Any) -> None:
+    """Make room for a browser, whatever the earlier ones still have open."""
+    from bot_console.tui.cli.serve.server import Admission
 
-    server = Server(["true"], "127.0.0.1")
+    server._admissions = [Admission(token=TOKEN, cookie=COOKIE)]
+
+
+@cache
+def served(console: str) -> tuple[Any, int, list[str]]:
+    """A server of a console on loopback, which serves until the program ends; its port, and what it logs of its own
+    errors.
+    """
+    from aiohttp import web
+    from bot_console.tui.cli.serve.server import Server
+
+    server = Server([console], "127.0.0.1")
     ready: list[int] = []
     faults: list[str] = []
 
@@ -73,7 +82,7 @@ def _served() -> tuple[Any, int, list[str]]:
         await runner.setup()
         await web.TCPSite(runner, "127.0.0.1", 0).start()
         server.addresses(runner.addresses[0][1])
-        server._admissions = [Admission(token=TOKEN, cookie=COOKIE)]
+        admit(server)
         ready.append(runner.addresses[0][1])
         known.set()
         while True:

@@ -10,9 +10,11 @@ from dataclasses import dataclass
 import bags
 import browser
 import files
+import installed
 import messages
 import programs
 import seeds
+import sockets
 import stores
 import typed
 import wire
@@ -38,6 +40,7 @@ def targets() -> list[Target]:
     from bot_console.runtime.rmw.arguments import ArgumentsError
     from bot_console.runtime.rmw.lexer import GrammarError
     from bot_console.runtime.rmw.parameter_overrides import ParameterYamlError
+    from bot_console.runtime.rmw.zenoh.session import SessionError
     from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
     from bot_console.runtime.rosidl.parse import DefinitionError
     from bot_console.tui.cli.check.script import ScriptError
@@ -216,6 +219,13 @@ def targets() -> list[Target]:
             seeds.texts('["stdin", "abc"]', '["resize", {"width": 80, "height": 24}]', '["alive"]'),
             browser.page_message,
         ),
+        Target("frames of a browser", sockets.frame_seeds, sockets.frames, share=0.05),
+        Target("handshake with a router", sockets.handshake_seeds, sockets.router_handshake, share=0.05),
+        Target("answer of a router", sockets.answer_seeds, sockets.router_answer, (SessionError,), share=0.05),
+        Target("plug-ins of a package", seeds.texts(*installed.PLUGINS), installed.plugins),
+        Target("panes of a workspace", seeds.texts(*installed.SETUP_CFG), installed.panes_of_workspace, (ValueError,)),
+        Target("file of an environment", seeds.texts(*installed.FOLDERS), installed.file_of_environment),
+        Target("code of a shell", seeds.texts(*installed.FOLDERS), installed.code_of_shell, share=0.05),
         Target("bytes of a command line", seeds.texts(*seeds.WORDS), programs.command_line, share=0.02),
         Target("bytes of the environment", seeds.texts(*seeds.VARIABLES), programs.environment, share=0.02),
     ]

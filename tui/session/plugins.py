@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from importlib.metadata import EntryPoint, entry_points
+from collections.abc import Callable
 from typing import Any
 
 from bot_console.tui.arrangement.plugin_pane import PluginEntry
 from bot_console.tui.pane_table import PANES as OWN
-from bot_console.tui.session.embedded.workspaces import PANE_GROUP, panes
+from bot_console.tui.session.embedded.workspaces import installed_panes, panes
 
 
 def find_plugins() -> list[PluginEntry]:
@@ -16,17 +15,8 @@ def find_plugins() -> list[PluginEntry]:
 
     The workspace's take precedence over installed ones of the same name; none may use the name of a built-in pane.
     """
-    found = {each.id: each for each in (*_installed(), *(_entry(*each) for each in panes()))}
+    found = {each.id: each for each in (_entry(*one) for one in (*installed_panes(), *panes()))}
     return [found[id] for id in sorted(found) if id not in {each.id for each in OWN}]
-
-
-def _installed() -> Iterator[PluginEntry]:
-    for each in entry_points(group=PANE_GROUP):
-        yield _entry(each.name, _loading(each), each.dist.name if each.dist else each.value)
-
-
-def _loading(point: EntryPoint) -> Callable[[], Any]:
-    return point.load
 
 
 def _entry(name: str, find: Callable[[], Any], source: str) -> PluginEntry:

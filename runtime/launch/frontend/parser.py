@@ -170,12 +170,12 @@ def _read(path: str) -> str:
 
 @lru_cache(maxsize=1)
 def _load_extensions() -> None:
-    from importlib.metadata import entry_points
+    from bot_console.runtime.programs.installed_entry_points import installed_entry_points
 
     for name in EXTENSIONS:
         importlib.import_module(name)
     for module in ("launch.actions", "launch.substitutions"):
         importlib.import_module(module)
-    for entry_point in entry_points(group=EXTENSION_GROUP):
+    for entry_point in installed_entry_points(EXTENSION_GROUP):
         if entry_point.module not in EXTENSIONS:
             entry_point.load()

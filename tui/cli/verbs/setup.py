@@ -44,14 +44,21 @@ def run(words: Sequence[str]) -> int:
         print(f"bot-console setup: cannot write {error.filename}: {error.strerror}", file=sys.stderr)
         return 1
     if given.undo:
-        sys.stdout.write(_filled(*_UNDO[given.shell]))
+        _print(_filled(*_UNDO[given.shell]))
         return 0
-    sys.stdout.write(code(given.shell))
+    _print(code(given.shell))
     shown = sys.stdout.isatty()
     _report_python(always=shown)
     if shown:
         print(HINT.format(_FILES[given.shell], evaluation(given.shell)), file=sys.stderr)
     return 0
+
+
+def _print(text: str) -> None:
+    """Print code with the bytes of its paths, which need not be UTF-8."""
+    sys.stdout.flush()
+    sys.stdout.buffer.write(os.fsencode(text))
+    sys.stdout.buffer.flush()
 
 
 def code(shell: str) -> str:

@@ -16,10 +16,12 @@ from bot_console.tui.files.save_file import NotSaved, save_file
 FILE = "bot_console.pth"
 _TEXT = """\
 # Written by `bot-console setup venv`, and removed by `bot-console setup venv --remove`
-{folder}
-import os; os.path.exists({decides!r}) and __import__("bot_console_shims").watch()
+import os, sys; os.path.exists({decides!a}) and ({folder!a} in sys.path or sys.path.append({folder!a}), \
+__import__("bot_console_shims").watch())
 """
-"""The interpreter adds the folder to its path if it exists, and runs the line, which does nothing without it."""
+"""The interpreter runs the line, which adds the folder to its path, and does nothing without it. The name of the folder
+may contain anything, a newline or bytes that are not UTF-8 as well.
+"""
 ANSWER_TIMEOUT_S = 30.0
 
 
@@ -56,8 +58,13 @@ def _add(place: Path) -> str:
             f"{sys.executable} -m venv, or install bot-console for Python {theirs}"
         )
     shims = kept_shim_folder()
-    save_file(folder / FILE, _TEXT.format(folder=shims, decides=str(shims / BESIDE[0])))
+    save_file(folder / FILE, content(shims))
     return f"{folder / FILE} lets every program of {python} import rclpy; --remove takes it back"
+
+
+def content(shims: Path) -> str:
+    """Return the content of the file, for this folder of shims."""
+    return _TEXT.format(folder=str(shims), decides=str(shims / BESIDE[0]))
 
 
 def _remove(folder: Path) -> str:

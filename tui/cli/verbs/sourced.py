@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shlex
 from collections.abc import Sequence
 from pathlib import Path
@@ -42,7 +43,7 @@ def write_setup_files(folder: Path, workspace: Workspace) -> Sequence[Path]:
             folder=shlex.quote(str(folder)),
         )
         install.mkdir(exist_ok=True)
-        save_file(file, text)
+        save_file(file, os.fsencode(text))  # a path need not be UTF-8
     marker = install / "COLCON_IGNORE"
     if not marker.exists():
         save_file(marker, "")

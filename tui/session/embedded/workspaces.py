@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from bot_console.runtime.programs.installed_entry_points import installed_entry_points, package_of
 from bot_console.runtime.workspace.builtin_package import FIRST_VARIABLE, NAME, PAGE_NAME, ROOT, is_own
 from bot_console.runtime.workspace.choices import launch_file_paths
 from bot_console.runtime.workspace.demos import is_demo
@@ -72,6 +73,12 @@ def panes() -> Iterator[tuple[str, Callable[[], Any], str]]:
     for package in workspace().packages.values():
         for name, point in package.panes.items():
             yield name, _importing(package, point.module, point.function), f"package {package.name}"
+
+
+def installed_panes() -> Iterator[tuple[str, Callable[[], Any], str]]:
+    """The panes of installed packages, in the same form."""
+    for point in installed_entry_points(PANE_GROUP):
+        yield point.name, point.load, package_of(point)
 
 
 def _importing(package: Package, module: str, name: str) -> Callable[[], Any]:

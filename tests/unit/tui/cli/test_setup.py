@@ -160,6 +160,13 @@ def test_setup_fails_in_one_line_where_it_cannot_write(home: Path):
     assert done.stderr.startswith(f"bot-console setup: cannot write {home}/file/cache") and done.stderr.count("\n") == 1
 
 
+@pytest.mark.parametrize("name", ["a\nb", "\udcff"])
+def test_name_of_the_user_folder_may_contain_anything(name: str, home: Path) -> None:
+    text = 'eval "$(bot-console setup bash)"; python3 -c "import rclpy; print(rclpy.__file__)"'
+    done = in_shell("bash", home, text, {"BOT_CONSOLE_USER_DIR": str(home / name)})
+    assert done.stdout.endswith("runtime/rclpy/__init__.py\n"), done.stderr
+
+
 def test_setup_without_valid_shell_prints_what_to_type(capsys: pytest.CaptureFixture[str]):
     for words in (["setup"], ["setup", "tcsh"]):
         with pytest.raises(SystemExit, match="2"):

@@ -40,6 +40,15 @@ def test_programs_of_environment_import_rclpy_until_it_is_removed(venv: Path, ca
     assert "nothing to remove" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("name", ["a\nb", "\udcff", " 'ä\\\"{0} "])
+def test_name_of_the_user_folder_may_contain_anything(
+    name: str, venv: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path / name))
+    assert main(["setup", "venv", str(venv)]) == 0
+    assert in_venv(venv, "import rclpy; print(rclpy.__file__)").stdout.endswith("runtime/rclpy/__init__.py\n")
+
+
 def test_active_environment_is_the_default(venv: Path, monkeypatch: pytest.MonkeyPatch):
     with pytest.raises(SystemExit):
         main(["setup", "venv"])
