@@ -47,6 +47,7 @@ def router_answer(text: str) -> None:
         try:
             open_network_session(0, way).close()
         finally:
+            socket.create_connection(listening.getsockname(), WAIT_S).close()  # if the client has given up before
             answering.join()
 
 
@@ -98,7 +99,7 @@ def _recorded() -> tuple[bytes, bytes, bytes]:
     with socket.create_server(("127.0.0.1", 0)) as listening:
         passing = threading.Thread(target=pass_on, args=(listening,))
         passing.start()
-        with suppress(RuntimeError):
+        with suppress(RuntimeError):  # the link ends as soon as it is open
             open_network_session(0, Way((f"tcp/127.0.0.1:{listening.getsockname()[1]}",), timeout_s=WAIT_S)).close()
         passing.join()
     return sent[0], sent[1], answers[0]
