@@ -16,7 +16,7 @@ from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH
 from bot_console.tui.session.launch_host.proxy import HostedLauncher
 from launcher_bench import WAITS
 
-TIMEOUT_S = 120.0
+TIMEOUT_S = 240.0
 """Seconds (wall) until a command that hangs fails its test."""
 
 

@@ -98,7 +98,7 @@ def home(tmp_path: Path) -> Path:
 
 
 def finish(line: list[str], env: Mapping[str, str], cwd: Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(line, env=dict(env), cwd=cwd, capture_output=True, text=True, check=False, timeout=100)
+    return subprocess.run(line, env=dict(env), cwd=cwd, capture_output=True, text=True, check=False, timeout=240)
 
 
 @pytest.mark.parametrize("way", ["run", "launch", "python3", "script"])

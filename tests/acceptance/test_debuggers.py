@@ -86,7 +86,7 @@ def test_breakpoints_stop_timer_and_callback_in_a_thread(line: list[str], typed:
     env = set_up(workspace) if line[0] == str(PYTHON) else environment(workspace)
     env = {**env, "BOT_CONSOLE_SOCKET_DIR": str(workspace)}
     done = subprocess.run(
-        ["env", *line], input=typed, cwd=workspace, env=env, capture_output=True, text=True, timeout=100, check=False
+        ["env", *line], input=typed, cwd=workspace, env=env, capture_output=True, text=True, timeout=240, check=False
     )
     assert "('in the timer', False)" in done.stdout, done.stdout + done.stderr
     assert "('in the callback', False)" in done.stdout and "went on" in done.stdout

@@ -19,7 +19,7 @@ if os.name != "posix":
     pytest.skip("needs a shell", allow_module_level=True)
 
 NOTEBOOK = Path(__file__).resolve().parents[2] / "examples" / "robot.ipynb"
-TIMEOUT_S = 120.0
+TIMEOUT_S = 240.0
 """Seconds after which a cell fails; nothing is measured by it."""
 
 BEGIN = """

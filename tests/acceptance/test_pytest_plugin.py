@@ -108,16 +108,16 @@ def test_two_test_processes_meet_only_without_plugin(
     env = {**set_up(home), "PLACE": str(tmp_path / "place"), "BOT_CONSOLE_SOCKET_DIR": str(home / "sockets")}
     (home / "sockets").mkdir(mode=0o700, exist_ok=True)
     both = [start(plugin, tmp_path, env) for _ in range(2)]
-    outputs = [each.communicate(timeout=100)[0] for each in both]
+    outputs = [each.communicate(timeout=240)[0] for each in both]
     assert max(each.returncode for each in both) == code, outputs
 
 
 def test_tests_run_in_real_and_stepped_time(home: Path, tmp_path: Path) -> None:
     (tmp_path / "test_times.py").write_text(TIMES)
     process = start(PLUGIN, tmp_path, set_up(home))
-    assert "3 passed" in process.communicate(timeout=100)[0]
+    assert "3 passed" in process.communicate(timeout=240)[0]
     process = start((*PLUGIN, "--ros-time", "stepped", "-k", "not child"), tmp_path, set_up(home))
-    assert "2 passed" in process.communicate(timeout=100)[0]
+    assert "2 passed" in process.communicate(timeout=240)[0]
 
 
 def test_plugin_is_refused_beside_a_real_rclpy(home: Path, tmp_path: Path) -> None:
@@ -126,7 +126,7 @@ def test_plugin_is_refused_beside_a_real_rclpy(home: Path, tmp_path: Path) -> No
     env = set_up(home)
     path = os.pathsep.join([str(tmp_path / "ros"), env["PYTHONPATH"]])
     process = start(PLUGIN, tmp_path, {**env, "PYTHONPATH": path})
-    assert "set BOT_CONSOLE_RUNTIME=embedded" in process.communicate(timeout=100)[1]
+    assert "set BOT_CONSOLE_RUNTIME=embedded" in process.communicate(timeout=240)[1]
 
 
 def workflow(name: str) -> Any:

@@ -58,6 +58,6 @@ def test_programs_of_other_environments_do_not_inherit_it(tmp_path, words, name,
     path = os.pathsep.join([str(tmp_path / "hook"), os.environ.get("PYTHONPATH", "")])
     line = [sys.executable, "-m", *words, str(tmp_path / name)]
     done = subprocess.run(
-        line, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True, timeout=60, check=False
+        line, env={**os.environ, "PYTHONPATH": path}, capture_output=True, text=True, timeout=240, check=False
     )
     assert "guard=none path=/mine" in done.stdout, done

@@ -20,7 +20,7 @@ pytestmark = [
     pytest.mark.timeout(300),
     pytest.mark.skipif(is_embedded_rclpy(), reason="for the rclpy of a machine without `ros2`: .ci/on_rclpy"),
 ]
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 PEER = """
 import rclpy
 from rclpy.action import ActionServer

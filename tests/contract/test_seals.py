@@ -17,7 +17,7 @@ from rclpy.serialization import serialize_message
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 GID = bytes(range(16))
 EVERYTHING = QoSProfile(history=HistoryPolicy.KEEP_ALL, depth=0)
 PULL = data_key(DOMAIN, "/pull", "std_srvs/srv/Trigger", type_hash.text(Trigger))

@@ -28,7 +28,7 @@ print(rclpy.__file__, flush=True)
 rclpy.spin(node)
 """
 SHOW = "import rclpy; print(rclpy.__file__)"
-TIMEOUT_S = 120.0
+TIMEOUT_S = 240.0
 
 
 @pytest.fixture(scope="module")

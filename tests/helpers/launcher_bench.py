@@ -13,7 +13,7 @@ from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo
 from bot_console.tui.session.embedded.vitals import find_vitals
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 """Seconds after which a test gives up; the tests measure no time."""
 
 WAITS = """

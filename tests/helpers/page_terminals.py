@@ -34,7 +34,7 @@ from rest import at_rest
 from systems import Program, System, environment_of_programs
 from textual.events import Paste
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 """Seconds after which a test gives up; the tests measure no time."""
 
 

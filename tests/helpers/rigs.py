@@ -60,7 +60,7 @@ LOGGER_SERVICE: dict[str, Any] = {
     name: True for name in ("enable_logger_service",) if name in inspect.signature(rclpy.create_node).parameters
 }
 """Node options by which levels of its loggers can be set; Humble has no such service."""
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 """Seconds after which a test gives up; the tests measure no time."""
 TOO_FAST = "too fast for indoors"
 DESCRIPTION = "Highest speed (m/s)"

@@ -47,7 +47,7 @@ def in_shell(
         capture_output=True,
         text=True,
         check=False,
-        timeout=100,
+        timeout=240,
     )
 
 
@@ -62,5 +62,5 @@ def python(
 ) -> subprocess.CompletedProcess[str]:
     """Run an interpreter in an environment."""
     return subprocess.run(
-        [str(program), *words], env=dict(env), cwd=cwd, capture_output=True, text=True, check=False, timeout=100
+        [str(program), *words], env=dict(env), cwd=cwd, capture_output=True, text=True, check=False, timeout=240
     )

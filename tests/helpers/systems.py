@@ -18,7 +18,7 @@ from bot_console.runtime.process.lockstep.coordinator import coordinator_of
 from bot_console.runtime.process.node.running import running_process
 from bot_console.runtime.rmw.lockstep.coordination import coordinated
 
-LONG = 120.0
+LONG = 240.0
 """Virtual seconds that a command which ends by itself may take."""
 
 STALL = 30.0

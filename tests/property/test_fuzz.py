@@ -13,7 +13,7 @@ INPUTS = 1550
 def test_no_mutated_input_causes_more_than_a_refusal(tmp_path):
     done = subprocess.run(
         [sys.executable, str(FUZZ), "--inputs", str(INPUTS), "--seed", "1", "--report", str(tmp_path / "report.json")],
-        capture_output=True, text=True, cwd=tmp_path, timeout=140, check=False,
+        capture_output=True, text=True, cwd=tmp_path, timeout=240, check=False,
         env={**os.environ, "ROS_LOG_DIR": str(tmp_path)},
     )  # fmt: skip
     assert (tmp_path / "report.json").exists(), done.stderr[-2000:]

@@ -54,7 +54,7 @@ code_program(sys.argv[2], places_of(sys.argv[3:]))()
 def runs(workspace: Path, text: str, *folders: Path) -> None:
     """Run a text in a process whose modules are in these folders."""
     words = [sys.executable, "-c", RUN, *map(str, (workspace, text, *folders))]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run(words, capture_output=True, text=True, timeout=240, check=False)
     assert done.returncode == 0, done.stderr
 
 

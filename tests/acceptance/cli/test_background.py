@@ -26,7 +26,7 @@ from bot_console.tui.session.launch_host.combined import CombinedLauncher, Other
 from bot_console.tui.session.launch_host.proxy import HostedLauncher
 from launcher_bench import WAITS
 
-TIMEOUT_S = 90.0
+TIMEOUT_S = 240.0
 """Seconds after which a test gives up; nothing is measured by it."""
 
 

@@ -32,12 +32,12 @@ def robot(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     system = subprocess.Popen(line, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment)
     seen = [*PROGRAM, "topic", "echo", "--once", "--timeout", "100", "/odom", "nav_msgs/msg/Odometry"]
     try:
-        subprocess.run(seen, capture_output=True, timeout=120, check=True, env=environment)
+        subprocess.run(seen, capture_output=True, timeout=240, check=True, env=environment)
         yield folder
     finally:
         system.send_signal(signal.SIGINT)
         try:
-            system.wait(60)
+            system.wait(240)
         except subprocess.TimeoutExpired:
             system.kill()
     subprocess.run(["rm", "-rf", SOCKETS, f"{SOCKETS}-user"], check=False)
@@ -51,7 +51,7 @@ def domain(robot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def typed(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
     line = [*PROGRAM, "bag", *words]
-    return subprocess.run(line, capture_output=True, text=True, timeout=120, check=False, cwd=folder)
+    return subprocess.run(line, capture_output=True, text=True, timeout=240, check=False, cwd=folder)
 
 
 def grown(file: Path, size: int) -> bool:
@@ -76,16 +76,16 @@ def test_topics_are_recorded_and_played(robot: Path) -> None:
     line = [*PROGRAM, "bag", "play", "mine", "-m", "/odom:=/copy", "-l"]
     played = subprocess.Popen(line, cwd=robot, stderr=subprocess.PIPE, text=True)
     heard = [*PROGRAM, "topic", "echo", "--once", "/copy", "nav_msgs/msg/Odometry"]
-    out = subprocess.run(heard, capture_output=True, text=True, timeout=120, check=False).stdout
+    out = subprocess.run(heard, capture_output=True, text=True, timeout=240, check=False).stdout
     played.send_signal(signal.SIGINT)
-    _, reported = played.communicate(timeout=120)
+    _, reported = played.communicate(timeout=240)
     assert "pose:" in out and played.returncode == 0, reported
 
 
 def called(name: str, kind: str, request: str = "{}") -> str:
     """The answer of a service of rosbag2."""
     line = [*PROGRAM, "service", "call", name, f"rosbag2_interfaces/srv/{kind}", request]
-    return subprocess.run(line, capture_output=True, text=True, timeout=120, check=False).stdout
+    return subprocess.run(line, capture_output=True, text=True, timeout=240, check=False).stdout
 
 
 def test_a_recorder_and_a_player_follow_options_and_services(robot: Path) -> None:
@@ -97,7 +97,7 @@ def test_a_recorder_and_a_player_follow_options_and_services(robot: Path) -> Non
     called("/mine/resume", "Resume")
     assert grown(robot / "options" / "options_2.db3", 1)
     recorder.send_signal(signal.SIGINT)
-    recorder.communicate(timeout=120)
+    recorder.communicate(timeout=240)
     reported = typed(robot, "info", "options")
     assert reported.returncode == 0 and "who=me" in reported.stdout and "Storage id:        sqlite3" in reported.stdout
     line = [*PROGRAM, "bag", "play", "options", "--start-paused", "--remap", "/odom:=/copy"]
@@ -105,7 +105,7 @@ def test_a_recorder_and_a_player_follow_options_and_services(robot: Path) -> Non
     assert "success=True" in called("/rosbag2_player/play_next", "PlayNext")
     assert "success=True" in called("/rosbag2_player/set_rate", "SetRate", "{rate: 100.0}")
     called("/rosbag2_player/resume", "Resume")
-    _, message = player.communicate(timeout=120)
+    _, message = player.communicate(timeout=240)
     assert player.returncode == 0 and "0 messages published" not in f" {message}".splitlines(), message
 
 
@@ -121,7 +121,7 @@ def test_a_recorder_of_a_launch_file_records(robot: Path) -> None:
     launch = subprocess.Popen([*PROGRAM, "ros2", "launch", "record.launch.py"], cwd=robot)
     assert grown(robot / "launched" / "launched_0.mcap", 20_000)
     launch.send_signal(signal.SIGINT)
-    assert launch.wait(60) == 0
+    assert launch.wait(240) == 0
     reported = typed(robot, "info", "launched")
     assert "Topic: /odom" in reported.stdout and not reported.stderr, reported
 

@@ -20,7 +20,7 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def typed(*words: str) -> subprocess.CompletedProcess[str]:
     line = [sys.executable, "-m", "bot_console.tui", "config", *words]
-    return subprocess.run(line, capture_output=True, text=True, timeout=120, check=False, env={**os.environ})
+    return subprocess.run(line, capture_output=True, text=True, timeout=240, check=False, env={**os.environ})
 
 
 def test_settings_are_shown_created_edited_and_checked(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:

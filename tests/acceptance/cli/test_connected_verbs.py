@@ -16,7 +16,7 @@ from bot_console.runtime.rmw.zenoh.settings import Serving
 from bot_console.runtime.rmw.zenoh.wire.tokens import TokenNode, entity_token, node_token
 from processes.ports import free_port
 
-TIMEOUT_S = 100
+TIMEOUT_S = 240
 TALKER = """
 import rclpy
 from std_msgs.msg import String

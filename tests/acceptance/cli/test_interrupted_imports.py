@@ -25,7 +25,7 @@ class Interrupt(importlib.abc.MetaPathFinder):
 sys.meta_path.insert(0, Interrupt())
 {start}
 """
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 
 
 def interrupted(name: str, start: str, folder: Path, *words: str) -> subprocess.CompletedProcess[str]:

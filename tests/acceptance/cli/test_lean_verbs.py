@@ -12,7 +12,7 @@ import pytest
 from helpers.processes.two_processes import two_processes
 
 PROGRAM = "from bot_console.tui.cli.main import program; program()"
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 """Seconds after which a verb counts as hanging."""
 
 HEAVY = {

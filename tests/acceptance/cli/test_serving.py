@@ -16,7 +16,7 @@ from processes.ports import free_port
 if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
-TIMEOUT_S = 100
+TIMEOUT_S = 240
 
 
 def run(*words: str) -> subprocess.CompletedProcess[str]:

@@ -19,7 +19,7 @@ from processes.ports import free_port
 if os.name == "nt":
     pytest.skip("needs SIGSTOP", allow_module_level=True)
 
-TIMEOUT_S = 60
+TIMEOUT_S = 240
 
 
 @pytest.mark.parametrize(

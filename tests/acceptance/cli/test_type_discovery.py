@@ -18,7 +18,7 @@ from rigs import until
 if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 PAINTER = """
 import rclpy
 import bot_console.runtime.rclpy.type_description_service as service

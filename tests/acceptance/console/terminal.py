@@ -21,7 +21,7 @@ from types import TracebackType
 from bot_console.tui.cli.foreground.hang_watch import FILE
 from bot_console.tui.files.folders import state_folder
 
-TIMEOUT_S = 120.0
+TIMEOUT_S = 240.0
 """Seconds after which a test gives up; nothing is measured by it."""
 STACKS_TIMEOUT_S = 5.0
 """Seconds that a console which a test has waited for in vain gets to write the stacks of its threads."""

@@ -13,7 +13,7 @@ from bot_console.tui.console.model import LogFilter, ProcessState, Severity
 from bot_console.tui.session.embedded.domain import join_domain
 from bot_console.tui.session.live import Session
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 """Seconds after which a test gives up; nothing is measured by it."""
 
 CRASHES = """

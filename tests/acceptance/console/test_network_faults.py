@@ -154,7 +154,7 @@ def test_console_reconnects_after_the_router_was_killed(far: FarRig) -> None:
     far.router = Router(far.place)
     until(lambda: ROBOT in far.console.snapshot().parameters, "the robot again")
     until(lambda: far.console.snapshot().link.silent_s == 0, "the link")
-    (outcome,) = far.console.parameters.set(ROBOT, {"speed": 0.5}).result(20)
+    (outcome,) = far.console.parameters.set(ROBOT, {"speed": 0.5}).result(240)
     assert outcome.accepted
 
 
@@ -162,7 +162,7 @@ def test_console_reconnects_after_the_router_was_killed(far: FarRig) -> None:
 def test_everything_works_with_300_ms_delay_and_held_segments(far: FarRig) -> None:
     far.wire.delay, far.wire.hold, far.wire.held_share = 0.15, 0.5, 0.02
     until(lambda: (far.console.snapshot().link.delay_ms or 0) >= 290, "the delay to be told")
-    (outcome,) = far.console.parameters.set(ROBOT, {"speed": 0.25}).result(20)
+    (outcome,) = far.console.parameters.set(ROBOT, {"speed": 0.25}).result(240)
     assert outcome.accepted
     ended = threading.Event()
     thread = threading.Thread(target=far.driving, args=(ended,))

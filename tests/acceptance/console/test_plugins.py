@@ -80,14 +80,14 @@ def test_example_is_built_installed_and_found(tmp_path: Path) -> None:
     shutil.copytree(EXAMPLE, copy)
     words = [sys.executable, "-m", "pip", "install", "-q", "--no-deps", "--no-build-isolation", "--target"]
     built = subprocess.run(
-        [*words, str(tmp_path / "site"), str(copy)], check=False, capture_output=True, text=True, timeout=120
+        [*words, str(tmp_path / "site"), str(copy)], check=False, capture_output=True, text=True, timeout=240
     )
     assert built.returncode == 0, built.stderr
     program = (
         "from bot_console.tui.session.plugins import find_plugins; each, = find_plugins(); print(each.load().TITLE)"
     )
     line = [sys.executable, "-c", f"import sys; sys.path.insert(0, {str(tmp_path / 'site')!r}); {program}"]
-    found = subprocess.run(line, capture_output=True, text=True, timeout=120, check=False, cwd=tmp_path / "site")
+    found = subprocess.run(line, capture_output=True, text=True, timeout=240, check=False, cwd=tmp_path / "site")
     assert found.stdout.strip() == "My robot", found.stderr
 
 

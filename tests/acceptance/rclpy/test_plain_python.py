@@ -21,7 +21,7 @@ if os.name != "posix":
 
 PROGRAMS = Path(__file__).parent / "programs"
 COURSE = Path(os.environ.get("BOT_CONSOLE_COURSE", "/nowhere")) / "nodes"
-OUTPUT_TIMEOUT_S = 60.0
+OUTPUT_TIMEOUT_S = 240.0
 
 
 SETS_SPEED = """

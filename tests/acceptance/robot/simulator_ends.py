@@ -31,7 +31,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from std_srvs.srv import Trigger
 
-TIMEOUT_S = 30.0
+TIMEOUT_S = 240.0
 WORLDS = ("indoor", "outdoor", "warehouse", "competition")
 KINDS = ("interrupt", "terminate", "kill", "stop", "reset", "world", "kill while it resets", "worlds come and go")
 

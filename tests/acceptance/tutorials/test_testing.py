@@ -57,11 +57,11 @@ class TestWhileTheyRun(unittest.TestCase):
         self.assertIn("Hello World", heard[0])
 
     def test_the_topic_is_there(self, topic):
-        with WaitForTopics([(topic, String)], timeout=30.0) as waiting:
+        with WaitForTopics([(topic, String)], timeout=240.0) as waiting:
             self.assertEqual(waiting.topics_received(), {topic})
 
     def test_the_listener_reports_what_it_heard(self, proc_output, listener):
-        proc_output.assertWaitFor("I heard: [Hello World", process=listener, timeout=30, stream="stderr")
+        proc_output.assertWaitFor("I heard: [Hello World", process=listener, timeout=240, stream="stderr")
 
 
 @launch_testing.post_shutdown_test()

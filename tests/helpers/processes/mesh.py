@@ -9,7 +9,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 """Seconds that anything may take on a busy machine."""
 
 

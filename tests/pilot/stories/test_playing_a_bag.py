@@ -26,7 +26,7 @@ pytest.importorskip("mcap")
 SECOND = 10**9
 BEGIN = 1_700_000_000 * SECOND
 COUNT = 11
-WAIT_S = 60
+WAIT_S = 240
 
 
 class Published:

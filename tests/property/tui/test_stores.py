@@ -22,7 +22,7 @@ from bot_console.tui.settings.state_files import StateFiles
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 """Seconds after which a blocking read fails its test."""
 
 

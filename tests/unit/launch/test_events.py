@@ -380,12 +380,12 @@ def test_service_runs_in_another_thread(log_lines: list[str]) -> None:
     service.include_launch_description(LaunchDescription([OpaqueFunction(function=lambda context: runs.set())]))
     thread = threading.Thread(target=lambda: codes.append(service.run(shutdown_when_idle=False)))
     thread.start()
-    assert runs.wait(10)
+    assert runs.wait(240)
     heard = threading.Event()
     service.include_launch_description(LaunchDescription([OpaqueFunction(function=lambda context: heard.set())]))
-    assert heard.wait(10)
+    assert heard.wait(240)
     service.shutdown()
-    thread.join(10)
+    thread.join(240)
     assert codes == [0]
 
 
@@ -439,17 +439,17 @@ def test_emit_from_another_thread_returns_once_the_loop_took_the_event() -> None
 
     def held_up(context: Any) -> None:
         begun.set()
-        free.wait(10.0)
+        free.wait(240.0)
 
     def act(service: LaunchService) -> list[bool]:
         service.emit_event(_Heard())
-        begun.wait(10.0)  # the handler blocks the loop now
+        begun.wait(240.0)  # the handler blocks the loop now
         second = threading.Thread(target=service.emit_event, args=(_Heard(),))
         second.start()
         second.join(0.1)
         waits = second.is_alive()
         free.set()
-        second.join(10.0)
+        second.join(240.0)
         return [waits, second.is_alive()]
 
     handler = EventHandler(matcher=lambda event: isinstance(event, _Heard), entities=OpaqueFunction(function=held_up))

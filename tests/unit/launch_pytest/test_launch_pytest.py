@@ -40,10 +40,10 @@ def common(common_proc):
 BESIDE = """
 @pytest.mark.launch(fixture=described)
 def test_plain(proc, launch_context, launch_service, event_loop):
-    assert tools.wait_for_start_sync(launch_context, proc, timeout=30)
-    assert tools.wait_for_output_sync(launch_context, proc, lambda text: text.split() == ['hi'], timeout=30)
+    assert tools.wait_for_start_sync(launch_context, proc, timeout=240)
+    assert tools.wait_for_output_sync(launch_context, proc, lambda text: text.split() == ['hi'], timeout=240)
     assert not tools.wait_for_output_sync(launch_context, proc, lambda text: text == 'never', timeout=0.05)
-    tools.assert_stderr_sync(launch_context, proc, lambda text: 'oops' in text, timeout=30)
+    tools.assert_stderr_sync(launch_context, proc, lambda text: 'oops' in text, timeout=240)
     assert not tools.wait_for_exit_sync(launch_context, proc, timeout=0.05)
     assert launch_service.context is launch_context and launch_service.event_loop is event_loop
 
@@ -51,19 +51,19 @@ def test_plain(proc, launch_context, launch_service, event_loop):
 async def test_coroutine(proc, launch_context, event_loop):
     import asyncio
     assert asyncio.get_running_loop() is event_loop
-    await tools.assert_output(launch_context, proc, lambda text: text == 'hi\\n', timeout=30)
+    await tools.assert_output(launch_context, proc, lambda text: text == 'hi\\n', timeout=240)
 
 @pytest.mark.launch(fixture=described)
 @pytest.mark.parametrize('number', [1, 2])
 def test_generator(proc, launch_context, number):
-    assert tools.wait_for_start_sync(launch_context, proc, timeout=30)
+    assert tools.wait_for_start_sync(launch_context, proc, timeout=240)
     assert proc.return_code is None
     yield
     assert proc.return_code is not None
 
 @pytest.mark.launch(fixture=described)
 async def test_async_generator(proc, launch_context):
-    await tools.wait_for_output(launch_context, proc, lambda text: text == 'hi\\n', timeout=30)
+    await tools.wait_for_output(launch_context, proc, lambda text: text == 'hi\\n', timeout=240)
     yield
     assert proc.return_code is not None
 
@@ -83,7 +83,7 @@ def test_end(common_proc):
 
 @pytest.mark.launch(fixture=common)
 def test_one(common_proc, common, launch_context):
-    tools.wait_for_start_sync(launch_context, common_proc, timeout=30)
+    tools.wait_for_start_sync(launch_context, common_proc, timeout=240)
     PIDS.add(common_proc.process_details['pid'])
     assert common[1] == 42 and common_proc.return_code is None
 
@@ -174,7 +174,7 @@ class Done:
         command = [sys.executable, "-c", program]
         environment = {**os.environ, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}  # plugins needed only by our own tests
         done = subprocess.run(
-            command, cwd=folder, env=environment, capture_output=True, text=True, timeout=120, check=False
+            command, cwd=folder, env=environment, capture_output=True, text=True, timeout=240, check=False
         )
         self.code, self.printed = done.returncode, done.stdout
         self.cases: dict[str, list[tuple[str, list[str]]]] = {name: [] for name in FILES}

@@ -52,11 +52,11 @@ class TestGreeter(unittest.TestCase):
         cls.made.remove('fixture')
 
     def test_it_reports_hello(self, proc_output, answer):
-        proc_output.assertWaitFor('hello', timeout=30, stream='stdout')
+        proc_output.assertWaitFor('hello', timeout=240, stream='stdout')
         assert answer == 42
 
     def test_it_starts(self, proc_info):
-        proc_info.assertWaitForStartup('greeter', timeout=30)
+        proc_info.assertWaitForStartup('greeter', timeout=240)
 
 @launch_testing.post_shutdown_test()
 class TestAfterwards(unittest.TestCase):
@@ -75,7 +75,7 @@ def generate_test_description():
 
 class TestGreeter(unittest.TestCase):
     def test_it_reports_good_bye(self, proc_output):
-        proc_output.assertWaitFor('hello', timeout=30, stream='stdout')
+        proc_output.assertWaitFor('hello', timeout=240, stream='stdout')
         proc_output.assertWaitFor('good bye', timeout=0.1, stream='stdout')
 """
 PARAMETRIZED = """
@@ -86,7 +86,7 @@ def generate_test_description(word):
 
 class TestGreeter(unittest.TestCase):
     def test_it_reports_its_word(self, proc_output, word):
-        proc_output.assertWaitFor(word, timeout=30, stream='stdout')
+        proc_output.assertWaitFor(word, timeout=240, stream='stdout')
 """
 
 
@@ -181,16 +181,16 @@ class TestBeside(unittest.TestCase):
     def test_a_process_of_its_own(self, word):
         keep = launch_testing.tools.basic_output_filter(filtered_patterns=['no'])
         with self.start(f'no{chr(10)}{word}', output_filter=keep) as process:
-            assert process.wait_for_shutdown(timeout=30)
+            assert process.wait_for_shutdown(timeout=240)
         assert process.terminated and not process.running
         assert (process.exit_code, process.stdout, process.stderr) == (3, f'{word}{chr(10)}', '')
 
     def test_output_while_it_runs(self, launch_service, proc_info, proc_output):
         stays = ExecuteProcess(cmd=[sys.executable, '-c', PROGRAM, 'x'], name='stays')
         with launch_testing.tools.launch_process(launch_service, stays, proc_info, proc_output) as process:
-            found = process.wait_for_output(lambda text: 'hello' in text, timeout=30)
+            found = process.wait_for_output(lambda text: 'hello' in text, timeout=240)
             assert found and 'hello' in repr(found) and process.running
-        assert process.wait_for_shutdown(timeout=30)
+        assert process.wait_for_shutdown(timeout=240)
 
 @launch_testing.post_shutdown_test()
 class TestAfterwards(unittest.TestCase):
@@ -206,7 +206,7 @@ def test_test_may_start_processes_itself(tmp_path: Path) -> None:
 
 
 def test_parametrized_test_names_include_their_parameters(tmp_path: Path) -> None:
-    waits = "proc_output.assertWaitFor(word, timeout=30, stream='stdout')"
+    waits = "proc_output.assertWaitFor(word, timeout=240, stream='stdout')"
     result = run(write(tmp_path, PARAMETRIZED.replace(waits, "assert not word")))
     assert [test.id().rpartition(".")[2] for test, _ in result.failures] == [
         "test_it_reports_its_word[red]",

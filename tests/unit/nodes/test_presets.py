@@ -18,7 +18,7 @@ from rclpy.parameter_client import AsyncParameterClient
 from std_srvs.srv import Trigger
 
 DOMAINS = itertools.count(8200)
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 MODES = {"normal": (1.0, 50), "aggressive": (3.0, 30), "cautious": (0.5, 80), "eco": (0.8, 60)}
 
 

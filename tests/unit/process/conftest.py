@@ -11,7 +11,7 @@ import pytest
 from bot_console.runtime.process import ClockSource, NodeProcess, SteppedTime, stepped
 from bot_console.runtime.process.virtual.install import uninstall_virtual_process
 
-LONG = 60.0
+LONG = 240.0
 """How long (s) a test waits for an expected event before it fails."""
 
 

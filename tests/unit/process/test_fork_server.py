@@ -20,7 +20,7 @@ if not hasattr(os, "fork"):
 
 from bot_console.runtime.process.fork_server import ForkServer, Job, Report
 
-LONG = 60.0
+LONG = 240.0
 FILE_PROGRAM = "bot_console.runtime.process.program:file_program"
 
 

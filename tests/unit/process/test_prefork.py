@@ -59,7 +59,7 @@ def ran(
     (beside / "parent.py").write_text(parent)
     (tmp_path / "child.py").write_text(child)
     command = [*before, sys.executable, str(beside / "parent.py"), str(tmp_path / "child.py")]
-    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=120, start_new_session=True)
+    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=240, start_new_session=True)
 
 
 def test_child_inherits_nothing_of_the_forked_program(tmp_path: Path) -> None:

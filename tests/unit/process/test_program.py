@@ -23,7 +23,7 @@ sys.exit(exit_code_of({program}))
 def run(program, *argv):
     """Run a program, given as an expression, as the main program of a process."""
     words = [sys.executable, "-c", RUN.format(program=program), *argv]
-    return subprocess.run(words, capture_output=True, text=True, timeout=60, check=False)
+    return subprocess.run(words, capture_output=True, text=True, timeout=240, check=False)
 
 
 def run_file(path, *argv):

@@ -122,7 +122,7 @@ def real_end(text: str, folder: Path) -> subprocess.CompletedProcess[str]:
     (folder / "node.py").write_text(text)
     command = [sys.executable, "-m", "bot_console.tui", "run", str(folder / "node.py")]
     own = {"BOT_CONSOLE_USER_DIR": str(folder), "ROS_DOMAIN_ID": "97"}
-    return subprocess.run(command, env={**os.environ, **own}, capture_output=True, text=True, timeout=120, check=False)
+    return subprocess.run(command, env={**os.environ, **own}, capture_output=True, text=True, timeout=240, check=False)
 
 
 def test_threads_continue_after_the_main_program(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 
-LONG = 60.0
+LONG = 240.0
 """How long (s) a test waits for an expected event before it fails."""
 
 

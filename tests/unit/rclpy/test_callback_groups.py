@@ -11,7 +11,7 @@ from rclpy.executors import MultiThreadedExecutor
 from rclpy.task import Future
 from std_msgs.msg import Int32
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 
 
 def test_entities_belong_to_their_group(ros: Any) -> None:

@@ -346,7 +346,7 @@ def test_shutdown_waits_for_running_callbacks_by_default(ros: Any, waits: bool) 
 
     def work() -> None:
         begun.set()
-        may_end.wait(20.0)
+        may_end.wait(240.0)
         ended.append(True)
 
     node.create_guard_condition(work).trigger()

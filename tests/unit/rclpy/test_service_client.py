@@ -12,7 +12,7 @@ from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.executors import MultiThreadedExecutor, SingleThreadedExecutor
 from std_srvs.srv import Trigger
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 
 
 def add(request: Any, response: Any) -> Any:

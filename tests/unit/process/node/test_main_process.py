@@ -19,7 +19,7 @@ def run_python(program, *arguments):
         [sys.executable, "-c", textwrap.dedent(program), *arguments],
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=240,
         check=False,
         env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
     )
@@ -42,7 +42,7 @@ def test_hook_set_in_another_thread_leaves_the_real_handler():
     before = signal.getsignal(signal.SIGUSR2)
     thread = threading.Thread(target=MAIN.on_interrupt, args=(lambda signum: None, [signal.SIGUSR2]))
     thread.start()
-    thread.join(20)
+    thread.join(240)
     assert signal.getsignal(signal.SIGUSR2) is before
 
 

@@ -23,7 +23,7 @@ from bot_console.runtime.process import (
 )
 from bot_console.runtime.process.node import node_process as node_process_module
 
-LONG = 60.0
+LONG = 240.0
 
 
 def leave(code):

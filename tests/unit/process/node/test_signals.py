@@ -11,7 +11,7 @@ import time
 import pytest
 from bot_console.runtime.process import current, on_notice
 
-LONG = 60.0
+LONG = 240.0
 
 
 def test_handler_runs_in_the_main_thread_and_the_wait_continues(start):

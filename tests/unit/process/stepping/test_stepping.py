@@ -13,7 +13,7 @@ from bot_console.runtime.process.virtual.install import uninstall_virtual_proces
 from ticking import ticker
 
 SECOND = 10**9
-LONG = 20.0
+LONG = 240.0
 
 
 def test_time_advances_only_when_run(clock):

@@ -11,7 +11,7 @@ from bot_console.runtime.process.node.thread_state import local
 from ticking import ticker
 
 SECOND = 10**9
-LONG = 20.0
+LONG = 240.0
 
 
 def test_signals_arrive_in_virtual_time(clock):

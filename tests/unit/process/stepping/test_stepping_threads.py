@@ -13,7 +13,7 @@ from bot_console.runtime.process import NodeProcess, current, stepped
 from ticking import ticker
 
 SECOND = 10**9
-LONG = 20.0
+LONG = 240.0
 
 
 def test_driver_waits_as_nodes_do(clock):

@@ -8,7 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 from bot_console.runtime.process import current, unpatched
 
-LONG = 60.0
+LONG = 240.0
 
 
 def start_thread():

@@ -70,7 +70,7 @@ def test_output_without_a_sink_goes_to_the_real_stream(capsys):
 
     process = NodeProcess("plain")
     process.start(lambda: print("through"))
-    process.wait(20)
+    process.wait(240)
     assert capsys.readouterr().out == "through\n"
 
 
@@ -102,7 +102,7 @@ def test_redirection_in_a_node_affects_only_that_node(start, capsys):
         print("got", text.getvalue().strip())
 
     started = start(target)
-    inside.wait(20)
+    inside.wait(240)
     print("main prints")
     seen.set()
     started.end()

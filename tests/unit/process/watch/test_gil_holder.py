@@ -12,7 +12,7 @@ from bot_console.runtime.process.watch.gil_holder import GilHolder, held_in_stac
 
 RUNTIME = os.path.dirname(os.path.dirname(os.path.dirname(sys.modules[GilHolder.__module__].__file__ or "")))
 LIBRARY = os.path.dirname(os.__file__)
-TIMEOUT_S = 120.0
+TIMEOUT_S = 240.0
 """Seconds until a test gives up; nothing is measured with it."""
 
 WAITS = f"""Thread 0x00007f0000000001 (most recent call first):

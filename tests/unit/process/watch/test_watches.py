@@ -10,7 +10,7 @@ import pytest
 from bot_console.runtime.process import stack_frames
 from bot_console.runtime.process.node.running import process_of_thread
 
-LONG = 60.0
+LONG = 240.0
 linux_only = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems do not tell")
 
 

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from bot_console.runtime.rmw.zenoh.domain import joining
 from bot_console.runtime.rmw.zenoh.domain.joining import folder_lock
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 """Seconds until a test gives up; nothing is measured with it."""
 
 

@@ -22,7 +22,7 @@ from bot_console.runtime.rmw.zenoh.wire.tokens import TokenNode, node_token
 from processes.certificates import make_certificates
 from processes.ports import free_port
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 STEP = 0.125
 
 

@@ -7,7 +7,7 @@ from bot_console.runtime.process import on_notice
 from bot_console.runtime.rmw.zenoh import sender as module
 from bot_console.runtime.rmw.zenoh.sender import Sender
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 
 
 class Slow:

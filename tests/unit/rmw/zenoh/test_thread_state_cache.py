@@ -11,7 +11,7 @@ from bot_console.runtime.rmw.zenoh import thread_state_cache
 from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
 from bot_console.runtime.rmw.zenoh.thread_state_cache import cache_thread_state, here
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 
 
 class Local(threading.local):

@@ -10,7 +10,7 @@ import pytest
 from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
 from bot_console.runtime.rmw.zenoh.transient_local_publisher import TransientLocalPublisher
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 
 TAKEN_BACK_WHILE_A_SAMPLE_COMES_IN = f"""
 import faulthandler, sys, threading, time

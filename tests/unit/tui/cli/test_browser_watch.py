@@ -39,7 +39,7 @@ def test_console_is_hung_up_on(monkeypatch: pytest.MonkeyPatch, silence: bool) -
             os.write(writing, b".")
             assert not hung_up.is_set()
             os.close(writing)
-        assert hung_up.wait(60)
+        assert hung_up.wait(240)
 
 
 def test_console_without_a_browser_is_not_watched(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -16,7 +16,7 @@ if os.name == "nt":
 
 def complete(*words: str) -> list[str]:
     line = [sys.executable, "-m", "bot_console.tui", "complete", "bot-console", *words]
-    return subprocess.run(line, capture_output=True, text=True, timeout=120, check=True).stdout.split()
+    return subprocess.run(line, capture_output=True, text=True, timeout=240, check=True).stdout.split()
 
 
 def test_running_nodes_topics_services_and_parameters_are_completed(socket_folder: str) -> None:

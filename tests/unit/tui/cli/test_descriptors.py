@@ -25,7 +25,7 @@ print(reported)
 
 
 def test_lines_are_reported_and_only_the_screen_writes_to_the_screen() -> None:
-    done = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, timeout=120, check=True)
+    done = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True, timeout=240, check=True)
     assert done.stderr == "<screen><after>"
     out, reported = done.stdout.split("\n", 1)
     assert out == "<out>is a screen: False"
@@ -37,14 +37,14 @@ def test_lines_are_reported_and_only_the_screen_writes_to_the_screen() -> None:
 def test_notice_of_the_runtime_does_not_go_to_the_screen() -> None:
     imports = "from bot_console.runtime.process import MAIN\nfrom bot_console.runtime.process.notices import notify\n"
     program = imports + PROGRAM.replace('os.system("echo from a child")', 'notify(MAIN, "a message was dropped")')
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=True)
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=240, check=True)
     assert done.stderr == "<screen><after>"
     assert "[WARN] [main]: a message was dropped" in done.stdout
 
 
 def test_child_that_outlives_the_console_does_not_block_its_end() -> None:
     program = PROGRAM.replace('"echo from a child"', '"sleep 150 &"')
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, timeout=120, check=True)
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, timeout=240, check=True)
     assert b"half a line" in done.stdout
 
 
@@ -60,7 +60,7 @@ def test_lines_written_before_the_end_are_reported_however_slow_the_log_is() -> 
 
     with captured_descriptors(report):
         os.write(1, b"the first\n")
-        assert begun.wait(60)
+        assert begun.wait(240)
         os.write(1, b"written later\n" * 4000)
         subprocess.Popen(["sh", "-c", "while echo more; do :; done"], stderr=subprocess.DEVNULL)
     assert reported[:4001] == ["the first"] + ["written later"] * 4000

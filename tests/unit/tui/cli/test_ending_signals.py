@@ -8,7 +8,7 @@ import threading
 
 from bot_console.tui.cli.foreground.ending_signals import ended_by_signals
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 
 
 def test_signals_do_not_deadlock_on_locks_that_ending_needs() -> None:

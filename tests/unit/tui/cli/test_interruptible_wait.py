@@ -13,7 +13,7 @@ from bot_console.tui.cli.interruptible_wait import wait_interruptibly
 if os.name == "nt":
     pytest.skip("signals are handed to no threads there", allow_module_level=True)
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 
 
 @pytest.fixture

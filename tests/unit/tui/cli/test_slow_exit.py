@@ -33,12 +33,12 @@ def terminal(monkeypatch: pytest.MonkeyPatch) -> Terminal:
 
 def test_slow_end_reports_what_it_waits_for(terminal: Terminal) -> None:
     with report_slow_exit(0.0):
-        assert terminal.has_line.wait(20.0)
+        assert terminal.has_line.wait(240.0)
     assert terminal.getvalue() == WAITING_TEXT + "\n"
 
 
 def test_quick_end_prints_nothing(terminal: Terminal) -> None:
     with report_slow_exit(600.0):
         (timer,) = (each for each in threading.enumerate() if isinstance(each, threading.Timer))
-    timer.join(20.0)
+    timer.join(240.0)
     assert (timer.is_alive(), terminal.getvalue()) == (False, "")

@@ -14,7 +14,7 @@ from bot_console.tui.session.embedded.domain import join_domain
 from domains import unused_domain
 from launcher_bench import HEAD
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 
 WRITER = """
 import os

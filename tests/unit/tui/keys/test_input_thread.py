@@ -14,7 +14,7 @@ import pytest
 from bot_console.tui.keys import input_thread
 from bot_console.tui.keys.input_thread import Ending, Unwatched, take_keys
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 """Seconds after which a test gives up; nothing is measured by it."""
 
 

@@ -72,7 +72,7 @@ def test_network_console_starts_no_nodes_that_would_not_reach_its_robot(
 ) -> None:
     network.run_network(AttachOptions(Options(), Way((ROBOT,))))
     with pytest.raises(ValueError, match="launch on the robot itself"):
-        started[0][1].run(line).result(60.0)
+        started[0][1].run(line).result(240.0)
 
 
 def test_programs_that_a_console_in_the_domain_starts_stay_there(started: list[tuple[Any, ...]]) -> None:

@@ -21,7 +21,7 @@ from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH
 from domains import unused_domain
 from fakes.launcher import FakeLauncher
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 
 
 @pytest.mark.parametrize("line", ["ros2 interface show std_msgs/msg/String", "interface show std_msgs/msg/String"])

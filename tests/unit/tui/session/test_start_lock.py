@@ -18,7 +18,7 @@ from bot_console.tui.session.embedded.start_lock import start_lock
 if os.name == "nt":
     pytest.skip("a process has other signals there", allow_module_level=True)
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 
 
 def test_second_start_waits_for_the_first(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,7 +11,7 @@ import tty
 from bot_console.tui.terminal.terminal_file import TerminalFile
 from textual.drivers._writer_thread import MAX_QUEUED_WRITES, WriterThread
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 """Seconds after which a test gives up; nothing is measured by it."""
 
 

@@ -147,7 +147,7 @@ def test_topic_with_two_types_is_reported_as_such(node) -> None:
 
 def run(*words: str) -> subprocess.CompletedProcess[str]:
     line = [sys.executable, "-m", "bot_console.tui", "doctor", *words]
-    return subprocess.run(line, capture_output=True, text=True, timeout=100, check=False)
+    return subprocess.run(line, capture_output=True, text=True, timeout=240, check=False)
 
 
 def test_ros_that_does_not_start_is_reported(tmp_path, monkeypatch) -> None:

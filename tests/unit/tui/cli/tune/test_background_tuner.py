@@ -25,7 +25,7 @@ def test_only_parameters_of_simulated_nodes_can_be_tuned(tmp_path: Path) -> None
 def test_unwritable_journal_is_reported(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     tuning = background_tuner.LocalTuning(TuningSpecification((SPEED,), parse_score("swift")), None, tmp_path / "file")  # type: ignore[arg-type]
-    tuning.thread.join(5)
+    tuning.thread.join(240)
     assert tuning.progress.ended
     assert "the journal cannot be written" in tuning.progress.problem
     assert not tuning.save("x", (1.0,)).ok

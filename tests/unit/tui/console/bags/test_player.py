@@ -26,7 +26,7 @@ SECOND = 10**9
 COUNT = 10
 BEGIN = 1_700_000_000 * SECOND
 FAST = 1e9
-WAIT_S = 60
+WAIT_S = 240
 
 
 class Published:

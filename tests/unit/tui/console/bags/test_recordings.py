@@ -30,7 +30,7 @@ def texts(folder: Path, topic: str = "/words") -> list[str]:
 
 
 def reported(future: Future[Answer]) -> Answer:
-    return future.result(timeout=120)
+    return future.result(timeout=240)
 
 
 @pytest.fixture
@@ -143,7 +143,7 @@ def test_an_error_ends_one_bag_and_the_next_can_be_recorded(
         assert reported(room.start(str(tmp_path / "first"))).ok
         thread = room._thread
         if thread is not None:
-            thread.join(20)
+            thread.join(240)
     assert "a fault" in room.info.problem and not room.info.folder
     assert "a fault" in reported(room.stop()).text
     assert reported(room.start(str(tmp_path / "second"))).ok and not room.info.problem

@@ -33,7 +33,7 @@ def test_each_message_is_kept_once_in_the_order_of_sending_and_saved(tmp_path: P
     # received through another subscription
     buffer.hear(words, ONE, 2, now - 2000, serialize_message(String(data="second")))
     buffer.hear(echo, OTHER, 2, now - 3000, String(data="first"))
-    answer = buffer.keep(str(tmp_path / "bag")).result(10)
+    answer = buffer.keep(str(tmp_path / "bag")).result(240)
     buffer.close()
     assert answer.ok and answer.text.startswith("the last 0 s, 3 messages, in ")
     bag = Bag(tmp_path / "bag")
@@ -45,7 +45,7 @@ def test_each_message_is_kept_once_in_the_order_of_sending_and_saved(tmp_path: P
 def test_an_existing_folder_is_refused_and_keeping_continues(tmp_path: Path) -> None:
     buffer = SnapshotBuffer(SIZE, serialize_message, str)
     buffer.hear(endpoint("/words"), ONE, 1, time.time_ns(), String(data="word"))
-    refused = buffer.keep(str(tmp_path)).result(10)
+    refused = buffer.keep(str(tmp_path)).result(240)
     assert not refused.ok and "exists already" in refused.text
-    assert buffer.keep(str(tmp_path / "bag")).result(10).ok
+    assert buffer.keep(str(tmp_path / "bag")).result(240).ok
     buffer.close()

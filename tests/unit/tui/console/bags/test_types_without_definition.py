@@ -187,10 +187,10 @@ def test_a_recording_says_at_its_end_which_topics_have_no_definition(
     room = Recordings(generic=DomainTypes())
     try:
         captured("MP")
-        assert room.start(str(tmp_path / "bag")).result(60).ok
+        assert room.start(str(tmp_path / "bag")).result(240).ok
         until(lambda: room._recorder is not None and TOPIC in room._recorder.generic, "the topic")
         assert room.info.missing == ()
-        assert f"{TOPIC} was recorded without a definition" in room.stop().result(60).text
+        assert f"{TOPIC} was recorded without a definition" in room.stop().result(240).text
     finally:
         room.close()
 

@@ -98,14 +98,14 @@ def test_a_written_file_starts_the_same_nodes_with_the_same_parameters(
     first.bench.do("stop", next(each for each in first.bench.info.processes if each.nodes == ("/gone",)))
     until(lambda: "/gone" not in first.parameters, "its end")
     set_one = first.console.parameters.set("/left/one", {"speed": 3.5})
-    assert set_one.result(10)[0].accepted
+    assert set_one.result(240)[0].accepted
     until(lambda: first.parameters["/left/one"]["speed"] == 3.5, "the value")
     answer = first.console.graph.write_launch(str(tmp_path / "again"))
     assert answer.ok and "2 programs" in answer.text and "UNKNOWN" not in answer.text, answer.text
     expected, talkers = first.parameters, first.talkers
     first.close()
     systems[0] = second = System(tmp_path, monkeypatch)
-    assert second.bench.launcher.launch(str(tmp_path / "again.launch.py"), {}).result(15).ok
+    assert second.bench.launcher.launch(str(tmp_path / "again.launch.py"), {}).result(240).ok
     until(lambda: second.parameters == expected, "the same nodes with the same parameters")
     until(lambda: second.talkers == talkers, "the same topics")
     assert expected["/left/one"]["port"] == 7 and ("/left/one", "/talk") in talkers

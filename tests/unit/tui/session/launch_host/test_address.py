@@ -25,7 +25,7 @@ def test_connections_are_accepted_until_the_listener_is_closed(tmp_path: Path) -
     assert host_addresses(str(tmp_path)) == [gate.path]
     outside = connect_to_host(gate.path)
     assert outside is not None
-    inside = entered.get(timeout=30)
+    inside = entered.get(timeout=240)
     outside.sendall(b"hello")
     assert inside.recv(5) == b"hello"
     gate.close()

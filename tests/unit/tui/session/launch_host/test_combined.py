@@ -14,7 +14,7 @@ from bot_console.tui.session.launch_host.combined import CombinedLauncher, Other
 from bot_console.tui.session.launch_host.proxy import HostedLauncher
 from pytest import MonkeyPatch
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 """Seconds after which a test gives up; the tests measure no time."""
 
 

@@ -8,7 +8,7 @@ import threading
 from bot_console.tui.console.model import Severity
 from bot_console.tui.session.launch_host.proxy import GONE, HostedLauncher
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 
 
 def test_an_own_host_that_ends_before_it_has_started_anything_is_reported() -> None:

@@ -30,7 +30,7 @@ def test_a_host_saves_the_last_minutes_it_keeps(past: Kept | None, ok: bool, tex
     host = LaunchHost(lambda record, printed: service, buffer=past)
     host.connect(theirs)
     launcher = HostedLauncher(ours, lambda *record: None, lambda *line: None, owner=False)
-    answer = launcher.keep("/there").result(10)
+    answer = launcher.keep("/there").result(240)
     launcher.close()
     host.close()
     assert answer.ok is ok and text in answer.text

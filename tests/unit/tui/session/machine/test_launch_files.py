@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from bot_console.tui.session.machine.launch_files import LaunchFiles, launch_files
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 
 
 def test_all_spellings_of_launch_files_are_found(tmp_path: Path, monkeypatch) -> None:

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from bot_console.tui.session.machine.ros2_command_line import MachineCommandLine, printed_by
 
-TIMEOUT_S = 60.0
+TIMEOUT_S = 240.0
 ROS2 = f"""#!{sys.executable}
 import signal
 print("begun")
