@@ -6,7 +6,7 @@ import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from bot_console.tui.console.bags.node_bags import NodeBags
 from bot_console.tui.console.command_gate import READ_ONLY, Gate
@@ -111,8 +111,7 @@ class NodePorts:
         world, launch = self.drive.world, self._launch_info()
         self.logs.discount_errors_of_ending(launch)
         launch = self._elsewhere.beside(launch)
-        new = ConsoleSnapshot(
-            seq=old.seq,
+        parts = dict[str, Any](
             graph=self.graph.info,
             parameters=self.parameters.trees,
             logs=self.logs.state,
@@ -129,15 +128,11 @@ class NodePorts:
             capabilities=self._capabilities,
             problem=self.problem,
         )
-        if not _same(old, new):
-            self._snapshot = replace(new, seq=old.seq + 1)
+        if not all(_same(getattr(old, name), part) for name, part in parts.items()):
+            self._snapshot = replace(old, seq=old.seq + 1, **parts)
         return self._snapshot
 
 
-def _same(old: ConsoleSnapshot, new: ConsoleSnapshot) -> bool:
-    """Whether every part is the same object, or an equal text or number."""
-    for name in new.__dataclass_fields__:
-        value, before = getattr(new, name), getattr(old, name)
-        if value is not before and not (isinstance(value, (str, int)) and value == before):
-            return False
-    return True
+def _same(old: object, new: object) -> bool:
+    """Whether a part is the same object, or an equal text or number."""
+    return new is old or (isinstance(new, (str, int)) and new == old)

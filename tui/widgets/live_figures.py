@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import re
-from typing import Any
+import time
+from collections.abc import Callable
+from typing import Any, ClassVar
 
+from bot_console.tui.text.cadence import is_due
 from bot_console.tui.widgets.static_text import StaticText
 from rich.text import Text
 
@@ -12,30 +15,31 @@ FIGURE = re.compile(r" *[-+↶↷]?\d*(?:\.\d+|\d)")
 
 
 class LiveFigures(StaticText):
-    """Shows changed words at once, and changed figures at most every `EVERY` ticks, so the newest may be delayed."""
+    """Shows changed words at once, and changed figures at most every `EVERY_S`, so the newest may be delayed."""
 
-    EVERY = 5
-    """Ticks of the app, ten per second, for which figures stay before others replace them."""
+    EVERY_S: ClassVar[float] = 0.5
+    """Seconds for which figures stay before others replace them."""
+    clock: Callable[[], float] = staticmethod(time.monotonic)
+    """Seconds of a steady clock; tests give one that they step."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self._live: str = ""
         self._newest: str = ""
-        self._wait = 0
+        self._shown_at = float("-inf")
         self._heartbeats = False
         """Whether `heartbeat` is being called; without it, nothing would ever show delayed figures."""
 
     def show_live(self, text: str) -> None:
         """Show a text whose figures may be delayed."""
         self._newest = text
-        if not (self._wait and _words(text) == _words(self._live)):
+        if self._is_due() or _words(text) != _words(self._live):
             self._show_newest()
 
     def heartbeat(self) -> None:
         """Show delayed figures when they are due; called ten times a second."""
         self._heartbeats = True
-        self._wait = max(0, self._wait - 1)
-        if not self._wait:
+        if self._newest != self._live and self._is_due():
             self._show_newest()
 
     def show_now(self, text: str) -> None:
@@ -46,8 +50,11 @@ class LiveFigures(StaticText):
     def _show_newest(self) -> None:
         if self._newest != self._live:
             self._live = self._newest
-            self._wait = self.EVERY if self._heartbeats else 0
+            self._shown_at = self.clock()
             self.show_text(self.styled(self._live))
+
+    def _is_due(self) -> bool:
+        return not self._heartbeats or is_due(self._shown_at, self.clock(), self.EVERY_S)
 
     def styled(self, text: str) -> str | Text:
         """The text as it is drawn."""
@@ -55,4 +62,5 @@ class LiveFigures(StaticText):
 
 
 def _words(text: str) -> str:
-    return FIGURE.sub("#", text)
+    """The text without its figures, wherever they stand: one that comes or goes changes no word."""
+    return " ".join(FIGURE.sub(" ", text).split())

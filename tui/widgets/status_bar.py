@@ -36,7 +36,7 @@ class StatusBar(LiveFigures):
     StatusBar.stopped { background: $error; color: $background; text-style: bold; }
     """
 
-    EVERY = 10
+    EVERY_S = 1.0
     _acknowledged = 0
     _shown: tuple[ConsoleSnapshot, int] | None = None
     alarms: Sequence[str] = ()

@@ -13,14 +13,14 @@ SPEED = "/odom/twist.twist.linear.x"
 
 
 async def later(session: Session, *values: float) -> None:
-    """New values of the speed come, and half a second goes by."""
+    """New values of the speed come, and a second goes by."""
     times, known = session.console.series[SPEED]
     for value in values:
         session.console.now += 0.1
         times.append(session.console.now)
         known.append(value)
     pane = session.pane(AlarmsPane)
-    pane.clock.now += 0.6
+    pane.clock.now += 1.0
     pane.tick()
     await session.settle()
 

@@ -14,7 +14,7 @@ from bot_console.tui.screens.confirm import ConfirmScreen
 from bot_console.tui.screens.launch_arguments import ArgumentsScreen
 from bot_console.tui.screens.picker import PickerScreen
 from fakes.console import START
-from piloting import Session, run
+from piloting import Clock, Session, run
 from samples import arguments, empty, faulty, launched, live
 from textual.widgets import Input
 
@@ -372,6 +372,8 @@ def test_warnings_and_output_of_the_process_at_the_cursor_are_shown() -> None:
         process = next(each for each in session.console.current.launch.processes if each.nodes)
         logger = process.nodes[0].strip("/").replace("/", ".")
         before = session.text()
+        pane = session.pane(LaunchPane)
+        pane.clock = Clock()
         for severity in (Severity.WARN, Severity.ERROR):
             session.console.show_text(severity, logger, f"a line of severity {severity.name}")
         await session.settle()

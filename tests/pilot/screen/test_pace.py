@@ -6,12 +6,12 @@ import random
 from dataclasses import replace
 from unittest.mock import patch
 
+import pytest
 from bot_console.tui.console.robot.robot_model import DriveInfo, Pose, WorldInfo
 from bot_console.tui.panes.plot.pane import PlotPane
 from bot_console.tui.panes.world.view import WorldDrawing, following, visible_content
 from bot_console.tui.widgets.live_figures import LiveFigures
-from bot_console.tui.widgets.status_bar import StatusBar
-from piloting import Session, run
+from piloting import Clock, Session, run
 from samples import SPEED, live
 
 DRIVING = DriveInfo(topic="/cmd_vel", final=(0.5, 0.0), actual=(0.5, 0.0))
@@ -25,44 +25,65 @@ def drive(session: Session, speed: float, **facts: object) -> None:
     session.console.change(drive=replace(DRIVING, actual=(speed, 0.0), **facts))
 
 
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> Clock:
+    """The clock of all figures."""
+    clock = Clock()
+    monkeypatch.setattr(LiveFigures, "clock", staticmethod(clock))
+    return clock
+
+
 async def heartbeat(session: Session, times: int = 1) -> None:
     for _ in range(times):
         session.app._heartbeat()
     await session.pilot.pause()
 
 
-def test_status_line_updates_numbers_each_second_and_words_at_once() -> None:
+def test_status_line_updates_numbers_each_second_and_words_at_once(clock: Clock) -> None:
     async def play(session: Session) -> None:
         drive(session, 0.1)
-        await heartbeat(session, StatusBar.EVERY)
+        clock.now = 101.5
+        await heartbeat(session)
         assert "robot  0.1" in status(session)
         drive(session, 0.2)
+        clock.now = 103.5
         await heartbeat(session)
         assert "robot  0.2" in status(session), "what has stood long enough gives way at once"
         drive(session, 0.3)
-        await heartbeat(session, 4)
-        drive(session, 0.4)
-        await heartbeat(session, 4)
-        assert "robot  0.2" in status(session)
-        drive(session, 0.4, stopped=True, stop_confirmed=True, lockable=True, stopped_here=True)
+        clock.now = 103.9
         await heartbeat(session)
-        assert "STOP" in status(session) and "robot  0.4" in status(session)
+        assert "robot  0.2" in status(session)
+        drive(session, 0.4)
+        clock.now = 104.0
+        await heartbeat(session)
+        assert "robot  0.4" in status(session), "with all others that change once a second, in one frame"
+        drive(session, 0.5)
+        clock.now = 104.2
+        await heartbeat(session)
+        assert "robot  0.4" in status(session)
+        drive(session, 0.5, stopped=True, stop_confirmed=True, lockable=True, stopped_here=True)
+        await heartbeat(session)
+        assert "STOP" in status(session) and "robot  0.5" in status(session)
         drive(session, 0.7, stopped=True, stop_confirmed=True, lockable=True, stopped_here=True)
-        await heartbeat(session, StatusBar.EVERY)
+        await heartbeat(session)
+        assert "robot  0.5" in status(session)
+        clock.now = 105.0
+        await heartbeat(session)
         assert "robot  0.7" in status(session), "the newest is told, though nothing new comes after it"
 
     run(live(), play, (160, 40))
 
 
-def test_world_facts_update_each_second_except_on_request() -> None:
+def test_world_facts_update_twice_a_second_except_on_request(clock: Clock) -> None:
     async def play(session: Session) -> None:
         await session.press("5")
-        await heartbeat(session, LiveFigures.EVERY)
+        await heartbeat(session)
 
         def at(x: float) -> None:
             session.console.change(world=replace(session.console.current.world, pose=Pose(x, 3.0, 0.0)))
 
         at(1.5)
+        clock.now = 100.5
         await heartbeat(session)
         at(2.5)
         await heartbeat(session)
@@ -70,7 +91,8 @@ def test_world_facts_update_each_second_except_on_request() -> None:
         await session.press("+")
         assert "x    2.5" in session.text(), "a key shows what is so now"
         at(3.5)
-        await heartbeat(session, LiveFigures.EVERY)
+        clock.now = 101.0
+        await heartbeat(session)
         assert "x    3.5" in session.text()
 
     run(live(), play, (120, 40))

@@ -10,6 +10,8 @@ from bot_console.tui.console.graph.findings import debugger_text
 CPU_POLL_S = 1.0
 """Seconds over which CPU usage is measured, of all processes at the same moments: they are drawn at once."""
 
+CPU_NOISE = 0.0101
+"""A difference of two shares of a CPU that says nothing: one percent, which processes that do the same differ by."""
 
 STATE_POLL_S = 0.5
 """Seconds between two checks whether it is frozen or hangs."""
@@ -65,7 +67,9 @@ class Usage:
         self._used = vitals.cpu_seconds()
         self._wanted = vitals.wanted_seconds()
         self.share: float | None = None
-        """1.0 is one whole CPU, rounded to whole percent; None until it is known."""
+        """1.0 is one whole CPU, rounded to whole percent, kept while it differs by no more than `CPU_NOISE`; None until
+        it is known.
+        """
         self.memory: int | None = None
         """MB (10^6 bytes), rounded to two digits from 100 on so that the figure is steady while nothing happens."""
         self.stands = ""
@@ -82,8 +86,10 @@ class Usage:
         if passed < CPU_POLL_S / 2 or now // CPU_POLL_S == self._at // CPU_POLL_S:
             return
         used, wanted = self._vitals.cpu_seconds(), self._vitals.wanted_seconds()
-        self.share = _share(self._used, used, passed)
-        busy = max(self.share or 0.0, _share(self._wanted, wanted, passed) or 0.0) >= BUSY_SHARE
+        share = _share(self._used, used, passed)
+        busy = max(share or 0.0, _share(self._wanted, wanted, passed) or 0.0) >= BUSY_SHARE
+        if share is None or self.share is None or abs(share - self.share) > CPU_NOISE:
+            self.share = share
         self.busy_s = self.busy_s + passed if busy else 0.0
         self._at, self._used, self._wanted = now, used, wanted
         held = self._vitals.memory_bytes()

@@ -16,6 +16,7 @@ from bot_console.tui.panes.alarms.condition import read
 from bot_console.tui.panes.alarms.rows import AlarmRows, row_of, row_of_check, row_of_suggestion
 from bot_console.tui.panes.alarms.templates import templates
 from bot_console.tui.panes.list_pane import ListPane
+from bot_console.tui.text.cadence import is_due
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Line
@@ -25,7 +26,7 @@ from textual.app import ComposeResult
 
 REQUESTER, SUGGESTING = "alarms", "alarms suggested"
 STATE_NAME = "alarms"
-POLL_S, SHOWN, AGAIN = 0.2, 0.5, 1.0
+POLL_S, SHOWN, AGAIN = 0.2, 1.0, 1.0
 """Seconds between two looks at the samples, at the list, and at paths that are not there yet."""
 NOTICE = 8.0
 """Seconds that a notice stands; the times that an alarm begins to hold meanwhile are told with its next one."""
@@ -98,7 +99,7 @@ class AlarmsPane(ListPane):
         self._checks = snapshot.rate_checks
         self._suggest(() if self._alarms or self._checks else templates(snapshot.graph.topics))
         is_changed = self._checks is not before[0] or self._suggested is not before[1]
-        if is_changed or self.clock() - self._drawn >= SHOWN:
+        if is_changed or is_due(self._drawn, self.clock(), SHOWN):
             self._arrange()
 
     def _suggest(self, texts: Sequence[AlarmText]) -> None:
@@ -137,7 +138,7 @@ class AlarmsPane(ListPane):
         if holding != self._holding:
             self._holding = holding
             self.post_message(self.AlarmsHold(holding))
-        if self.display and now - self._drawn >= SHOWN:
+        if self.display and is_due(self._drawn, now, SHOWN):
             self._arrange()
 
     def _watch(self, paths: Any) -> None:

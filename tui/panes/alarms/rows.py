@@ -47,7 +47,7 @@ def row_of_suggestion(alarm: Alarm) -> Row:
     """The row of an alarm that is suggested, with what its condition compares now."""
     text = alarm.text
     value = alarm.condition.compared(alarm.values)
-    shown = NO_VALUE if value is None else f"now {value:.4g}"
+    shown = NO_VALUE if value is None else f"now {value:.3g}"
     return Row(text.name, text.condition, False, None, 0, 0, shown, suggested=True)
 
 

@@ -26,12 +26,26 @@ _BOOL: Mapping[str, str] = {"collision": "{topic}/data == true"}
 
 
 def templates(topics: Iterable[Endpoint]) -> tuple[AlarmText, ...]:
-    """Suggestions for these topics; several topics of a type follow in the order of their names."""
-    found: dict[str, AlarmText] = {}
-    for topic in sorted(topics, key=lambda each: (each.name.count("/"), each.name)):
+    """Suggestions for these topics; several topics of a type follow in the order of their names.
+
+    In each namespace, of all topics of a type only the one with the shortest name is suggested: the others are mostly
+    made from it, such as `/scan_filtered` from `/scan`, and whatever is suggested is received.
+    """
+    chosen: dict[tuple[str, str], str] = {}
+    for topic in sorted(topics, key=lambda each: (len(each.name), each.name)):
         kind = topic.types[0] if topic.types else ""
-        collides = kind == "std_msgs/msg/Bool" and _COLLISION.search(topic.name)
-        for name, condition in (_BOOL if collides else _BY_TYPE.get(kind, {})).items():
-            unique = name if name not in found else f"{name} {topic.name}"
-            found[unique] = AlarmText(unique, condition.format(topic=topic.name))
+        if _conditions(topic.name, kind):
+            chosen.setdefault((topic.name.rpartition("/")[0], kind), topic.name)
+    found: dict[str, AlarmText] = {}
+    for (_, kind), topic in sorted(chosen.items(), key=lambda each: (each[1].count("/"), each[1])):
+        for name, condition in _conditions(topic, kind).items():
+            unique = name if name not in found else f"{name} {topic}"
+            found[unique] = AlarmText(unique, condition.format(topic=topic))
     return tuple(found.values())[:MAX_TEMPLATES]
+
+
+def _conditions(topic: str, kind: str) -> Mapping[str, str]:
+    """The conditions that are suggested for a topic, by their names."""
+    if kind == "std_msgs/msg/Bool":
+        return _BOOL if _COLLISION.search(topic) else {}
+    return _BY_TYPE.get(kind, {})

@@ -16,6 +16,7 @@ from bot_console.tui.panes.diagnostics.table import LEVEL_STYLES, StatusRows
 from bot_console.tui.panes.diagnostics.tree import Row, matches, rows
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.screens.facts import FactsScreen, Section
+from bot_console.tui.text.cadence import is_due
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.row_list import RowList
@@ -78,12 +79,17 @@ class DiagnosticsPane(ListPane):
         if snapshot.problem != self._problem:
             self._problem = snapshot.problem
             self._due = 0.0
-        self._poll()
+            self._poll()
+        elif self._is_poll_due():
+            self._poll()
 
     def tick(self) -> None:
         """Update the tree while it is visible."""
-        if self.display and self.clock() - self._polled >= POLL_S:
+        if self.display and self._is_poll_due():
             self._poll()
+
+    def _is_poll_due(self) -> bool:
+        return is_due(self._polled, self.clock(), POLL_S)
 
     def _poll(self) -> None:
         now = self._polled = self.clock()

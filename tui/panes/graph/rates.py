@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from bot_console.tui.console.topics.port import Measure, Topics
+from bot_console.tui.text.cadence import is_due
 from bot_console.tui.text.figures import coarse_rate, steady
 
 RATE_POLL_S = 2.0
@@ -29,7 +30,7 @@ class Rates:
 
     def poll(self, traffic: Topics, topics: Sequence[str], now: float) -> bool:
         """Measure these topics, and read the rates every few seconds; returns whether any text has changed."""
-        if now - self._polled < RATE_POLL_S:
+        if not is_due(self._polled, now, RATE_POLL_S):
             return False
         self._polled = now
         traffic.measure(topics, READER)

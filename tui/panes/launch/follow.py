@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from bot_console.tui.console.model import LogRecord, LogState, ProcessInfo, Severity
+from bot_console.tui.text.cadence import is_due
 
 CPU_SAMPLE_S = 2.0
 """Seconds between two samples of the CPU usage that is drawn."""
@@ -66,7 +67,7 @@ class Follower:
 
     def sample(self, processes: Iterable[ProcessInfo], now: float) -> bool:
         """Add the CPU usage of each process if it is time (s); whether it was."""
-        if now - self._sampled < CPU_SAMPLE_S:
+        if not is_due(self._sampled, now, CPU_SAMPLE_S):
             return False
         self._sampled = now
         for each in processes:

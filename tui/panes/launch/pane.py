@@ -20,17 +20,18 @@ from bot_console.tui.console.model import (
     LaunchInfo,
     ProcessInfo,
     ProcessState,
-    Severity,
 )
 from bot_console.tui.console.query import Query, parse
-from bot_console.tui.format import SEVERITY_CHARACTERS, clock_text, counted, cut, sanitize
-from bot_console.tui.panes.launch.follow import OutputLine
+from bot_console.tui.format import clock_text, counted, cut, sanitize
+from bot_console.tui.panes.launch.follow import Follower
+from bot_console.tui.panes.launch.output import STYLES, ProcessOutput
 from bot_console.tui.panes.launch.rows import ProcessRows, Row, matches, rows
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.panes.transitions import ask_transition
 from bot_console.tui.safety.stop_wording import stops_of_ending
 from bot_console.tui.screens.facts import FactsScreen
+from bot_console.tui.text.cadence import is_due
 from bot_console.tui.text.endings import ending_text
 from bot_console.tui.widgets.picture import Line, Picture
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
@@ -48,7 +49,8 @@ OUTPUT_FROM = 19
 """Rows of the pane from which on the output of the process at the cursor has room."""
 
 ALIVE = (ProcessState.RUNNING, ProcessState.STARTING, ProcessState.STOPPING)
-STYLES = {Severity.WARN: "warn", Severity.ERROR: "error", Severity.FATAL: "error"}
+NEWS_S = 2.0
+"""Seconds between two looks at what the processes have printed and used."""
 
 EMPTY = Placeholder(
     "Processes that launch files started, with keys to stop and start each: none was launched yet.",
@@ -82,14 +84,16 @@ class LaunchPane(ListPane):
         self._read = ""
         self._folded: frozenset[tuple[str, ...]] = frozenset()
         self._query = Query()
-        self._output: object = None
-        """The object that the lines below the tree show."""
+        self._follower = Follower()
+        self._has_news = False
+        """Whether the follower has gathered something that is not shown yet."""
+        self._news_at = float("-inf")
 
     def compose(self) -> ComposeResult:
         """The tree, a line on the process at the cursor, the newest events."""
-        yield ProcessRows()
+        yield ProcessRows(self._follower)
         yield StaticText(id="launch-status")
-        yield Picture(id="launch-output")
+        yield ProcessOutput(id="launch-output")
         yield Picture(id="launch-events")
         yield Prompt(id="launch-prompt")
 
@@ -121,42 +125,35 @@ class LaunchPane(ListPane):
         if state[0] is not self._info or state[1:] != (self._why_not, self._problem):
             self._info, self._why_not, self._problem = state
             self._arrange()
-        follower = self._list.follower
-        follower.know(snapshot.launch.processes)
-        sampled = follower.sample(snapshot.launch.processes, self.clock())
-        if follower.read(snapshot.logs, self.console.logs.record) or sampled:
-            self._list.follow()
-        self._show_output()
+            self._show_output()
+        self._follower.know(snapshot.launch.processes)
+        self._has_news |= self._follower.read(snapshot.logs, self.console.logs.record)
+        self._show_news()
 
     def observe(self, snapshot: ConsoleSnapshot) -> None:
         """Sample the CPU usage, also while hidden."""
         if not self.has_parts:
             return
         processes = snapshot.launch.processes
-        self._list.follower.know(processes)
-        if self._list.follower.sample(processes, self.clock()) and self.display:
+        self._follower.know(processes)
+        self._has_news |= self._follower.sample(processes, self.clock())
+
+    def _show_news(self) -> None:
+        """Show what the processes have printed and used since the last time, at most every `NEWS_S`."""
+        now = self.clock()
+        if self._has_news and is_due(self._news_at, now, NEWS_S):
+            self._has_news, self._news_at = False, now
             self._list.follow()
+            self._show_output()
 
     def _show_output(self) -> None:
-        """Show the newest lines of the process at the cursor."""
+        """Show the newest lines of the process, or of those of the group, at the cursor."""
         row, info = self._list.current, self._info or LaunchInfo()
-        output = self.query_one("#launch-output", Picture)
         inside = [each.key for each in info.processes if row and _belongs(each, row.group)]
         keys = [row.process.key] if row and row.process else inside
-        lines = [line for key in keys for line in self._list.follower.of(key).lines]
-        width, room = output.size.width, max(0, output.size.height - 1)
-        newest = sorted(lines, key=lambda each: each.record.seq)[-room:] if room else []
+        lines = (line for key in keys for line in self._follower.of(key).lines)
         name = "" if row is None else sanitize(row.process.label if row.process else row.group[-1])
-        known = (name, newest[-1].record.seq if newest else -1, width, room)
-        if known == self._output:
-            return
-        self._output = known
-        what = "logged and printed" if newest else "has logged and printed nothing yet"
-        title = f" {'what ' if newest else ''}{name} {what} " if name else ""
-        drawn: list[Line] = [((cut(title.center(width, "─"), width), "dim"),)]
-        named = row is not None and row.process is None
-        drawn += [((_output_line(each, width, named=named), STYLES.get(each.record.severity, "")),) for each in newest]
-        output.set_lines(drawn)
+        self.query_one(ProcessOutput).show_lines(name, lines, named=row is not None and row.process is None)
 
     def _arrange(self) -> None:
         info = self._info or LaunchInfo()
@@ -229,8 +226,11 @@ class LaunchPane(ListPane):
         return process.problem or about
 
     def tick(self) -> None:
-        """Say how long ago the process at the cursor has ended."""
-        row = self._list.current if self.display else None
+        """Show what has waited, and how long ago the process at the cursor has ended."""
+        if not self.display:
+            return
+        self._show_news()
+        row = self._list.current
         if row is not None and row.process is not None and row.process.ended:
             self._report()
 
@@ -447,16 +447,6 @@ def _belongs(process: ProcessInfo, group: tuple[str, ...]) -> bool:
 def event_text(event: LaunchEvent) -> str:
     """A launch event on one line."""
     return f"{clock_text(event.stamp)[:8]} {sanitize(event.text)}"
-
-
-def _output_line(line: OutputLine, width: int, *, named: bool) -> str:
-    """A line of the log with how often it came; `named`: with the node or process that it is from."""
-    record = line.record
-    mark = SEVERITY_CHARACTERS.get(record.severity, " ")
-    who = f"{sanitize(record.node)}  " if named else ""
-    text = f" {clock_text(record.stamp)[:8]} {mark} {who}{sanitize(record.text.splitlines()[0] if record.text else '')}"
-    count = f"  ×{line.count} " if line.count > 1 else ""
-    return cut(text, width - len(count), pad=bool(count)) + count
 
 
 def facts(process: ProcessInfo, info: LaunchInfo) -> list[tuple[str, list[str]]]:

@@ -132,9 +132,9 @@ class ProcessRows(ItemList[Row]):
     lifecycle: Mapping[str, str] = {}
     """The states of lifecycle nodes."""
 
-    def __init__(self) -> None:
+    def __init__(self, follower: Follower) -> None:
         super().__init__()
-        self.follower = Follower()
+        self._follower = follower
         self._drawn: dict[str, tuple[str, str, str]] = {}
         """The follower's part of the rows, by the key of the process."""
         self._counts = 0
@@ -149,7 +149,7 @@ class ProcessRows(ItemList[Row]):
             self.refresh()
         for index, each in enumerate(self.rows):
             key = each.process.key if each.process else ""
-            if key and self._drawn.get(key) != (drawn := _gathered(self.follower.of(key), width)):
+            if key and self._drawn.get(key) != (drawn := _gathered(self._follower.of(key), width)):
                 self._drawn[key] = drawn
                 self.row_changed(index)
 
@@ -184,7 +184,7 @@ class ProcessRows(ItemList[Row]):
         name = cut(f"{head} {sanitize(process.label)}", names, pad=True)
         columns = [f"  {process.state.value:<10}", f"{process.pid or '':>8}"]
         columns.append(f"{f'↻{process.restarts}' if process.restarts or process.restart_policy else '':>5}")
-        trace, errors, warnings = _gathered(self.follower.of(process.key), width)
+        trace, errors, warnings = _gathered(self._follower.of(process.key), width)
         states = max((len(self._states(each.process)) for each in self.rows if each.process), default=0)
         count_cells = self._count_cells(width)
         room = width - names - STATE_AND_PID - RESTARTS - states - count_cells
@@ -216,7 +216,7 @@ class ProcessRows(ItemList[Row]):
 
     def _count_cells(self, width: int) -> int:
         """Cells of the numbers of errors and warnings, so that the names of nodes stand in a column."""
-        every = (_counts(self.follower.of(each.process.key), width) for each in self.rows if each.process)
+        every = (_counts(self._follower.of(each.process.key), width) for each in self.rows if each.process)
         return max((_cells_of_counts(*each) for each in every), default=0)
 
     def _states(self, process: ProcessInfo) -> str:

@@ -24,6 +24,7 @@ from bot_console.tui.panes.steering.state import (
     stands_after_steering,
 )
 from bot_console.tui.panes.steering.view import lines, same_but_velocities
+from bot_console.tui.text.cadence import is_due
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Line, Option
@@ -155,7 +156,7 @@ class SteeringPane(Pane):
         return self._figures
 
     def _are_figures_due(self) -> bool:
-        return self.clock() - self._figures_at >= FIGURES_S
+        return is_due(self._figures_at, self.clock(), FIGURES_S)
 
     def _others(self) -> list[str]:
         """Other nodes that publish commands on this pane's topic."""

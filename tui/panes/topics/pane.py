@@ -18,6 +18,7 @@ from bot_console.tui.panes.topics.message import MessageRows
 from bot_console.tui.panes.topics.qos_form import changed_qos, qos_fields, unheard, wrong_qos
 from bot_console.tui.panes.topics.rows import Kind, Row, folds_at_start, grouped, matches, rows
 from bot_console.tui.panes.topics.table import TopicRows, heading
+from bot_console.tui.text.cadence import is_due
 from bot_console.tui.text.figures import age_text, rate_text
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.common import wrong_path
@@ -122,7 +123,7 @@ class TopicsPane(ListPane):
             self._checks = snapshot.rate_checks
             self._list.checks = {each.topic: each for each in self._checks}
         now = self.clock()
-        if is_arranged or now - self._polled >= MEASURE_POLL_S:
+        if is_arranged or is_due(self._polled, now, MEASURE_POLL_S):
             self._poll(now)
 
     def _arrange(self) -> None:
@@ -163,9 +164,9 @@ class TopicsPane(ListPane):
                 self.console.topics.listen("")
             return
         now = self.clock()
-        if now - self._polled >= MEASURE_POLL_S:
+        if is_due(self._polled, now, MEASURE_POLL_S):
             self._poll(now)
-        if self._topic and now - self._message_polled_at >= MESSAGE_POLL_S:
+        if self._topic and is_due(self._message_polled_at, now, MESSAGE_POLL_S):
             self._poll_message(now)
 
     def go_to(self, name: str) -> None:

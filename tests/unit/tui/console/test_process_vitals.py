@@ -55,6 +55,17 @@ def test_cpu_usage_is_measured_over_each_second() -> None:
     assert (usage.share, usage.memory) == (1.5, 1230)
 
 
+def test_usage_stays_while_it_differs_by_one_percent_only() -> None:
+    reported = Reported()
+    usage, shown, used = Usage(reported, 0.0), [], 0.0
+    for second, share in enumerate((0.03, 0.04, 0.02, 0.05, 0.04, 0.0), 1):
+        used += share
+        reported.seconds = used
+        usage.poll(float(second))
+        shown.append(usage.share)
+    assert shown == [0.03, 0.03, 0.03, 0.05, 0.05, 0.0]
+
+
 def test_all_processes_are_measured_at_the_same_moments() -> None:
     usages = [Usage(Reported(), begun) for begun in (0.1, 0.4, 0.8)]
     for each in usages:

@@ -34,3 +34,17 @@ def test_names_are_unique_and_there_are_not_too_many() -> None:
     found = templates(topics({f"/robot{at}/scan": KINDS["/scan"] for at in range(30)}))
     assert len({each.name for each in found}) == len(found) == MAX_TEMPLATES
     assert templates([Endpoint("/odd", ())]) == ()
+
+
+def test_what_is_made_from_a_suggested_topic_is_not_suggested_too() -> None:
+    kinds = {
+        "/ground_truth": KINDS["/odom"], "/odom": KINDS["/odom"], "/scan": KINDS["/scan"],
+        "/scan_filtered": KINDS["/scan"], "/r2/scan": KINDS["/scan"], "/bumper": KINDS["/bumper"],
+        "/lights": "std_msgs/msg/Bool",
+    }  # fmt: skip
+    found = templates(topics(kinds))
+    assert [each.name for each in found] == [
+        "collision", "stands still", "no odometry", "close to something", "no scan", "close to something /r2/scan",
+        "no scan /r2/scan",
+    ]  # fmt: skip
+    assert not any("ground_truth" in each.condition or "filtered" in each.condition for each in found)
