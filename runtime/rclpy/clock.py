@@ -188,12 +188,18 @@ class Clock(AnyClock):
         pre_callback: Callable[[], object] | None = None,
         post_callback: Callable[[TimeJump], object] | None = None,
     ) -> JumpHandle:
-        """Register callbacks before and after jumps beyond a threshold; raises `ValueError` if not callable."""
+        """Register callbacks before and after jumps beyond a threshold.
+
+        Raises `ValueError` without a callable one, `AttributeError` for a threshold that is none. As upstream, a
+        `post_callback` that is not callable counts as none.
+        """
+        if not callable(post_callback):
+            post_callback = None
         if pre_callback is None and post_callback is None:
             raise ValueError("One of pre_callback or post_callback must be callable")
-        for name, callback in (("pre_callback", pre_callback), ("post_callback", post_callback)):
-            if callback is not None and not callable(callback):  # pyright: ignore[reportUnnecessaryComparison] -- a user's argument
-                raise ValueError(f"{name} must be callable if given")
+        if pre_callback is not None and not callable(pre_callback):  # pyright: ignore[reportUnnecessaryComparison] -- a user's argument
+            raise ValueError("pre_callback must be callable if given")
+        _ = threshold.min_forward  # what is no threshold fails now, not at a jump
         return JumpHandle(self, threshold, pre_callback, post_callback)
 
     def sleep_until(self, until: Time, context: Context | None = None) -> bool:

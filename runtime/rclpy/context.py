@@ -13,6 +13,7 @@ from types import MethodType, TracebackType
 from typing import TYPE_CHECKING, Protocol
 
 from bot_console.runtime.distribution import distribution
+from bot_console.runtime.domain_id import DEFAULT_DOMAIN
 from bot_console.runtime.domain_id import domain_id as environments_domain
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.bus import Bus, Thing
@@ -73,12 +74,14 @@ class Context:
             if args is not None and not isinstance(args, list):
                 raise TypeError(f"args must be a list of strings, not {type(args).__name__}")
             self.arguments = parse_global(sys.argv if args is None else args)
-            if domain_id is None:
+            if domain_id is None or domain_id == DEFAULT_DOMAIN:
                 domain_id = _domain_of_environment()
             elif domain_id < 0:
                 raise RuntimeError(f"Domain id ({domain_id}) should not be lower than zero.")
             elif not hasattr(domain_id, "__index__"):  # NumPy's integers have it, floats do not
                 raise TypeError(f"domain_id must be an int, not {type(domain_id).__name__}")
+            elif domain_id > DEFAULT_DOMAIN:
+                raise TypeError(f"domain_id must be less than 2^64, not {domain_id}")
             self._domain = domain_id = int(domain_id)
             if ignored := why_range_is_ignored():
                 RcutilsLogger("rcl").warning(ignored)
@@ -255,8 +258,8 @@ class Context:
 def _domain_of_environment() -> int:
     try:
         return environments_domain()
-    except ValueError as error:
-        raise RCLError(f"failed to get domain ID from environment: {error}") from None
+    except ValueError:
+        raise RCLError("failed to initialize rcl: ROS_DOMAIN_ID is not an integral number") from None
 
 
 __getattr__ = reexporting(__name__, "")

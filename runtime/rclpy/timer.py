@@ -27,6 +27,16 @@ if TYPE_CHECKING:
     from rclpy.node_parts.base import NodeBase
 
 
+MAX_PERIOD_NS = 2**63 - 1
+
+
+def _fits(period_ns: int) -> int:
+    """The period, which must fit into 64 bits as upstream; raises `TypeError`."""
+    if not -MAX_PERIOD_NS - 1 <= period_ns <= MAX_PERIOD_NS:
+        raise TypeError(f"the period of a timer must be at most 2^63 - 1 ns (292 years), not {period_ns} ns")
+    return period_ns
+
+
 class Timer(Entity):
     """Calls back every period of its clock (ns); missed periods are skipped and the phase is kept."""
 
@@ -44,7 +54,9 @@ class Timer(Entity):
         autostart: bool = True,
     ) -> None:
         super().__init__(callback_group)
-        if timer_period_ns < 0:
+        if not hasattr(autostart, "__bool__"):  # what upstream's C++ converts: also numbers and None
+            raise TypeError(f"autostart must be a bool, not {type(autostart).__name__}")
+        if _fits(timer_period_ns) < 0:
             raise RCLError("failed to create timer: timer period must be non-negative")
         self.callback = callback
         self.clock_of_timer = clock
@@ -76,7 +88,7 @@ class Timer(Entity):
     @timer_period_ns.setter
     def timer_period_ns(self, value: int) -> None:
         self.use()
-        self._period = int(value)
+        self._period = _fits(int(value))
 
     def pending(self) -> bool:
         """Whether the timer is due."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import os
 from collections.abc import Callable, Generator
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -82,18 +81,17 @@ class DirectNode:
         typed = getattr(arguments, "message_type", None)
         names = (getattr(arguments, each, None) for each in NAMES)
         self._about = "" if typed else next((absolute(each) for each in names if each), "")
-        domain = os.environ.get("ROS_DOMAIN_ID") or "0"
-        self._name = name or (
-            f"_ros2cli_daemon_{domain}_{current().pid:x}" if self._daemon else f"_ros2cli_{current().pid}"
-        )
+        self._name = name
 
     def __enter__(self) -> Node:
         advise(lambda: "" if is_in_range() else f"{RANGE_VARIABLE} is OFF: this command meets no other program")
         rclpy.init(args=[])
         self._context = rclpy.get_default_context()
+        domain = self._context.get_domain_id()
         try:
             self._node = rclpy.create_node(
-                self._name,
+                self._name
+                or (f"_ros2cli_daemon_{domain}_{current().pid:x}" if self._daemon else f"_ros2cli_{current().pid}"),
                 enable_rosout=self._daemon,
                 start_parameter_services=False,
                 parameter_overrides=[Parameter("use_sim_time", value=True)] if self._sim_time else None,

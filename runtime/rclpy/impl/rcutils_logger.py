@@ -109,6 +109,8 @@ class RcutilsLogger:
             return False
         if type(message) is not str:
             message = _text(message)
+        if "\0" in message:
+            message = message.partition("\0")[0]  # as upstream, where C strings end there
         stamp = current().clock.system_ns()
         shared.show_text(severity, name, message, code.co_filename, code.co_name, line, stamp)
         return True

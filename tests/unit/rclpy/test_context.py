@@ -91,6 +91,25 @@ def test_domain_id_may_be_a_numpy_integer() -> None:
     context.shutdown()
 
 
+def test_domain_id_beyond_64_bits_is_rejected() -> None:
+    with pytest.raises(TypeError):
+        Context().init([], domain_id=2**64)
+
+
+def test_largest_domain_id_stands_for_the_one_of_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "0x4D")
+    context = Context()
+    context.init([], domain_id=2**64 - 1)
+    assert context.get_domain_id() == 77
+    context.shutdown()
+
+
+def test_environment_whose_domain_id_is_no_number_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", "abc")
+    with pytest.raises(RCLError, match=r"^failed to initialize rcl: ROS_DOMAIN_ID is not an integral number$"):
+        Context().init([])
+
+
 def test_negative_domain_id_is_rejected() -> None:
     with pytest.raises(RuntimeError, match=r"Domain id \(-5\) should not be lower than zero."):
         Context().init([], domain_id=-5)

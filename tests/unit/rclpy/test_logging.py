@@ -290,3 +290,9 @@ def test_remap_rule_with_invalid_name_is_warned_about_before_the_error(
 def test_what_names_no_severity_is_refused(name: Any) -> None:
     with pytest.raises(RuntimeError, match="Failed to get severity name"):
         logging.get_logging_severity_from_string(name)
+
+
+def test_message_ends_at_a_null_character(log: Any, printed: Callable[[], list[str]]) -> None:
+    log.info("a\0b")
+    log.info("\0")
+    assert printed() == ["[INFO] a", "[INFO] "]

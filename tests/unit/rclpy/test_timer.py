@@ -356,3 +356,29 @@ def test_clock_set_back_postpones_the_call(stepped_ros: Any, monkeypatch: pytest
     node.create_timer(0.1, record)
     stepped_ros.spin(lambda: len(record.times) >= 3)
     assert record.times == [100, 200, 300]
+
+
+@pytest.mark.parametrize("seconds", [2**63 / 1e9, 1e10, -1e10, 2**70])
+def test_period_beyond_64_bits_is_refused(stepped_ros: Any, seconds: float) -> None:
+    with pytest.raises(TypeError, match=r"at most 2\^63 - 1 ns"):
+        stepped_ros.node().create_timer(seconds, lambda: None)
+
+
+def test_new_period_beyond_64_bits_is_refused_and_the_old_one_kept(stepped_ros: Any) -> None:
+    timer = stepped_ros.node().create_timer(1.0, lambda: None)
+    timer.timer_period_ns = 2**63 - 1
+    with pytest.raises(TypeError):
+        timer.timer_period_ns = 2**63
+    assert timer.timer_period_ns == 2**63 - 1
+
+
+def test_rate_slower_than_64_bits_of_nanoseconds_is_refused(stepped_ros: Any) -> None:
+    with pytest.raises(TypeError):
+        stepped_ros.node().create_rate(1e-12)
+
+
+def test_autostart_must_be_a_truth_value(stepped_ros: Any) -> None:
+    node = stepped_ros.node()
+    assert node.create_timer(1.0, lambda: None, autostart=0).is_canceled()
+    with pytest.raises(TypeError):
+        node.create_timer(1.0, lambda: None, autostart="x")

@@ -122,11 +122,37 @@ def test_context_can_be_initialized_without_logging() -> None:
     context.shutdown()
 
 
-@pytest.mark.parametrize("name", ["pre_callback", "post_callback"])
-def test_jump_callback_must_be_callable(name: str) -> None:
+NONE_CALLABLE = "One of pre_callback or post_callback must be callable"
+
+
+@pytest.mark.parametrize(
+    ("callbacks", "text"),
+    [
+        ({}, NONE_CALLABLE),
+        ({"pre_callback": 1}, "pre_callback must be callable if given"),
+        ({"post_callback": 1}, NONE_CALLABLE),
+    ],
+)
+def test_jump_callback_must_be_callable(callbacks: dict[str, Any], text: str) -> None:
     threshold: Any = JumpThreshold(min_forward=None, min_backward=None)
-    with pytest.raises(ValueError, match=f"{name} must be callable if given"):
-        ROSClock().create_jump_callback(threshold, **{name: 1})  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match=text):
+        ROSClock().create_jump_callback(threshold, **callbacks)
+
+
+def test_callback_after_jumps_that_is_not_callable_counts_as_none() -> None:
+    clock, jumps = ROSClock(), []
+    clock.set_ros_time_override(Time(seconds=5))
+    threshold = JumpThreshold(min_forward=None, min_backward=None)
+    handle = clock.create_jump_callback(threshold, pre_callback=lambda: jumps.append("before"), post_callback=1)  # type: ignore[arg-type]
+    clock._set_ros_time_is_active(True)
+    assert jumps == ["before"]
+    handle.unregister()
+
+
+@pytest.mark.parametrize("threshold", [None, 5, "x", Duration(seconds=1)])
+def test_what_is_no_threshold_of_jumps_is_refused_at_once(threshold: Any) -> None:
+    with pytest.raises(AttributeError, match="has no attribute 'min_forward'"):
+        ROSClock().create_jump_callback(threshold, pre_callback=lambda: None)
 
 
 def test_change_of_the_time_source_has_zero_delta() -> None:

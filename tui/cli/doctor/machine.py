@@ -6,7 +6,7 @@ import platform
 import sys
 from collections.abc import Mapping
 
-from bot_console.runtime.domain_id import is_domain
+from bot_console.runtime.domain_id import parse_domain
 from bot_console.runtime.rmw.zenoh.domain.sockets import sockets
 from bot_console.tui import __version__
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
@@ -71,14 +71,15 @@ def domain_finding(text: str) -> DoctorFinding:
     """The domain that ROS_DOMAIN_ID names."""
     if not text:
         return DoctorFinding(Level.OK, "domain", "ROS_DOMAIN_ID is not set: 0")
-    if not is_domain(text):
+    number = parse_domain(text)
+    if number is None:
         return DoctorFinding(
             Level.FAIL, "domain", f"ROS_DOMAIN_ID={text[:40]} is not a number", "unset it, or set it to 0 to 101"
         )
-    if int(text) > MAX_DDS_DOMAIN:
+    if number > MAX_DDS_DOMAIN:
         hint = "DDS accepts 0 to 101 on every system; Zenoh accepts any"
-        return DoctorFinding(Level.WARN, "domain", f"ROS_DOMAIN_ID={text} is beyond {MAX_DDS_DOMAIN}", hint)
-    return DoctorFinding(Level.OK, "domain", f"ROS_DOMAIN_ID={text}")
+        return DoctorFinding(Level.WARN, "domain", f"ROS_DOMAIN_ID={number} is beyond {MAX_DDS_DOMAIN}", hint)
+    return DoctorFinding(Level.OK, "domain", f"ROS_DOMAIN_ID={number}")
 
 
 def sockets_findings() -> list[DoctorFinding]:
