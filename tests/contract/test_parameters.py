@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ChangeSource, Kind, ParameterInfo, Range, SetOutcome
 from rigs import ARM, DESCRIPTION, ROBOT, TIMEOUT_S, TOO_FAST, Rig, until
 
@@ -181,13 +182,13 @@ def test_a_profile_refused_by_the_second_node_leaves_the_first_unchanged(rig: Ri
     assert not rig.console.snapshot().journal.can_undo
 
 
-def test_undo_and_redo_restore_values(rig: Rig) -> None:
-    setting(rig, {"speed": 1.5})
-    shown(rig, "speed", 1.5)
-    for ask, value, source in (("undo", 1.0, ChangeSource.UNDO), ("redo", 1.5, ChangeSource.REDO)):
+def test_undo_and_redo_restore_values_and_say_which(rig: Rig) -> None:
+    setting(rig, {"gains": (0.5, 0.25)})
+    shown(rig, "gains", (0.5, 0.25))
+    for ask, value, source in (("undo", (1.0, 2.0), ChangeSource.UNDO), ("redo", (0.5, 0.25), ChangeSource.REDO)):
         answer = getattr(rig.console.parameters, ask)().result(TIMEOUT_S)
-        assert answer.ok and "speed" in answer.text
-        shown(rig, "speed", value)
+        assert answer == Answer(True, f"{ask}: {ROBOT} gains = [{value[0]}, {value[1]}]")
+        shown(rig, "gains", value)
         until(lambda source=source: rig.console.parameters.changes()[-1].source is source, "the journal")
         journal = rig.console.snapshot().journal
         assert (journal.can_undo, journal.can_redo) == (ask == "redo", ask == "undo")

@@ -23,7 +23,8 @@ from textual.app import ComposeResult
 from textual.binding import BindingType
 
 Element: TypeAlias = "bool | int | float | str | bytes"
-HINT = "Enter Edit · i Insert · a Add · d Delete · J K Move · u Undo · s Set"
+HINT = "s Set · Enter Edit · i Insert · a Add · d Delete · J K Move · u Undo"
+"""Its parts by importance: a narrow terminal cuts the end."""
 
 
 class ElementRows(RowList):
@@ -54,7 +55,7 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("elements")]
     DEFAULT_CSS = """
     ElementsScreen { align: center middle; }
-    ElementsScreen Box { width: 90%; max-width: 90; height: 70%; }
+    ElementsScreen Box { width: 95%; max-width: 90; height: 70%; }
     """
 
     def __init__(self, question: Elements) -> None:

@@ -299,7 +299,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
         refused: list[SetOutcome] = []
         left: list[Move] = []
         for move in step.moves:
-            outcomes = self.take(move.node, move.before if undone else move.after, source, atomically=True)
+            outcomes = self.take(move.node, move.values(source), source, atomically=True)
             bad = [each for each in outcomes if not each.accepted]
             refused += bad
             left += [move] if bad else []
@@ -310,10 +310,8 @@ class FakeConsole(FakeProfiles, FakeSeries):
         if gone := tuple(each for each in step.moves if each not in left):
             self._steps.did(Step(gone, None if left else step.profiles), source)
         self.set_journal()
-        names = ", ".join(name for move in step.moves for name in move.after)
-        return done(
-            Answer(not left, "; ".join(each.reason for each in refused) or f"{source.value}: {names}{overwritten}")
-        )
+        moved = f"{source.value}: {step.text(source)}{overwritten}"
+        return done(Answer(not left, "; ".join(each.reason for each in refused) or moved))
 
     def move(self, linear: float, angular: float, sideways: float = 0.0) -> None:
         self.asked.append(("drive", linear, angular, *([sideways] if sideways else [])))

@@ -73,6 +73,10 @@ class FakeTopics:
             self.listening, type_name, tree(message, type_name), self._heard.count + 1, 0.0, self.problem
         )
 
+    def cannot_hear(self, problem: str) -> None:
+        """Let the topic that is listened to have no messages, with the reason."""
+        self._heard = LiveMessage(self.listening, problem=problem)
+
     def heard(self) -> LiveMessage:
         return self._heard
 

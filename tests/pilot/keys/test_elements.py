@@ -75,6 +75,7 @@ def test_invalid_element_is_explained_and_rejected() -> None:
 def test_byte_array_and_empty_array_are_edited() -> None:
     async def play(session: Session) -> None:
         assert "empty" in session.text()
+        assert "s Set" in session.text() and "u Undo" in session.text(), "the keys fit 80 columns"
         await session.press("enter")
         assert "new [0] (byte)" in session.text()
         await session.type("x")

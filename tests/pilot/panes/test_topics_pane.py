@@ -239,6 +239,10 @@ def test_newest_message_is_a_tree_that_can_be_frozen_and_folded() -> None:
         assert "3.5 m" in session.text() and "frozen" not in session.text()
         await session.press("down", "down", "down", "down", "left")
         assert "3.5 m" not in session.text(), "what the pose holds is folded"
+        session.console.topics.cannot_hear(f"{'the type of this topic ' * 5}is not known")
+        tick(session)
+        await session.settle()
+        assert "is not known" in session.text(), "a reason has as many lines as it needs"
         await session.press("escape")
         assert session.console.topics.listening == ""
 

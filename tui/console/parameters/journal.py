@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from bot_console.tui.console.model import Change, ChangeSource, JournalState, Value, same
 from bot_console.tui.console.parameters.unsaved import Unsaved
+from bot_console.tui.format import value_text
 
 if TYPE_CHECKING:
     from bot_console.tui.console.parameters.history_file import History
@@ -25,6 +26,10 @@ class Move:
     before: Mapping[str, Value]
     after: Mapping[str, Value]
 
+    def values(self, source: ChangeSource) -> Mapping[str, Value]:
+        """The values that undoing or redoing it sets."""
+        return self.before if source is ChangeSource.UNDO else self.after
+
 
 @dataclass(frozen=True, slots=True)
 class Step:
@@ -36,12 +41,18 @@ class Step:
 
     def changes(self, source: ChangeSource, value: Callable[[str, str], Value]) -> bool:
         """Whether undoing or redoing it changes anything; `value` returns the value of a node's parameter."""
-        wanted = (
-            (move.node, name, new)
-            for move in self.moves
-            for name, new in (move.before if source is ChangeSource.UNDO else move.after).items()
-        )
+        wanted = ((move.node, name, new) for move in self.moves for name, new in move.values(source).items())
         return bool(self.profiles) or any(not same(value(node, name), new) for node, name, new in wanted)
+
+    def text(self, source: ChangeSource) -> str:
+        """What undoing or redoing it sets: the values, or how many there are if it spans several nodes."""
+        if len(self.moves) == 1:
+            (move,) = self.moves
+            values = (f"{name} = {value_text(value)}" for name, value in move.values(source).items())
+            return f"{move.node} {', '.join(values)}"
+        count = sum(len(each.after) for each in self.moves)
+        name = f"profile {self.profiles[1]}, " if self.profiles else ""
+        return f"{name}{count} values of {len(self.moves)} nodes"
 
     def is_followed_by(self, other: Step) -> bool:
         """Whether another step begins with the values of the same parameters with which this one ends."""
@@ -57,7 +68,7 @@ class Step:
             for name in move.after:
                 now = value(move.node, name)
                 if not same(now, move.before[name]) and not same(now, move.after[name]):
-                    found.append(f"{move.node} {name} = {now}")
+                    found.append(f"{move.node} {name} = {value_text(now)}")
         return f"; what another program had set meanwhile is overwritten: {', '.join(found)}" if found else ""
 
 

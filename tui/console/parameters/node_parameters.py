@@ -23,6 +23,7 @@ from bot_console.tui.console.model import (
 )
 from bot_console.tui.console.parameters.provenance import Provenance
 from bot_console.tui.console.parameters.safety import takes_safety
+from bot_console.tui.format import value_text
 
 if TYPE_CHECKING:
     from bot_console.tui.console.calls import Calls
@@ -111,7 +112,7 @@ class NodeParameters:
         parameter = self._mirror.get(node, name) if self._mirror else None
         why = takes_safety(parameter, old, new) if parameter else ""
         if why and self._log is not None:
-            text = f"{node} {name} {old} -> {new} {why}"
+            text = f"{node} {name} {value_text(old)} -> {value_text(new)} {why}"
             self._log(time.time_ns(), Severity.WARN, LABEL, text, ("", "", 0))
 
     def learn(self, kind: str, facts: Mapping[str, Any]) -> None:

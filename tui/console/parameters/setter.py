@@ -182,7 +182,7 @@ class ParameterSetter:
         left: list[Move] = []
         refused: list[SetOutcome] = []
         for move in step.moves:
-            values = _values(move, source)
+            values = move.values(source)
             outcomes = await self.set(move.node, values, source, atomically=len(values) > 1, moves=[])
             bad = [each for each in outcomes if not each.accepted]
             (left if bad else done).append(move)
@@ -196,7 +196,7 @@ class ParameterSetter:
             self._journal.did(Step(tuple(done), None if left else renamed), source)
         if refused:
             return Answer(False, "; ".join(f"{each.node} {each.name}: {each.reason}" for each in refused))
-        return Answer(True, f"{source.value}: {_text(step, source)}")
+        return Answer(True, f"{source.value}: {step.text(source)}")
 
 
 def _none_of(
@@ -214,17 +214,3 @@ def _none_of(
                 outcome = replace(outcome, reason=f"could not be taken back: {stuck[node]}")
             outcomes.append(outcome)
     return tuple(outcomes)
-
-
-def _values(move: Move, source: ChangeSource) -> Mapping[str, Value]:
-    return move.before if source is ChangeSource.UNDO else move.after
-
-
-def _text(step: Step, source: ChangeSource) -> str:
-    """A step as text: its values, or how many there are if it spans several nodes."""
-    if len(step.moves) == 1:
-        (move,) = step.moves
-        return f"{move.node} " + ", ".join(f"{name} = {value}" for name, value in _values(move, source).items())
-    count = sum(len(each.after) for each in step.moves)
-    name = f"profile {step.profiles[1]}, " if step.profiles else ""
-    return f"{name}{count} values of {len(step.moves)} nodes"

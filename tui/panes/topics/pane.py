@@ -34,6 +34,7 @@ MEASURE_POLL_S = 1.0
 MESSAGE_POLL_S = 0.25
 """Seconds between two looks at the message that is open."""
 EXPECTED_FILE = "expected-rates-file"
+MAX_STATE_LINES = 3
 SIDE = 110
 """Cells from which list and message stand side by side."""
 
@@ -217,7 +218,7 @@ class TopicsPane(ListPane):
         if not self._frozen and heard is not self._shown:
             self._shown = heard
             self._message.show_message(heard)
-        self.query_one("#message-state", StaticText).show_text(self._message_state(heard))
+        self.query_one("#message-state", StaticText).show_whole(self._message_state(heard), MAX_STATE_LINES)
 
     def _message_state(self, heard: LiveMessage) -> str:
         asked = self._qos.get(self._topic)

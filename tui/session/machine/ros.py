@@ -17,7 +17,7 @@ from bot_console.tui.settings.settings import read_settings
 
 PROFILES = Path(__file__).resolve().parents[3] / "profiles"
 CAPABILITIES = Capabilities(
-    launched_elsewhere="What others have launched is not known here; its nodes are in the Graph pane. o launches more.",
+    launched_elsewhere="What others have launched is not known here, only its nodes (Graph pane).",
     bag_options=("--ros",),
 )
 OUTPUT = "On {}, RMW {}: q ends the console and what it has launched, not the robot."
