@@ -152,7 +152,7 @@ def _highlighted(drive: DriveInfo, topic: str) -> Line:
 
 
 def _unconfirmed(drive: DriveInfo) -> str:
-    return f" {sending_key(drive)}" if drive.lockable else f" {may_move(drive)}: it has no emergency stop"
+    return f" {sending_key(drive)}" if drive.lockable else f" {may_move(drive)}: no emergency stop"
 
 
 def _slider(word: str, value: float, greatest: float, unit: str, width: int, *, turned: bool = False) -> Line:

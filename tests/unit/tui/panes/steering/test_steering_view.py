@@ -56,6 +56,12 @@ def test_plane_and_bars_fit_80_by_24_with_every_reason() -> None:
     assert "by warning_distance of /safety_monitor" in text and "limits  1 m/s  1 rad/s" in text
 
 
+def test_unconfirmed_stop_of_a_robot_without_a_lock_fits_80_columns() -> None:
+    line = texts(Steering(), replace(driving(), stopped=True, stop_confirmed=False, lockable=False))[0]
+    assert "THE ROBOT MAY MOVE" in line and "no emergency stop" in line
+    assert len(line) <= INNER[0]
+
+
 def test_disarmed_plane_shows_what_the_robots_program_asks() -> None:
     ahead = replace(driving(), asked=(1.0, 0.0), actual=None)
     state = Steering(greatest=(1.0, 1.0))
