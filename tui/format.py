@@ -14,7 +14,11 @@ from bot_console.tui.text.sanitize import counted as counted
 from bot_console.tui.text.sanitize import cut as cut
 from bot_console.tui.text.sanitize import cut_name as cut_name
 from bot_console.tui.text.sanitize import sanitize
-from bot_console.tui.text.yaml_flow import in_quotes, is_plain, items, quoted, unquoted
+from bot_console.tui.text.value_text import exact_number as exact_number
+from bot_console.tui.text.value_text import number_text as number_text
+from bot_console.tui.text.value_text import value_text as value_text
+from bot_console.tui.text.value_text import yaml_text as yaml_text
+from bot_console.tui.text.yaml_flow import in_quotes, items, quoted, unquoted
 
 SEVERITY_CHARACTERS = {
     Severity.UNSET: " ",
@@ -32,55 +36,12 @@ def profile_label(snapshot: ConsoleSnapshot) -> str:
     return sanitize(snapshot.active_profile) + changed if snapshot.active_profile else ""
 
 
-def value_text(value: Value, *, exact: bool = False) -> str:
-    """A parameter's value on one line: arrays in YAML's flow syntax, a text as it is.
-
-    With `exact` no digit of a double is left out.
-    """
-    if value is None:
-        return "not set"
-    if isinstance(value, tuple):
-        return "[" + ", ".join(_element_text(each, exact) for each in value) + "]"
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, float):
-        return exact_number(value) if exact else number_text(value)
-    return str(value)
-
-
-def _element_text(value: bool | int | float | str | bytes, exact: bool) -> str:
-    if isinstance(value, bytes):
-        return f"0x{value.hex()}"
-    return yaml_text(value) if isinstance(value, str) else value_text(value, exact=exact)
-
-
-def yaml_text(text: str) -> str:
-    """A text as YAML reads it back, in double quotes where it needs them."""
-    return text if is_plain(text) else quoted(text)
-
-
 def field_text(value: Value) -> str:
     """A value as text to edit, from which `parse_value` makes exactly that value again."""
     if isinstance(value, str):
         plain = value.isprintable() and value == value.strip() and value[:1] not in ('"', "'")
         return value if plain else quoted(value)
     return "" if value is None else value_text(value, exact=True)
-
-
-def exact_number(value: float) -> str:
-    """The shortest text that reads back as exactly this double, in YAML too."""
-    if not math.isfinite(value):
-        return number_text(value)
-    mantissa, e, exponent = repr(value).partition("e")
-    return f"{mantissa}{'' if '.' in mantissa else '.0'}{e}{exponent}"
-
-
-def number_text(value: float) -> str:
-    """A double with a decimal point, so that it cannot be mistaken for an integer."""
-    if not math.isfinite(value):
-        return ".nan" if math.isnan(value) else (".inf" if value > 0 else "-.inf")
-    text = f"{value:.10g}"
-    return text if any(character in text for character in ".en") else text + ".0"
 
 
 def figure(value: float, sign: str = "") -> str:
@@ -167,7 +128,7 @@ def guess(text: str) -> bool | int | float | str:
 
 def element_text(value: bool | int | float | str | bytes) -> str:
     """An element of an array as text to edit, from which `parse_element` makes exactly that element again."""
-    return _element_text(value, exact=True) if isinstance(value, bytes) else field_text(value)
+    return f"0x{value.hex()}" if isinstance(value, bytes) else field_text(value)
 
 
 def parse_element(text: str, array: Kind) -> bool | int | float | str | bytes:

@@ -79,7 +79,14 @@ def publish():
 
 node.create_timer(0.01, log)
 node.create_timer(0.02, publish)
-node.get_logger().info("ready to work")
+
+def greet():
+    if log_lines.get_subscription_count():  # a line from before would expire if the console found the robot late
+        greeting.cancel()
+        line.msg, line.stamp = "ready to work", node.get_clock().now().to_msg()
+        log_lines.publish(line)
+
+greeting = node.create_timer(0.1, greet)
 with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
     rclpy.spin(node)
 """

@@ -23,7 +23,7 @@ from bot_console.tui.console.model import (
 )
 from bot_console.tui.console.parameters.provenance import Provenance
 from bot_console.tui.console.parameters.safety import takes_safety
-from bot_console.tui.format import value_text
+from bot_console.tui.text.value_text import value_text
 
 if TYPE_CHECKING:
     from bot_console.tui.console.calls import Calls
