@@ -244,4 +244,4 @@ def _remedy(error: StopFileError, unreadable: bool) -> str:
     """The problem with the stop file, and its remedy."""
     if unreadable:
         return f"the kept stops are unknown: {error}; a release moves that file aside"
-    return f"stops cannot be kept: {error}; free some space or make its folder writable, then release"
+    return f"stops cannot be kept: {error}; free some space, or make it and its folder writable, then release"

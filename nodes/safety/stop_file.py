@@ -76,7 +76,8 @@ class StopFile:
                     self._write({**robots, self._robot: section})
                 self._left = self._identity()
         except OSError as error:
-            raise StopFileError(f"{self._path} cannot be written: {error.strerror or error}") from None
+            place, why = error.filename or self._path, error.strerror or error
+            raise StopFileError(f"{place} cannot be written: {why}") from None
         return lock.merged(both)
 
     @contextlib.contextmanager

@@ -125,6 +125,13 @@ def test_unwritable_place_is_an_error(tmp_path: Path) -> None:
         at(tmp_path).merge(Lock())
 
 
+def test_error_names_the_very_file(tmp_path: Path) -> None:
+    """For example one of root, if the robot was once started by `sudo`."""
+    (tmp_path / "state" / "stops.json.lock").mkdir(parents=True)
+    with pytest.raises(StopFileError, match=r"stops\.json\.lock cannot be written"):
+        at(tmp_path).merge(Lock())
+
+
 def test_full_disk_is_an_error_and_keeps_the_old_content(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def full(handle: int) -> None:
         raise OSError(28, "No space left on device")
