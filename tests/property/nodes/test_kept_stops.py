@@ -40,17 +40,19 @@ class Stops(RuleBasedStateMachine):
         self.consoles: dict[str, tuple[BusNode, StopLink]] = {}
         self.requested: dict[str, set[str]] = {"anna": set(), "ben": set()}
         """By console, the stops that its current process has requested."""
-        self.heard: set[str] = set()
-        """The stops that a lock has ever held."""
+        self.lasting: set[str] = set()
+        """The stops that a lock has ever held, and written to its file if it has one."""
         self.named: set[str] = set()
         """The stops whose release a person has requested."""
         self.done: set[str] = set()
-        """The stops that a lock has released."""
+        """The stops that a lock has released, and has written that to its file if it has one."""
         self.held: dict[str, set[str]] = {}
         """By lock, what it held after the last step."""
         self.patch = pytest.MonkeyPatch()
         self.patch.setattr(stop_link, "time", SimpleNamespace(monotonic=lambda: self.now))
-        self.patch.setattr(os, "fsync", lambda handle: None)
+        self.full = False
+        """Whether the disk of the stop file is full."""
+        self.patch.setattr(os, "fsync", self.fsync)
         for name in NAMES:
             self.start_lock(name)
         for name in self.requested:
@@ -59,6 +61,15 @@ class Stops(RuleBasedStateMachine):
     def teardown(self) -> None:
         self.patch.undo()
         shutil.rmtree(self.folder)
+
+    def fsync(self, handle: int) -> None:
+        if self.full:
+            raise OSError(28, "No space left on device")
+
+    @rule(full=st.booleans())
+    def fill_disk(self, full: bool) -> None:
+        """The disk is full, or has space again."""
+        self.full = full
 
     @rule(name=LOCKS)
     def restart_lock(self, name: str) -> None:
@@ -79,8 +90,10 @@ class Stops(RuleBasedStateMachine):
         steady = cast(Clock, SimpleNamespace(now=lambda: SimpleNamespace(nanoseconds=int(self.now * 1e9))))
         lock = EmergencyStop(cast(Any, node), steady, *NAMES[name], lambda: None, stop_file=file)
         self.locks[name] = node, lock
-        if self.has_file:
-            assert lock.lock.ids >= self.heard - self.named
+        if self.has_file and self.full:
+            assert lock.lock.held
+        elif self.has_file:
+            assert lock.lock.ids >= self.lasting - self.named
 
     @rule(name=LOCKS)
     def kill_lock(self, name: str) -> None:
@@ -176,7 +189,7 @@ class Stops(RuleBasedStateMachine):
                 self.withdraw(link, ids[-1:])
         if at_once:
             self.withdraw(link, ids)
-        for _ in range(count + 1):
+        for _ in range(count + 3):  # each release is refused once for another one that was before it
             self.now += 0.1
             self.deliver_all()
         assert not any(lock.lock.ids.intersection(ids) for _, lock in self.locks.values())
@@ -208,14 +221,16 @@ class Stops(RuleBasedStateMachine):
     def only_a_release_removes_a_stop(self) -> None:
         for name, (_, lock) in self.locks.items():
             held = set(lock.lock.ids)
-            self.heard |= {each.id for each in lock.lock.stops if each.kept}
-            self.done |= {each.id for each in lock.lock.released}
+            if not self.has_file or lock._filed == lock.lock.kept:
+                self.lasting |= {each.id for each in lock.lock.stops if each.kept}
+                self.done |= {each.id for each in lock.lock.released}
             assert self.held.get(name, set()) - held <= self.named
             self.held[name] = held
 
     @rule()
     def converge(self) -> None:
         """In the end, every lock holds the stops that nobody has released, and no others."""
+        self.full = False
         for _ in range(4):
             self.now += REMINDER_S
             self.repeat()
@@ -226,7 +241,7 @@ class Stops(RuleBasedStateMachine):
             self.bus.settle()
         self.only_a_release_removes_a_stop()
         requested = set[str]().union(*(self.requested[name] for name in self.consoles))
-        expected = (requested | (self.heard if self.has_file else set())) - self.named
+        expected = (requested | (self.lasting if self.has_file else set())) - self.named
         for _, lock in self.locks.values():
             assert lock.lock.ids >= expected
             if self.has_file:
