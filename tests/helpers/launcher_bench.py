@@ -22,8 +22,8 @@ from rclpy.executors import ExternalShutdownException
 
 rclpy.init()
 node = rclpy.create_node("waiter")
-print("up", flush=True)
 try:
+    print("up", flush=True)
     rclpy.spin(node)
 except (KeyboardInterrupt, ExternalShutdownException):
     pass

@@ -28,8 +28,8 @@ rclpy.init()
 node = rclpy.create_node("{name}")
 node.declare_parameter("top_speed", 1.25)
 node.create_subscription(Twist, "/cmd_vel", lambda message: node.get_logger().info("driven"), 10)
-node.get_logger().warning("{name} is up")
 try:
+    node.get_logger().warning("{name} is up")
     rclpy.spin(node)
 except (KeyboardInterrupt, ExternalShutdownException):
     pass

@@ -37,8 +37,8 @@ from rclpy.executors import ExternalShutdownException
 rclpy.init()
 node = rclpy.create_node("sturdy")
 node.declare_parameter("alive", True)
-node.get_logger().info("hostile \\x1b[2J\\x07 [red]text[/red]")
 try:
+    node.get_logger().info("hostile \\x1b[2J\\x07 [red]text[/red]")
     rclpy.spin(node)
 except (KeyboardInterrupt, ExternalShutdownException):
     pass
