@@ -8,6 +8,8 @@ if set -q BOT_CONSOLE_SHIMS
     test "$BOT_CONSOLE_DISTRO" != "$BOT_CONSOLE_SET_DISTRO"; or set -e BOT_CONSOLE_DISTRO
     set -e BOT_CONSOLE_COMMAND BOT_CONSOLE_SHIMS BOT_CONSOLE_SET_ROS_DISTRO BOT_CONSOLE_SET_DISTRO BOT_CONSOLE_WORKSPACE
     complete -e -c bot-console
-    complete -e -c ros2
+    if complete -c ros2 | string match -q '*(__bot_console_complete)*'
+        complete -e -c ros2
+    end
     functions -e __bot_console_complete
 end

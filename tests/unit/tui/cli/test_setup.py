@@ -96,6 +96,24 @@ def test_undo_leaves_environment_of_before(name: str, home: Path, extra: dict[st
 
 
 @pytest.mark.parametrize("name", SHELLS)
+def test_undo_keeps_completion_of_existing_ros2(name: str, home: Path):
+    real = home / "bin" / "ros2"
+    real.write_text("#!/bin/sh\n", "utf-8")
+    real.chmod(0o755)
+    adds, shows, left = {
+        "bash": ("complete -W mine ros2", "complete -p", "complete -W 'mine' ros2\n"),
+        "zsh": (
+            "typeset -A _comps=(ros2 _mine bot-console _bot_console_complete); "
+            'compdef() { shift; for name; do unset "_comps[$name]"; done }',
+            "print ${(kv)_comps}",
+            "ros2 _mine\n",
+        ),
+        "fish": ("complete -c ros2 -a mine", "complete -c ros2; complete -c bot-console", "complete ros2 -a mine\n"),
+    }[name]
+    assert shell(name, home, f"{adds}\n{undoing(name)}\n{shows}") == left
+
+
+@pytest.mark.parametrize("name", SHELLS)
 def test_undo_keeps_ros_that_was_sourced_since(name: str, home: Path):
     sources = {"fish": "set -gx AMENT_PREFIX_PATH /ros"}.get(name, "export AMENT_PREFIX_PATH=/ros")
     assert shell(name, home, f"{sources}\n{undoing(name)}\necho $ROS_DISTRO") == "jazzy\n"
