@@ -81,7 +81,7 @@ def _scalar(text: str, kind: Kind) -> bool | int | float | str:
             return True
         if text.lower() in ("false", "no", "off", "0", "f", "n"):
             return False
-        raise ValueError(f"'{_short(text)}' is neither true nor false")
+        raise ValueError(f"'{_short(text)}' is neither true nor false" if text.strip() else "type true or false")
     if kind is Kind.INTEGER:
         return _integer(text)
     return parse_number(text) if kind is Kind.DOUBLE else guess(text)
@@ -92,6 +92,8 @@ def _short(text: str) -> str:
 
 
 def _integer(text: str) -> int:
+    if not text.strip():
+        raise ValueError("type an integer")
     try:
         value = int(text, 0)
     except ValueError:
@@ -105,6 +107,8 @@ def _integer(text: str) -> int:
 
 def parse_number(text: str) -> float:
     """A floating-point number, `.inf` and `.nan` as in YAML; raises `ValueError`."""
+    if not text.strip():
+        raise ValueError("type a number")
     try:
         value = float(text.replace(".inf", "inf").replace(".nan", "nan"))
     except ValueError:

@@ -110,6 +110,7 @@ class Pane(LazyParts):
         self.border_title = self.TITLE
         self._caption = ""
         self._mode = NO_MODE
+        self._key_words: Mapping[str, str] = {}
 
     @property
     def scopes(self) -> tuple[str, ...]:
@@ -127,9 +128,10 @@ class Pane(LazyParts):
         return NO_MODE
 
     def keys_changed(self) -> None:
-        """Take note that `mode` may have changed."""
-        if self.mode != self._mode:
-            self._mode = self.mode
+        """Take note that `mode` or `key_words` may have changed."""
+        now = (self.mode, self.key_words)
+        if now != (self._mode, self._key_words):
+            self._mode, self._key_words = now
             self.post_message(self.KeysChanged())
 
     @property

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from bot_console.tui.text.sanitize import sanitize
-from rich.cells import cell_len
 from rich.style import Style
 from rich.text import Text
 from textual.events import Click
@@ -71,21 +70,21 @@ def tab_texts(tabs: Sequence[Tab], width: int, colour: str) -> list[Text]:
     for shortened, length in ((order, 0), (order, 1), *(([at], each) for each in range(2, LENGTHS) for at in order)):
         for at in shortened:
             lengths[at] = length
-        parts = _parts(tabs, lengths, width, colour)
+        parts = _parts(tabs, lengths, colour)
+        if tabs[-1].shown and sum(part.cell_len for part in parts) > width:
+            parts[0] = parts[0][1:]  # the blank before the first one gives its room to the bracket behind the last one
         if sum(part.cell_len for part in parts) <= width:
             return parts
     return []
 
 
-def _parts(tabs: Sequence[Tab], lengths: Sequence[int], width: int, colour: str) -> list[Text]:
+def _parts(tabs: Sequence[Tab], lengths: Sequence[int], colour: str) -> list[Text]:
     """Brackets around the shown tab take the place of the gaps beside it."""
     parts: list[Text] = []
     for at, (tab, length) in enumerate(zip(tabs, lengths, strict=True)):
         label = _label(tab, length)
         if tab.shown:
-            used = sum(part.cell_len for part in parts) + cell_len(label) + 1
-            end = "]" if at + 1 < len(tabs) or used < width else ""  # it has no room in the last column
-            parts.append(Text(f"[{label}{end}", Style(color=colour, bold=True, reverse=True)))
+            parts.append(Text(f"[{label}]", Style(color=colour, bold=True, reverse=True)))
         else:
             follows = at > 0 and tabs[at - 1].shown
             parts.append(Text(label if follows else f" {label}"))

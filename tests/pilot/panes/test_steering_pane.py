@@ -242,6 +242,22 @@ def test_leaving_the_pane_holds_the_robot_until_it_is_handed_back() -> None:
     run(live(), play, (100, 30))
 
 
+def test_key_bar_names_what_enter_does() -> None:
+    async def play(session: Session) -> None:
+        await session.press("6")
+        assert "enter Arm " in session.text()
+        await session.press("enter")
+        assert "enter Pause " in session.text()
+        await session.press("escape")
+        assert "enter Resume " in session.text()
+        await session.press("exclamation_mark")
+        assert "enter Arm " in session.text()
+        await session.press("exclamation_mark")
+        assert "ALL STOP" in session.text() and "enter " not in session.text()
+
+    run(live(), play, (100, 30))
+
+
 def test_h_hands_back_without_a_stop() -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter", "W", "h")

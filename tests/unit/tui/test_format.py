@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from bot_console.tui.format import brief, cut, cut_name
+import pytest
+from bot_console.tui.console.model import Kind, ParameterInfo
+from bot_console.tui.format import brief, cut, cut_name, parse_value
 from rich.cells import cell_len
 
 
@@ -23,3 +25,13 @@ def test_a_long_name_keeps_both_ends() -> None:
     assert cut_name("/robot_1/camera/image_raw", 16) == "/robo…/image_raw"
     assert all(cell_len(cut_name("/robot_1/camera/image_raw", width)) <= width for width in range(30))
     assert cell_len(cut_name("/日本語/日本語日本語", 9, pad=True)) == 9
+
+
+@pytest.mark.parametrize(
+    ("kind", "asked"),
+    [(Kind.DOUBLE, "type a number"), (Kind.INTEGER, "type an integer"), (Kind.BOOL, "type true or false")],
+)
+@pytest.mark.parametrize("text", ["", "  "])
+def test_empty_text_is_answered_with_what_to_type(kind: Kind, asked: str, text: str) -> None:
+    with pytest.raises(ValueError, match=f"^{asked}$"):
+        parse_value(text, ParameterInfo("/a", "x", kind, None))

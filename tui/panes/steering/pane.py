@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from bot_console.tui import keymap
@@ -77,6 +77,15 @@ class SteeringPane(Pane):
         yield Picture()
         yield Prompt(id="steering-prompt")
 
+    @property
+    def key_words(self) -> Mapping[str, str]:
+        """The action of Enter; none while somebody else holds the robot."""
+        if self.state.armed:
+            return {"steering.arm": "Pause"}  # short: the keys that turn shall both fit at 80 columns
+        if self._snapshot.drive.stopped:
+            return {"steering.arm": "Resume" if self._own_stop else ""}
+        return {}
+
     def focus_target(self) -> None:
         """Focus the pane itself."""
         self.focus()
@@ -147,6 +156,7 @@ class SteeringPane(Pane):
         left, figures = self.state.left(self.clock()), self._shown_figures()
         picture.set_lines(lines(self.state, self._snapshot.drive, left, width, height, self._others(), figures))
         self.set_class(self.state.armed, "armed")
+        self.keys_changed()
 
     def _shown_figures(self) -> DriveInfo:
         """The velocities to show: while nobody steers here, they stay long enough to be read."""

@@ -33,7 +33,7 @@ def test_every_tab_has_a_name_from_80_columns_on(columns: int, shown: str) -> No
 def test_the_shown_tab_is_the_one_in_brackets_and_keeps_its_name_longest(shown: str) -> None:
     title = next((each.title for each in PANES if each.id == shown), "All")
     for columns in (60, 80, 100, 120):
-        (marked,) = re.findall(r"\[([^\]]*)\]?", line(columns, shown))
+        (marked,) = re.findall(r"\[([^\]]*)\]", line(columns, shown))
         assert marked.split()[-1][:2] == ("Im" if title == "Images" else title[:2])
 
 

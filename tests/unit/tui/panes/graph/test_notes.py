@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo, IncompatiblePair, NodeInfo
 from bot_console.tui.panes.graph.notes import caption, item_notes, legend, summary_of
 from bot_console.tui.panes.graph.rates import IDLE
 from bot_console.tui.panes.graph.view import GraphView, Mode, shown
@@ -90,3 +90,11 @@ def test_legend_explains_the_marks_that_are_drawn_and_no_others() -> None:
     assert words(marked, {}) == "↺ sends it to itself    ×2 that many topics of a namespace"
     assert words(marked, {"/map": IDLE}).endswith("    idle: no messages now")
     assert words(marked, {"/map": IDLE}, 30) == "↺ sends it to itself", "what does not fit is left out"
+
+
+def test_legend_explains_marks_of_mismatched_qos_and_of_dead_ends() -> None:
+    pair = IncompatiblePair("/a", "/b", "reliability")
+    mismatched = GraphInfo((node("/a", "/x"), node("/b", "", "/x")), incompatible={"/x": (pair,)})
+    assert legend(shown(mismatched, GraphView()), 118) == "✗ QoS does not match"
+    unheard = GraphInfo((node("/a", "/x /stop/x /stop/y"), node("/b", "", "/x")))
+    assert legend(shown(unheard, GraphView()), 118) == "×2 that many topics of a namespace"
