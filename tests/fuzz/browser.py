@@ -15,7 +15,7 @@ from types import SimpleNamespace
 from typing import Any, cast
 
 TOKEN, COOKIE = "t0ken", "c00kie"
-WAIT_S = 60.0
+WAIT_S = 240.0
 """Seconds for an answer; only ends a server that hangs."""
 ANSWER_S = 0.05
 """Seconds after which a request without an answer is taken for an unfinished one."""

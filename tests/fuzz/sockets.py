@@ -11,8 +11,10 @@ from functools import cache
 
 import browser
 
-WAIT_S = 60.0
+WAIT_S = 240.0
 """Seconds for an answer; only ends a router that hangs."""
+MAX_PORTS = 20
+"""Ports that are tried."""
 QUIET_S = 0.02
 """Seconds without an answer after which none is waited for."""
 
@@ -67,12 +69,16 @@ def answer_seeds() -> Sequence[str]:
 def _router() -> int:
     """The port of a router on loopback, which runs until the program ends."""
     from bot_console.runtime.rmw.zenoh.network.router import Router
+    from bot_console.runtime.rmw.zenoh.session import SessionError
     from bot_console.runtime.rmw.zenoh.settings import Serving
 
-    with socket.create_server(("127.0.0.1", 0)) as free:
-        port = free.getsockname()[1]
-    _routers.append(Router(Serving((f"tcp/127.0.0.1:{port}",))))
-    return port
+    for _ in range(MAX_PORTS):
+        with socket.create_server(("127.0.0.1", 0)) as free:
+            port = free.getsockname()[1]
+        with suppress(SessionError):  # somebody else has taken it
+            _routers.append(Router(Serving((f"tcp/127.0.0.1:{port}",))))
+            return port
+    raise AssertionError("no port is free")
 
 
 _routers: list[object] = []
