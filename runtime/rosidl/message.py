@@ -43,12 +43,19 @@ def read_checks_again() -> None:
 
 
 class MessageType(type):
-    """The class of message classes: as upstream, their constants cannot be set."""
+    """The class of message classes: as upstream, their constants can neither be set nor deleted."""
 
     def __setattr__(cls, name: str, value: object) -> None:
-        if name.isupper() and isinstance(cls.__dict__.get(name), (bool, int, float, str, bytes)):
-            raise AttributeError(f"property '{name}' of 'Metaclass_{cls.__name__}' object has no setter")
+        cls._keep_constant(name, "setter")
         super().__setattr__(name, value)
+
+    def __delattr__(cls, name: str) -> None:
+        cls._keep_constant(name, "deleter")
+        super().__delattr__(name)
+
+    def _keep_constant(cls, name: str, missing: str) -> None:
+        if name.isupper() and isinstance(cls.__dict__.get(name), (bool, int, float, str, bytes)):
+            raise AttributeError(f"property '{name}' of 'Metaclass_{cls.__name__}' object has no {missing}")
 
 
 def type_shown(value: object) -> str:

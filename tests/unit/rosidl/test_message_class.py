@@ -233,9 +233,11 @@ def test_nonzero_defaults_come_from_the_definition() -> None:
     assert (NavSatStatus().status, NavSatStatus().service) == (-2, 0)
 
 
-def test_constants_cannot_be_set() -> None:
+def test_constants_can_neither_be_set_nor_deleted() -> None:
     with pytest.raises(AttributeError, match="property 'STATUS_FIX' of 'Metaclass_NavSatStatus' object has no setter"):
         NavSatStatus.STATUS_FIX = 1
+    with pytest.raises(AttributeError, match="property 'STATUS_FIX' of 'Metaclass_NavSatStatus' object has no deleter"):
+        del NavSatStatus.STATUS_FIX
     assert NavSatStatus.STATUS_FIX == NavSatStatus().STATUS_FIX == 0
 
 
