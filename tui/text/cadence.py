@@ -9,4 +9,4 @@ def is_due(before: float, now: float, every: float) -> bool:
     What is drawn once a second is then drawn at the same moments everywhere on the screen: in one frame, not in one
     frame for each widget.
     """
-    return before // every != now // every
+    return not now // every <= before // every  # also true if `before` is infinitely long ago, whose quotient is NaN

@@ -126,7 +126,7 @@ class LaunchPane(ListPane):
             self._info, self._why_not, self._problem = state
             self._arrange()
             self._show_output()
-        self._follower.know(snapshot.launch.processes)
+        self.observe(snapshot)  # which is not called before the first parts are made
         self._has_news |= self._follower.read(snapshot.logs, self.console.logs.record)
         self._show_news()
 
