@@ -35,6 +35,8 @@ _idle_threads = frozenset(threading.enumerate())
 """Threads that do nothing for an app, such as those of the test runner, which exist before the first test."""
 POLL_S = 0.02
 """Timers due within this many seconds are waited for."""
+NOTIFICATION_TIMEOUT_S = 3600.0
+"""How long a notification is shown; on a busy machine Textual's 5 s may be over before a test looks."""
 
 
 async def rest(min_sleep: float = 0.02, max_sleep: float = 1) -> None:
@@ -102,6 +104,7 @@ def at_rest(*, is_scripted: bool = False) -> Iterator[None]:
         patch.object(_callback, "_count_parameters", _number_of_parameters),
         patch.object(Stylesheet, "_parse_rules", _parsed_once),
         patch.object(SparingApp, "may_draw", lambda app: False),
+        patch.object(SparingApp, "NOTIFICATION_TIMEOUT", NOTIFICATION_TIMEOUT_S),
         patch.object(Screen, "_compositor_refresh", _held),
         patch.object(app_module, "wait_for_idle", rest_undrawn),
         patch.object(pilot_module, "wait_for_idle", rest),
