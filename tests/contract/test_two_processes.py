@@ -17,7 +17,7 @@ from std_srvs.srv import Trigger
 
 @pytest.fixture(scope="module")
 def here(tmp_path_factory):
-    with two_processes(tmp_path_factory.mktemp("mesh") / "s") as (system, _):
+    with two_processes(tmp_path_factory.mktemp("mesh") / "s", 1, "patient") as (system, _):
         yield system
 
 

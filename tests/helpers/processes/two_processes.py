@@ -49,14 +49,14 @@ class Here:
 
 
 @contextlib.contextmanager
-def two_processes(folder: Path, peers: int = 1) -> Iterator[tuple[Here, list[subprocess.Popen[bytes]]]]:
-    """The node here, and the discovered processes of `zenoh_peer.py`; their sockets are in a folder."""
+def two_processes(folder: Path, peers: int = 1, *words: str) -> Iterator[tuple[Here, list[subprocess.Popen[bytes]]]]:
+    """The node here, and the discovered processes of `zenoh_peer.py WORDS`; their sockets are in a folder."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("BOT_CONSOLE_SOCKET_DIR", str(folder))
         patch.setenv("BOT_CONSOLE_USER_DIR", f"{folder}-user")
         patch.setenv("ROS_DOMAIN_ID", str(DOMAIN))
         choose_middleware(shared_bus)
-        started = [subprocess.Popen([sys.executable, str(PEER)], env=dict(os.environ)) for _ in range(peers)]
+        started = [subprocess.Popen([sys.executable, str(PEER), *words], env=dict(os.environ)) for _ in range(peers)]
         here = Here()
         try:
             here.until(lambda: here.node.count_publishers("/echo") == peers)

@@ -1,4 +1,9 @@
-"""The other process of tests with two: one node with an entity of each kind, in the domain of the environment."""
+"""The other process of tests with two: one node with an entity of each kind, in the domain of the environment.
+
+With the word `patient` it never cuts a link because the other process gets no processor.
+"""
+
+import sys
 
 from bot_console.runtime.importer import install
 
@@ -6,6 +11,7 @@ install()
 
 import rclpy
 from bot_console.runtime.rmw.middleware import choose_middleware
+from bot_console.runtime.rmw.zenoh import congestion_control
 from bot_console.runtime.rmw.zenoh.domain.domain_bus import shared_bus
 from example_interfaces.action import Fibonacci
 from rclpy.action import ActionServer
@@ -14,6 +20,9 @@ from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPo
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
+
+if "patient" in sys.argv:
+    congestion_control.WAIT_BEFORE_CUT_US = 600_000_000
 
 
 class Peer(Node):
