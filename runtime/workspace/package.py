@@ -13,6 +13,8 @@ from bot_console.runtime.workspace.cmake_lists import read_cmake_lists
 from bot_console.runtime.workspace.setup_py import PANES, SetupFile, entry_lines, read_setup_py
 
 INTERFACE_FOLDERS = ("msg", "srv", "action")
+MAX_NAME_CHARACTERS = 100
+"""Characters of a file's name that are shown in a problem."""
 
 
 class EntryPoint(NamedTuple):
@@ -66,6 +68,8 @@ def read_package(folder: Path) -> Package:
         problem = setup.problem
     except ValueError as error:
         problem = str(error)
+    except OSError as error:  # a name in one of these files that no file can have
+        problem = f"{folder}: {error.strerror}: {str(error.filename)[:MAX_NAME_CHARACTERS]}"
     return Package(
         name,
         folder,

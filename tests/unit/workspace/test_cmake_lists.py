@@ -100,3 +100,9 @@ def test_file_that_is_not_text_is_reported_by_path(tmp_path: Path) -> None:
     folder = make(tmp_path / "mixed", "")
     (folder / "CMakeLists.txt").write_bytes(b"\xff\xfe")
     assert read_package(folder).problem.startswith(str(folder / "CMakeLists.txt"))
+
+
+def test_name_longer_than_any_file_may_have_is_a_problem_of_its_package(tmp_path: Path) -> None:
+    package = read_package(make(tmp_path, f"install(PROGRAMS {'x' * 300} DESTINATION lib/${{PROJECT_NAME}})"))
+    assert package.problem.startswith(f"{package.folder}: File name too long: ")
+    assert len(package.problem) < len(str(package.folder)) + 150
