@@ -11,10 +11,10 @@ import io
 import os
 from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
-from pathlib import Path
 from typing import Protocol
 
 from bot_console.runtime.importer import install
+from bot_console.tui.files.folders import expanded_path
 from bot_console.tui.session.embedded.named_profile import profile_names
 
 
@@ -108,7 +108,7 @@ def _running(*words: str) -> Source:
 def _profiles(before: Sequence[str]) -> Iterable[str]:
     """The profiles that can be named, with those of the folders that `--profiles` gives."""
     given = pairwise(before)
-    return profile_names([Path(os.path.expanduser(folder)) for option, folder in given if option == "--profiles"])
+    return profile_names([expanded_path(folder) for option, folder in given if option == "--profiles"])
 
 
 def _parameters(names: Names, given: Sequence[str]) -> Iterable[str]:

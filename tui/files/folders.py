@@ -23,6 +23,11 @@ def state_folder() -> Path:
     return Path(given) / "state" if given else _platform("user_state_path")
 
 
+def expanded_path(text: str) -> Path:
+    """The path of a text with `~` for a home folder; that of an unknown user stays, where `Path.expanduser` raises."""
+    return Path(os.path.expanduser(text))
+
+
 def _platform(kind: str) -> Path:
     import platformdirs
 

@@ -14,6 +14,7 @@ from typing import Any
 
 from bot_console.runtime.process.fork_server import ForkServer, Job, Report
 from bot_console.tui.console.parameters.file.patch import patched
+from bot_console.tui.files.folders import expanded_path
 from bot_console.tui.tuning.specification import Trial, TuningSpecification
 
 CAN_FORK = hasattr(os, "fork")
@@ -157,5 +158,5 @@ def is_file(profile: str) -> bool:
 def profile_yaml(profile: str) -> str:
     """The parameter file of a profile; raises `OSError` if it does not exist."""
     folder = Path(__file__).resolve().parents[3] / "profiles"
-    path = Path(os.path.expanduser(profile)) if is_file(profile) else folder / f"{profile}.yaml"
+    path = expanded_path(profile) if is_file(profile) else folder / f"{profile}.yaml"
     return path.read_text(encoding="utf-8-sig")

@@ -7,10 +7,8 @@ mentions unless `exact` is set. A ROS parameter file is one, too, if it has para
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any, cast
 
 import yaml
@@ -18,6 +16,7 @@ from bot_console.tui.console.graph.expected_topic import TOLERANCE, ExpectedTopi
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.parameters.file.text import KEYWORD, sections, value_at
 from bot_console.tui.console.topics.port import Measure
+from bot_console.tui.files.folders import expanded_path
 from bot_console.tui.text.yaml_faults import UNREADABLE, fault_of
 
 PARTS = ("nodes", "topics", "services", "actions", "exact")
@@ -45,7 +44,7 @@ class Expected:
 def read_file(path: str) -> Expected:
     """Read such a file; raises `ValueError` with what is wrong."""
     try:
-        return read(Path(os.path.expanduser(path)).read_text("utf-8"))
+        return read(expanded_path(path).read_text("utf-8"))
     except OSError as error:
         raise ValueError(error.strerror or str(error)) from None
     except UnicodeDecodeError:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import chain
@@ -17,6 +16,7 @@ from bot_console.tui.console.parameters.file.node_keys import is_wildcard, means
 from bot_console.tui.console.parameters.file.text import KEYWORD, NOTHING, sections, value_at
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.console.values import refusal
+from bot_console.tui.files.folders import expanded_path
 from bot_console.tui.files.store_file import read_store
 from bot_console.tui.text.yaml_faults import UNREADABLE, fault_of
 
@@ -92,7 +92,7 @@ def _launch_profile(path: Path, title: str, text: str) -> Profile | None:
     arguments: Any = found.get("arguments") or {}
     if not isinstance(launch, str) or not isinstance(arguments, dict):
         raise ValueError("a launch profile has the lines 'launch: FILE' and 'arguments:' with 'name: value' below it")
-    file = path.parent / Path(os.path.expanduser(launch))
+    file = path.parent / expanded_path(launch)
     given = {str(name): _argument(value) for name, value in cast("dict[Any, Any]", arguments).items()}
     problem = "" if file.is_file() else f"there is no launch file {file}"
     return Profile(path.stem, str(path), title, problem=problem, launch=str(file), arguments=MappingProxyType(given))

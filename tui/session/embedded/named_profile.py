@@ -7,6 +7,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from bot_console.tui.files.folders import config_folder, expanded_path
+
 ENDINGS = (".yaml", ".yml")
 BUNDLED = Path(__file__).resolve().parents[3] / "profiles"
 """The folder of the profiles that come with the robot."""
@@ -55,7 +57,7 @@ def named_profile(
     if word in bundled_names():
         return NamedProfile(word)
     if is_path(word):
-        path = Path(os.path.expanduser(word))
+        path = expanded_path(word)
         if not os.path.isfile(path):  # which is false, where `Path` raises, for a name that is too long
             raise NoProfileError(f"there is no file {word}")
         return _loaded(path)
@@ -70,8 +72,6 @@ def named_profile(
 
 
 def _folders(folders: Sequence[Path]) -> Iterator[Path]:
-    from bot_console.tui.files.folders import config_folder
-
     yield from folders
     yield config_folder() / "profiles"
 
