@@ -175,7 +175,7 @@ def test_runs_of_equal_lines_are_folded_in_whatever_order_they_arrive(message, c
     """Older lines are found in slices, newer ones arrive meanwhile, and a small store drops the oldest."""
     store, searched = LogStore(capacity), None
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(view, "FIRST_SLICE", slice_of)
+        patch.setattr(view, "FIRST_SLICE_RECORDS", slice_of)
         for text in message:
             store.add(0, Severity.INFO, "bat", text)
             if searched is None and data.draw(st.integers(0, 9)) == 0:

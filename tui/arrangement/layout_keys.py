@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Protocol
 
 from bot_console.tui.files.save_file import NotSaved
-from bot_console.tui.layout.current_layout import CHROME, Arrangement
+from bot_console.tui.layout.current_layout import CHROME_ROWS, Arrangement
 from bot_console.tui.layout.placing import Box, boxes, fits, neighbour
 from bot_console.tui.layout.tree import Tree, Way, close, even, exchange, panes, resize, split, turn
 from bot_console.tui.pane_table import PaneEntry
@@ -168,7 +168,7 @@ class Arranging:
 
     def _places(self, tree: Tree) -> dict[str, Box]:
         columns, lines = self._screen.cells()
-        return boxes(tree, Box(0, 0, columns, lines - CHROME))
+        return boxes(tree, Box(0, 0, columns, lines - CHROME_ROWS))
 
     def _change(self, change: Callable[[Tree], Tree | None], select: str = "") -> None:
         before = self.tree

@@ -68,7 +68,7 @@ ANYWHERE = (
 """Actions that are found from other panes, too; their pane is shown first. They ask before they act, and do not
 depend on the selected row. Of several that match equally, the first here is listed first.
 """
-SHORTEST_OWN_WORD = 3
+MIN_OWN_WORD_CHARACTERS = 3
 """Characters of one of `OWN_WORDS` that must be typed at least."""
 
 
@@ -145,7 +145,7 @@ def _rank(command: Command, typed: str, matcher: Matcher) -> tuple[int, float] |
     wanted = _split(typed)
     if command.own_words:
         own = _split(command.own_words)
-        long = all(len(each) >= SHORTEST_OWN_WORD for each in wanted)
+        long = all(len(each) >= MIN_OWN_WORD_CHARACTERS for each in wanted)
         return (1, 0.0) if long and wanted and _all_begin(wanted, own) else None
     title = re.split("[:,;]", command.text.lower())[0]
     in_title, anywhere = _split(title), _split(f"{command.text} {command.words}")

@@ -24,12 +24,12 @@ server's. A late poll counts once, however late it is.
 MAX_POLL_S = 1.0
 """The longest time between two polls, so that the disappearance of a server is noticed soon."""
 
-GONE = 2
+GONE_POLLS = 2
 """Consecutive polls without a server after which no response is expected. After one it may be restarting, or respond
 while it shuts down.
 """
 
-READY = 2.0
+READY_TIMEOUT_S = 2.0
 """Seconds that a new client may take to discover a server that is in the graph, as on a slow network."""
 
 READY_POLL_S = 0.02
@@ -64,7 +64,7 @@ class Calls:
         def poll() -> None:
             nonlocal away
             away = 0 if _is_there(client) else away + 1
-            if away >= GONE:
+            if away >= GONE_POLLS:
                 self._give_up(answer, client, f"{service} went away before it answered; has its node ended?")
             elif next(polls) * period >= timeout_s:
                 why = f"{service} did not answer within {timeout_s:g} s; its node may be busy or hung"
@@ -86,7 +86,7 @@ class Calls:
         def poll() -> None:
             try:
                 ready = client.service_is_ready()
-                over = ready or next(polls) * READY_POLL_S >= READY
+                over = ready or next(polls) * READY_POLL_S >= READY_TIMEOUT_S
             except InvalidHandle:  # its node has left in the meantime, see `forget`
                 ready, over = False, True
             if over and not found.done():

@@ -26,12 +26,12 @@ from textual.message import Message
 
 ESCAPE_TIMEOUT_S = 0.1
 """Seconds between two checks whether the thread should end, if it cannot be woken."""
-AT_ONCE = 4096
+READ_BYTES = 4096
 """Bytes that a terminal buffers."""
-MAX_READ = 65536
+MAX_READ_BYTES = 65536
 """Bytes that are read before the keys in them are passed on."""
 INPUT = (events.InputEvent, events.Resize, events.AppFocus, events.AppBlur)
-FIRST = 100
+FIRST_DESCRIPTOR = 100
 """The lowest number of our descriptors, beyond those that programs close or count."""
 
 
@@ -43,7 +43,7 @@ class Ending(threading.Event):
         self._ends: list[int] = []
         with contextlib.suppress(OSError):
             for end in os.pipe():
-                self._ends.append(fcntl.fcntl(end, fcntl.F_DUPFD_CLOEXEC, FIRST))
+                self._ends.append(fcntl.fcntl(end, fcntl.F_DUPFD_CLOEXEC, FIRST_DESCRIPTOR))
                 os.close(end)
             os.set_blocking(self._ends[1], False)
 
@@ -57,7 +57,7 @@ class Ending(threading.Event):
         """Clear the event."""
         super().clear()
         with contextlib.suppress(OSError, IndexError):
-            while select.select(self._ends[:1], [], [], 0)[0] and os.read(self._ends[0], AT_ONCE):
+            while select.select(self._ends[:1], [], [], 0)[0] and os.read(self._ends[0], READ_BYTES):
                 pass
 
     def readable(self, descriptor: int, seconds: float) -> bool:
@@ -158,8 +158,8 @@ def _read(descriptor: int) -> bytes | None:
     typed = b""
     # the terminal was made non-blocking, and another process has read the input
     with contextlib.suppress(BlockingIOError):
-        while len(typed) < MAX_READ and (not typed or select.select([descriptor], [], [], 0)[0]):
-            read = os.read(descriptor, AT_ONCE)
+        while len(typed) < MAX_READ_BYTES and (not typed or select.select([descriptor], [], [], 0)[0]):
+            read = os.read(descriptor, READ_BYTES)
             if not read:
                 return typed or None
             typed += read

@@ -28,7 +28,7 @@ Each change of a line is checked and completed as a whole: a million characters 
 stop the robot, waiting for a minute.
 """
 
-REPEATS = 8
+MAX_REPEATS = 8
 """Maximum number of waiting presses of the same key. A held key repeats at 25 Hz or more: a slower console would
 continue for seconds after its release.
 """
@@ -99,11 +99,11 @@ class Keyboard:
             self._wait_for_key()
 
     def _is_one_too_many(self, event: Typed) -> bool:
-        if len(self._waiting) < REPEATS or (isinstance(event, events.Key) and stops(event.key)):
+        if len(self._waiting) < MAX_REPEATS or (isinstance(event, events.Key) and stops(event.key)):
             return False
         if len(self._waiting) >= MAX_WAITING_KEYS:
             return True
-        last = islice(reversed(self._waiting), REPEATS)
+        last = islice(reversed(self._waiting), MAX_REPEATS)
         return not self._typing() and all(_is_same_key(each, event) for each in last)
 
     async def _next(self) -> None:

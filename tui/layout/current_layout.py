@@ -9,11 +9,11 @@ from bot_console.tui.layout.named import BUILT_IN, OVERVIEW, Layout
 from bot_console.tui.layout.placing import Box, boxes, fits
 from bot_console.tui.layout.tree import Tree, close, exchange, panes
 
-CHROME = 3
+CHROME_ROWS = 3
 """Lines that do not belong to panes: tabs, status, keys."""
 MAX_TERMINAL_CELLS = 1000
 """More columns or lines than any terminal has."""
-REMEMBERED = 50
+MAX_UNDO_STEPS = 50
 """Changes that can be undone."""
 
 
@@ -94,7 +94,7 @@ class Arrangement:
         tree = self._changed if self._changed is not None else self._layout().form(width, height)
         for pane in self.empty:
             tree = without(tree, pane)
-        return tree if fits(boxes(tree, Box(0, 0, width, height - CHROME))) else None
+        return tree if fits(boxes(tree, Box(0, 0, width, height - CHROME_ROWS))) else None
 
     def least(self) -> tuple[int, int]:
         """The columns and lines it needs to be shown."""
@@ -147,4 +147,4 @@ class Arrangement:
         self._store.remember(self.name, self._changed)
 
     def _note(self) -> None:
-        self._before = [*self._before[1 - REMEMBERED :], (self.name, self._changed)]
+        self._before = [*self._before[1 - MAX_UNDO_STEPS :], (self.name, self._changed)]

@@ -18,8 +18,8 @@ from textual.strip import Strip
 
 KEY = "pressed_key"
 """The key of a line's metadata that holds the key to press."""
-GAP = 2
-NARROWEST = 12
+GAP_CELLS = 2
+MIN_KEY_CELLS = 12
 """Cells between a key and what it does, and those that keys take at least."""
 
 BOLD = Style(bold=True)
@@ -43,7 +43,7 @@ class KeyTable(StyledByPart):
     def __init__(self, keys: Sequence[Key]) -> None:
         super().__init__()
         self._rows = [(key_text(key), key.text, key.keys.split(",")[0]) for key in keys]
-        self._column = max([NARROWEST, *(cell_len(key) for key, _, _ in self._rows)])
+        self._column = max([MIN_KEY_CELLS, *(cell_len(key) for key, _, _ in self._rows)])
         self._width = -1
         self._lines: list[Line] = []
 
@@ -62,7 +62,7 @@ class KeyTable(StyledByPart):
         segments = [
             Segment(" " * (self._column - cell_len(line.key)), style),
             Segment(line.key, style + BOLD),
-            Segment(" " * GAP + line.text, style),
+            Segment(" " * GAP_CELLS + line.text, style),
         ]
         return Strip(segments).adjust_cell_length(width, style)
 
@@ -72,7 +72,7 @@ class KeyTable(StyledByPart):
             self._lines = [
                 Line(key if number == 0 else "", part, pressed)
                 for key, text, pressed in self._rows
-                for number, part in enumerate(wrapped(text, max(1, width - self._column - GAP)))
+                for number, part in enumerate(wrapped(text, max(1, width - self._column - GAP_CELLS)))
             ]
         return self._lines
 

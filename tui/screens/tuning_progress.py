@@ -27,9 +27,9 @@ from textual.binding import BindingType
 
 POLLS_PER_S = 4.0
 """How often per second the progress is polled."""
-CURVE = 5
+CURVE_ROWS = 5
 """Lines of the curve."""
-BAR = 24
+BAR_CELLS = 24
 """Cells of the progress bar."""
 HINT = "Enter Apply · S Save as profile · Esc Close"
 
@@ -141,7 +141,7 @@ class TuningScreen(DimmedScreen):
             shown.cursor = next((index for index, each in enumerate(shown.rows) if each.setting == chosen), 0)
         self.query_one("#tuning-progress", StaticText).show_text(progress_text(progress))
         curve = self.query_one("#tuning-curve", StaticText)
-        curve.show_text(Text("\n".join(curve_lines(progress.rows, max(10, curve.size.width), CURVE))))
+        curve.show_text(Text("\n".join(curve_lines(progress.rows, max(10, curve.size.width), CURVE_ROWS))))
         self._show_text()
 
     def _show_text(self, text: str = "") -> None:
@@ -197,8 +197,8 @@ def progress_text(progress: Progress) -> str:
     """A progress bar, and the remaining time."""
     if not progress.runs:
         return progress.problem or "preparing the runs ..."
-    full = round(BAR * progress.done / progress.runs)
-    text = f"{'█' * full}{'░' * (BAR - full)}  {progress.done} of {progress.runs} runs"
+    full = round(BAR_CELLS * progress.done / progress.runs)
+    text = f"{'█' * full}{'░' * (BAR_CELLS - full)}  {progress.done} of {progress.runs} runs"
     if progress.ended:
         return f"{text}, {progress.problem or 'done'}"
     left = progress.left

@@ -14,22 +14,22 @@ from typing import Any, cast
 from rich.segment import Segment
 from textual.dom import DOMNode
 
-CUTS = 512
+MAX_CUTS = 512
 """A few screens full."""
-ANSWERS = 32
+MAX_ANSWERS = 32
 """More queries than a pane or a screen makes between two changes."""
 
 
 def limit_cut_cache() -> None:
-    """Limit Rich's cache of split segments to `CUTS` entries; does nothing if Rich caches them differently."""
+    """Limit Rich's cache of split segments to `MAX_CUTS` entries; does nothing if Rich caches them differently."""
     kept = cast(Any, vars(Segment).get("_split_cells"))
     cut = getattr(getattr(kept, "__func__", None), "__wrapped__", None)
-    if cut is not None and kept.__func__.cache_parameters()["maxsize"] > CUTS:
-        cast(Any, Segment)._split_cells = classmethod(lru_cache(CUTS)(cut))
+    if cut is not None and kept.__func__.cache_parameters()["maxsize"] > MAX_CUTS:
+        cast(Any, Segment)._split_cells = classmethod(lru_cache(MAX_CUTS)(cut))
 
 
 def limit_query_cache(node: DOMNode) -> None:
-    """Limit a widget's query cache to `ANSWERS` entries, before its first query; does nothing if there is none."""
+    """Limit a widget's query cache to `MAX_ANSWERS` entries, before its first query; does nothing if there is none."""
     answers = getattr(node, "_query_one_cache", None)
     if answers is not None:
-        answers.maxsize = ANSWERS
+        answers.maxsize = MAX_ANSWERS

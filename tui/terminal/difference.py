@@ -13,7 +13,7 @@ from textual.strip import Strip
 UNKNOWN = "\0"
 """Marks a cell whose content on the terminal is unknown."""
 
-JUMP = 4
+JUMP_BYTES = 4
 """Bytes of a cursor move within a line: up to this many equal cells are rewritten instead."""
 
 
@@ -125,7 +125,7 @@ class Writer:
         text = "".join(characters)
         known = UNKNOWN not in characters and "" not in characters
         same = (self._style_of(*each) == self._style for each in zip(characters, styles, strict=True))
-        if known and len(text.encode()) <= JUMP and all(same):
+        if known and len(text.encode()) <= JUMP_BYTES and all(same):
             return text
         return f"\x1b[{len(characters)}C"
 

@@ -12,14 +12,14 @@ FRAME_INTERVAL_S = 0.1
 UNPACED_AFTER_KEY_S = 0.3
 """Seconds after a key during which frames are not paced, since they show its effect."""
 
-IN_FLIGHT = 2
+MAX_IN_FLIGHT = 2
 """The maximum number of frames that the terminal has not answered yet."""
 
 SLOW_ANSWER_S = 0.25
 """Seconds; if an answer takes longer, one frame in flight keeps the line busy enough."""
 
 FRAME_TIMEOUT_S = 2.0
-SLOWEST = 2000.0
+MIN_BYTES_PER_S = 2000.0
 """The lowest speed of a line in bytes per second, from which the wait for an answer is computed.
 
 The wait doubles after each answer that does not come, up to a minute, so that nothing piles up in front of a stalled
@@ -39,7 +39,7 @@ class AnswerGate:
         self._clock = clock
         self._asked: deque[tuple[float, float]] = deque()
         self._answers = False
-        self._allowed = IN_FLIGHT
+        self._allowed = MAX_IN_FLIGHT
         self._disappointed = 0
         self._drawn = self._pressed = float("-inf")
         self._merged: deque[float] = deque(maxlen=100)
@@ -65,7 +65,7 @@ class AnswerGate:
     def asked(self, size: int) -> None:
         """Record that a query was written, after that many bytes."""
         now = self._clock()
-        timeout_s = (FRAME_TIMEOUT_S + size / SLOWEST) * 2 ** min(self._disappointed, 10)
+        timeout_s = (FRAME_TIMEOUT_S + size / MIN_BYTES_PER_S) * 2 ** min(self._disappointed, 10)
         self._asked.append((now, now + min(timeout_s, MAX_FRAME_TIMEOUT_S)))
 
     def drawn(self) -> None:
@@ -78,7 +78,7 @@ class AnswerGate:
         self._disappointed = 0
         if self._asked:
             began, _ = self._asked.popleft()
-            self._allowed = 1 if self._clock() - began > SLOW_ANSWER_S else IN_FLIGHT
+            self._allowed = 1 if self._clock() - began > SLOW_ANSWER_S else MAX_IN_FLIGHT
 
     def pressed(self) -> None:
         """Record that a key was pressed: its effect is shown at once."""

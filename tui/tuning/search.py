@@ -13,11 +13,11 @@ from dataclasses import dataclass
 
 from bot_console.tui.tuning.tunable import Setting, Tunable
 
-GENERATION = 4
+GENERATION_SIZE = 4
 """Settings that an adaptive search asks for at a time."""
-WIDTH = 0.2
+FIRST_WIDTH_SHARE = 0.2
 """Standard deviation of the first steps of an adaptive search, as a share of the range."""
-NARROWING = 0.8
+NARROWING_FACTOR = 0.8
 """Factor by which the width shrinks with each generation."""
 MAX_ATTEMPTS = 20
 """Attempts at finding a setting that was not tried before."""
@@ -96,14 +96,14 @@ def _adaptive(tunables: Sequence[Tunable], budget: int, seed: int, tried: Sequen
     if len(tried) <= first:
         return _spread(tunables, first, random.Random(f"{seed}/spread"))
     chance = random.Random(f"{seed}/{len(tried)}")
-    width = WIDTH * NARROWING ** ((len(tried) - 1 - first) // GENERATION)
+    width = FIRST_WIDTH_SHARE * NARROWING_FACTOR ** ((len(tried) - 1 - first) // GENERATION_SIZE)
     ranked = sorted(tried, key=lambda each: each.score, reverse=True)
     shares = [[tunable.share(value) for tunable, value in zip(tunables, each.setting, strict=True)] for each in ranked]
     quarter = shares[: max(1, len(shares) // 4)]
     middle = [sum(column) / len(column) for column in zip(*quarter, strict=True)]
     known = {each.setting for each in tried}
     found: list[Setting] = []
-    for index in range(GENERATION):
+    for index in range(GENERATION_SIZE):
         for _ in range(MAX_ATTEMPTS):
             setting = _near(tunables, shares[0] if index % 2 == 0 else middle, width, chance)
             if setting not in known:

@@ -12,7 +12,7 @@ TunableValue: TypeAlias = "bool | int | float"
 Setting: TypeAlias = "tuple[TunableValue, ...]"
 """A value for each tunable, in their order."""
 
-RESOLUTION = 500
+MIN_VALUES = 500
 """The minimum number of different values of a continuous tunable; more digits would make no difference."""
 
 
@@ -40,7 +40,7 @@ class Tunable:
     def levels(self) -> int:
         """The number of different values."""
         if self.kind == "double":
-            return min(RESOLUTION, self._points or RESOLUTION) if self.high > self.low else 1
+            return min(MIN_VALUES, self._points or MIN_VALUES) if self.high > self.low else 1
         return self._points or int(math.floor(self.high) - math.ceil(self.low)) + 1
 
     def at(self, share: float) -> TunableValue:
@@ -88,7 +88,7 @@ class Tunable:
 
     def _digits(self) -> int:
         span = self.high - self.low
-        return max(0, math.ceil(math.log10(RESOLUTION) - math.log10(span))) if span > 0 else 12
+        return max(0, math.ceil(math.log10(MIN_VALUES) - math.log10(span))) if span > 0 else 12
 
 
 def parse_range(text: str) -> tuple[float, float]:

@@ -17,7 +17,7 @@ from textual.widgets import Input, Label, Static
 
 HINT = "Tab Complete · ↑ ↓ History · ^r Search history · Esc Close"
 
-AROUND = 4
+AROUND_COLUMNS = 4
 """Columns of the colon, and at the end of the line."""
 
 
@@ -147,7 +147,7 @@ class CommandField(Vertical):
         self._wrong.update(sanitize(message))
         # The width that the line leaves, but at least a third, so that an error can be read in two or three lines.
         width = self.size.width
-        self._wrong.styles.max_width = max(width - cell_len(self._field.value) - AROUND, width // 3, 10)
+        self._wrong.styles.max_width = max(width - cell_len(self._field.value) - AROUND_COLUMNS, width // 3, 10)
 
     def _show(self) -> None:
         found = self._completion.found(self._typed)

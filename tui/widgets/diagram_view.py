@@ -26,14 +26,14 @@ from textual.reactive import reactive
 from textual.scroll_view import ScrollView
 from textual.strip import Strip
 
-LARGE = 60
+MIN_THREADED_ITEMS = 60
 """Number of items from which a graph is laid out in a thread."""
 
 Content: TypeAlias = Digraph | Chart | Listing
 Manner: TypeAlias = Flow | Size
 """How to lay something out: a graph in a direction, everything else for a window of a size."""
 
-MARGIN = 2
+MARGIN_CELLS = 2
 """Cells kept free around the selected item when the picture is scrolled to it."""
 
 
@@ -142,8 +142,8 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         """Whether laying the graph out takes so long that it is done in a thread."""
         content = self._content
         if isinstance(content, Chart):
-            return len(content.boxes) + len(content.links) > LARGE
-        return isinstance(content, Digraph) and len(content.items) > LARGE
+            return len(content.boxes) + len(content.links) > MIN_THREADED_ITEMS
+        return isinstance(content, Digraph) and len(content.items) > MIN_THREADED_ITEMS
 
     def _manners(self) -> tuple[Manner, ...]:
         """The ways in which the content may be drawn here."""
@@ -349,7 +349,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         """Scroll the selected item into view."""
         place = self.places.get(self.selected)
         if place is not None:
-            region = Region(place.x - MARGIN, place.y - 1, place.width + 2 * MARGIN, place.height + 2)
+            region = Region(place.x - MARGIN_CELLS, place.y - 1, place.width + 2 * MARGIN_CELLS, place.height + 2)
             self.scroll_to_region(region, animate=False, force=True)
 
     def action_select(self, across: int, down: int) -> None:

@@ -23,7 +23,7 @@ If the colours are data, as in a drawing, the name contains them: `#b3b8ff on #4
 
 Line: TypeAlias = "tuple[Piece, ...]"
 
-CLOSE = 10
+MAX_REDRAWN_CELLS = 10
 """Number of cells that cost about as much to draw as a cursor move over them."""
 
 
@@ -124,7 +124,7 @@ def changes(before: Line, after: Line, width: int) -> list[tuple[int, int]]:
     found: list[tuple[int, int]] = []
     for at, (a, b) in enumerate(zip(old, new, strict=True)):
         if a != b:
-            if found and at - found[-1][1] < CLOSE:
+            if found and at - found[-1][1] < MAX_REDRAWN_CELLS:
                 found[-1] = (found[-1][0], at + 1)
             else:
                 found.append((at, at + 1))

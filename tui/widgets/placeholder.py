@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from bot_console.tui.text.sanitize import sanitize
 
-MARGIN = 2
+MARGIN_COLUMNS = 2
 """Columns left free on both sides."""
 MAX_COLUMNS = 64
 
@@ -29,7 +29,7 @@ FILTERED_OUT = Placeholder("Nothing matches the filter.", (("esc", "Clear the fi
 
 def placeholder_lines(placeholder: Placeholder, width: int, height: int) -> Sequence[Line]:
     """The lines of a placeholder, centred in a part of a pane; keys are left out if there is no room for them."""
-    columns = min(width - 2 * MARGIN, MAX_COLUMNS)
+    columns = min(width - 2 * MARGIN_COLUMNS, MAX_COLUMNS)
     if not placeholder.sentence or columns < 8 or height < 1:
         return ()
     sentence = wrap(sanitize(placeholder.sentence), columns)[:height]

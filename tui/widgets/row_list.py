@@ -19,7 +19,7 @@ from textual.strip import Strip
 
 LOUD = ("warn", "error", "good")
 """Styles whose colour has a meaning."""
-UNCUT = 1000
+UNCUT_CELLS = 1000
 """Cells that a row is given when it is searched, so that nothing is cut off."""
 
 
@@ -173,7 +173,7 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
 
     def matches(self, index: int, query: Query) -> bool:
         """Whether a row matches a filter; by default decided by its drawn text."""
-        return query.matches("".join(each.text for each in self.row(index, UNCUT)))
+        return query.matches("".join(each.text for each in self.row(index, UNCUT_CELLS)))
 
     def find(self, query: Query, step: int) -> bool:
         """Move to the next (`step` 1) or previous (-1) match, wrapping around; returns whether one exists."""

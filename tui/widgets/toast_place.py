@@ -9,11 +9,11 @@ from textual.screen import Screen
 from textual.widget import Widget
 from textual.widgets import Input
 
-BELOW = 2
+BELOW_ROWS = 2
 """Lines of the status line and the key bar, below notifications on a screen without panes."""
 MAX_LINES = 6
 """Maximum lines of a notification, as in the style sheet."""
-LEFT = 2
+LEFT_COLUMNS = 2
 """Columns to the left of notifications; the right end of a pane's lower edge is left visible."""
 RACK = "#textual-toastrack"
 
@@ -29,7 +29,7 @@ def place_toasts(screen: Screen[object], *, another: bool = False) -> None:
         each.display = not another and each is rack.children[-1]
     below = lines_below(line_in_use(screen.focused), screen.size.height, _foot(screen))
     if rack.styles.margin.bottom != below:
-        rack.styles.margin = (0, 0, below, LEFT)
+        rack.styles.margin = (0, 0, below, LEFT_COLUMNS)
 
 
 def _foot(screen: Screen[object]) -> int:
@@ -37,11 +37,11 @@ def _foot(screen: Screen[object]) -> int:
     try:
         panes = screen.query_one("#panes").region
     except NoMatches:
-        return BELOW
-    return max(BELOW, screen.size.height - panes.bottom) if panes.height else BELOW
+        return BELOW_ROWS
+    return max(BELOW_ROWS, screen.size.height - panes.bottom) if panes.height else BELOW_ROWS
 
 
-def lines_below(line: int | None, height: int, foot: int = BELOW) -> int:
+def lines_below(line: int | None, height: int, foot: int = BELOW_ROWS) -> int:
     """The lines to leave free below a notification on a screen of a `height`, if a `line` must stay visible.
 
     The last `foot` lines are never covered.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bot_console.tui.keys import keyboard
-from bot_console.tui.keys.keyboard import MAX_WAITING_KEYS, REPEATS
+from bot_console.tui.keys.keyboard import MAX_REPEATS, MAX_WAITING_KEYS
 from bot_console.tui.widgets.command_line import CommandField
 from piloting import Session, run
 from pytest import MonkeyPatch
@@ -25,15 +25,15 @@ async def behind(session: Session, *keys: str) -> list[str]:
 
 def test_held_key_acts_only_a_few_times_after_its_release() -> None:
     async def play(session: Session) -> None:
-        waiting = await behind(session, *"x" * 3 * REPEATS, *"yx" * REPEATS)
-        assert waiting == [*"x" * REPEATS, *"yx" * REPEATS]
+        waiting = await behind(session, *"x" * 3 * MAX_REPEATS, *"yx" * MAX_REPEATS)
+        assert waiting == [*"x" * MAX_REPEATS, *"yx" * MAX_REPEATS]
 
     run(live(), play)
 
 
 def test_stops_are_never_dropped() -> None:
     async def play(session: Session) -> None:
-        stops = [STOP] * (3 * REPEATS)
+        stops = [STOP] * (3 * MAX_REPEATS)
         assert await behind(session, *stops) == stops
 
     run(live(), play)
@@ -42,20 +42,20 @@ def test_stops_are_never_dropped() -> None:
 def test_typed_text_is_not_dropped() -> None:
     async def play(session: Session) -> None:
         await session.press("colon")
-        assert len(await behind(session, *"a" * 3 * REPEATS)) == 3 * REPEATS
+        assert len(await behind(session, *"a" * 3 * MAX_REPEATS)) == 3 * MAX_REPEATS
         await session.app._keyboard.detach()
         await session.settle()
-        assert session.pane(CommandField).query_one(Input).value == "a" * 3 * REPEATS
+        assert session.pane(CommandField).query_one(Input).value == "a" * 3 * MAX_REPEATS
 
     run(live(), play)
 
 
 def test_waiting_keys_are_limited_except_stops(monkeypatch: MonkeyPatch) -> None:
-    assert MAX_WAITING_KEYS > 100 * REPEATS
-    monkeypatch.setattr(keyboard, "MAX_WAITING_KEYS", 2 * REPEATS)
+    assert MAX_WAITING_KEYS > 100 * MAX_REPEATS
+    monkeypatch.setattr(keyboard, "MAX_WAITING_KEYS", 2 * MAX_REPEATS)
 
     async def play(session: Session) -> None:
-        waiting = await behind(session, *"xy" * 3 * REPEATS, STOP)
-        assert waiting == [*"xy" * REPEATS, STOP]
+        waiting = await behind(session, *"xy" * 3 * MAX_REPEATS, STOP)
+        assert waiting == [*"xy" * MAX_REPEATS, STOP]
 
     run(live(), play)

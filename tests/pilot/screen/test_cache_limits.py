@@ -11,7 +11,7 @@ FEW = 3
 
 
 def test_caches_stay_small_when_panes_are_switched_often(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(cache_limits, "ANSWERS", FEW)
+    monkeypatch.setattr(cache_limits, "MAX_ANSWERS", FEW)
 
     async def play(session: Session) -> None:
         await session.press(*"12345678123")

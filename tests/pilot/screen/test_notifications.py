@@ -9,7 +9,7 @@ from bot_console.tui.widgets.key_bar import KeyBar
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.status_bar import StatusBar
 from bot_console.tui.widgets.tabs import Tabs
-from bot_console.tui.widgets.toast_place import BELOW, MAX_LINES, lines_below
+from bot_console.tui.widgets.toast_place import BELOW_ROWS, MAX_LINES, lines_below
 from piloting import Session, run
 from samples import live
 from textual.widgets._toast import Toast
@@ -53,7 +53,7 @@ def test_row_at_the_cursor_is_never_covered(size: tuple[int, int], end: str) -> 
         rows, (toast,) = session.app.screen.focused, seen(session)
         assert isinstance(rows, RowList)
         line = rows.content_region.y + rows.cursor - rows.scroll_offset.y
-        in_its_place = line >= size[1] - BELOW - MAX_LINES
+        in_its_place = line >= size[1] - BELOW_ROWS - MAX_LINES
         assert in_its_place is (end == "end"), "else nothing had to give way"
         assert not toast.region.y <= line < toast.region.bottom
         assert toast.region.bottom <= size[1] - 2 and toast.region.height <= MAX_LINES

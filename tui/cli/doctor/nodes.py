@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 TWISTS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
 TIMEOUT = re.compile(r"(cmd|command|vel|twist|input|watchdog).*time_?out|time_?out.*(cmd|command|vel)|watchdog", re.I)
 """Names of the parameters that stop a base or controller when commands cease."""
-SETTLE, TIMEOUT_S = 1.5, 3.0
+DISCOVERY_S, TIMEOUT_S = 1.5, 3.0
 """Seconds for discovery, and for a node to list its parameters."""
 DDS_DISCOVERY_S = 4.0
 """Seconds for discovery over a network: Fast DDS repeats every three seconds what was lost at the start."""
@@ -34,7 +34,7 @@ HOW = (
 
 
 def node_findings(
-    can_learn: Callable[[str], bool] = lambda type_name: False, alone_hint: str = "", settle: float = SETTLE
+    can_learn: Callable[[str], bool] = lambda type_name: False, alone_hint: str = "", settle: float = DISCOVERY_S
 ) -> list[DoctorFinding]:
     """Run the checks from a node on this process's middleware, after `settle` seconds of discovery.
 

@@ -23,7 +23,7 @@ from bot_console.runtime.rmw.zenoh.wire.tokens import (
 from bot_console.tui.cli.doctor.clock import clock_findings
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
 
-PER_KEY = 3
+MAX_ATTACHMENTS_PER_KEY = 3
 """Attachments that are kept per key."""
 GRAPH_TIMEOUT_S = 5.0
 NAME = "_bot_console_doctor"
@@ -81,7 +81,7 @@ def _listen(session: Session, wire: Wire, publisher: Token) -> Declaration:
     kept = wire.samples.setdefault(publisher.topic, [])
 
     def keep(payload: bytes, attachment: bytes | None) -> None:
-        if len(kept) < PER_KEY:
+        if len(kept) < MAX_ATTACHMENTS_PER_KEY:
             kept.append((attachment, len(payload), time.time_ns()))
 
     domain, topic = session.domain, publisher.topic

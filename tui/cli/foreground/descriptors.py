@@ -20,7 +20,7 @@ Printed = Callable[[int, str, str], None]
 LABEL = "stderr"
 MAX_LINE_BYTES = 1 << 16
 """Bytes after which an unterminated line is logged as it is."""
-FIRST = 100
+FIRST_DESCRIPTOR = 100
 """Our descriptors start here, beyond those that programs usually close or count."""
 DRAIN_TIMEOUT_S = 10.0
 """How long at most the end waits until the lines written before it are in the log."""
@@ -43,7 +43,7 @@ def captured_descriptors(printed: Printed) -> Generator[None]:
 
 
 def _duplicate(number: int) -> int:
-    return fcntl.fcntl(number, fcntl.F_DUPFD_CLOEXEC, FIRST)
+    return fcntl.fcntl(number, fcntl.F_DUPFD_CLOEXEC, FIRST_DESCRIPTOR)
 
 
 @contextlib.contextmanager

@@ -33,7 +33,7 @@ MAX_MISSED_HEARTBEATS = round(HANG_AFTER_S / HEARTBEAT_S)
 
 Heartbeats rather than seconds: for a process that was stopped, or had lent its terminal, only the clock went on.
 """
-FIRST = 100
+FIRST_DESCRIPTOR = 100
 """Our descriptors start here, beyond those that programs usually close or count."""
 
 
@@ -147,7 +147,7 @@ def hang_watch(folder: Path, state: Callable[[], str], report: Callable[[str], N
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with path.open("ab") as file:
-            descriptor = fcntl.fcntl(file.fileno(), fcntl.F_DUPFD_CLOEXEC, FIRST)
+            descriptor = fcntl.fcntl(file.fileno(), fcntl.F_DUPFD_CLOEXEC, FIRST_DESCRIPTOR)
     except OSError:
         yield None
         return

@@ -19,7 +19,7 @@ from bot_console.tui.cli.serve.terminal import Terminal
 from bot_console.tui.format import sanitize
 
 PAGE = Path(__file__).resolve().parent / "page"
-FONT_SIZE = 14
+FONT_SIZE_PX = 14
 LOOPBACK_NAMES = ("localhost", "127.0.0.1", "[::1]")
 """The names of this machine behind which a tunnel may end, at any port."""
 HEADERS = {
@@ -115,7 +115,7 @@ class Server:
             raise web.HTTPForbidden(text=STRANGER)
         text = (PAGE / "page.html").read_text("utf-8")
         socket = f"ws://{request.headers['Host']}/ws"
-        return web.Response(text=text.format(socket=socket, font_size=FONT_SIZE), content_type="text/html")
+        return web.Response(text=text.format(socket=socket, font_size=FONT_SIZE_PX), content_type="text/html")
 
     def _let_in(self, token: str, admission: Admission | None) -> web.StreamResponse:
         """Exchange a token for a cookie, once, and lead to the address without it."""

@@ -14,7 +14,14 @@ from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.model import Change, ChangeSource, ParameterInfo, ParameterTree
 from bot_console.tui.console.robot.past_poses import PastPoses
-from bot_console.tui.console.robot.pose_and_trail import PREFERRED, TRAIL, TRAIL_STEP, best, grid_of, pose_of
+from bot_console.tui.console.robot.pose_and_trail import (
+    MAX_TRAIL_POINTS,
+    PREFERRED,
+    TRAIL_STEP_M,
+    best,
+    grid_of,
+    pose_of,
+)
 from bot_console.tui.console.robot.robot_model import WorldInfo
 from bot_console.tui.console.values import info
 from rcl_interfaces.msg import ParameterDescriptor
@@ -139,9 +146,9 @@ class Contents:
                 continue
             self.past.add(stamp, message.pose.pose)
             pose = at
-            if not trail or math.dist(trail[-1], (pose.x, pose.y)) >= TRAIL_STEP:
+            if not trail or math.dist(trail[-1], (pose.x, pose.y)) >= TRAIL_STEP_M:
                 trail.append((pose.x, pose.y))
-        self.world = WorldInfo(grid, pose, tuple(trail[-TRAIL * 10 :]))
+        self.world = WorldInfo(grid, pose, tuple(trail[-MAX_TRAIL_POINTS * 10 :]))
 
     @property
     def parameters(self) -> MappingProxyType[str, ParameterTree]:

@@ -26,7 +26,7 @@ from bot_console.tui.text.yaml_faults import UNREADABLE
 if TYPE_CHECKING:
     from bot_console.tui.console.bags.mcap_file import McapFile
 
-LATEST = 2**63 - 1
+LATEST_NS = 2**63 - 1
 """The latest time of reception, in ns since the epoch, that is accepted."""
 PATTERNS = ("*.mcap", "*.db3", "*.mcap.zstd", "*.db3.zstd")
 ROS1, SQLITE = b"#ROSBAG", b"SQLite format 3\0"
@@ -119,7 +119,7 @@ class Bag:
             known.count += topic.count
             part.count += topic.count
         for stamp in (contents.begin, contents.end) if part.count else ():
-            if not 0 <= stamp <= LATEST:
+            if not 0 <= stamp <= LATEST_NS:
                 raise NoBag(f"{file} is damaged: a message is dated {stamp} ns since 1970")
             part.seen(stamp)
         self.metadata.files.append(part)
@@ -171,7 +171,7 @@ def _messages(
     came = 0
     with reading_errors(path, lambda: f" after {came} messages"):
         for received, topic, data in contents.messages(topics, begin):
-            if not 0 <= received <= LATEST:
+            if not 0 <= received <= LATEST_NS:
                 raise ValueError(f"a message is dated {received} ns since 1970")
             came += 1
             yield Entry(received, topic, unpack_message(data))

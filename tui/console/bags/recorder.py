@@ -19,13 +19,13 @@ PACE_S = 0.1
 """Seconds between two turns of the recorder."""
 TOPIC_POLL_S = 0.5
 """Seconds between two searches for new topics."""
-ONE_CLOCK = 1_000_000_000
+MAX_CLOCK_DIFFERENCE_NS = 1_000_000_000
 """How far (ns) the time of sending may lie before the time of reception for the two clocks to count as synchronized."""
 CLOCK = "/clock"
 """Not recorded by a console, since it is a third of all messages: `bag play --clock` derives it from the bag's
 times.
 """
-OVERHEAD = 200
+MESSAGE_OVERHEAD_BYTES = 200
 """Bytes of memory that a kept message needs in addition to its data."""
 BEST = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
@@ -191,7 +191,9 @@ def in_order(found: Iterable[tuple[int, str, bytes]], now: int, last: int) -> It
     Yields (received, topic, data, sent) in order; no time is before `last`. The time of sending is closer to that of
     reception than the time of taking, unless the clocks differ.
     """
-    stamped = [(sent if 0 <= now - sent < ONE_CLOCK else now, name, data, sent) for sent, name, data in found]
+    stamped = [
+        (sent if 0 <= now - sent < MAX_CLOCK_DIFFERENCE_NS else now, name, data, sent) for sent, name, data in found
+    ]
     stamped.sort(key=_received)
     for received, name, data, sent in stamped:
         last = max(last, received)
@@ -224,10 +226,10 @@ class Ring:
     def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
         """Add a message, and discard those that are too old or exceed the limit."""
         self._kept.append((received, topic, data))
-        self._held += len(data) + OVERHEAD
+        self._held += len(data) + MESSAGE_OVERHEAD_BYTES
         oldest = received - int(self._seconds * 1e9)
         while self._kept and (self._kept[0][0] < oldest or self._held > self._maximum):
-            self._held -= len(self._kept.popleft()[2]) + OVERHEAD
+            self._held -= len(self._kept.popleft()[2]) + MESSAGE_OVERHEAD_BYTES
 
     @property
     def begin(self) -> int:

@@ -26,7 +26,7 @@ DEFINITION_TIMEOUT_S = 3.0
 """Seconds for which a topic waits for the definition of its type, which the Topics pane requests from the nodes; then
 it is recorded without.
 """
-CLOSING = 3.0
+CLOSE_TIMEOUT_S = 3.0
 """Seconds that a bag may take to be finished when the console ends."""
 
 
@@ -108,7 +108,7 @@ class Recordings:
         """Finish the bag being recorded, and leave the graph."""
         self._closing.set()
         if self._thread is not None:
-            self._thread.join(CLOSING)
+            self._thread.join(CLOSE_TIMEOUT_S)
 
     def _order(self, work: Callable[[], Answer]) -> Future[Answer]:
         """Run something between two turns of the recorder."""

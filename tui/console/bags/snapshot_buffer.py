@@ -18,7 +18,7 @@ from bot_console.tui.console.bags.snapshot_size import SnapshotSize
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.files.save_file import NotSaved, typed_path
 
-PACE = 0.25
+TURN_S = 0.25
 """Seconds between two turns."""
 MAX_WAITING_MESSAGES = 50_000
 """Messages that may arrive between two turns; beyond that the oldest are dropped."""
@@ -85,7 +85,7 @@ class SnapshotBuffer:
         return Answer(True, f"the last {span:.0f} s, {count} messages, in {folder}")
 
     def _serve(self) -> None:
-        while not self._closing.wait(PACE):
+        while not self._closing.wait(TURN_S):
             with self._lock:
                 self._turn()
 

@@ -18,8 +18,9 @@ from rclpy.node import Node
 ACTION_SERVER_TOPIC = "/_action/status"
 GRAPH_POLL_S = 0.5
 """Seconds between two polls while something may have changed."""
-LONG, SHARE = 0.1, 0.2
-"""A poll that took more processor time than `LONG` (s) is followed by a pause that limits polling to this `SHARE`.
+LONG_POLL_S, MAX_POLL_SHARE = 0.1, 0.2
+"""A poll that took more processor time than the first (s) is followed by a pause that limits polling to the second,
+a share of the time.
 
 While hundreds of nodes appear, keys and stops need the interpreter too.
 """
@@ -91,8 +92,8 @@ class GraphWatch:
                 self._observer.poll()
             self.poll()
             took = thread_time() - began
-            if took > LONG:
-                self._rests_until = monotonic() + took * (1 / SHARE - 1)
+            if took > LONG_POLL_S:
+                self._rests_until = monotonic() + took * (1 / MAX_POLL_SHARE - 1)
         self._check_for_halted()
 
     def _check_for_halted(self) -> None:

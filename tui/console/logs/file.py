@@ -17,7 +17,7 @@ from bot_console.tui.files.save_file import NotSaved, typed_path
 
 FILE_POLL_S = 0.25
 """Seconds between two checks whether the file has grown."""
-AT_ONCE = 1 << 18
+CHUNK_BYTES = 1 << 18
 """Bytes read in one go; other threads get the processor in between."""
 
 
@@ -94,7 +94,7 @@ class Tail:
                 yield from self._whole_lines()
 
     def _whole_lines(self) -> Iterator[str]:
-        while self._file is not None and (data := self._file.read(AT_ONCE)):
+        while self._file is not None and (data := self._file.read(CHUNK_BYTES)):
             lines, end, self._rest = (self._rest + data).rpartition(b"\n")
             if end:
                 yield (lines + end).decode("utf-8", "replace")

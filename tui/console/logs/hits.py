@@ -13,7 +13,7 @@ from bot_console.tui.console.logs.re2_engine import Match, Re2Engine
 
 Mask = npt.NDArray[np.bool_]
 Rows = npt.NDArray[np.int64]
-SPARSE = 64
+MAX_SINGLE_MATCHES = 64
 """Matches in one blob after which the search continues with runs of matching lines instead of single matches."""
 
 
@@ -48,11 +48,11 @@ def _re2_hits(engine: Re2Engine, blob: bytes, ends: Rows) -> Mask:
     for count, row in enumerate(_rows(engine, blob, ends)):
         found[row] = True
         at = int(ends[row])
-        if count == SPARSE and engine.word is not None:
+        if count == MAX_SINGLE_MATCHES and engine.word is not None:
             places = [match.start() for match in re.finditer(engine.word, blob[at:].lower())]
             found[np.searchsorted(ends, np.array(places, np.int64) + at, side="right")] = True
             break
-        if count == SPARSE and engine.run is not None:
+        if count == MAX_SINGLE_MATCHES and engine.run is not None:
             _mark_runs(engine, engine.run, blob, ends, at, found)
             if engine.over:
                 _mark_texts_of_many_lines(engine, blob, ends, row, found)

@@ -23,7 +23,7 @@ _HEADS = (
 )
 MAX_LINE_CHARACTERS = 1 << 16
 """Characters of one record; the rest becomes another record."""
-LATEST = 2**63 - 1
+LATEST_NS = 2**63 - 1
 """The latest time that a column of the log can hold, in ns since the epoch."""
 
 Add = Callable[[int, int, str, str], None]
@@ -64,4 +64,4 @@ class SavedLines:
 
 def _stamp(seconds: str) -> int:
     whole, _, part = seconds.partition(".")
-    return min(int(whole) * 10**9 + int(part.ljust(9, "0")), LATEST)
+    return min(int(whole) * 10**9 + int(part.ljust(9, "0")), LATEST_NS)

@@ -8,14 +8,14 @@ from typing import Generic, TypeVar
 import numpy as np
 import numpy.typing as npt
 from bot_console.tui.console.logs.hits import hits
-from bot_console.tui.console.logs.spans import DAY, SECOND, Span, utc_offset
+from bot_console.tui.console.logs.spans import DAY_NS, SECOND_NS, Span, utc_offset
 from bot_console.tui.console.logs.store import LogSegment, LogStore, Table
 from bot_console.tui.console.model import LogFilter, Severity
 from bot_console.tui.console.query import parse
 
 Mask = npt.NDArray[np.bool_]
 Rows = npt.NDArray[np.int64]
-OFFSET_LASTS = 900 * SECOND
+OFFSET_LASTS = 900 * SECOND_NS
 """The offset of local time from UTC only changes at full quarters of an hour."""
 
 T = TypeVar("T")
@@ -102,7 +102,7 @@ class _TestResults(Generic[T]):
 
 
 def _within(span: Span, stamps: Rows) -> Mask:
-    at = (stamps + _offsets(stamps)) % DAY if span.daily else stamps
+    at = (stamps + _offsets(stamps)) % DAY_NS if span.daily else stamps
     if span.begin > span.end:
         return (at >= span.begin) | (at < span.end)
     return (at >= span.begin) & (at < span.end)

@@ -9,9 +9,9 @@ import re
 import time
 from dataclasses import dataclass
 
-SECOND = 10**9
-DAY = 86_400 * SECOND
-ALWAYS = 2**63 - 1
+SECOND_NS = 10**9
+DAY_NS = 86_400 * SECOND_NS
+LATEST_NS = 2**63 - 1
 EXAMPLES = (
     "14:03, 14:03:20.5, 2026-11-22T14:03, -5m (before now), @12.5 (seconds since the epoch), 14:03..14:05, >=14:03"
 )
@@ -20,7 +20,14 @@ _CLOCK = re.compile(
 )
 _AGO = re.compile(r"-(\d{1,9}(?:\.\d{1,9})?)(ms|s|min|m|h|d)")
 _EPOCH = re.compile(r"@(\d{1,10})(?:\.(\d{1,9}))?")
-_UNITS = {"ms": SECOND // 1000, "s": SECOND, "m": 60 * SECOND, "min": 60 * SECOND, "h": 3600 * SECOND, "d": DAY}
+_UNITS = {
+    "ms": SECOND_NS // 1000,
+    "s": SECOND_NS,
+    "m": 60 * SECOND_NS,
+    "min": 60 * SECOND_NS,
+    "h": 3600 * SECOND_NS,
+    "d": DAY_NS,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +40,7 @@ class Span:
 
     def holds(self, stamp: int) -> bool:
         """Whether it contains a time (ns since the epoch); a daily span may cross midnight."""
-        at = (stamp + utc_offset(stamp)) % DAY if self.daily else stamp
+        at = (stamp + utc_offset(stamp)) % DAY_NS if self.daily else stamp
         if self.begin > self.end:
             return at >= self.begin or at < self.end
         return self.begin <= at < self.end
@@ -51,7 +58,7 @@ class _Point:
 
 def utc_offset(stamp: int) -> int:
     """The offset of local time from UTC at a time (ns since the epoch), in ns."""
-    return time.localtime(stamp // SECOND).tm_gmtoff * SECOND
+    return time.localtime(stamp // SECOND_NS).tm_gmtoff * SECOND_NS
 
 
 def parse_span(text: str, now: int) -> Span:
@@ -73,7 +80,7 @@ def parse_span(text: str, now: int) -> Span:
 
 
 def _between(begin: int | None, end: int | None, daily: bool) -> Span:
-    return Span(0 if begin is None else begin, (DAY if daily else ALWAYS) if end is None else end, daily)
+    return Span(0 if begin is None else begin, (DAY_NS if daily else LATEST_NS) if end is None else end, daily)
 
 
 def _point(text: str, now: int) -> _Point:
@@ -83,7 +90,7 @@ def _point(text: str, now: int) -> _Point:
         return _Point(moment, moment, ago=True)
     epoch = _EPOCH.fullmatch(text)
     if epoch:
-        return _sized(int(epoch[1]) * SECOND, epoch[2] or "")
+        return _sized(int(epoch[1]) * SECOND_NS, epoch[2] or "")
     found = _CLOCK.fullmatch(text)
     if not found or not (found["date"] or found["clock"]):
         raise ValueError(f"time '{text}' is not valid; for instance {EXAMPLES}")
@@ -93,7 +100,7 @@ def _point(text: str, now: int) -> _Point:
         raise ValueError(f"time '{text}' does not exist; for instance {EXAMPLES}") from None
 
 
-def _sized(begin: int, part: str, whole: int = SECOND) -> _Point:
+def _sized(begin: int, part: str, whole: int = SECOND_NS) -> _Point:
     """A time with this fractional part of a second."""
     return _Point(
         begin + int(part.ljust(9, "0")), begin + int(part.ljust(9, "0")) + (10 ** (9 - len(part)) if part else whole)
@@ -104,15 +111,15 @@ def _on_a_clock(date: str | None, clock: str | None, part: str) -> _Point:
     hours, minutes, *seconds = (int(each) for each in (clock or "0:00").split(":"))
     if hours > 23 or minutes > 59 or (seconds and seconds[0] > 59) or (part and not seconds):
         raise ValueError
-    of_day = (hours * 3600 + minutes * 60 + (seconds[0] if seconds else 0)) * SECOND
-    unit = SECOND if seconds else 60 * SECOND
+    of_day = (hours * 3600 + minutes * 60 + (seconds[0] if seconds else 0)) * SECOND_NS
+    unit = SECOND_NS if seconds else 60 * SECOND_NS
     if date is None:
         point = _sized(of_day, part, unit)
         return _Point(point.begin, point.end, daily=True)
     day = time.strptime(date, "%Y-%m-%d")
-    begin = int(time.mktime((*day[:3], hours, minutes, seconds[0] if seconds else 0, 0, 0, -1))) * SECOND
+    begin = int(time.mktime((*day[:3], hours, minutes, seconds[0] if seconds else 0, 0, 0, -1))) * SECOND_NS
     if clock:
         return _sized(begin, part, unit)
     year, month, number = day[:3]
     # a day has 23 to 25 hours
-    return _Point(begin, int(time.mktime((year, month, number + 1, 0, 0, 0, 0, 0, -1))) * SECOND)
+    return _Point(begin, int(time.mktime((year, month, number + 1, 0, 0, 0, 0, 0, -1))) * SECOND_NS)

@@ -20,8 +20,8 @@ from bot_console.tui.console.model import LogRecord, LogState, Severity
 T = TypeVar("T")
 Site: TypeAlias = "tuple[str, str, int]"
 """File, function, line."""
-SEGMENT = 16_384
-CAPACITY = 63 * SEGMENT
+SEGMENT_RECORDS = 16_384
+CAPACITY = 63 * SEGMENT_RECORDS
 """Records that are kept: a million, in addition to the segment being filled."""
 MAX_RECENT_ERRORS = 1000
 """Errors whose cause can still be learned."""
@@ -89,7 +89,7 @@ class LogStore:
     """A ring of log records numbered from 0. Any thread may add; readers neither wait nor block a writer."""
 
     def __init__(self, capacity: int = CAPACITY) -> None:
-        self._size = max(1, min(SEGMENT, capacity // 2))
+        self._size = max(1, min(SEGMENT_RECORDS, capacity // 2))
         self._maximum = max(2, capacity // self._size)
         self.segments: tuple[LogSegment, ...] = (LogSegment(0, self._size),)
         self.names: Table[str] = Table()

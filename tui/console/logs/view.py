@@ -17,7 +17,7 @@ from bot_console.tui.console.logs.search import LogSearch
 from bot_console.tui.console.logs.store import LogSegment, LogStore
 from bot_console.tui.console.model import LogFilter
 
-FIRST_SLICE = 2048
+FIRST_SLICE_RECORDS = 2048
 """Records searched before anything is shown: a few screenfuls."""
 BUDGET_S = 5.0
 """Processor time (s) that one filter may take for the records that existed when it was requested."""
@@ -86,7 +86,7 @@ class SearchedView:
         for segment in reversed(self._store.segments):
             if segment.first < found.begin:
                 last = min(found.begin - segment.first, segment.count)
-                begin = max(0, last - FIRST_SLICE) if not len(found.numbers) else 0
+                begin = max(0, last - FIRST_SLICE_RECORDS) if not len(found.numbers) else 0
                 numbers = search.passing(segment, begin, last)
                 joined = found.numbers.joined(older=numbers, keys=self._keys(segment, numbers))
                 return replace(found, numbers=joined, begin=segment.first + begin)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from bot_console.tui.console.model import ChangeSource, Value
 
-EACH = 20
+MAX_EVENTS_PER_PARAMETER = 20
 """How many outstanding events are kept per parameter; a node that never publishes events leaves that many behind."""
 
 
@@ -31,7 +31,7 @@ class Expected:
 
     def add(self, request: ParameterRequest) -> None:
         """Add a request."""
-        self._requests.setdefault((request.node, request.name), deque(maxlen=EACH)).append(request)
+        self._requests.setdefault((request.node, request.name), deque(maxlen=MAX_EVENTS_PER_PARAMETER)).append(request)
 
     def accept(self, request: ParameterRequest) -> None:
         """Note that a node has accepted a request, unless its event has arrived before the answer."""

@@ -38,7 +38,7 @@ restarted before its absence was noticed and whose first event was lost.
 Reading = Callable[[str], Coroutine[Any, Any, None]]
 """Queries a node."""
 
-WINDOW = 16
+MAX_CONCURRENT_QUERIES = 16
 """Nodes that are queried at the same time. Queried all at once, the nodes of a busy machine would all respond too
 late.
 """
@@ -46,7 +46,7 @@ late.
 Changed = Callable[[str, str, Value, Value], ChangeSource]
 OnRestart = Callable[[str, str, Value, Value], object]
 
-LEFT = 500
+MAX_DEPARTED_NODES = 500
 """Nodes that have left whose values are kept, so that differences are noticed when they come back."""
 
 
@@ -98,7 +98,7 @@ class ParameterMirror:
         gone = {name for name in self.trees if name not in offering or self._copies[name] < before.get(name, 1)}
         if gone:
             self._left |= {name: self.trees[name] for name in gone if self.trees[name].parameters}
-            while len(self._left) > LEFT:
+            while len(self._left) > MAX_DEPARTED_NODES:
                 del self._left[next(iter(self._left))]
             self._publish({name: tree for name, tree in self.trees.items() if name not in gone})
             for name in gone:
@@ -120,7 +120,7 @@ class ParameterMirror:
             self._fill_window()
 
     def _fill_window(self) -> None:
-        while self._waiting and self._reading < WINDOW:
+        while self._waiting and self._reading < MAX_CONCURRENT_QUERIES:
             self._reading += 1
             self._calls.run(partial(self._in_window, *self._waiting.popleft()))
 

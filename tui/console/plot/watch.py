@@ -21,7 +21,7 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
 PLOT_QOS = QoSProfile(depth=50, reliability=ReliabilityPolicy.BEST_EFFORT)
-OTHER_CLOCK = 3600.0
+OTHER_CLOCK_S = 3600.0
 """Difference (s) between a header's time and the time of reception from which the header's clock is a simulator's."""
 RATE_POLL_S = 0.5
 """Seconds between two samples of a topic's rate."""
@@ -131,7 +131,7 @@ class PlotWatch:
         if stamp is None or not (stamp.sec or stamp.nanosec):
             return math.nan
         time = self.axis_time(stamp.sec * 1_000_000_000 + stamp.nanosec)
-        if abs(time - self.now()) < OTHER_CLOCK:
+        if abs(time - self.now()) < OTHER_CLOCK_S:
             return time
         if self._other_clock is None:
             self._other_clock = self.now() - time

@@ -43,7 +43,7 @@ VERDICT = "diagnostics"
 DIAGNOSTICS = "diagnostic_msgs/msg/DiagnosticArray"
 VERDICT_LIFETIME_S = 2.0
 """Seconds after which a verdict is no longer shown: diagnostics are published at least once a second."""
-SILENCE = 0.5
+COMMAND_LIFETIME_S = 0.5
 """Seconds after which a velocity command expires, and the robot stops by itself."""
 CLOCK = "/clock"
 FORCED = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -359,7 +359,7 @@ class DriveLink:
         changes.
         """
         here = world.robot in ("", self._robot.robot)
-        final, asked = (self._recent(token, SILENCE) for token in (FINAL, ASKED))
+        final, asked = (self._recent(token, COMMAND_LIFETIME_S) for token in (FINAL, ASKED))
         silent = FINAL in self._seen and not final
         gone = silent and here and world.silent_s > 0
         verdict = self._verdict if self._recent(VERDICT, VERDICT_LIFETIME_S) else Verdict()

@@ -26,8 +26,8 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import LaserScan
 
-TRAIL = 400
-TRAIL_STEP = 0.1
+MAX_TRAIL_POINTS = 400
+TRAIL_STEP_M = 0.1
 """Distance between two points of the trail, in m."""
 MIN_CELL_M = 1e-6
 """The smallest plausible cell, in m; the largest coordinates are limited as those of beams are."""
@@ -60,7 +60,7 @@ class WorldWatch:
         self._map: GridMap | None = None
         self._odometry: Odometry | None = None
         self._scan: LaserScan | None = None
-        self._trail: deque[tuple[float, float]] = deque(maxlen=TRAIL)
+        self._trail: deque[tuple[float, float]] = deque(maxlen=MAX_TRAIL_POINTS)
         self.past = PastPoses()
         self._turtles = TurtleWatch(node)
         self._fresh = False
@@ -144,7 +144,7 @@ class WorldWatch:
             self._trail.clear()
             self._scan = None
         if pose := pose_of(message.pose.pose):
-            if not self._trail or math.dist(self._trail[-1], (pose.x, pose.y)) >= TRAIL_STEP:
+            if not self._trail or math.dist(self._trail[-1], (pose.x, pose.y)) >= TRAIL_STEP_M:
                 self._trail.append((pose.x, pose.y))
             self.past.add(time.time_ns(), message.pose.pose)
         self._odometry = message

@@ -20,7 +20,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 POSE, IMAGE = "turtlesim/msg/Pose", "sensor_msgs/msg/Image"
 CANVAS = "_canvas"
 """The last token of the hidden topic on which our own turtlesim publishes what has been drawn."""
-TRAIL, TRAIL_STEP = 400, 0.1
+MAX_TRAIL_POINTS, TRAIL_STEP_M = 400, 0.1
 """Points of a trail, and the distance between two of them in m."""
 NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -62,7 +62,7 @@ class TurtleWatch:
             kind = interface(Payload.MESSAGE, POSE)
         except ValueError:  # the turtles run on another machine; turtlesim is not installed here
             return
-        self._trails[topic] = deque(maxlen=TRAIL)
+        self._trails[topic] = deque(maxlen=MAX_TRAIL_POINTS)
         self._subscriptions[topic] = self._node.create_subscription(kind, topic, partial(self._on_pose, topic), NEWEST)
 
     def _subscribe_canvas(self, topic: str) -> None:
@@ -76,7 +76,7 @@ class TurtleWatch:
         if not (math.isfinite(message.x) and math.isfinite(message.y)):
             return
         trail = self._trails[topic]
-        if not trail or math.dist(trail[-1], (message.x, message.y)) >= TRAIL_STEP:
+        if not trail or math.dist(trail[-1], (message.x, message.y)) >= TRAIL_STEP_M:
             trail.append((message.x, message.y))
         if message != self._poses.get(topic):
             self._poses[topic] = message

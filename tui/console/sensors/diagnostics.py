@@ -17,7 +17,7 @@ AGGREGATED = "_agg"
 """Suffix of an aggregator's topic, which repeats the statuses of the others under different names."""
 MAX_NAMES = 1000
 """Names that are kept."""
-REMEMBERED = 100
+MAX_CHANGES_PER_NAME = 100
 """Changes that are kept per name."""
 
 
@@ -78,7 +78,7 @@ def _status(new: DiagnosticStatus, before: Status | None, stamp: int, heard: flo
     level = _level(new.level)
     history = before.history if before else ()
     if not history or history[-1].level is not level or (level is not Level.OK and history[-1].message != new.message):
-        history = (*history, ReportedStatus(stamp, level, str(new.message)))[-REMEMBERED:]
+        history = (*history, ReportedStatus(stamp, level, str(new.message)))[-MAX_CHANGES_PER_NAME:]
     values = tuple((str(each.key), str(each.value)) for each in new.values)
     return Status(str(new.name), level, str(new.message), str(new.hardware_id), values, heard, history)
 

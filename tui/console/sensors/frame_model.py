@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-QUIET = 1.0
+QUIET_S = 1.0
 """Seconds after which a moving frame counts as silent, or three times its period if that is longer."""
 
 
@@ -30,7 +30,7 @@ class Frame:
 
     def silent(self, clock: float) -> bool:
         """Whether it is a moving frame that has not been published for too long."""
-        timeout_s = max(QUIET, 3.0 / self.rate if self.rate else 0.0)
+        timeout_s = max(QUIET_S, 3.0 / self.rate if self.rate else 0.0)
         return not self.fixed and clock - self.heard > timeout_s
 
 

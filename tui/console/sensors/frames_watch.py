@@ -26,13 +26,13 @@ DEPTH = {MOVING: 100, FIXED: 1000}
 """Queue depths; static transforms come all at once, and each only once."""
 MAX_FRAMES = 2000
 """Frames that are kept."""
-REMEMBERED = 5.0
+OTHER_PARENT_S = 5.0
 """Seconds for which another parent seen on `/tf` is remembered; one on `/tf_static` is published once, and stays."""
-WINDOW = 2.0
+WINDOW_S = 2.0
 """Seconds over which a rate is measured."""
 JUMP_BACK_S = 1.0
 """How far back (s) the stamps of a frame have to go to count as a jump of time: a reset, or a bag that starts again."""
-SAME_CLOCK = 60.0
+SAME_CLOCK_S = 60.0
 """Difference (s) beyond which a stamp is considered to be from another clock."""
 
 
@@ -138,12 +138,12 @@ class FramesWatch:
 
 
 def _frame(name: str, seen: _FrameState, now: float) -> Frame:
-    if now - seen.since >= WINDOW:
+    if now - seen.since >= WINDOW_S:
         passed, seen.since = now - seen.since, now
         seen.rate, seen.count = seen.count / passed, 0
     move, q = seen.transform.transform.translation, seen.transform.transform.rotation
     parent = seen.transform.header.frame_id.lstrip("/")
-    others = (each for each, heard in tuple(seen.parents.items()) if each != parent and now - heard < REMEMBERED)
+    others = (each for each, heard in tuple(seen.parents.items()) if each != parent and now - heard < OTHER_PARENT_S)
     return Frame(
         name,
         parent,
@@ -152,7 +152,7 @@ def _frame(name: str, seen: _FrameState, now: float) -> Frame:
         _angles(q.x, q.y, q.z, q.w),
         None if seen.fixed else seen.rate,
         seen.heard,
-        seen.late if not seen.fixed and abs(seen.late) < SAME_CLOCK else None,
+        seen.late if not seen.fixed and abs(seen.late) < SAME_CLOCK_S else None,
         tuple(sorted(others)),
     )
 

@@ -23,7 +23,7 @@ from bot_console.tui.console.topics.port import Payload, Slot, Values
 from bot_console.tui.console.topics.typed import NOW, parse
 from rosidl_runtime_py import message_to_ordereddict
 
-SHORT = 60
+MAX_DEFAULT_CHARACTERS = 60
 """Maximum length, in characters, of an array's default that is written out."""
 
 
@@ -63,7 +63,9 @@ def _default(value: Any, kind: str, owner: str, names: Any) -> str:
             if not is_message(element_type(kind))
             else "[]"
         )
-        return text if len(text) <= SHORT else f"[{scalar_text(value[0], {})}, ... {len(value)} values]"
+        return (
+            text if len(text) <= MAX_DEFAULT_CHARACTERS else f"[{scalar_text(value[0], {})}, ... {len(value)} values]"
+        )
     return scalar_text(value, names)
 
 

@@ -20,7 +20,7 @@ from bot_console.tui.console.topics.interfaces import (
 )
 from bot_console.tui.console.topics.port import Field
 
-ELEMENTS = 8
+MAX_ELEMENTS = 8
 """Maximum number of array elements shown on separate lines, or together on one line."""
 MAX_FIELDS = 2000
 """Maximum number of lines of a message; a single line stands for the rest."""
@@ -71,10 +71,10 @@ def _array(
     kind, element = kinds
     if is_message(element):
         inside: list[Field] = []
-        for at, each in enumerate(value[:ELEMENTS]):
+        for at, each in enumerate(value[:MAX_ELEMENTS]):
             inside += _nested(each, element, f"[{at}]", f"{path}[{at}]", depth + 1, unit, left)
-        if len(value) > ELEMENTS:
-            inside.append(Field(path, "...", depth + 1, "", f"{len(value) - ELEMENTS} more elements"))
+        if len(value) > MAX_ELEMENTS:
+            inside.append(Field(path, "...", depth + 1, "", f"{len(value) - MAX_ELEMENTS} more elements"))
         text = "empty" if not len(value) else f"{len(value)} element{'s' if len(value) > 1 else ''}"
         return [Field(path, name, depth, kind, text, unit if len(value) else "", holds=len(inside)), *inside]
     number = element in INTEGERS or element in REALS
@@ -88,7 +88,7 @@ def _summary(owner: Any, name: str, value: Any, element: str) -> str:
         return f"image of {owner.width} x {owner.height}, {owner.encoding}, {count} bytes"
     if name == "data" and hasattr(owner, "format"):
         return f"image, {owner.format or 'format unknown'}, {count} bytes"
-    if count <= ELEMENTS:
+    if count <= MAX_ELEMENTS:
         return "[" + ", ".join(scalar_text(each, {}) for each in value) + "]"
     if element not in INTEGERS and element not in REALS:
         return f"{count} values: " + ", ".join(scalar_text(each, {}) for each in value[:3]) + ", ..."

@@ -18,22 +18,22 @@ from bot_console.tui.console.topics.port import Measure, Payload
 from rclpy.node import Node
 from rclpy.serialization import deserialize_message
 
-WINDOW = 5.0
+WINDOW_S = 5.0
 """Seconds over which a rate is measured."""
 MIN_MEASURED_S = 3.0
 """Seconds over which messages must have arrived for a rate to be reliable: the first ones often arrive together."""
-TURN = 3.0
+TURN_S = 3.0
 """Seconds for which the choice of measured topics stays the same."""
-BUDGET = 1000.0
+MAX_MESSAGES_PER_S = 1000.0
 """Maximum number of messages measured per second."""
 METER_POLL_S = 0.25
 """Minimum number of seconds between two polls that are kept."""
-OTHER_CLOCK = 3600.0
+OTHER_CLOCK_S = 3600.0
 """Difference (s) from which a stamp is considered to be from another clock."""
 LITTLE, BIG = struct.Struct("<iI"), struct.Struct(">iI")
 MAX_VALUE_BYTES = 16_384
 """Bytes of a message whose value is read; images and the like would take too long."""
-STAMP_AT = 4
+STAMP_OFFSET_BYTES = 4
 """Offset of the message after the four bytes that identify its serialization."""
 
 
@@ -56,14 +56,14 @@ class Meter:
     def take(self, data: bytes, info: Mapping[str, int | None]) -> None:
         """Count one serialized message, at the time it was received rather than taken: others may have waited too."""
         received = info["received_timestamp"] or self._clock()
-        waited = min(max(self._clock() - received, 0) / 1e9, WINDOW)
+        waited = min(max(self._clock() - received, 0) / 1e9, WINDOW_S)
         now = max(time.monotonic() - waited, self._last)
         self._count += 1
         self._size += len(data)
         self.newest = data if len(data) <= MAX_VALUE_BYTES else b""
         self._first, self._last = self._first or now, now
-        if self._stamped and len(data) >= STAMP_AT + 8:
-            seconds, nanoseconds = (LITTLE if data[1] & 1 else BIG).unpack_from(data, STAMP_AT)
+        if self._stamped and len(data) >= STAMP_OFFSET_BYTES + 8:
+            seconds, nanoseconds = (LITTLE if data[1] & 1 else BIG).unpack_from(data, STAMP_OFFSET_BYTES)
             self._late += received - seconds * 1_000_000_000 - nanoseconds
             self._stamps += 1
 
@@ -74,12 +74,12 @@ class Meter:
         polls = self._polls
         if now - polls[-1][0] >= METER_POLL_S:
             polls.append(here)
-        while len(polls) > 2 and now - polls[1][0] > WINDOW:
+        while len(polls) > 2 and now - polls[1][0] > WINDOW_S:
             polls.popleft()
         begun, first, count, size, late, stamps = polls[0]
         new = self._count - count
         if not new:
-            silent = now - begun >= WINDOW
+            silent = now - begun >= WINDOW_S
             return Measure(0.0 if silent else None, 0.0 if silent else None, self._age(now), None, self._count)
         span, spaces = (self._last - first, new) if count else (self._last - self._first, new - 1)
         rate = spaces / span if span > 0 else None
@@ -87,7 +87,7 @@ class Meter:
             rate = new / (now - begun)  # the topic has become slower, or has ended
         stamped = self._stamps - stamps
         latency = (self._late - late) / stamped / 1e9 if stamped else None
-        if latency is not None and abs(latency) > OTHER_CLOCK:
+        if latency is not None and abs(latency) > OTHER_CLOCK_S:
             latency = None
         bandwidth = rate * (self._size - size) / new if rate is not None else None
         provisional = not self._known and now - self._first < MIN_MEASURED_S
@@ -100,8 +100,8 @@ class Meter:
 class Meters:
     """The topics being measured: those in view.
 
-    Each measured message costs some 40 us. If more than `BUDGET` arrive, the fastest topics take turns; the last
-    measurement of a topic is shown until its next turn.
+    Each measured message costs some 40 us. If more than `MAX_MESSAGES_PER_S` arrive, the fastest topics take turns; the
+    last measurement of a topic is shown until its next turn.
     """
 
     def __init__(self, node: Node) -> None:
@@ -128,7 +128,7 @@ class Meters:
         for topic in self._wanted - self._meters.keys() - self._resting.keys():
             self._begin(topic, graph)
         if self._wanted and self._timer is None:
-            self._timer = self._node.create_timer(TURN, lambda: self.turn(self._graph))
+            self._timer = self._node.create_timer(TURN_S, lambda: self.turn(self._graph))
         elif not self._wanted and self._timer is not None:
             self._node.destroy_timer(self._timer)
             self._timer = None
@@ -157,7 +157,7 @@ class Meters:
     def turn(self, graph: GraphInfo) -> None:
         """Choose the topics that are measured until the next turn."""
         rates = {topic: each.rate or 0.0 for topic, each in self.measured().items()}
-        chosen = in_turn(rates, list(self._resting), BUDGET)
+        chosen = in_turn(rates, list(self._resting), MAX_MESSAGES_PER_S)
         for topic in [each for each in self._meters if each not in chosen]:
             self._resting[topic] = self._shown(topic, self._meters[topic][1].poll())
             self._detach(topic)

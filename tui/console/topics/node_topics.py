@@ -39,7 +39,7 @@ ANSWER_TIMEOUT_S = 30.0
 """Seconds to wait for the response of a service called by a user."""
 MAX_NAMED_TOPICS = 3
 """Topics that are named one by one in an answer."""
-REMEMBERED = 50
+MAX_REMEMBERED = 50
 """Messages, requests and goals kept per name, so that they can be sent again."""
 
 
@@ -190,7 +190,7 @@ class NodeTopics:
         if dict(values) in known:
             known.remove(dict(values))
         known.append(dict(values))
-        del known[:-REMEMBERED]
+        del known[:-MAX_REMEMBERED]
 
     def publish(self, topic: str, type_name: str, values: Values, rate: float = 0.0) -> Answer:
         """Publish once, or at a rate."""

@@ -26,9 +26,9 @@ from textual.app import ComposeResult
 
 REQUESTER, SUGGESTING = "alarms", "alarms suggested"
 STATE_NAME = "alarms"
-POLL_S, SHOWN, AGAIN = 0.2, 1.0, 1.0
+SAMPLE_POLL_S, LIST_POLL_S, MISSING_PATH_POLL_S = 0.2, 1.0, 1.0
 """Seconds between two looks at the samples, at the list, and at paths that are not there yet."""
-NOTICE = 8.0
+NOTICE_S = 8.0
 """Seconds that a notice stands; the times that an alarm begins to hold meanwhile are told with its next one."""
 MAX_ALARMS = 100
 """Alarms that there can be."""
@@ -99,7 +99,7 @@ class AlarmsPane(ListPane):
         self._checks = snapshot.rate_checks
         self._suggest(() if self._alarms or self._checks else templates(snapshot.graph.topics))
         is_changed = self._checks is not before[0] or self._suggested is not before[1]
-        if is_changed or is_due(self._drawn, self.clock(), SHOWN):
+        if is_changed or is_due(self._drawn, self.clock(), LIST_POLL_S):
             self._arrange()
 
     def _suggest(self, texts: Sequence[AlarmText]) -> None:
@@ -119,9 +119,9 @@ class AlarmsPane(ListPane):
     def tick(self) -> None:
         """Process new samples, even while hidden, and update the list while it is visible."""
         now = self.clock()
-        if self._alarms and now - self._polled >= POLL_S:
+        if self._alarms and now - self._polled >= SAMPLE_POLL_S:
             self._polled = now
-            if self._waiting and now - self._asked >= AGAIN:
+            if self._waiting and now - self._asked >= MISSING_PATH_POLL_S:
                 self._asked = now
                 self._watch(self._waiting)
             for alarm in self._alarms:
@@ -129,7 +129,7 @@ class AlarmsPane(ListPane):
                 if began and alarm.text.bell:
                     self.host.bell()
                 alarm.untold += began
-                if alarm.untold and now - alarm.reported >= NOTICE:
+                if alarm.untold and now - alarm.reported >= NOTICE_S:
                     self._report(alarm, alarm.untold[-1], len(alarm.untold))
                     alarm.reported, alarm.untold = now, []
         if self._suggested and not self.display:
@@ -138,7 +138,7 @@ class AlarmsPane(ListPane):
         if holding != self._holding:
             self._holding = holding
             self.post_message(self.AlarmsHold(holding))
-        if self.display and is_due(self._drawn, now, SHOWN):
+        if self.display and is_due(self._drawn, now, LIST_POLL_S):
             self._arrange()
 
     def _watch(self, paths: Any) -> None:
@@ -155,7 +155,7 @@ class AlarmsPane(ListPane):
             f"{alarm.text.name}: {value:.4g}{often}\n{alarm.text.condition}",
             title="Alarm",
             severity="warning",
-            timeout=NOTICE,
+            timeout=NOTICE_S,
         )
 
     def _arrange(self) -> None:

@@ -17,7 +17,7 @@ from textual.events import Click
 from textual.message import Message
 
 STATES = {True: ("✗", "active", "error"), False: ("○", "quiet", "good"), None: ("?", "unknown", "warn")}
-NAME, STATE, AGE = 24, 11, 8
+MAX_NAME_CELLS, STATE_CELLS, AGE_CELLS = 24, 11, 8
 """Cells of the name at most, of the state, and of how long it is so."""
 
 NO_VALUE = "no value yet"
@@ -85,15 +85,17 @@ class AlarmRows(ItemList[Row]):
         if row.suggested:
             return self._suggestion(row, width)
         sign, word, style = STATES[row.holds]
-        name = min(NAME, max((cell_len(sanitize(each.name)) for each in self.rows), default=0), max(8, width // 3))
+        name = min(
+            MAX_NAME_CELLS, max((cell_len(sanitize(each.name)) for each in self.rows), default=0), max(8, width // 3)
+        )
         loud = self._style(style)
         segments = [
-            Segment(f"{sign} {word:<{STATE - 2}}", loud),
+            Segment(f"{sign} {word:<{STATE_CELLS - 2}}", loud),
             Segment(cut(sanitize(row.name), name, pad=True) + "  ", loud if row.holds else self._style("strong")),
         ]
         if width >= 60:
             so = age_text(row.age) if row.holds is not None else ""
-            segments.append(Segment(f"{so:<{AGE}}", self._style("dim")))
+            segments.append(Segment(f"{so:<{AGE_CELLS}}", self._style("dim")))
         segments += [
             Segment(f"{counted(row.times, 'time') if row.times else '':<9}", loud if row.holds else self._style("dim")),
             Segment("♪ " if row.bell else "  ", self._style("dim")),
@@ -104,7 +106,7 @@ class AlarmRows(ItemList[Row]):
 
     def _suggestion(self, row: Row, width: int) -> list[Segment]:
         """Name, condition, and the value now."""
-        name = min(max(NAME, width // 4), max(cell_len(sanitize(each.name)) for each in self.rows))
+        name = min(max(MAX_NAME_CELLS, width // 4), max(cell_len(sanitize(each.name)) for each in self.rows))
         condition = min(
             max(cell_len(sanitize(each.condition)) for each in self.rows), max(12, width - name - SUGGESTED_VALUE)
         )

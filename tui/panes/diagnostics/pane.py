@@ -28,7 +28,7 @@ from textual.containers import Container
 
 POLL_S = 0.5
 """Seconds between two looks."""
-SIDE = 110
+MIN_SIDE_BY_SIDE_CELLS = 110
 """Cells from which the list and what is at the cursor stand side by side."""
 EMPTY = Placeholder(
     "What nodes report about themselves: no node publishes diagnostics (diagnostic_msgs/msg/DiagnosticArray) yet.",
@@ -185,7 +185,7 @@ class DiagnosticsPane(ListPane):
 
     def on_resize(self) -> None:
         """Place list and detail side by side if there is room."""
-        self.set_class(self.size.width >= SIDE, "side")
+        self.set_class(self.size.width >= MIN_SIDE_BY_SIDE_CELLS, "side")
 
 
 def sections(status: Status, now: float) -> list[Section]:

@@ -21,9 +21,9 @@ LEVEL_STYLES = {
     Level.STALE: ("◌", "warn"),
 }
 """Sign and style of each level; the word stands beside it, so that nothing is told by colour alone."""
-LEVEL, AGE = 7, 6
+LEVEL_CELLS, AGE_CELLS = 7, 6
 """Cells of level and age."""
-NAME = 40
+MAX_NAME_CELLS = 40
 """Cells that a name takes at most."""
 
 
@@ -66,7 +66,7 @@ class StatusRows(ItemList[Row]):
         if self._names[0] is not self.rows:
             longest = max((2 * each.depth + 4 + cell_len(sanitize(each.title)) for each in self.rows), default=0)
             self._names = (self.rows, longest)
-        return max(12, min(self._names[1], NAME, width - LEVEL - AGE - 2))
+        return max(12, min(self._names[1], MAX_NAME_CELLS, width - LEVEL_CELLS - AGE_CELLS - 2))
 
     def row(self, index: int, width: int) -> list[Segment]:
         """Fold mark, name, level, age, message."""
@@ -78,8 +78,8 @@ class StatusRows(ItemList[Row]):
         quiet = row.level is Level.OK
         return [
             Segment(name, self._style("head") if row.count else self._style("strong") if not quiet else None),
-            Segment(f" {sign} {row.level.name:<{LEVEL - 1}}", own),
-            Segment(f"{age_text(row.age):>{AGE}}  ", self._style("dim")),
+            Segment(f" {sign} {row.level.name:<{LEVEL_CELLS - 1}}", own),
+            Segment(f"{age_text(row.age):>{AGE_CELLS}}  ", self._style("dim")),
             Segment(sanitize(self._last_message(row)), None if quiet else own),
         ]
 

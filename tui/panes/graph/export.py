@@ -8,7 +8,7 @@ from bot_console.tui.widgets.diagram.drawing import Drawing
 from bot_console.tui.widgets.diagram.graph import Digraph
 from rich.cells import cell_len
 
-CELL, LINE = 8, 16
+CELL_WIDTH_PX, CELL_HEIGHT_PX = 8, 16
 """Width and height (px) of a cell of an SVG."""
 
 
@@ -23,7 +23,7 @@ def exported(graph: Digraph, drawing: Drawing, suffix: str) -> str:
 
 def _svg(drawing: Drawing) -> str:
     """The picture as text, each run at its cell position, so that lines meet in any monospaced font."""
-    width, height = (drawing.width + 2) * CELL, (len(drawing.rows) + 1) * LINE
+    width, height = (drawing.width + 2) * CELL_WIDTH_PX, (len(drawing.rows) + 1) * CELL_HEIGHT_PX
     lines = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" '
         f'font-family="DejaVu Sans Mono, monospace" font-size="13" xml:space="preserve">',
@@ -31,8 +31,9 @@ def _svg(drawing: Drawing) -> str:
     ]
     for row, runs in enumerate(drawing.rows, 1):
         lines += [
-            f'<text x="{(run.x + 1) * CELL}" y="{row * LINE}" textLength="{cell_len(run.text) * CELL}" '
-            f'lengthAdjust="spacingAndGlyphs">{escape(run.text)}</text>'
+            f'<text x="{(run.x + 1) * CELL_WIDTH_PX}" y="{row * CELL_HEIGHT_PX}" '
+            f'textLength="{cell_len(run.text) * CELL_WIDTH_PX}" lengthAdjust="spacingAndGlyphs">'
+            f"{escape(run.text)}</text>"
             for run in runs
             if run.text.strip()
         ]

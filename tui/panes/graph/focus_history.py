@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-STEP = 2
+EDGES_PER_HOP = 2
 """Edges of one hop: to a topic and on to the node behind it."""
 
 
@@ -55,7 +55,7 @@ def around(focus: Focus, edges: Iterable[tuple[str, str]]) -> set[str]:
         near.setdefault(a, set()).add(b)
         near.setdefault(b, set()).add(a)
     found = frontier = {focus.item}
-    for _ in range(focus.hops * STEP):
+    for _ in range(focus.hops * EDGES_PER_HOP):
         frontier = {one for each in frontier for one in near.get(each, ())} - found
         found = found | frontier
     return found

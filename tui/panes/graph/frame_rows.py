@@ -10,8 +10,8 @@ from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
 
-RATE, AGE = 9, 7
-NAME = 44
+RATE_CELLS, AGE_CELLS = 9, 7
+MAX_NAME_CELLS = 44
 """Cells that a name takes at most."""
 
 
@@ -26,12 +26,16 @@ class FrameRows(ItemList[FrameRow]):
         """Tree and name, rate, age, publisher, and problems."""
         row = self.rows[index]
         longest = max(2 * each.depth + cell_len(sanitize(each.name)) for each in self.rows)
-        name = cut("  " * row.depth + sanitize(row.name), max(12, min(longest, NAME, width - RATE - AGE)), pad=True)
+        name = cut(
+            "  " * row.depth + sanitize(row.name),
+            max(12, min(longest, MAX_NAME_CELLS, width - RATE_CELLS - AGE_CELLS)),
+            pad=True,
+        )
         trouble = [Segment(f"✗ {sanitize(row.trouble)}  ", self._style("error"))] if row.trouble else []
         return [
             Segment(name, self._style("head") if row.frame is None else None),
-            Segment(f"{_rate(row):>{RATE}}"),
-            Segment(f"{age_text(row.age):>{AGE}}  ", self._style("dim")),
+            Segment(f"{_rate(row):>{RATE_CELLS}}"),
+            Segment(f"{age_text(row.age):>{AGE_CELLS}}  ", self._style("dim")),
             *trouble,
             Segment(sanitize(row.by), self._style("dim")),
         ]

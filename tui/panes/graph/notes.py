@@ -21,7 +21,7 @@ EMPTY = Placeholder(
     "Nodes, and the topics between them: there are no nodes yet.", (("8", "Start nodes"), ("?", "Help"))
 )
 UNSENT, UNHEARD = "No publisher ", "No subscriber"
-INDENT = 7
+INDENT_CELLS = 7
 """Cells of `sends` and `reads`, with the blanks around them."""
 
 
@@ -173,7 +173,7 @@ def _member_line(node: NodeInfo, view: GraphView, space: str, longest: int, widt
         for verb, ends in (("sends", node.publishers), ("reads", node.subscriptions))
         if (names := [_below(each.name, space) for each in ends if not view.hides_name(each.name)])
     ]
-    return cut(f"{' ' * INDENT}{node.name.removeprefix(f'{space}/'):<{longest}}{GAP}{GAP.join(parts)}", width)
+    return cut(f"{' ' * INDENT_CELLS}{node.name.removeprefix(f'{space}/'):<{longest}}{GAP}{GAP.join(parts)}", width)
 
 
 def _below(topic: str, space: str) -> str:
@@ -197,7 +197,7 @@ def _fitted(head: str, lines: Sequence[str], width: int, maximum: int, how: str)
     """A heading and lines, in at most so many lines; `how` says how to see the others."""
     if len(lines) > maximum - 1:
         left = len(lines) - maximum + 2
-        lines = [*lines[: maximum - 2], f"{' ' * INDENT}{left} more lines: {how}"] if maximum > 2 else []
+        lines = [*lines[: maximum - 2], f"{' ' * INDENT_CELLS}{left} more lines: {how}"] if maximum > 2 else []
     return [cut(sanitize(each), width) for each in (head, *lines)]
 
 
@@ -235,7 +235,7 @@ def _ends(
         words.append(f"{each.name}{rate} {arrow} {' '.join(others)}")
     last = [f"{hidden} hidden"] if hidden else []
     if lonely:
-        room = width - INDENT - 1 - sum(len(GAP) * 2 + len(each) for each in last)
+        room = width - INDENT_CELLS - 1 - sum(len(GAP) * 2 + len(each) for each in last)
         words.append(named("no subscriber:" if publishing else "no publisher:", lonely, room))
     words += last
     lines: list[str] = []
@@ -243,7 +243,7 @@ def _ends(
         if lines and cell_len(lines[-1]) + len(GAP) * 2 + cell_len(word) <= width:
             lines[-1] += GAP * 2 + word
         else:
-            lines.append(f"{verb if not lines else '':<{INDENT}}{word}")
+            lines.append(f"{verb if not lines else '':<{INDENT_CELLS}}{word}")
     return lines
 
 

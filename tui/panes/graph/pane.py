@@ -47,8 +47,8 @@ from bot_console.tui.panes.graph.view_state import STATE_NAME, ViewState, view_s
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.transitions import ask_transition
 from bot_console.tui.text.namespaces import outermost
-from bot_console.tui.widgets.diagram.chart.drawing import WIDE
-from bot_console.tui.widgets.diagram_view import LARGE, DiagramView
+from bot_console.tui.widgets.diagram.chart.drawing import MIN_WIDE_COLUMNS
+from bot_console.tui.widgets.diagram_view import MIN_THREADED_ITEMS, DiagramView
 from bot_console.tui.widgets.prompt.filtered import Narrowed
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Line, Option
@@ -57,7 +57,7 @@ from bot_console.tui.widgets.static_text import StaticText
 from rich.text import Text
 from textual.app import ComposeResult
 
-MANY = 40
+MIN_NODES_TO_FOLD = 40
 """Nodes from which on namespaces are folded until a person unfolds them."""
 
 
@@ -145,7 +145,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         info = self._info
         if info is None:
             return
-        folded = self._folds if self._folds is not None else folds_of(self._visible, MANY)
+        folded = self._folds if self._folds is not None else folds_of(self._visible, MIN_NODES_TO_FOLD)
         self._view = replace(self._view, folded=folded, focus=self._focus_history.now)
         # Topics as boxes of their own: names are cut where it does not fit otherwise.
         for short in (False, True) if self._view.mode in (Mode.ACTIVE, Mode.ALL) else (False,):
@@ -154,7 +154,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             self._report_dead_ends()
             faults = self._shown.bundles.faults or self._shown.faults
             self._picture.show(self._shown.content, self._shown.dead_ends, faults, self._shown.silent)
-            if self._picture.excess <= 1.0 or len(self._shown.graph.items) > LARGE:
+            if self._picture.excess <= 1.0 or len(self._shown.graph.items) > MIN_THREADED_ITEMS:
                 break
         self._report()
 
@@ -174,7 +174,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
     def _measures(self) -> bool:
         """Whether rates are shown: as a person has chosen, else in a flow chart that has room for them."""
         picture, wanted = self._picture, self._rates.wanted
-        room = self._view.mode is Mode.FLOW and picture.outer_size.width >= WIDE and not picture.is_large
+        room = self._view.mode is Mode.FLOW and picture.outer_size.width >= MIN_WIDE_COLUMNS and not picture.is_large
         return room if wanted is None else wanted
 
     def _ask_nodes(self) -> None:
@@ -219,7 +219,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         """Explain the marks, and describe the selected item, in the rows that the drawing leaves free."""
         picture, rates = self._picture, self._rates.shown(self._measures)
         width, lines = picture.outer_size.width - 2, list[str]()
-        if self._view.mode is Mode.FLOW and width >= WIDE - 2:
+        if self._view.mode is Mode.FLOW and width >= MIN_WIDE_COLUMNS - 2:
             free = picture.free_rows - 2
             lines = item_notes(self._snapshot, self._shown, self._view, picture.selected, rates, width, free)
         picture.set_footer(lines, legend(self._shown, width) if self._view.mode is Mode.FLOW else "")
@@ -362,7 +362,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         if not space:
             self.notify("It is in no namespace." if closed else "Only a folded namespace can be unfolded.")
             return
-        self._folds = folded | {space} if closed else unfolded(folded, space, self._visible, MANY)
+        self._folds = folded | {space} if closed else unfolded(folded, space, self._visible, MIN_NODES_TO_FOLD)
         self._draw()
         self._picture.choose(SPACE + min(self._folds - folded, default=space))
 

@@ -15,7 +15,7 @@ MAX_SPEEDS = 100
 """Speeds that are kept: more than arrive in those seconds."""
 MIN_STEP_MPS = 0.05
 """Difference of speeds (m/s) that is worth a word; simulated odometry trembles by less."""
-REACHED = 0.1
+REACHED_SHARE = 0.1
 """The new speed is reached within this share of the step."""
 
 
@@ -66,7 +66,9 @@ class Effects:
         step = 0.0 if after is None else after - watch.before
         if after is None or abs(step) < MIN_STEP_MPS:
             return False
-        near = (at for at, speed in self._speeds if at > watch.began and abs(speed - after) <= REACHED * abs(step))
+        near = (
+            at for at, speed in self._speeds if at > watch.began and abs(speed - after) <= REACHED_SHARE * abs(step)
+        )
         seconds = next(near, now) - watch.began
         text = f"speed {watch.before:.1f} → {after:.1f} m/s in {seconds:.1f} s"
         self._found.update(dict.fromkeys(watch.changes, text))

@@ -30,18 +30,18 @@ WHO = {
 MARKS = {"": " ", "refused": "✗", "not set": "?"}
 """The mark before an entry, by its verdict."""
 GAP = "  "
-NODE, NAME, VALUES = 18, 24, 22
+MAX_NODE_CELLS, MAX_NAME_CELLS, MAX_VALUES_CELLS = 18, 24, 22
 """Cells that node, name and values take at most."""
-SPARED = 8
+MAX_SPARED_CELLS = 8
 """Cells that each of them gives at most where the line is short of them."""
-TAIL = 16
+TAIL_CELLS = 16
 """Cells that are kept for who, or why not."""
-MOMENT, MARK = 12, 2
-BARS = 4
+MOMENT_CELLS, MARK_CELLS = 12, 2
+BARS_CELLS = 4
 """Cells of the old and the new value as bars, with a gap; left out first."""
 INDENT = "  "
 """The text before the name of a change of an open set."""
-NARROW = 70
+MIN_CELLS_WITH_NODE = 70
 """Below so many cells no node is named in a row; what is known of the row at the cursor names it."""
 
 
@@ -133,9 +133,11 @@ class ChangeRows(ItemList[HistoryRow]):
         single = [each for each in rows if not isinstance(each, ChangeSet)]
         sets = [each for each in rows if isinstance(each, ChangeSet)]
         self._members = frozenset(each.seq for found in sets if found.opened for each in found.changes)
-        self._node = min(NODE, max((len(each.node) for each in single), default=0))
-        self._name = min(NAME, max((len(each.name) for each in single), default=0) + (len(INDENT) if sets else 0))
-        self._values = min(VALUES, max((len(changed_text(each)) for each in single[:200]), default=0))
+        self._node = min(MAX_NODE_CELLS, max((len(each.node) for each in single), default=0))
+        self._name = min(
+            MAX_NAME_CELLS, max((len(each.name) for each in single), default=0) + (len(INDENT) if sets else 0)
+        )
+        self._values = min(MAX_VALUES_CELLS, max((len(changed_text(each)) for each in single[:200]), default=0))
         super().exchange(rows, stay=stay and self.cursor > 0)
         if (self._node, self._name, self._values) != before:
             self.refresh()
@@ -149,34 +151,36 @@ class ChangeRows(ItemList[HistoryRow]):
 
     def _widths(self, width: int) -> tuple[int, int, int]:
         """The cells of node, name and values; no node in a narrow pane."""
-        node = self._node if width >= NARROW else 0
-        taken = MOMENT + MARK + sum(each + len(GAP) for each in (node, self._name, self._values) if each)
-        missing = max(0, taken + TAIL - width)
+        node = self._node if width >= MIN_CELLS_WITH_NODE else 0
+        taken = MOMENT_CELLS + MARK_CELLS + sum(each + len(GAP) for each in (node, self._name, self._values) if each)
+        missing = max(0, taken + TAIL_CELLS - width)
         found: list[int] = []
         for each in (node, self._values, self._name):
-            given = min(missing, SPARED, max(0, each - SPARED))
+            given = min(missing, MAX_SPARED_CELLS, max(0, each - MAX_SPARED_CELLS))
             missing -= given
             found.append(each - given)
         return found[0], found[2], found[1]
 
     def _bars(self, change: Change, width: int) -> list[Segment]:
         """The old and the new value as bars, where there is room."""
-        taken = MOMENT + MARK + sum(each + len(GAP) for each in self._widths(width) if each)
-        if width < taken + BARS + 2 * TAIL:
+        taken = MOMENT_CELLS + MARK_CELLS + sum(each + len(GAP) for each in self._widths(width) if each)
+        if width < taken + BARS_CELLS + 2 * TAIL_CELLS:
             return []
         text = "".join(bars((change.old, change.new)))
-        return [Segment(text + " " * (BARS - len(text)), self._style("dim" if change.accepted else "error"))]
+        return [Segment(text + " " * (BARS_CELLS - len(text)), self._style("dim" if change.accepted else "error"))]
 
     def _set(self, row: ChangeSet, width: int) -> list[Segment]:
         """A set: who made it, and how many values it has."""
         bad = any(not each.accepted for each in row.changes)
         sign, loud = "▾" if row.opened else "▸", self._style("error" if bad else "warn" if row.unsafe else "dim")
         return [
-            Segment(f"{_moment(row.newest):<{MOMENT}}", self._style("dim")),
+            Segment(f"{_moment(row.newest):<{MOMENT_CELLS}}", self._style("dim")),
             Segment(f"{sign} ", self._style("dim")),
             Segment(sanitize(who(row.newest)) + GAP, self._style("strong")),
             Segment(set_text(row), loud),
-            *self._after(row.newest, width - MOMENT - MARK - cell_len(f"{who(row.newest)}{GAP}{set_text(row)}")),
+            *self._after(
+                row.newest, width - MOMENT_CELLS - MARK_CELLS - cell_len(f"{who(row.newest)}{GAP}{set_text(row)}")
+            ),
         ]
 
     def _after(self, change: Change, room: int) -> list[Segment]:
@@ -195,7 +199,7 @@ class ChangeRows(ItemList[HistoryRow]):
         moment = _moment(change)
         node = sanitize(change.node)
         node = cut("…" + node[1 - of_node :] if len(node) > of_node else node, of_node, pad=True)
-        head = [Segment(f"{moment:<{MOMENT}}", dim)]
+        head = [Segment(f"{moment:<{MOMENT_CELLS}}", dim)]
         if of_node:
             head.append(Segment(node + GAP, dim))
         name = cut((INDENT if change.seq in self._members else "") + sanitize(change.name), of_name, pad=True)

@@ -12,13 +12,13 @@ from bot_console.tui.widgets.picture import Line
 
 Pixels = npt.NDArray[np.uint8]
 
-LEVELS = 16
+COLOUR_LEVELS = 16
 """Steps of each colour that are told apart: fewer colours make longer runs of the same one, and so fewer bytes."""
-NOISE = 14
+MAX_NOISE = 14
 """A pixel that differs by less than this in every colour is left as it is shown, so that noise costs nothing."""
 RAMP = " .:-=+*#%@"
 """Letters from black to white, for screens without colours or without half-blocks."""
-COLOUR, CHARACTER = 18, 3
+COLOUR_BYTES, CHARACTER_BYTES = 18, 3
 """Bytes of a change of one of the two colours of a cell, and of a half-block."""
 
 
@@ -31,11 +31,11 @@ def pixels_of(picture: Picture) -> Pixels:
 
 def steady(new: Pixels, shown: Pixels | None) -> Pixels:
     """What to show: pixels that are about as they were stay exactly so; the others in few colours."""
-    few = (new // (256 // LEVELS) * (255 // (LEVELS - 1))).astype(np.uint8)
+    few = (new // (256 // COLOUR_LEVELS) * (255 // (COLOUR_LEVELS - 1))).astype(np.uint8)
     if shown is None or shown.shape != new.shape:
         return few
     distance: npt.NDArray[np.int16] = np.abs(new.astype(np.int16) - shown.astype(np.int16)).max(axis=2)
-    return np.where(distance[:, :, np.newaxis] >= NOISE + 256 // LEVELS, few, shown).astype(np.uint8)
+    return np.where(distance[:, :, np.newaxis] >= MAX_NOISE + 256 // COLOUR_LEVELS, few, shown).astype(np.uint8)
 
 
 def half_blocks(pixels: Pixels, width: int, height: int) -> list[Line]:
@@ -66,7 +66,7 @@ def cost(new: Pixels, shown: Pixels | None, *, coloured: bool) -> int:
     other = np.ones(new.shape[:2], bool)
     other[:, 1:] = (new[:, 1:] != new[:, :-1]).any(axis=2)
     grounds = other[::2].astype(int) + other[1::2].astype(int)
-    return int((cells * (CHARACTER + COLOUR * grounds)).sum())
+    return int((cells * (CHARACTER_BYTES + COLOUR_BYTES * grounds)).sum())
 
 
 def _cell(top: int, below: int) -> tuple[str, str]:

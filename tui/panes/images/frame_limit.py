@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-BUDGET = 5000.0
+BUDGET_BYTES_PER_S = 5000.0
 """Bytes per second for pictures, in the mean."""
-FASTEST, SLOWEST = 10.0, 0.125
+MAX_PICTURES_PER_S, MIN_PICTURES_PER_S = 10.0, 0.125
 """Pictures per second."""
 
 
@@ -18,7 +18,7 @@ class FrameLimit:
 
     def change(self, factor: float) -> None:
         """More pictures per second, or fewer."""
-        self.rate = min(FASTEST, max(SLOWEST, self.rate * factor))
+        self.rate = min(MAX_PICTURES_PER_S, max(MIN_PICTURES_PER_S, self.rate * factor))
 
     def due(self, now: float) -> bool:
         """Whether one may be drawn now (s)."""
@@ -26,7 +26,7 @@ class FrameLimit:
 
     def drawn(self, now: float, size: int) -> None:
         """One of so many bytes was drawn; what it took beyond its share is waited for."""
-        self._next = now + max(1.0 / self.rate, size / BUDGET)
+        self._next = now + max(1.0 / self.rate, size / BUDGET_BYTES_PER_S)
 
     def wait(self, now: float) -> float:
         """Seconds until the next one."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
@@ -22,6 +21,7 @@ from bot_console.tui.console.model import (
     ProcessState,
 )
 from bot_console.tui.console.query import Query, parse
+from bot_console.tui.files.folders import expanded_path
 from bot_console.tui.format import clock_text, counted, cut, sanitize
 from bot_console.tui.panes.launch.follow import Follower
 from bot_console.tui.panes.launch.output import STYLES, ProcessOutput
@@ -41,11 +41,11 @@ from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
 
-EVENTS = 4
+MAX_EVENTS = 4
 """Launch events shown below the tree."""
-FEW_EVENTS, MANY_EVENTS_FROM = 2, 30
+MAX_EVENTS_IN_FEW_ROWS, MIN_ROWS_FOR_ALL_EVENTS = 2, 30
 """Launch events in a pane with fewer rows than that."""
-OUTPUT_FROM = 19
+MIN_ROWS_FOR_OUTPUT = 19
 """Rows of the pane from which on the output of the process at the cursor has room."""
 
 ALIVE = (ProcessState.RUNNING, ProcessState.STARTING, ProcessState.STOPPING)
@@ -176,11 +176,11 @@ class LaunchPane(ListPane):
         events = self.query_one("#launch-events", Picture)
         width = events.size.width
         lines: list[Line] = [
-            ((cut(f" {event_text(each)}", width), STYLES.get(each.severity, "dim")),) for each in until[-EVENTS:]
+            ((cut(f" {event_text(each)}", width), STYLES.get(each.severity, "dim")),) for each in until[-MAX_EVENTS:]
         ]
         if stamp is not None:
-            lines = [*lines[1 - EVENTS :], ((f" ◆ {clock_text(stamp)}", "accent"),)]
-        lines = lines[-FEW_EVENTS:] if self.size.height < MANY_EVENTS_FROM else lines
+            lines = [*lines[1 - MAX_EVENTS :], ((f" ◆ {clock_text(stamp)}", "accent"),)]
+        lines = lines[-MAX_EVENTS_IN_FEW_ROWS:] if self.size.height < MIN_ROWS_FOR_ALL_EVENTS else lines
         events.styles.height = len(lines)
         events.set_lines(lines)
 
@@ -249,7 +249,7 @@ class LaunchPane(ListPane):
     def _make_room(self) -> None:
         """Give the rows that the tree leaves free to what its processes print."""
         info = self._info or LaunchInfo()
-        self.set_class(self.size.height >= OUTPUT_FROM and bool(info.processes), "with-output")
+        self.set_class(self.size.height >= MIN_ROWS_FOR_OUTPUT and bool(info.processes), "with-output")
 
     def action_fold(self, closed: bool) -> None:
         """Close or open the group at the cursor."""
@@ -424,7 +424,7 @@ def files_for(files: Sequence[str], typed: str) -> Sequence[Option]:
         query = Query()
     found = [each for each in files if query.matches(each)]
     if not found and typed.strip():
-        found = [str(Path(os.path.expanduser(typed.strip())))]
+        found = [str(expanded_path(typed.strip()))]
     return [Option(Path(each).name, str(Path(each).parent), each) for each in found]
 
 

@@ -26,15 +26,15 @@ STATES = {
     ProcessState.ABANDONED: ("⚠", "warn"),
 }
 
-FOR_WORDS = 110
+MIN_CELLS_FOR_WORDS = 110
 """Cells of a row from which on errors and warnings are written out."""
-FOR_NODES = 90
+MIN_CELLS_FOR_NODES = 90
 """Cells of a row from which on the nodes of a process have room."""
-FOR_TRACE = 84
+MIN_CELLS_FOR_TRACE = 84
 """Cells of a row from which on the CPU usage over time has room."""
-STATE_AND_PID = 20
+STATE_AND_PID_CELLS = 20
 """Cells of the columns after the name that are always visible."""
-RESTARTS = 5
+RESTARTS_CELLS = 5
 """Cells of the number of restarts."""
 
 
@@ -104,7 +104,13 @@ def _counts(followed: Followed, width: int) -> tuple[str, str]:
     """The numbers of errors and of warnings, in words where there is room."""
 
     def text(number: int, word: str) -> str:
-        return "" if not number else counted(number, word) if width >= FOR_WORDS else f"{number} {word[0].upper()}"
+        return (
+            ""
+            if not number
+            else counted(number, word)
+            if width >= MIN_CELLS_FOR_WORDS
+            else f"{number} {word[0].upper()}"
+        )
 
     return text(followed.errors, "error"), text(followed.warnings, "warning")
 
@@ -187,13 +193,13 @@ class ProcessRows(ItemList[Row]):
         trace, errors, warnings = _gathered(self._follower.of(process.key), width)
         states = max((len(self._states(each.process)) for each in self.rows if each.process), default=0)
         count_cells = self._count_cells(width)
-        room = width - names - STATE_AND_PID - RESTARTS - states - count_cells
+        room = width - names - STATE_AND_PID_CELLS - RESTARTS_CELLS - states - count_cells
         usage = "".join((self._states(process).ljust(states), *self._usage(process, trace, width, room)))
         exit_code = "" if process.exit_code is None else f"  exit {process.exit_code}"
-        nodes = _node_words(process) if width >= FOR_NODES else ""
+        nodes = _node_words(process) if width >= MIN_CELLS_FOR_NODES else ""
         problem = f"  {sanitize(process.problem)}" if process.problem and (not exit_code or width >= 60) else ""
         end = exit_code.ljust(len(usage)) if not usage.strip() else exit_code + usage
-        used = names + STATE_AND_PID + RESTARTS + cell_len(end) + count_cells
+        used = names + STATE_AND_PID_CELLS + RESTARTS_CELLS + cell_len(end) + count_cells
         if problem and used + cell_len(nodes + problem) > width:
             # Where the row is too short, it stands in place of empty columns and of what follows.
             end, nodes, problem = (end if usage.strip() else exit_code) + problem, "", ""
@@ -233,11 +239,11 @@ class ProcessRows(ItemList[Row]):
         columns: list[str] = []
         if width >= 60 and any(each.cpu is not None for each in every):
             columns.append("" if process.cpu is None else f"  {f'{process.cpu:.0%}':>4} CPU")
-            if width >= FOR_TRACE:
+            if width >= MIN_CELLS_FOR_TRACE:
                 columns.append("" if process.cpu is None else f" {trace:>{CPU_SAMPLES}}")
         if width >= 76 and any(each.memory is not None for each in every):
             columns.append("" if process.memory is None else f"  {f'{process.memory} MB':>6}")
-        widths = (10, 1 + CPU_SAMPLES, 8)[: len(columns)] if width >= FOR_TRACE else (10, 8)
+        widths = (10, 1 + CPU_SAMPLES, 8)[: len(columns)] if width >= MIN_CELLS_FOR_TRACE else (10, 8)
         fitting = [each <= room for each in accumulate(widths)]
         return [each.ljust(cells) for each, cells, fits in zip(columns, widths, fitting, strict=False) if fits]
 
@@ -245,4 +251,4 @@ class ProcessRows(ItemList[Row]):
         """Cells of the name column: what the longest name needs, if state and process id still fit."""
         labels = ((each.depth, each.process.label) for each in self.rows if each.process is not None)
         longest = max((2 * depth + 2 + cell_len(sanitize(label)) for depth, label in labels), default=0)
-        return max(14, min(longest, width - STATE_AND_PID))
+        return max(14, min(longest, width - STATE_AND_PID_CELLS))

@@ -14,10 +14,10 @@ from bot_console.tui.widgets.row_list import RowList
 from rich.segment import Segment
 
 STYLES = {Severity.DEBUG: "dim", Severity.WARN: "warn", Severity.ERROR: "error", Severity.FATAL: "error"}
-NODE, WIDE_NODE, PLACE = 18, 22, 26
+NODE_CELLS, WIDE_NODE_CELLS, PLACE_CELLS = 18, 22, 26
 """Cells of a node's name, of a name if there is more room, and of the source location."""
 
-WITH_PLACE, MORE_NODE = 150, 20
+MIN_CELLS_WITH_PLACE, MAX_EXTRA_NODE_CELLS = 150, 20
 """Width in cells from which lines show the source location, and how many of the cells beyond that node names may
 use.
 """
@@ -132,10 +132,15 @@ def line_text(
     `count` is the number of equal records that the line stands for, `marked` whether a rule highlights it.
     """
     time = f"{clock_text(record.stamp)} " if width >= 70 else ""
-    room = NODE if width < 110 else WIDE_NODE + max(0, min(MORE_NODE, (width - WITH_PLACE) // 2, longest - WIDE_NODE))
+    room = (
+        NODE_CELLS
+        if width < 110
+        else WIDE_NODE_CELLS
+        + max(0, min(MAX_EXTRA_NODE_CELLS, (width - MIN_CELLS_WITH_PLACE) // 2, longest - WIDE_NODE_CELLS))
+    )
     node = sanitize(node)
     node = "…" + node[1 - room :] if len(node) > room else node
-    place = f" {cut(_place(record), PLACE, pad=True)}" if width >= WITH_PLACE else ""
+    place = f" {cut(_place(record), PLACE_CELLS, pad=True)}" if width >= MIN_CELLS_WITH_PLACE else ""
     times = f"x{count} " if count > 1 else ""
     text = sanitize(record.text[: 4 * width])
     level = SEVERITY_CHARACTERS[record.severity]

@@ -15,24 +15,24 @@ from bot_console.tui.format import sanitize, value_text
 from bot_console.tui.panes.parameters.rows import Row
 from rich.cells import cell_len
 
-BAR, SHORTEST_BAR = 12, 6
+BAR_CELLS, MIN_BAR_CELLS = 12, 6
 """Cells of the slider where there is room, and where there is little."""
 
 FEW = 10
 """One name in so many may be longer than its column, if the sliders have room then."""
 
-MARKS = 2
+MARKS_CELLS = 2
 """Cells of the marks before a name."""
-GAP, END = 2, 1
+GAP_CELLS, END_CELLS = 2, 1
 """Cells between columns, and behind a slider."""
 
-VALUE = 8
+MIN_VALUE_CELLS = 8
 """Cells that a value has at least."""
 
 MIN_NAME = 8
 """Cells that names have at least, wherever the user moves their edge."""
 
-DESCRIPTION = 20
+MIN_DESCRIPTION_CELLS = 20
 """A description has at least these cells, or none."""
 
 
@@ -43,7 +43,7 @@ class Measures:
     """
 
     name: int = 0
-    number: int = VALUE
+    number: int = MIN_VALUE_CELLS
     max_names: int = 0
     """The longest name but for a few; 0: that of all."""
 
@@ -61,7 +61,7 @@ class Columns:
 def measured(rows: Sequence[Row]) -> Measures:
     """Measure the rows; numbers in steps of two cells, so that the columns stand while a value moves."""
     names: list[int] = []
-    number = VALUE
+    number = MIN_VALUE_CELLS
     for row in rows:
         if row.parameter is None:
             continue
@@ -103,7 +103,7 @@ def name_column(row: Row, own: Columns, width: int, split: int = 0) -> int:
 
     In a column whose width the user has set, none runs over it.
     """
-    return own.name if split else max(own.name, min(name_cells(row), width - MARKS - GAP - VALUE))
+    return own.name if split else max(own.name, min(name_cells(row), width - MARKS_CELLS - GAP_CELLS - MIN_VALUE_CELLS))
 
 
 def columns(need: Measures, width: int, split: int = 0) -> Columns:
@@ -111,16 +111,16 @@ def columns(need: Measures, width: int, split: int = 0) -> Columns:
 
     `split` is by how many cells the user has moved the edge between names and values.
     """
-    room = width - MARKS
-    name = max(1, min(need.name, room - GAP - VALUE))
-    beside_bar = room - GAP - need.number - GAP - SHORTEST_BAR - END
+    room = width - MARKS_CELLS
+    name = max(1, min(need.name, room - GAP_CELLS - MIN_VALUE_CELLS))
+    beside_bar = room - GAP_CELLS - need.number - GAP_CELLS - MIN_BAR_CELLS - END_CELLS
     if 0 < need.max_names <= beside_bar < name:
         name = beside_bar
     if split:
-        name = min(max(MIN_NAME, name + split), max(1, room - GAP - VALUE))
-    left = room - name - GAP
+        name = min(max(MIN_NAME, name + split), max(1, room - GAP_CELLS - MIN_VALUE_CELLS))
+    left = room - name - GAP_CELLS
     value = max(0, min(need.number, left))
-    bar = max(0, min(BAR, left - value - GAP - END))
-    bar = bar if bar >= SHORTEST_BAR else 0
-    left -= value + GAP + bar if bar else value
-    return Columns(name, value, bar, left - GAP if bar and left - GAP >= DESCRIPTION else 0)
+    bar = max(0, min(BAR_CELLS, left - value - GAP_CELLS - END_CELLS))
+    bar = bar if bar >= MIN_BAR_CELLS else 0
+    left -= value + GAP_CELLS + bar if bar else value
+    return Columns(name, value, bar, left - GAP_CELLS if bar and left - GAP_CELLS >= MIN_DESCRIPTION_CELLS else 0)

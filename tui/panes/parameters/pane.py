@@ -39,7 +39,7 @@ STATE_NAME = "parameters"
 MIN_DETAIL_LINES = 3
 """Lines of detail that every parameter has: what it is for, its facts, its command."""
 
-FLASH = 1.0
+FLASH_S = 1.0
 """Seconds that a value is shown as one that has just changed."""
 
 SHARE = 3
@@ -225,7 +225,7 @@ class ParametersPane(EditPane):
         key = (after.node, after.parameter.name)
         if key == (before.node, before.parameter.name):
             self.edits.value_changed(key)
-            self._list.flashing[key] = self.edits.clock() + FLASH
+            self._list.flashing[key] = self.edits.clock() + FLASH_S
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Tell of the parameter at the cursor."""

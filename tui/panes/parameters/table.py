@@ -9,7 +9,15 @@ from bot_console.tui.console.parameters.edits import ParameterEdits
 from bot_console.tui.console.parameters.origin import SET_BY
 from bot_console.tui.console.query import Query
 from bot_console.tui.format import cut, sanitize, value_text
-from bot_console.tui.panes.parameters.columns import GAP, MARKS, Measures, columns, measured, name_column, shown_value
+from bot_console.tui.panes.parameters.columns import (
+    GAP_CELLS,
+    MARKS_CELLS,
+    Measures,
+    columns,
+    measured,
+    name_column,
+    shown_value,
+)
 from bot_console.tui.panes.parameters.rows import Row, matches
 from bot_console.tui.text.refusals import beside_row
 from bot_console.tui.widgets.item_list import ItemList
@@ -61,15 +69,15 @@ class ParameterRows(ItemList[Row]):
 
     def on_mouse_down(self, event: MouseDown) -> None:
         """Take hold of the edge between names and values."""
-        edge = MARKS + columns(self._measures, self.across, self.split).name
-        self._dragged = edge <= event.x < edge + GAP and 0 <= event.y + self.scroll_offset.y < self.row_count()
+        edge = MARKS_CELLS + columns(self._measures, self.across, self.split).name
+        self._dragged = edge <= event.x < edge + GAP_CELLS and 0 <= event.y + self.scroll_offset.y < self.row_count()
         if self._dragged:
             self.capture_mouse()
 
     def on_mouse_move(self, event: MouseMove) -> None:
         """Move the edge with the mouse."""
         if self._dragged and self.app.mouse_captured is self:  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
-            edge = MARKS + columns(self._measures, self.across, self.split).name
+            edge = MARKS_CELLS + columns(self._measures, self.across, self.split).name
             self.move_split(event.x - edge)
 
     def on_mouse_up(self, event: MouseUp) -> None:
@@ -127,32 +135,32 @@ class ParameterRows(ItemList[Row]):
         name = cut("  " * row.depth + sanitize(row.name), taken, pad=True)
         key = (parameter.node, parameter.name)
         mark = "".join(sign if here else " " for sign, here in self.signs(parameter))
-        segments = [Segment(f"{mark}{name}{' ' * GAP}", self._style("strong" if parameter.changed else "plain"))]
-        left = max(0, width - MARKS - taken - GAP)
+        segments = [Segment(f"{mark}{name}{' ' * GAP_CELLS}", self._style("strong" if parameter.changed else "plain"))]
+        left = max(0, width - MARKS_CELLS - taken - GAP_CELLS)
         value, dim = shown_value(row), self._style("dim")
         refused, late, staged = self._edits.refused.get(key), self._edits.late, self._edits.staging.marked
         if refused or key in late:
             waits = f"… {sanitize(value_text(late[key]))}: not answered yet" if key in late else ""
             note = waits or (beside_row(refused) if refused else "")
             cells = min(own.value, left)
-            if left - cells - GAP < len(note):  # the column is as wide as the longest value, which is another one
+            if left - cells - GAP_CELLS < len(note):  # the column is as wide as the longest value, which is another one
                 cells = min(cells, len(value))
-            output = Segment(cut(note, max(0, left - cells - GAP)), self._style("warn" if waits else "error"))
-            return [*segments, Segment(cut(value, cells, pad=True) + " " * GAP), output]
+            output = Segment(cut(note, max(0, left - cells - GAP_CELLS)), self._style("warn" if waits else "error"))
+            return [*segments, Segment(cut(value, cells, pad=True) + " " * GAP_CELLS), output]
         if key in staged:
             unit = f" {parameter.unit}" if parameter.unit else ""
             text = f"{sanitize(value_text(parameter.value))} → {sanitize(value_text(staged[key]))}{unit}"
             return [*segments, Segment(cut(text, left), self._style("good"))]
         slider = bar(parameter, own.bar) if own.bar and not over else ""
-        has_room = left >= max(own.value, len(value)) + GAP + len(READ_ONLY)
+        has_room = left >= max(own.value, len(value)) + GAP_CELLS + len(READ_ONLY)
         tail = slider or (READ_ONLY if parameter.read_only and has_room else "")
         segments.append(self._value(value, own.value, left, parameter, bool(tail)))
         used = segments[-1].cell_length
         if tail:
-            segments.append(Segment(cut(" " * GAP + tail, left - used), dim))
+            segments.append(Segment(cut(" " * GAP_CELLS + tail, left - used), dim))
             used += segments[-1].cell_length
-        start = own.value + GAP + own.bar + GAP - over
-        if own.description and used <= start - GAP:
+        start = own.value + GAP_CELLS + own.bar + GAP_CELLS - over
+        if own.description and used <= start - GAP_CELLS:
             segments.append(Segment(" " * (start - used) + cut(sanitize(parameter.description), own.description), dim))
         return segments
 
@@ -186,7 +194,7 @@ class ParameterRows(ItemList[Row]):
             return
         own = columns(self._measures, self.across, self.split)
         taken = name_column(row, own, self.across, self.split)
-        begin = MARKS + taken + GAP + own.value + GAP
+        begin = MARKS_CELLS + taken + GAP_CELLS + own.value + GAP_CELLS
         slides = own.bar and taken == own.name and not row.parameter.read_only
         if slides and bar(row.parameter, own.bar) and begin <= event.x < begin + own.bar:
             self.post_message(self.Slid(row.parameter, (event.x - begin) / (own.bar - 1)))

@@ -11,7 +11,7 @@ from bot_console.tui.console.model import ConsoleSnapshot, JournalState
 from bot_console.tui.format import clock_text
 from bot_console.tui.panes.plot.questions import PlotQuestions
 from bot_console.tui.panes.plot.responses import Responses, wrong_formula
-from bot_console.tui.panes.plot.time_window import DEFAULTS, WINDOWS, Timeline
+from bot_console.tui.panes.plot.time_window import DEFAULTS, WINDOWS_S, Timeline
 from bot_console.tui.widgets.picture import Line, Picture
 from bot_console.tui.widgets.placeholder import Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
@@ -190,7 +190,7 @@ class PlotPane(PlotQuestions):
         from bot_console.tui.panes.plot.pictures import sparklines, xy_plot
 
         timeline = self._timeline
-        axes = timeline.axes(width - plot_view.LABEL if form == "framed" else width)
+        axes = timeline.axes(width - plot_view.LABEL_CELLS if form == "framed" else width)
         if form == "strips":
             return plot_view.strips(timeline.curves, axes, width, height, self._chosen)
         if form == "lines":
@@ -297,8 +297,8 @@ class PlotPane(PlotQuestions):
 
     def action_window(self, step: int) -> None:
         """Show more of the past, or less."""
-        at = WINDOWS.index(self._timeline.window) + step
-        self._timeline.window = WINDOWS[max(0, min(at, len(WINDOWS) - 1))]
+        at = WINDOWS_S.index(self._timeline.window) + step
+        self._timeline.window = WINDOWS_S[max(0, min(at, len(WINDOWS_S) - 1))]
         self.draw()
 
     def action_cursor(self) -> None:

@@ -18,7 +18,7 @@ from bot_console.tui.widgets.prompt.question import Choice, Option
 from bot_console.tui.widgets.prompt.question import Line as Asked
 
 STAMP = re.compile(r"[/.](?:nano)?sec$")
-ACROSS = 120
+WIDTH_CELLS = 120
 """Cells of the window that is saved."""
 
 
@@ -107,11 +107,11 @@ class PlotQuestions(Pane):
         from bot_console.tui.panes.plot.view import limits, reach_of
 
         timeline = self._timeline
-        axes = timeline.axes(ACROSS)
+        axes = timeline.axes(WIDTH_CELLS)
         shown = [each for each in timeline.curves if not each.right] or timeline.curves
         if not shown:
             return
-        now = timeline.limits or limits([reach_of(each, axes, ACROSS) for each in shown])
+        now = timeline.limits or limits([reach_of(each, axes, WIDTH_CELLS) for each in shown])
         chosen = timeline.curves[self._chosen]
         value = chosen.latest if axes.cursor is None else chosen.at(axes.cursor)
         timeline.limits = zoomed(now, value if chosen in shown else None, factor)
@@ -150,14 +150,14 @@ class PlotQuestions(Pane):
         from bot_console.tui.panes.plot.save import samples
 
         timeline = self._timeline
-        count = samples(path, timeline.curves, timeline.axes(ACROSS), timeline.wall)
+        count = samples(path, timeline.curves, timeline.axes(WIDTH_CELLS), timeline.wall)
         return Answer(True, f"{count} samples saved to {path}")
 
     def _save_picture(self, path: Path) -> Answer:
         from bot_console.tui.panes.plot.save import picture
 
         timeline = self._timeline
-        picture(path, timeline.curves, timeline.marks, timeline.axes(ACROSS), timeline.wall)
+        picture(path, timeline.curves, timeline.marks, timeline.axes(WIDTH_CELLS), timeline.wall)
         return Answer(True, f"picture saved to {path}")
 
     def action_keep(self) -> None:

@@ -14,7 +14,7 @@ from bot_console.tui.files.save_file import save_file
 from bot_console.tui.panes.plot.curves import Curve
 from bot_console.tui.panes.plot.view import Axes, Mark
 
-SIZE = (120, 34)
+SIZE_CELLS = (120, 34)
 """Cells of the saved picture."""
 
 
@@ -61,7 +61,7 @@ def _by_plotext(path: Path, curves: Sequence[Curve], axes: Axes) -> None:
     kit.terminal.limit(False, False)
     figure = kit.figure
     figure.clear()
-    figure.plot_size(*SIZE)
+    figure.plot_size(*SIZE_CELLS)
     for curve in curves:
         times, values = curve.between(axes.start, axes.end)
         fine = np.isfinite(values)

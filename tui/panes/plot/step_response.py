@@ -13,10 +13,10 @@ from bot_console.tui.text.expression.numbers import evaluate
 
 SETS = ("set A", "set B")
 """The names of the two sets of changes whose responses are compared."""
-BAND = 0.05
+SETTLED_SHARE = 0.05
 """The response has settled within this share of its step."""
-RISE = (0.1, 0.9)
-END = 0.2
+RISE_SHARES = (0.1, 0.9)
+END_SHARE = 0.2
 """The last part of a response, in which it is taken to stand."""
 FIGURES = ("rise", "overshoot", "settling", "error")
 
@@ -69,16 +69,16 @@ def response(name: str, times: Array, values: Array, start: float, end: float) -
 def figures(response: Response, reference: float | None = None) -> Figures:
     """The figures of a step response; the steady error is the reference less what it came to stand at."""
     times, values = response.times, response.values
-    final = float(np.mean(values[times >= times[-1] * (1 - END)]))
+    final = float(np.mean(values[times >= times[-1] * (1 - END_SHARE)]))
     error = math.nan if reference is None else reference - final
     step = final - response.before
     if abs(step) <= 1e-9 * max(1.0, abs(final)):
         return Figures(error=error)
     done = (values - response.before) / step
     overshoot = max(0.0, float(done.max()) - 1.0)
-    reached = [_first(times, done >= share) for share in RISE]
+    reached = [_first(times, done >= share) for share in RISE_SHARES]
     rise = reached[1] - reached[0]
-    outside = np.flatnonzero(np.abs(done - 1.0) > BAND)
+    outside = np.flatnonzero(np.abs(done - 1.0) > SETTLED_SHARE)
     settled = int(outside[-1]) + 1 if len(outside) else 0
     settling = float(times[settled]) if settled < len(times) else math.nan
     return Figures(rise, overshoot, settling, error)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from bot_console.tui.panes.plot.formulas.formula import Formula
     from bot_console.tui.panes.plot.view import Axes, Mark
 
-WINDOWS = (1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0)
+WINDOWS_S = (1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0)
 """Lengths of the time window, s."""
 
 DEFAULTS = ("/odom/twist.twist.linear.x", "/robot_navigator:max_speed")
@@ -25,13 +25,13 @@ DEFAULTS = ("/odom/twist.twist.linear.x", "/robot_navigator:max_speed")
 
 COLOURS = 6
 
-PACE = 0.5
+PACE_S = 0.5
 """Seconds for which the window stands still, where that is no more than a share of its width."""
 
-LATEST = 0.3
+LATEST_VALUE_S = 0.3
 """Seconds after which the newest value is told, though it lies in the same dot as the one before."""
 
-STEPS = 20
+MIN_STEPS = 20
 """The window moves in at least so many steps through its own width."""
 
 
@@ -132,7 +132,7 @@ class Timeline:
 
     def set_window(self, seconds: float) -> None:
         """The length of the window that is nearest to so many seconds."""
-        self.window = min(WINDOWS, key=lambda each: abs(each - seconds))
+        self.window = min(WINDOWS_S, key=lambda each: abs(each - seconds))
 
     def marks_of(self, changes: Sequence[Change]) -> None:
         """Mark parameter changes and refusals."""
@@ -209,7 +209,7 @@ class Timeline:
         """
         if not self.curves:
             return None
-        dot = min(self.window / max(1, 2 * across), LATEST)
+        dot = min(self.window / max(1, 2 * across), LATEST_VALUE_S)
         return self.axes(across).end, math.floor(self.newest() / dot)
 
     def axes(self, across: int) -> Axes:
@@ -217,7 +217,7 @@ class Timeline:
         from bot_console.tui.panes.plot.view import Axes
 
         cell = self.window / max(1, across)
-        step = cell * max(1, min(across // STEPS, math.ceil(PACE / cell)))
+        step = cell * max(1, min(across // MIN_STEPS, math.ceil(PACE_S / cell)))
         if self.paused_at is not None:
             end = math.floor(self.paused_at / cell) * cell
         else:

@@ -15,13 +15,13 @@ from bot_console.tui.panes.plot.window_facts import window_facts
 from bot_console.tui.widgets.braille import BrailleCanvas, layered
 from bot_console.tui.widgets.picture import Line
 
-LABEL = 9
+LABEL_CELLS = 9
 """Cells of the value axis with its labels."""
 
-WIDE = 130
+MIN_WIDE_CELLS = 130
 """Cells from which on the legend says more of each curve."""
 
-HEAD_ROOM = 0.05
+HEAD_ROOM_SHARE = 0.05
 """Share of the span of all values that stays free above the highest one, so that a curve at its limit can be seen."""
 
 MAX_VALUE = 1e300
@@ -68,7 +68,7 @@ def framed(curves: Sequence[Curve], marks: Sequence[Mark], axes: Axes, width: in
     """
     right = [each.right for each in curves]
     both = any(right) and not all(right)
-    across, down = max(4, width - LABEL * (2 if both else 1)), max(2, height - 2)
+    across, down = max(4, width - LABEL_CELLS * (2 if both else 1)), max(2, height - 2)
     reaches = [reach_of(curve, axes, across) for curve in curves]
     left_limits = axes.limits or limits(
         [each for each, other in zip(reaches, right, strict=True) if not (both and other)]
@@ -84,9 +84,9 @@ def framed(curves: Sequence[Curve], marks: Sequence[Mark], axes: Axes, width: in
     lines: list[Line] = []
     for row, pieces in enumerate(rows):
         edge = "┤" if row in labels else "│"
-        line: Line = ((f"{labels.get(row, ''):>{LABEL - 2}} {edge}", "dim"), *pieces)
+        line: Line = ((f"{labels.get(row, ''):>{LABEL_CELLS - 2}} {edge}", "dim"), *pieces)
         if both:
-            line = (*line, (f"{'├' if row in others else '│'} {others.get(row, ''):<{LABEL - 2}}", "dim"))
+            line = (*line, (f"{'├' if row in others else '│'} {others.get(row, ''):<{LABEL_CELLS - 2}}", "dim"))
         lines.append(line)
     return [*lines, *_time_axis(marks, axes, across, _excursions(curves, reaches))]
 
@@ -150,7 +150,7 @@ def limits(reaches: Sequence[Reach]) -> tuple[float, float]:
         low, high = low - pad, high + pad
         head_room = 0.0
     else:
-        head_room = HEAD_ROOM * (high - low)
+        head_room = HEAD_ROOM_SHARE * (high - low)
     step = tick_step(high - low, 8)
     top = math.ceil(high / step) * step
     return math.floor(low / step) * step, top if top - high >= head_room else top + step / 2
@@ -207,7 +207,7 @@ def _time_axis(marks: Sequence[Mark], axes: Axes, across: int, beyond: Sequence[
     span = axes.end - axes.start
     step = tick_step(span, max(2, across // 12))
     axis = ["─"] * across
-    labels = [" "] * (LABEL + across)
+    labels = [" "] * (LABEL_CELLS + across)
     for count in range(math.floor(span / step + 1e-9) + 1):
         ago = span - count * step if axes.since else count * step
         column = min(across - 1, round((1 - ago / span) * (across - 1)))
@@ -216,7 +216,7 @@ def _time_axis(marks: Sequence[Mark], axes: Axes, across: int, beyond: Sequence[
             text = f"{short_number(span - ago, step)}s"
         else:
             text = "now" if ago == 0 else f"-{short_number(ago, step)}s"
-        begin = min(LABEL + column - len(text) // 2, LABEL + across - len(text))
+        begin = min(LABEL_CELLS + column - len(text) // 2, LABEL_CELLS + across - len(text))
         if begin >= 0:
             labels[begin : begin + len(text)] = text
     for mark in marks:
@@ -224,7 +224,7 @@ def _time_axis(marks: Sequence[Mark], axes: Axes, across: int, beyond: Sequence[
             axis[column] = "✗" if mark.refused else ("▲" if axis[column] != "✗" else "✗")
     for column in beyond:
         axis[column] = "!" if axis[column] in "─┬" else axis[column]
-    edge = " " * (LABEL - 1) + "╰"
+    edge = " " * (LABEL_CELLS - 1) + "╰"
     at = None if axes.cursor is None else axes.column(axes.cursor, across)
     if at is None:
         line: Line = ((edge + "".join(axis), "dim"),)
@@ -263,6 +263,6 @@ def _facts(curve: Curve, axes: Axes, width: int) -> str:
     if facts is None:
         return "no numbers in this window"
     text = f"min {short_number(facts.low)}  max {short_number(facts.high)}  mean {short_number(facts.mean)}"
-    if width >= WIDE:
+    if width >= MIN_WIDE_CELLS:
         text += f"  σ {short_number(facts.std)}" + (f"  {short_number(facts.rate, 0.1)} Hz" if facts.rate else "")
     return text + (f"  {facts.gaps} not finite" if facts.gaps else "")

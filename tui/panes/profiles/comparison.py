@@ -18,7 +18,7 @@ from rich.segment import Segment
 
 MIN_COLUMN, MAX_COLUMN = 12, 18
 """Cells of the column of a profile."""
-NAMES, UNITS, NODES = 22, 6, 24
+NAME_CELLS, UNIT_CELLS, NODE_CELLS = 22, 6, 24
 """Cells of a parameter's name, of its unit, and of its node, which is left out first."""
 LAST = 9
 """The rank of parameters that no rule of safety knows."""
@@ -58,7 +58,7 @@ class Comparison:
 
 def columns_in(width: int) -> int:
     """The number of columns that fit a width in cells, at least what runs and one profile."""
-    return max(2, (width - NAMES - UNITS) // MIN_COLUMN)
+    return max(2, (width - NAME_CELLS - UNIT_CELLS) // MIN_COLUMN)
 
 
 def compared(
@@ -155,7 +155,7 @@ class ComparisonRows(ItemList[ComparedValue]):
     def heading(self, width: int) -> Line:
         """The titles of the columns, that of the selected profile in its own colour."""
         names, across, nodes = self._columns(width)
-        parts = [(" " * (names + UNITS), "")]
+        parts = [(" " * (names + UNIT_CELLS), "")]
         for at, title in enumerate(self.comparison.titles):
             text = cut(sanitize(title), across - 1)
             parts += [
@@ -170,9 +170,9 @@ class ComparisonRows(ItemList[ComparedValue]):
         """The cells of the names, of each profile and of the nodes."""
         count = max(1, len(self.comparison.titles))
         longest = max((cell_len(self._label(each)) for each in self.comparison.rows), default=0) + 2
-        names = min(max(longest, 12), max(NAMES, width - UNITS - count * MIN_COLUMN))
-        across = min(MAX_COLUMN, max(MIN_COLUMN, (width - names - UNITS) // count))
-        return names, across, NODES if width - names - UNITS - across * count >= NODES else 0
+        names = min(max(longest, 12), max(NAME_CELLS, width - UNIT_CELLS - count * MIN_COLUMN))
+        across = min(MAX_COLUMN, max(MIN_COLUMN, (width - names - UNIT_CELLS) // count))
+        return names, across, NODE_CELLS if width - names - UNIT_CELLS - across * count >= NODE_CELLS else 0
 
     def _label(self, row: ComparedValue) -> str:
         name, first = sanitize(row.name), next(iter(row.nodes), "")
@@ -187,7 +187,7 @@ class ComparisonRows(ItemList[ComparedValue]):
         dim = self.part_style("row-list--dim")
         parts = [
             Segment(cut(self._label(row), names - 1, pad=True) + " "),
-            Segment(cut(sanitize(row.unit), UNITS - 1, pad=True) + " ", dim),
+            Segment(cut(sanitize(row.unit), UNIT_CELLS - 1, pad=True) + " ", dim),
         ]
         marks = {"⚠": self.part_style("row-list--warn"), "✗": self.part_style("row-list--error")}
         for at, cell in enumerate(row.cells):

@@ -44,7 +44,7 @@ from textual.app import ComposeResult
 ADDRESSES = ("https://", "http://")
 MAX_VISIBLE_PROFILES = 6
 """Profiles that are seen at once."""
-HEAD, STATUS = 4, 3
+MAX_HEAD_ROWS, MAX_STATUS_ROWS = 4, 3
 """Lines that what a profile is for, and what comes of it, take at most."""
 
 
@@ -139,8 +139,10 @@ class ProfilesPane(ListPane):
             shown.exchange(entries(self._differences, self._outcomes, self._asking, width))
             head = self.query_one("#profile-head", StaticText)
             head.display = profile is not None
-            head.show_whole(self._head(profile), HEAD)
-        self.query_one("#profile-status", StaticText).show_whole(self._reported or self._summary(profile), STATUS)
+            head.show_whole(self._head(profile), MAX_HEAD_ROWS)
+        self.query_one("#profile-status", StaticText).show_whole(
+            self._reported or self._summary(profile), MAX_STATUS_ROWS
+        )
 
     def _show_comparison(self, profile: Profile | None) -> bool:
         """Compare all profiles if the user wants it, or there is nothing to preview; whether they differ at all."""

@@ -16,15 +16,15 @@ from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
 
-NAME = 16
+MAX_NAME_CELLS = 16
 """Cells of the profile column, unless the names need less."""
-NAMES = 26
+MAX_PARAMETER_CELLS = 26
 """Cells of the parameter column, unless the names need less."""
-VALUES = 12
+VALUE_CELLS = 12
 """Cells of a value if there is no room for more."""
-NOTE = 12
+NOTE_CELLS = 12
 """Cells reserved for the note about a change."""
-REASON = 4
+REASON_INDENT_CELLS = 4
 """Indentation of a reason in cells."""
 
 
@@ -63,7 +63,7 @@ class ProfileRows(ItemList[Profile]):
         profile = self.rows[index]
         mark = "●" if profile.name == self.active else " "
         longest = max(cell_len(sanitize(each.name)) for each in self.rows) + 4
-        room = min(max(longest, NAME), max(NAME, width // 2))
+        room = min(max(longest, MAX_NAME_CELLS), max(MAX_NAME_CELLS, width // 2))
         name = cut(f"{mark} {sanitize(profile.name)}", room - 2)
         style = self.part_style("row-list--warn" if profile.problem else "row-list--dim")
         changed = f"{self.changes} changed  " if self.changes and profile.name == self.active else ""
@@ -101,19 +101,19 @@ class DifferenceRows(ItemList[Entry]):
         entry = self.rows[index]
         change = entry.difference
         if entry.reason:
-            return [Segment(" " * REASON + entry.reason, self._style("error"))]
+            return [Segment(" " * REASON_INDENT_CELLS + entry.reason, self._style("error"))]
         if change is None:
             message, style = entry.message
             return [Segment(f"{sanitize(entry.node)}  ", self._style("head")), Segment(message, self._style(style))]
         longest = max(cell_len(sanitize(each.difference.name)) for each in self.rows if each.difference) + 4
-        names = max(min(max(longest, NAMES), width - NOTE - 3 * VALUES), 12)
-        now = cut(sanitize(value_text(change.now)), VALUES) if change.now is not None else "?"
-        then = cut(sanitize(value_text(change.then)), 2 * VALUES)
+        names = max(min(max(longest, MAX_PARAMETER_CELLS), width - NOTE_CELLS - 3 * VALUE_CELLS), 12)
+        now = cut(sanitize(value_text(change.now)), VALUE_CELLS) if change.now is not None else "?"
+        then = cut(sanitize(value_text(change.then)), 2 * VALUE_CELLS)
         note, style = _note(entry, change)
         return [
             Segment(cut(f"  {sanitize(change.name)}", names - 2, pad=True) + "  "),
-            Segment(" " * (VALUES - cell_len(now)) + now + " → ", self._style("dim")),
-            Segment(then + " " * (VALUES - cell_len(then)), self._style("strong")),
+            Segment(" " * (VALUE_CELLS - cell_len(now)) + now + " → ", self._style("dim")),
+            Segment(then + " " * (VALUE_CELLS - cell_len(then)), self._style("strong")),
             Segment(f"  {note}", self._style(style)),
         ]
 
@@ -170,4 +170,4 @@ def entries(
 
 
 def _folded(node: str, reason: str, width: int) -> list[Entry]:
-    return [Entry(node, reason=line) for line in wrap(sanitize(reason), max(20, width - REASON))]
+    return [Entry(node, reason=line) for line in wrap(sanitize(reason), max(20, width - REASON_INDENT_CELLS))]

@@ -8,7 +8,7 @@ from bot_console.tui.panes.steering.plane import velocity_at
 from bot_console.tui.panes.steering.view import BUTTONS
 from bot_console.tui.widgets.picture import Line
 
-ENDS = 7
+SLIDER_END_CELLS = 7
 """Cells of the left end of a slider: its value and the bracket."""
 
 

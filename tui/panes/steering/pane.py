@@ -13,7 +13,7 @@ from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.steering.mouse import button, velocities
 from bot_console.tui.panes.steering.state import (
     DEAD_MAN,
-    DEADMAN_TIMES,
+    DEADMAN_TIMES_S,
     LEFT,
     RATE_HZ,
     Steering,
@@ -396,7 +396,7 @@ class SteeringPane(Pane):
 
     def action_deadman(self) -> None:
         """The next dead-man time."""
-        times = DEADMAN_TIMES
+        times = DEADMAN_TIMES_S
         self.state.deadman = times[(times.index(self.state.deadman) + 1) % len(times)]
         self._draw()
 

@@ -11,16 +11,16 @@ from bot_console.tui.console.robot.fleet import Scope
 from bot_console.tui.console.robot.robot_model import STEERING_RATES_HZ, DriveInfo
 from bot_console.tui.format import parse_number
 
-STEPS = 20
+STEPS_TO_MAX = 20
 """Key presses from standstill to maximum velocity."""
 
-DEADMAN_TIMES = (1.0, 2.0, 5.0, 10.0)
+DEADMAN_TIMES_S = (1.0, 2.0, 5.0, 10.0)
 """Seconds without a key after which the robot is stopped; terminals do not report key releases."""
 
 RATE_HZ = 10.0
 """How often a velocity is repeated, unless another rate was given."""
 
-GREATEST = (1.0, 3.0)
+DEFAULT_LIMITS = (1.0, 3.0)
 """Limits (m/s, rad/s) if no parameter provides them."""
 
 DEAD_MAN, LEFT = "dead-man: no key came", "the steering was left"
@@ -44,10 +44,10 @@ class Steering:
     sideways: float = 0.0
     """To the left, in m/s; holonomic bases alone obey it."""
     armed: bool = False
-    deadman: float = DEADMAN_TIMES[1]
+    deadman: float = DEADMAN_TIMES_S[1]
     rate: float = RATE_HZ
     """How often the command is sent while it is not zero, in Hz."""
-    greatest: tuple[float, float] = GREATEST
+    greatest: tuple[float, float] = DEFAULT_LIMITS
     last_key: float = 0.0
     typed: tuple[float, float] | None = None
     """Limits typed by the user, which replace those of the parameters."""
@@ -134,7 +134,7 @@ class Steering:
 def _moved(value: float, steps: int, greatest: float) -> float:
     if steps == 0:
         return value
-    moved = round(value + steps * greatest / STEPS, 9)
+    moved = round(value + steps * greatest / STEPS_TO_MAX, 9)
     if value * moved < 0:
         return 0.0
     return max(-greatest, min(moved, greatest))
@@ -185,7 +185,7 @@ def greatest_of(trees: Iterable[ParameterTree], topic: str = "", others: Collect
     Nodes in the namespace of the topic come first, then those that belong to no other robot; `others` are the
     namespaces of the other robots.
     """
-    found = {SPEED_PARAMETER: GREATEST[0], TURN_PARAMETER: GREATEST[1]}
+    found = {SPEED_PARAMETER: DEFAULT_LIMITS[0], TURN_PARAMETER: DEFAULT_LIMITS[1]}
     scope = Scope(f"{topic.rpartition('/')[0]}/", frozenset(others))
     every = [each for each in trees if not scope.is_foreign(each.node)]
     own = [each for each in every if scope.owns(each.node)]

@@ -14,25 +14,25 @@ from bot_console.tui.panes.steering.state import RATE_HZ, Steering, stands_after
 from bot_console.tui.safety.stop_wording import held_by, may_move, sending_key, stop_key
 from bot_console.tui.widgets.picture import Line
 
-BAR = 10
+BAR_CELLS = 10
 """Cells of a bar."""
-PLANE = (53, 19)
+MAX_PLANE_CELLS = (53, 19)
 """Cells of the plane of both velocities at most, odd so that it has a middle."""
 CELLS_PER_ROW = 3
 """The greatest width of the plane, for each of its rows: it shall not look flat."""
-NARROW_PLANE = 27
-"""Its width beside the bars on fewer than `WIDE` cells."""
-WIDE = 100
+NARROW_PLANE_CELLS = 27
+"""Its width beside the bars on fewer than `MIN_WIDE_CELLS` cells."""
+MIN_WIDE_CELLS = 100
 MIN_ROWS = 5
 """Rows of the plane at least; with less room there is none."""
-BESIDE = 45
+BARS_CELLS = 45
 """Cells that the bars need beside the plane."""
-GAP, FRAME = 2, 3
+GAP_CELLS, FRAME_CELLS = 2, 3
 """Cells between plane and bars, and those of the frame of the plane with the blank before it."""
-WORDS, STAGE = 9, 8
+WORDS_CELLS, STAGE_CELLS = 9, 8
 BUTTONS = {"linear": ("[-]", "[0]", "[+]"), "angular": ("[<]", "[0]", "[>]")}
 """For the mouse, behind each slider: less or to the left, zero, more or to the right."""
-FOR_BUTTONS = 60
+MIN_CELLS_FOR_BUTTONS = 60
 """Cells of width from which on there is room for them."""
 
 
@@ -78,8 +78,12 @@ def same_but_velocities(one: DriveInfo, other: DriveInfo) -> bool:
 
 def _plane_size(width: int, rows: int) -> tuple[int, int] | None:
     """The cells of the plane beside the bars; None if there is no room."""
-    room, down = width - FRAME - GAP - BESIDE, min(PLANE[1], rows)
-    across = NARROW_PLANE if width < WIDE else max(NARROW_PLANE, min(PLANE[0], room, CELLS_PER_ROW * down))
+    room, down = width - FRAME_CELLS - GAP_CELLS - BARS_CELLS, min(MAX_PLANE_CELLS[1], rows)
+    across = (
+        NARROW_PLANE_CELLS
+        if width < MIN_WIDE_CELLS
+        else max(NARROW_PLANE_CELLS, min(MAX_PLANE_CELLS[0], room, CELLS_PER_ROW * down))
+    )
     if rows < MIN_ROWS or room < across:
         return None
     return _odd(across), _odd(down)
@@ -99,7 +103,7 @@ def _beside(left: Sequence[Line], right: Sequence[Line]) -> list[Line]:
     above = max(0, (len(left) - len(right)) // 2)
     blank: Line = ()
     rows = [*[blank] * above, *right]
-    return [(*one, (" " * GAP, ""), *other) for one, other in zip_longest(left, rows, fillvalue=blank)]
+    return [(*one, (" " * GAP_CELLS, ""), *other) for one, other in zip_longest(left, rows, fillvalue=blank)]
 
 
 def _sideways(state: Steering) -> list[Line]:
@@ -107,7 +111,7 @@ def _sideways(state: Steering) -> list[Line]:
     if not state.sideways:
         return []
     where = "to the left" if state.sideways > 0 else "to the right"
-    return [((f" {'sideways':<{WORDS}}", ""), (f"{abs(state.sideways):.2f} m/s {where}", "strong"))]
+    return [((f" {'sideways':<{WORDS_CELLS}}", ""), (f"{abs(state.sideways):.2f} m/s {where}", "strong"))]
 
 
 def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
@@ -159,8 +163,8 @@ def _slider(word: str, value: float, greatest: float, unit: str, width: int, *, 
     """A slider with its ends; an angular one shows left turns on the left, as they are felt."""
     shown = -value if turned else value
     ends = ("left", "right") if turned else (f"{-greatest:+.1f}", f"{greatest:+.1f}")
-    buttons = "  " + " ".join(BUTTONS[word]) if width >= FOR_BUTTONS else ""
-    room = max(11, min(61, (width - WORDS - 2 * 6 - 17 - len(buttons)) | 1))
+    buttons = "  " + " ".join(BUTTONS[word]) if width >= MIN_CELLS_FOR_BUTTONS else ""
+    room = max(11, min(61, (width - WORDS_CELLS - 2 * 6 - 17 - len(buttons)) | 1))
     place = round((value / greatest + 1) / 2 * (room - 1)) if greatest > 0 else room // 2
     track = list("─" * room)
     track[room // 2] = "┼"
@@ -168,7 +172,8 @@ def _slider(word: str, value: float, greatest: float, unit: str, width: int, *, 
     before, after = "".join(track[:place]), "".join(track[place + 1 :])
     style = "accent" if shown else "dim"
     return (
-        (f" {word:<{WORDS}}", ""), (f"{ends[0]:>5} ├{before}", "dim"), ("●", style), (f"{after}┤ {ends[1]:<5}", "dim"),
+        (f" {word:<{WORDS_CELLS}}", ""), (f"{ends[0]:>5} ├{before}", "dim"), ("●", style),
+        (f"{after}┤ {ends[1]:<5}", "dim"),
         (f"{shown:+7.2f} {unit:<{5 if buttons else 0}}", "strong" if shown else ""), (buttons, "accent"),
     )  # fmt: skip
 
@@ -176,11 +181,11 @@ def _slider(word: str, value: float, greatest: float, unit: str, width: int, *, 
 def _deadman(state: Steering, left: float) -> Line:
     if state.expired:
         return ((f" no key for {state.deadman:g} s: the robot stands", "warn"),)
-    full = round(left * BAR)
+    full = round(left * BAR_CELLS)
     moving = state.moving
     rate = "" if state.rate == RATE_HZ else f", {state.rate:g} Hz"
-    bar = "▰" * full + "▱" * (BAR - full) if state.armed and moving else "▱" * BAR
-    return ((f" {'dead-man':<{WORDS}}", ""), (f"{bar} ", "warn" if moving and left < 0.35 else "dim"),
+    bar = "▰" * full + "▱" * (BAR_CELLS - full) if state.armed and moving else "▱" * BAR_CELLS
+    return ((f" {'dead-man':<{WORDS_CELLS}}", ""), (f"{bar} ", "warn" if moving and left < 0.35 else "dim"),
             (f"stops {state.deadman:g} s after the last key{rate}", "dim"))  # fmt: skip
 
 
@@ -201,7 +206,7 @@ def _chain(state: Steering, drive: DriveInfo, *, narrow: bool = False) -> list[L
         mark = marks.get(word, ("  " if narrow else " ", ""))
         row = (
             mark,
-            (f"{word:<{STAGE}}", "dim"),
+            (f"{word:<{STAGE_CELLS}}", "dim"),
             ("▕", "dim"),
             (bar, style),
             ("▏", "dim"),
@@ -213,12 +218,12 @@ def _chain(state: Steering, drive: DriveInfo, *, narrow: bool = False) -> list[L
     if narrow:
         speed, turn = state.greatest
         whose = "typed" if state.typed else "parameters"
-        rows += [(), ((f"  {'limits':<{STAGE}}{speed:g} m/s  {turn:g} rad/s  ({whose})", "dim"),)]
+        rows += [(), ((f"  {'limits':<{STAGE_CELLS}}{speed:g} m/s  {turn:g} rad/s  ({whose})", "dim"),)]
     return rows
 
 
 def _bar(velocity: tuple[float, float] | None, greatest: float) -> str:
     """A speed as a bar, forward or backward."""
     share = min(1.0, abs(velocity[0]) / greatest) if velocity and greatest > 0 else 0.0
-    halves = 0 if math.isnan(share) else round(share * BAR * 2)
-    return ("█" * (halves // 2) + "▌" * (halves % 2)).ljust(BAR)
+    halves = 0 if math.isnan(share) else round(share * BAR_CELLS * 2)
+    return ("█" * (halves // 2) + "▌" * (halves % 2)).ljust(BAR_CELLS)

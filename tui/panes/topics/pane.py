@@ -35,7 +35,7 @@ MESSAGE_POLL_S = 0.25
 """Seconds between two looks at the message that is open."""
 EXPECTED_FILE = "expected-rates-file"
 MAX_STATE_LINES = 3
-SIDE = 110
+MIN_SIDE_BY_SIDE_CELLS = 110
 """Cells from which list and message stand side by side."""
 
 
@@ -273,7 +273,7 @@ class TopicsPane(ListPane):
 
     def on_resize(self) -> None:
         """List and message side by side where there is room."""
-        self.set_class(self.size.width >= SIDE, "side")
+        self.set_class(self.size.width >= MIN_SIDE_BY_SIDE_CELLS, "side")
         self.call_after_refresh(self._laid_out)
 
     def _laid_out(self) -> None:

@@ -15,19 +15,19 @@ from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
 
-ENDS, RATE, AMOUNT, AGE, LATENCY = 6, 6, 8, 7, 8
+ENDS_CELLS, RATE_CELLS, AMOUNT_CELLS, AGE_CELLS, LATENCY_CELLS = 6, 6, 8, 7, 8
 """Cells of the columns of figures, their gaps included."""
-NAME = 14
+MIN_NAME_CELLS = 14
 """Cells that a name has at least."""
 
-WIDE = 56
+MIN_WIDE_CELLS = 56
 """Cells from which all figures are shown, even if names are cut; below, only the rate where they would be."""
-QOS = 32
-VALUE, WIDE_VALUE = 12, 26
+QOS_CELLS = 32
+MIN_VALUE_CELLS, MIN_WIDE_VALUE_CELLS = 12, 26
 """Cells that the newest value has at least, and before types and QoS are shown."""
-LONG_VALUE = 50
+MAX_VALUE_CELLS = 50
 """Cells of the newest value at most."""
-TYPE = 16
+MIN_TYPE_CELLS = 16
 """Cells that a type has at least."""
 
 
@@ -48,20 +48,28 @@ class Columns:
 
 def columns(rows: Sequence[Row], kind: Kind, width: int) -> Columns:
     """Share a width: names first, then figures, types, and what else has room."""
-    longest = max((cell_len(_label(each)) + 3 for each in rows), default=NAME)
+    longest = max((cell_len(_label(each)) + 3 for each in rows), default=MIN_NAME_CELLS)
     figures = kind is Kind.TOPICS
     latency = figures and width >= 90
-    amounts = figures and (width >= WIDE or longest <= width - ENDS - RATE - AMOUNT - AGE)
-    room = width - ENDS - (RATE * figures) - (AMOUNT + AGE) * amounts - LATENCY * latency
-    name = max(NAME, min(longest, room))
+    amounts = figures and (
+        width >= MIN_WIDE_CELLS or longest <= width - ENDS_CELLS - RATE_CELLS - AMOUNT_CELLS - AGE_CELLS
+    )
+    room = width - ENDS_CELLS - (RATE_CELLS * figures) - (AMOUNT_CELLS + AGE_CELLS) * amounts - LATENCY_CELLS * latency
+    name = max(MIN_NAME_CELLS, min(longest, room))
     left = room - name
-    value = (WIDE_VALUE if left >= WIDE_VALUE else left if left >= VALUE else 0) if figures else 0
+    value = (
+        (MIN_WIDE_VALUE_CELLS if left >= MIN_WIDE_VALUE_CELLS else left if left >= MIN_VALUE_CELLS else 0)
+        if figures
+        else 0
+    )
     left -= value
-    types = min(max((cell_len(_short(each.type)) + 2 for each in rows), default=0), left) if left >= TYPE else 0
+    types = (
+        min(max((cell_len(_short(each.type)) + 2 for each in rows), default=0), left) if left >= MIN_TYPE_CELLS else 0
+    )
     left -= types
-    qos = QOS if figures and left >= QOS else 0
+    qos = QOS_CELLS if figures and left >= QOS_CELLS else 0
     left -= qos
-    wider = min(left, LONG_VALUE - value) if value else 0
+    wider = min(left, MAX_VALUE_CELLS - value) if value else 0
     left -= wider
     return Columns(
         name + (0 if types else left), types + (left if types else 0), figures, amounts, latency, qos, value + wider
@@ -71,13 +79,13 @@ def columns(rows: Sequence[Row], kind: Kind, width: int) -> Columns:
 def heading(shown: Columns, kind: Kind) -> str:
     """The titles of the columns."""
     ends = "pub/sub" if kind is Kind.TOPICS else "srv/cli"
-    text = cut("  " + kind.value[:-1], shown.name - 2, pad=True) + f"{ends:>{ENDS + 2}}"
+    text = cut("  " + kind.value[:-1], shown.name - 2, pad=True) + f"{ends:>{ENDS_CELLS + 2}}"
     if shown.figures:
-        text += f"{'Hz':>{RATE}}"
+        text += f"{'Hz':>{RATE_CELLS}}"
     if shown.amounts:
-        text += f"{'per s':>{AMOUNT}}{'age':>{AGE}}"
+        text += f"{'per s':>{AMOUNT_CELLS}}{'age':>{AGE_CELLS}}"
     if shown.latency:
-        text += f"{'latency':>{LATENCY}}"
+        text += f"{'latency':>{LATENCY_CELLS}}"
     if shown.value:
         text += cut("  value", shown.value, pad=True)
     if shown.type:
@@ -173,10 +181,10 @@ class TopicRows(ItemList[Row]):
 
     def _figures(self, name: str, *, amounts: bool, latency: bool) -> str:
         known = self._measured.get(name, Measure())
-        text = f"{rate_text(known.rate, provisional=known.provisional):>{RATE}}"
+        text = f"{rate_text(known.rate, provisional=known.provisional):>{RATE_CELLS}}"
         if amounts:
-            text += f"{amount_text(known.bandwidth):>{AMOUNT}}{age_text(known.age):>{AGE}}"
-        return text + (f"{span_text(known.latency):>{LATENCY}}" if latency else "")
+            text += f"{amount_text(known.bandwidth):>{AMOUNT_CELLS}}{age_text(known.age):>{AGE_CELLS}}"
+        return text + (f"{span_text(known.latency):>{LATENCY_CELLS}}" if latency else "")
 
     def row(self, index: int, width: int) -> list[Segment]:
         """Mark, name, publishers and subscribers, figures, newest value, type, QoS."""
@@ -194,10 +202,10 @@ class TopicRows(ItemList[Row]):
             count = f"{len(row.members)} {self.kind.value}" if row.is_folded else ""
             return [*segments, Segment(f"  {count}", self._style("dim"))]
         ends = f"{len(row.gives)}/{len(row.takes)}"
-        segments.append(Segment(f"{ends:>{ENDS}}", style or (self._style("dim") if not row.takes else None)))
+        segments.append(Segment(f"{ends:>{ENDS_CELLS}}", style or (self._style("dim") if not row.takes else None)))
         if shown.figures:
             figures = self._figures(row.name, amounts=shown.amounts, latency=shown.latency)
-            rates = RATE + AMOUNT * shown.amounts
+            rates = RATE_CELLS + AMOUNT_CELLS * shown.amounts
             dim = self._style("dim") if self.measure_of(row.name).provisional else style if late else None
             segments += [Segment(figures[:rates], dim), Segment(figures[rates:])]
         if shown.value:

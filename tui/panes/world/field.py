@@ -12,11 +12,11 @@ from bot_console.tui.panes.world.view import arrow
 from bot_console.tui.widgets.braille import BITS
 from bot_console.tui.widgets.picture import Line
 
-SIDE = 499 / 45
+SIDE_M = 499 / 45
 """Width and height of a field (m)."""
 PEN, BACKGROUND = 0xB3B8FF, 0x4556FF
 """Colours of a trail, and behind it, where the drawing is not known: turtlesim's own."""
-PIXELS = 500
+SIDE_PX = 500
 """Width and height of a drawing that is made of trails."""
 
 Cell = tuple[str, str]
@@ -45,14 +45,14 @@ class FieldDrawing:
 
 def _of_trails(field: TurtleField) -> Drawing:
     """A drawing made of the places where the turtles have been."""
-    pixels = np.zeros((PIXELS, PIXELS, 4), np.uint8)
+    pixels = np.zeros((SIDE_PX, SIDE_PX, 4), np.uint8)
     pixels[:] = (*BACKGROUND.to_bytes(3, "big"), 0)
-    scale = (PIXELS - 1) / SIDE
+    scale = (SIDE_PX - 1) / SIDE_M
     for turtle in field.turtles:
         for x, y in turtle.trail:
-            column, row = (min(max(round(each * scale), 0), PIXELS - 1) for each in (x, y))
-            pixels[PIXELS - 1 - row, column] = (*PEN.to_bytes(3, "big"), 255)
-    return Drawing(PIXELS, PIXELS, pixels.tobytes())
+            column, row = (min(max(round(each * scale), 0), SIDE_PX - 1) for each in (x, y))
+            pixels[SIDE_PX - 1 - row, column] = (*PEN.to_bytes(3, "big"), 255)
+    return Drawing(SIDE_PX, SIDE_PX, pixels.tobytes())
 
 
 def _size(width: int, height: int) -> tuple[int, int, int, int]:
@@ -90,8 +90,8 @@ def _cell(code: int, color: int, behind: int) -> Cell:
 
 def _put(cells: list[list[Cell]], turtle: Turtle, width: int, height: int, *, with_name: bool) -> None:
     left, top, across, down = _size(width, height)
-    column = left + min(max(int(turtle.pose.x / SIDE * across), 0), across - 1)
-    row = top + min(max(int((1.0 - turtle.pose.y / SIDE) * down), 0), down - 1)
+    column = left + min(max(int(turtle.pose.x / SIDE_M * across), 0), across - 1)
+    row = top + min(max(int((1.0 - turtle.pose.y / SIDE_M) * down), 0), down - 1)
     cells[row][column] = (arrow(turtle.pose.heading), "robot")
     if with_name:
         for at, character in enumerate(turtle.name[: left + across - column - 1], column + 1):

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 ZOOMS = (1.0, 2.0, 4.0, 8.0)
 
 
-HITS_EVERY = 3
+DRAWINGS_PER_HITS = 3
 """Every so many drawings the LIDAR hits are drawn anew."""
 
 EMPTY = Placeholder(
@@ -56,7 +56,7 @@ class WorldMap(Picture):
     def show(self, world: WorldInfo) -> None:
         """Draw a world."""
         # Ranges are noisy, so hits flicker all over the map: they are what costs bytes.
-        self._age = (self._age + 1) % HITS_EVERY
+        self._age = (self._age + 1) % DRAWINGS_PER_HITS
         keep = self._age and self._world.hits and world.hits
         self._world = replace(world, hits=self._world.hits) if keep else world
         self.draw()

@@ -12,7 +12,7 @@ from bot_console.tui.console.robot.robot_model import GridMap, Pose, WorldInfo
 from bot_console.tui.widgets.braille import BrailleCanvas, layered
 from bot_console.tui.widgets.picture import Line, Piece
 
-OCCUPIED = 50
+OCCUPIED_PERCENT = 50
 """Percent from which a cell of an occupancy grid counts as a wall."""
 
 UNKNOWN = 255
@@ -80,7 +80,7 @@ def _sample(grid: GridMap, window: Window, width: int, height: int) -> npt.NDArr
     """Which dots show a wall: a dot does when any of the cells below it is occupied."""
     flat: Any = np.frombuffer(grid.cells, np.uint8)
     cells: npt.NDArray[np.uint8] = flat.reshape(grid.height, grid.width)
-    rows, columns = np.nonzero((cells >= OCCUPIED) & (cells != UNKNOWN))
+    rows, columns = np.nonzero((cells >= OCCUPIED_PERCENT) & (cells != UNKNOWN))
     picture = np.zeros((height * 4, width * 2), np.bool_)
     reach = max(1, math.ceil(grid.resolution * window.scale))
     steps = (np.arange(reach) + 0.5) / reach

@@ -13,7 +13,7 @@ from bot_console.runtime.files.unwritable_log import UnwritableLog
 STANDARD_STREAMS = (1, 2)
 LAUNCH_BYTES = 2_000_000
 """The size at which a log file of launch is rotated."""
-LAUNCH_PARTS = 1
+MAX_OLDER_FILES = 1
 """The number of older files that are kept."""
 
 
@@ -55,6 +55,6 @@ def rotate_launch_files() -> None:
     from launch.logging import launch_config
 
     def make(path: str, encoding: str | None = None) -> logging.Handler:
-        return RotatingFile(path, LAUNCH_BYTES, LAUNCH_PARTS)
+        return RotatingFile(path, LAUNCH_BYTES, MAX_OLDER_FILES)
 
     launch_config.log_handler_factory = make

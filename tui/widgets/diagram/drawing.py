@@ -15,7 +15,7 @@ from bot_console.tui.widgets.diagram.placing import Placed, placed
 from bot_console.tui.widgets.diagram.routing import Channel, Trunk, channel
 from rich.cells import cell_len
 
-ATTEMPTS = 6
+MAX_ATTEMPTS = 6
 
 
 class Run(NamedTuple):
@@ -70,7 +70,7 @@ def draw(graph: Digraph, flow: Flow = RIGHT) -> Drawing:
         arrows_in[b] = arrows_in.get(b, 0) + 1
     pushed: dict[Key, int] = {}
     plan = _Plan(items, found, columns, placed(columns, items, arrows_in, pushed, flow), flow)
-    for _ in range(ATTEMPTS):
+    for _ in range(MAX_ATTEMPTS):
         blocked = {key for each in plan.channels for key in each.blocked}
         if not blocked:
             break

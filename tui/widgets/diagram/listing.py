@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from bot_console.tui.widgets.diagram.drawing import Drawing, Place, Run
 from rich.cells import cell_len
 
-INDENT = 4
-SHORTEST = 20
+INDENT_CELLS = 4
+MIN_ROW_CELLS = 20
 """Minimum cells of a row; in less room, the list is cut at the edge."""
 
 
@@ -24,7 +24,7 @@ def draw_listing(listing: Listing, width: int) -> Drawing:
     rows: list[tuple[Run, ...]] = []
     places: dict[str, Place] = {}
     for item, text in listing.entries:
-        lines = wrapped(text, max(width, SHORTEST))
+        lines = wrapped(text, max(width, MIN_ROW_CELLS))
         widest = max(map(cell_len, lines))
         places[item] = Place(0, len(rows), widest, len(lines), False)
         rows += [(Run(0, line, item),) for line in lines]
@@ -39,6 +39,6 @@ def wrapped(text: str, width: int) -> list[str]:
         longer = f"{line} {word}" if line.strip() else line + word
         if line.strip() and cell_len(longer) > width:
             lines.append(line)
-            longer = " " * INDENT + word
+            longer = " " * INDENT_CELLS + word
         line = longer
     return [*lines, line]

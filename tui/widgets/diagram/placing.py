@@ -16,7 +16,7 @@ SWEEPS = 7
 STRAIGHT = 8.0
 """The weight of keeping an arrow straight if it is the only one of its item."""
 
-BEND = 6
+MAX_BEND_CELLS = 6
 """Maximum cells by which an item is moved to straighten an arrow."""
 
 
@@ -98,7 +98,7 @@ def _straighten(
             top = result.top[key] + result.middle(near[0]) - result.middle(key)
             above = result.top[column[at - 1]] + result.height[column[at - 1]] + gap if at > 0 else top
             below = result.top[column[at + 1]] - gap - result.height[key] if at + 1 < len(column) else top
-            if abs(top - result.top[key]) <= BEND and above <= top <= below:
+            if abs(top - result.top[key]) <= MAX_BEND_CELLS and above <= top <= below:
                 result.top[key] = top
 
 

@@ -15,7 +15,7 @@ from textual.suggester import Suggester, SuggestFromList
 from textual.widget import Widget
 from textual.widgets import Input, Label
 
-AROUND = 5
+AROUND_COLUMNS = 5
 """Columns around the label and at the end of the text."""
 
 
@@ -88,7 +88,7 @@ class Prompt(Requester[str], Horizontal):
     def _room_beside(self, text: str) -> int:
         """The width for the message about the text: what text and label leave, but at least a third of the line."""
         width = self.parent.content_size.width if isinstance(self.parent, Widget) else 0
-        taken = cell_len(self._line.label if self._line else "") + cell_len(text) + AROUND
+        taken = cell_len(self._line.label if self._line else "") + cell_len(text) + AROUND_COLUMNS
         return max(width - taken, width // 3, 1)
 
     def on_input_changed(self, event: Input.Changed) -> None:

@@ -12,7 +12,7 @@ from textual.events import Click
 from textual.message import Message
 from textual.widgets import Static
 
-BORDER = 2
+BORDER_ROWS = 2
 """Rows that the border takes."""
 
 
@@ -63,7 +63,7 @@ class StreamPanel(Static):
         lines = self._stream.lines()
         if lines is not self._shown or rows != self._rows:
             self._shown, self._rows = lines, rows
-            self.update(Text("\n".join(sanitize(each) for each in lines[-max(1, rows - BORDER) :])))
+            self.update(Text("\n".join(sanitize(each) for each in lines[-max(1, rows - BORDER_ROWS) :])))
 
     def stop(self) -> None:
         """End the stream."""

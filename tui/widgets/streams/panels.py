@@ -14,27 +14,27 @@ from bot_console.tui.widgets.streams.panel import StreamPanel
 from textual.containers import Container
 from textual.geometry import Size
 
-NARROWEST = 30
+MIN_COLUMNS = 30
 """Minimum columns of a panel beside others: the output of `topic echo` is narrow and long."""
-TALLEST, LOWEST = 8, 5
+MAX_PANEL_ROWS, MIN_PANEL_ROWS = 8, 5
 """Maximum and minimum rows of a panel, with its border."""
-NOT_PANES = 3
+CHROME_ROWS = 3
 """Rows of the terminal for tabs, status line and key bar; the panes keep half of the rest."""
 MAX_STREAMS = 6
 """Maximum number of running lines, in a terminal of any size."""
 
 
 def _across(size: Size) -> int:
-    return max(1, size.width // NARROWEST)
+    return max(1, size.width // MIN_COLUMNS)
 
 
 def _down(size: Size) -> int:
-    return max(LOWEST, (size.height - NOT_PANES) // 2)
+    return max(MIN_PANEL_ROWS, (size.height - CHROME_ROWS) // 2)
 
 
 def room(size: Size) -> int:
     """The number of panels that fit in a terminal of a size."""
-    return min(MAX_STREAMS, _across(size) * (_down(size) // LOWEST))
+    return min(MAX_STREAMS, _across(size) * (_down(size) // MIN_PANEL_ROWS))
 
 
 class StreamPanels(Container):
@@ -51,7 +51,7 @@ class StreamPanels(Container):
         self._panels: list[StreamPanel] = []
         self._key = key_text(next(each for each in keymap.TABLE["app"] if each.action == "end_stream"))
         self._laid_out: tuple[object, ...] = ()
-        self._rows = TALLEST
+        self._rows = MAX_PANEL_ROWS
 
     @property
     def panels(self) -> Sequence[StreamPanel]:
@@ -117,7 +117,7 @@ class StreamPanels(Container):
             return
         rows = math.ceil(len(seen) / _across(size))
         columns = math.ceil(len(seen) / rows)
-        self._rows = min(TALLEST, _down(size) // rows)
+        self._rows = min(MAX_PANEL_ROWS, _down(size) // rows)
         self.styles.height = rows * self._rows
         self.styles.grid_size_columns, self.styles.grid_size_rows = columns, rows
         seen[-1].styles.column_span = 1 + rows * columns - len(seen)

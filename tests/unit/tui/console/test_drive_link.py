@@ -151,7 +151,7 @@ def test_silence_of_the_robot_is_reported(bench, monkeypatch):
     other.publish(Twist())
     bench.settle()
     assert bench.link.info(WorldInfo()).final == (0.0, 0.0)
-    monkeypatch.setattr(drive_link, "SILENCE", -1.0)
+    monkeypatch.setattr(drive_link, "COMMAND_LIFETIME_S", -1.0)
     info = bench.link.info(WorldInfo())
     assert (info.final, info.limited_by) == (None, NO_COMMAND)
 

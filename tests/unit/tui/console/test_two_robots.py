@@ -9,7 +9,7 @@ from bot_console.tui.console.launch.elsewhere import Elsewhere
 from bot_console.tui.console.model import Capabilities, Endpoint, GraphInfo, LaunchInfo, LinkInfo, NodeInfo
 from bot_console.tui.console.node import ConsoleNode
 from bot_console.tui.console.node_ports import NodePorts
-from bot_console.tui.console.robot.drive_link import SILENCE, VERDICT_LIFETIME_S, DriveLink
+from bot_console.tui.console.robot.drive_link import COMMAND_LIFETIME_S, VERDICT_LIFETIME_S, DriveLink
 from bot_console.tui.console.robot.drive_node import DriveNode
 from bot_console.tui.console.robot.fleet import Fleet, steered_of
 from bot_console.tui.console.robot.pose_and_trail import MAP, ODOMETRY, WorldWatch
@@ -212,7 +212,7 @@ def test_a_requested_velocity_expires_like_a_command(robots: Robots) -> None:
     robots.asked[""].publish(command)
     robots.settle()
     assert robots.info.asked == (0.4, 0.0)
-    robots.clock += SILENCE + 0.1
+    robots.clock += COMMAND_LIFETIME_S + 0.1
     assert robots.info.asked is None
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from bot_console.tui.console.robot.robot_model import Drawing, Pose, Turtle, TurtleField
-from bot_console.tui.panes.world.field import SIDE, FieldDrawing
+from bot_console.tui.panes.world.field import SIDE_M, FieldDrawing
 from bot_console.tui.widgets.picture import Line
 
 WIDTH, HEIGHT = 40, 20
@@ -38,7 +38,7 @@ def test_lines_have_the_colours_of_their_pens() -> None:
 
 
 def test_a_turtle_is_an_arrow_where_it_is() -> None:
-    turtle = Turtle("leo", Pose(SIDE - 0.01, 0.01, 1.57))
+    turtle = Turtle("leo", Pose(SIDE_M - 0.01, 0.01, 1.57))
     rows = text(FieldDrawing().rows(TurtleField("/sim", (turtle,), drawing()), WIDTH, HEIGHT))
     assert rows[-1][-1] == "↑"
     assert "leo" not in "".join(rows)

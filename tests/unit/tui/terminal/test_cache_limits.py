@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.terminal.cache_limits import CUTS, limit_cut_cache
+from bot_console.tui.terminal.cache_limits import MAX_CUTS, limit_cut_cache
 from rich.segment import Segment
 from rich.style import Style
 
@@ -12,9 +12,9 @@ def test_few_cut_texts_are_kept_and_they_are_cut_as_before() -> None:
     limit_cut_cache()
     cut = Segment._split_cells
     cut.cache_clear()
-    for number in range(2 * CUTS):
+    for number in range(2 * MAX_CUTS):
         Segment(f"🤖{number}").split_cells(2)
-    assert cut.cache_info().currsize == CUTS
+    assert cut.cache_info().currsize == MAX_CUTS
     assert Segment("日本語").split_cells(3) == before == (Segment("日 "), Segment(" 語"))
     bold = Style(bold=True)
     assert Segment("⠿⠿⠿", bold).split_cells(1) == (Segment("⠿", bold), Segment("⠿⠿", bold))

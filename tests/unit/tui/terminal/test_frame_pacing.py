@@ -6,8 +6,8 @@ import pytest
 from bot_console.tui.terminal.frame_pacing import (
     FRAME_INTERVAL_S,
     FRAME_TIMEOUT_S,
-    IN_FLIGHT,
     MAX_FRAME_TIMEOUT_S,
+    MAX_IN_FLIGHT,
     MERGED_NEWS_S,
     MIN_MERGED_FRAMES,
     SLOW_ANSWER_S,
@@ -64,7 +64,7 @@ def test_effect_of_a_key_is_shown_at_once(gate: AnswerGate, clock: Clock) -> Non
 def test_no_more_than_two_frames_wait_for_an_answer(gate: AnswerGate, clock: Clock) -> None:
     draw(gate)
     gate.answered()
-    for _ in range(IN_FLIGHT):
+    for _ in range(MAX_IN_FLIGHT):
         draw(gate)
         clock.now += FRAME_INTERVAL_S
     gate.pressed()
@@ -81,7 +81,7 @@ def test_a_slow_answer_leaves_one_frame_in_flight(gate: AnswerGate, clock: Clock
     clock.now += FRAME_INTERVAL_S
     assert gate.wait() > 0
     gate.answered()
-    for _ in range(IN_FLIGHT - 1):
+    for _ in range(MAX_IN_FLIGHT - 1):
         draw(gate)
         clock.now += FRAME_INTERVAL_S
     assert gate.wait() == 0, "the answer was quick again"
@@ -117,7 +117,7 @@ def test_merged_frames_are_news_only_while_they_are_many_and_recent(gate: Answer
     gate.answered()
     gate.merged()
     assert gate.held_back == 0, "the pace alone holds nothing back"
-    for _ in range(IN_FLIGHT):
+    for _ in range(MAX_IN_FLIGHT):
         draw(gate)
     for _ in range(MIN_MERGED_FRAMES - 1):
         gate.merged()

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from bot_console.tui.panes.plot.formulas.functions import NEIGHBOURS, OF_CURVES, OPERATORS, OVER_TIME, PLAIN
+from bot_console.tui.panes.plot.formulas.functions import NEIGHBOURS_PER_SIDE, OF_CURVES, OPERATORS, OVER_TIME, PLAIN
 from bot_console.tui.text.expression.numbers import CONSTANTS
 from bot_console.tui.text.expression.parse import parse
 from bot_console.tui.text.expression.tree import (
@@ -141,7 +141,7 @@ def _reach_back(tree: Tree) -> tuple[float, int]:
         elif tree.function == "integral":
             seconds = np.inf
         elif tree.function == "despike":
-            samples += NEIGHBOURS
+            samples += NEIGHBOURS_PER_SIDE
         elif tree.arguments and isinstance(span := tree.arguments[-1], Span):
             seconds += span.seconds
     return seconds, samples

@@ -13,7 +13,7 @@ import numpy.typing as npt
 Array = npt.NDArray[np.float64]
 OverTime: TypeAlias = "Callable[[Array, Array, float], Array]"
 
-MANY = 9
+MAX_ARGUMENTS = 9
 """Values that a function of any number takes at most."""
 
 
@@ -40,13 +40,13 @@ PLAIN: Mapping[str, tuple[int, int, Callable[..., Array]]] = {
     **{name: (1, 1, getattr(np, name)) for name in ("abs", "sqrt", "exp", "log", "sin", "cos", "tan")},
     **{name: (1, 1, getattr(np, f"arc{name[1:]}")) for name in ("asin", "acos", "atan")},
     "atan2": (2, 2, np.arctan2),
-    "hypot": (2, MANY, lambda *given: reduce(np.hypot, given)),
+    "hypot": (2, MAX_ARGUMENTS, lambda *given: reduce(np.hypot, given)),
     "deg": (1, 1, np.degrees),
     "rad": (1, 1, np.radians),
     "round": (1, 1, np.round),
     "wrap": (1, 1, _wrap),
-    "min": (2, MANY, lambda *given: reduce(np.minimum, given)),
-    "max": (2, MANY, lambda *given: reduce(np.maximum, given)),
+    "min": (2, MAX_ARGUMENTS, lambda *given: reduce(np.minimum, given)),
+    "max": (2, MAX_ARGUMENTS, lambda *given: reduce(np.maximum, given)),
 }
 """How many values a function takes, least and most, and the function."""
 
@@ -65,7 +65,7 @@ def integral(times: Array, values: Array) -> Array:
     return np.concatenate([np.zeros(min(1, len(times))), np.cumsum(np.where(np.isfinite(pieces), pieces, 0.0))])
 
 
-NEIGHBOURS = 4
+NEIGHBOURS_PER_SIDE = 4
 """Samples on either side of one that is compared with them."""
 MAX_DEVIATION = 4.0
 """How far a sample may be from the median of its neighbours, in multiples of their median deviation from it."""
@@ -75,8 +75,8 @@ def despike(times: Array, values: Array) -> Array:
     """The curve without outliers: a sample far from its neighbours is replaced by their median (a Hampel filter)."""
     if len(values) < 3:
         return values
-    padded = np.pad(values, NEIGHBOURS, constant_values=np.nan)
-    near = np.lib.stride_tricks.sliding_window_view(padded, 2 * NEIGHBOURS + 1)
+    padded = np.pad(values, NEIGHBOURS_PER_SIDE, constant_values=np.nan)
+    near = np.lib.stride_tricks.sliding_window_view(padded, 2 * NEIGHBOURS_PER_SIDE + 1)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)  # of samples whose neighbours are all NaN
         middle = np.nanmedian(near, axis=1)

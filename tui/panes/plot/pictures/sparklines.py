@@ -11,7 +11,7 @@ from bot_console.tui.panes.plot.window_facts import WindowFacts, window_facts
 from bot_console.tui.widgets.braille import layered
 from bot_console.tui.widgets.picture import Line
 
-FIGURES = 9
+FIGURE_CELLS = 9
 """Cells of one figure."""
 MIN_TRACE_COLUMNS = 12
 
@@ -19,13 +19,13 @@ MIN_TRACE_COLUMNS = 12
 def sparklines(curves: Sequence[Curve], axes: Axes, width: int, height: int, chosen: int) -> list[Line]:
     """A heading and a line for each curve that there is room for, the chosen one among them."""
     columns = ["value", "rate", "min", "max"]
-    while len(columns) > 1 and width < 24 + FIGURES * len(columns) + MIN_TRACE_COLUMNS:
+    while len(columns) > 1 and width < 24 + FIGURE_CELLS * len(columns) + MIN_TRACE_COLUMNS:
         columns.pop()
     name = max(
-        12, min(48, max(len(each.path) for each in curves) + 3, width - FIGURES * len(columns) - MIN_TRACE_COLUMNS)
+        12, min(48, max(len(each.path) for each in curves) + 3, width - FIGURE_CELLS * len(columns) - MIN_TRACE_COLUMNS)
     )
-    across = max(4, width - name - FIGURES * len(columns) - 1)
-    heading = " " * name + "".join(f"{each:>{FIGURES}}" for each in columns)
+    across = max(4, width - name - FIGURE_CELLS * len(columns) - 1)
+    heading = " " * name + "".join(f"{each:>{FIGURE_CELLS}}" for each in columns)
     rows = max(1, height - 1)
     first = max(0, min(chosen - rows // 2, len(curves) - rows))
     lines: list[Line] = [((heading, "dim"),)]
@@ -35,7 +35,7 @@ def sparklines(curves: Sequence[Curve], axes: Axes, width: int, height: int, cho
         seen = reach_of(curve, axes, across)
         trace = layered([canvas(seen, *limits([seen]), across, 1)], [style_of(curve)], across, 1)[0]
         mark = "▸ " if at == chosen else "  "
-        text = "".join(f"{figures[each]:>{FIGURES}}" for each in columns)
+        text = "".join(f"{figures[each]:>{FIGURE_CELLS}}" for each in columns)
         lines.append(((mark, "strong"), (cut(sanitize(curve.path), name - 3, pad=True) + " ", style_of(curve)),
                       (text, "strong" if at == chosen else ""), (" ", ""), *trace))  # fmt: skip
     return lines

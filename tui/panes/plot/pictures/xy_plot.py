@@ -7,7 +7,15 @@ from collections.abc import Sequence
 import numpy as np
 from bot_console.tui.panes.plot.curves import Array, Curve, stepped
 from bot_console.tui.panes.plot.formulas.formula import Held, held
-from bot_console.tui.panes.plot.view import LABEL, Axes, labels_of, limits_of_values, short_number, style_of, tick_step
+from bot_console.tui.panes.plot.view import (
+    LABEL_CELLS,
+    Axes,
+    labels_of,
+    limits_of_values,
+    short_number,
+    style_of,
+    tick_step,
+)
 from bot_console.tui.widgets.braille import BrailleCanvas, layered
 from bot_console.tui.widgets.picture import Line
 
@@ -29,7 +37,7 @@ def pairs(across: Curve, curve: Curve, axes: Axes) -> tuple[Array, Array]:
 
 def against(across: Curve, curves: Sequence[Curve], axes: Axes, width: int, height: int) -> list[Line]:
     """The picture: a frame with the values of both; ◆ is where they were at the cursor."""
-    wide, down = max(4, width - LABEL), max(2, height - 2)
+    wide, down = max(4, width - LABEL_CELLS), max(2, height - 2)
     shown = [each for each in curves if each is not across]
     found = [pairs(across, each, axes) for each in shown]
     left, right = limits_of_values([x for x, _ in found])
@@ -41,11 +49,11 @@ def against(across: Curve, curves: Sequence[Curve], axes: Axes, width: int, heig
     lines: list[Line] = []
     for row, pieces in enumerate(rows):
         edge = "┤" if row in labels else "│"
-        lines.append(((f"{labels.get(row, ''):>{LABEL - 2}} {edge}", "dim"), *pieces))
+        lines.append(((f"{labels.get(row, ''):>{LABEL_CELLS - 2}} {edge}", "dim"), *pieces))
     if axes.cursor is not None and (x := across.at(axes.cursor)) is not None:
         for each in shown:
             if (y := each.at(axes.cursor)) is not None and left <= x <= right and low <= y <= high:
-                _put(lines, round((high - y) * scale[1]) // 4, LABEL + round((x - left) * scale[0]) // 2)
+                _put(lines, round((high - y) * scale[1]) // 4, LABEL_CELLS + round((x - left) * scale[0]) // 2)
     return [*lines, *_bottom(left, right, wide)]
 
 
@@ -74,11 +82,11 @@ def _put(lines: list[Line], row: int, column: int) -> None:
 def _bottom(left: float, right: float, wide: int) -> list[Line]:
     """The axis of the values across, with its labels."""
     step = tick_step(right - left, max(2, wide // 12))
-    axis, labels = ["─"] * wide, [" "] * (LABEL + wide)
+    axis, labels = ["─"] * wide, [" "] * (LABEL_CELLS + wide)
     for count in range(int(np.ceil(left / step - 1e-9)), int(np.floor(right / step + 1e-6)) + 1):
         column = min(wide - 1, round((count * step - left) / (right - left) * (wide - 1)))
         axis[column] = "┬"
         text = short_number(count * step, step)
-        begin = min(LABEL + column - len(text) // 2, LABEL + wide - len(text))
+        begin = min(LABEL_CELLS + column - len(text) // 2, LABEL_CELLS + wide - len(text))
         labels[begin : begin + len(text)] = text
-    return [((" " * (LABEL - 1) + "╰" + "".join(axis), "dim"),), (("".join(labels), "dim"),)]
+    return [((" " * (LABEL_CELLS - 1) + "╰" + "".join(axis), "dim"),), (("".join(labels), "dim"),)]

@@ -15,7 +15,7 @@ from bot_console.tui.widgets.diagram.layering import Edge
 from bot_console.tui.widgets.diagram.lines import LEFT, RIGHT, UP, Lines
 from rich.cells import cell_len
 
-WIDE = 116
+MIN_WIDE_COLUMNS = 116
 """Columns from which a chain of boxes runs from left to right instead of down."""
 RIGHTWARD = (99, 3, 2, 1, 0)
 SLACK = (0, 4, 10)
@@ -53,7 +53,7 @@ def _best_style(shape: Chart, width: int, height: int) -> Style:
 
 
 def _styles(chart: Chart, width: int) -> Iterator[Style]:
-    count, wide = len(chart.links), width >= WIDE
+    count, wide = len(chart.links), width >= MIN_WIDE_COLUMNS
     if count > MANY_LINKS:
         yield Style(words=3)
         return

@@ -21,7 +21,7 @@ from bot_console.tui.console.bags.opened_bag import OpenedBag
 from bot_console.tui.console.bags.playing.player import Player, Playing
 from bot_console.tui.console.bags.qos import noted, offered
 from bot_console.tui.console.bags.reader import Bag
-from bot_console.tui.console.bags.recorder import OVERHEAD, Recorder, Ring, in_order
+from bot_console.tui.console.bags.recorder import MESSAGE_OVERHEAD_BYTES, Recorder, Ring, in_order
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.files.save_file import NotSaved
 from geometry_msgs.msg import Twist
@@ -307,7 +307,7 @@ def test_a_ring_keeps_the_last_seconds_within_its_byte_limit(tmp_path: Path) -> 
     assert ring.pour(writer) == 11
     writer.close()
     assert Bag(tmp_path / "bag").metadata.begin == 20 * SECOND
-    ring = Ring(seconds=10, maximum=2 * (400 + OVERHEAD) + 200)
+    ring = Ring(seconds=10, maximum=2 * (400 + MESSAGE_OVERHEAD_BYTES) + 200)
     ring.topic("/words", String, [], "")
     for second in range(31, 60):
         ring.write("/words", b"\0" * 400, second * SECOND // 100 + 30 * SECOND, 0)

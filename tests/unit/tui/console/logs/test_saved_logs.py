@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from bot_console.tui.console.logs.file import AT_ONCE, Tail, open_log
+from bot_console.tui.console.logs.file import CHUNK_BYTES, Tail, open_log
 from bot_console.tui.console.logs.saved import SavedLines
 from bot_console.tui.console.model import LogFilter, Severity
 
@@ -90,7 +90,7 @@ def test_lines_written_just_before_a_rotation_are_read(tmp_path: Path, monkeypat
 
 def test_a_large_file_is_read_in_pieces_of_whole_lines(tmp_path: Path) -> None:
     path = tmp_path / "log"
-    path.write_text("x" * 999 + "\n" + ("y" * 999 + "\n") * (2 * AT_ONCE // 1000))
+    path.write_text("x" * 999 + "\n" + ("y" * 999 + "\n") * (2 * CHUNK_BYTES // 1000))
     pieces = list(Tail(path).more())
     assert len(pieces) > 2 and all(each.endswith("\n") for each in pieces) and "".join(pieces) == path.read_text()
 

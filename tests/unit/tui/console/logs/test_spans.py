@@ -8,12 +8,12 @@ from functools import cache
 
 import pytest
 from bot_console.tui.console.logs.search import matching
-from bot_console.tui.console.logs.spans import SECOND, parse_span
+from bot_console.tui.console.logs.spans import SECOND_NS, parse_span
 from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.model import LogFilter, Severity
 from bot_console.tui.format import clock_text
 
-NOW = 1_792_913_400 * SECOND
+NOW = 1_792_913_400 * SECOND_NS
 """2026-10-25 07:30:00 UTC: a day on which clocks in Berlin are put back."""
 BERLIN = "CET-1CEST,M3.5.0,M10.5.0/3"
 """Its rule: a small system has no files of time zones, and takes the name of one for UTC."""
@@ -44,7 +44,7 @@ CLOCK = {
 @cache
 def two_days() -> tuple[list[int], list[str], LogStore]:
     """Lines 10 s apart: their stamps, the times of day shown, and a store that contains them."""
-    stamps = [NOW + step * 10 * SECOND + SECOND // 4 for step in range(-8640, 8640)]
+    stamps = [NOW + step * 10 * SECOND_NS + SECOND_NS // 4 for step in range(-8640, 8640)]
     store = LogStore(len(stamps) * 2)
     for each in stamps:
         store.add(each, Severity.INFO, "n", "x")
@@ -63,14 +63,14 @@ def test_a_time_of_day_matches_the_time_shown(written: str) -> None:
 @pytest.mark.parametrize(
     ("written", "begin", "end"),
     [
-        ("-5m", NOW - 300 * SECOND, None),
-        ("-2h..-30min", NOW - 7200 * SECOND, NOW - 1800 * SECOND),
+        ("-5m", NOW - 300 * SECOND_NS, None),
+        ("-2h..-30min", NOW - 7200 * SECOND_NS, NOW - 1800 * SECOND_NS),
         ("@12.5", 12_500_000_000, 12_600_000_000),
-        ("@12..@14", 12 * SECOND, 15 * SECOND),
-        ("<@12", 0, 12 * SECOND),
-        ("2026-10-25", 1_792_879_200 * SECOND, 1_792_969_200 * SECOND),
+        ("@12..@14", 12 * SECOND_NS, 15 * SECOND_NS),
+        ("<@12", 0, 12 * SECOND_NS),
+        ("2026-10-25", 1_792_879_200 * SECOND_NS, 1_792_969_200 * SECOND_NS),
         ("2026-10-25T08:30..", NOW, None),
-        ("=2026-10-25T08:30:00", NOW, NOW + SECOND),
+        ("=2026-10-25T08:30:00", NOW, NOW + SECOND_NS),
     ],
 )
 def test_times_with_a_date_select_that_day(written: str, begin: int, end: int | None) -> None:

@@ -7,11 +7,11 @@ from dataclasses import replace
 import pytest
 from bot_console.tui.console.calls import NoAnswer
 from bot_console.tui.console.model import ChangeSource, Endpoint, GraphInfo, NodeInfo
-from bot_console.tui.console.parameters.mirror import WINDOW, ParameterMirror
+from bot_console.tui.console.parameters.mirror import MAX_CONCURRENT_QUERIES, ParameterMirror
 from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterEvent, ParameterValue
 from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters
 
-MANY = 4 * WINDOW
+MANY = 4 * MAX_CONCURRENT_QUERIES
 
 
 class StubNode:
@@ -84,10 +84,10 @@ def test_all_nodes_are_read_a_few_at_a_time(names):
         mirror = ParameterMirror(StubNode(), asked, lambda *change: None)
         mirror.follow(graph_of(names))
         await asyncio.sleep(0)
-        assert len(+asked.pending) == WINDOW
+        assert len(+asked.pending) == MAX_CONCURRENT_QUERIES
         asked.open.set()
         await finished(asked)
-        assert asked.maximum == WINDOW
+        assert asked.maximum == MAX_CONCURRENT_QUERIES
         assert sorted(mirror.trees) == names
         assert {mirror.get(name, "speed").value for name in names} == {1.5}
 
@@ -145,10 +145,10 @@ def test_a_node_that_leaves_while_waiting_is_not_queried(names):
         asked = Asked()
         mirror = ParameterMirror(StubNode(), asked, lambda *change: None)
         mirror.follow(graph_of(names))
-        mirror.follow(graph_of(names[: 2 * WINDOW]))
+        mirror.follow(graph_of(names[: 2 * MAX_CONCURRENT_QUERIES]))
         asked.open.set()
         await finished(asked)
-        assert sorted(mirror.trees) == sorted(asked.times) == names[: 2 * WINDOW]
+        assert sorted(mirror.trees) == sorted(asked.times) == names[: 2 * MAX_CONCURRENT_QUERIES]
 
     asyncio.run(scenario())
 

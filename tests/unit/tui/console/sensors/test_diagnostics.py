@@ -7,7 +7,7 @@ from typing import Any
 
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.sensors import diagnostics as module
-from bot_console.tui.console.sensors.diagnostics import REMEMBERED, TYPE, DiagnosticsWatch
+from bot_console.tui.console.sensors.diagnostics import MAX_CHANGES_PER_NAME, TYPE, DiagnosticsWatch
 from bot_console.tui.console.sensors.model import Level
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from piloting import Clock
@@ -67,9 +67,9 @@ def test_names_and_history_are_limited(monkeypatch) -> None:
     for number in range(5):
         watch.take(output(b"\x00", name=f"part {number}"))
     assert (len(watch.diagnostics().statuses), watch.diagnostics().dropped) == (3, 2)
-    for number in range(REMEMBERED + 7):
+    for number in range(MAX_CHANGES_PER_NAME + 7):
         watch.take(output(b"\x01", f"{number}", name="part 0"))
-    assert len(watch.diagnostics().statuses[0].history) == REMEMBERED
+    assert len(watch.diagnostics().statuses[0].history) == MAX_CHANGES_PER_NAME
 
 
 def test_an_unknown_level_counts_as_error() -> None:

@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 from bot_console.tui.console.sensors.model import Picture
 from bot_console.tui.panes.images.drawing import characters, cost, half_blocks, pixels_of, steady
-from bot_console.tui.panes.images.frame_limit import BUDGET, FrameLimit
+from bot_console.tui.panes.images.frame_limit import BUDGET_BYTES_PER_S, FrameLimit
 
 
 def grey(rows: list[list[int]]) -> np.ndarray:
@@ -49,7 +49,7 @@ def test_frame_rate_and_byte_budget_are_not_exceeded() -> None:
             sent += size
             times.append(now)
         now += 0.1
-    assert sent <= BUDGET * 60 + 20_000 and times[1] >= 4.0
+    assert sent <= BUDGET_BYTES_PER_S * 60 + 20_000 and times[1] >= 4.0
     assert all(later - earlier >= 0.5 for earlier, later in pairwise(times))
     limit.change(1000.0)
     assert limit.rate == 10.0

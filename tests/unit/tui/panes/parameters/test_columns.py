@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from bot_console.tui.console.model import Kind, ParameterInfo, Range
 from bot_console.tui.panes.parameters.columns import (
-    BAR,
-    GAP,
-    MARKS,
+    BAR_CELLS,
+    GAP_CELLS,
+    MARKS_CELLS,
+    MIN_BAR_CELLS,
     MIN_NAME,
-    SHORTEST_BAR,
-    VALUE,
+    MIN_VALUE_CELLS,
     Columns,
     columns,
     measured,
@@ -26,14 +26,14 @@ def row(name: str) -> Row:
 
 def needed(own: Columns) -> int:
     """Cells of all columns."""
-    return MARKS + own.name + GAP + own.value + (GAP + own.bar if own.bar else 0)
+    return MARKS_CELLS + own.name + GAP_CELLS + own.value + (GAP_CELLS + own.bar if own.bar else 0)
 
 
 def test_longest_name_fits_and_slider_takes_the_rest() -> None:
     need = measured([row("gain"), row("emergency_stop_distance")])
     widths = {width: columns(need, width) for width in range(30, 90)}
     name = 2 + len("emergency_stop_distance")
-    assert {each.bar for each in widths.values()} == {0, *range(SHORTEST_BAR, BAR + 1)}
+    assert {each.bar for each in widths.values()} == {0, *range(MIN_BAR_CELLS, BAR_CELLS + 1)}
     assert all(each.name == name and needed(each) <= width for width, each in widths.items() if each.bar)
 
 
@@ -41,10 +41,12 @@ def test_single_long_name_does_not_remove_all_sliders() -> None:
     rows = [row(f"gain_{number}") for number in range(20)]
     need = measured([*rows, row(LONG)])
     own = columns(need, 60)
-    assert own.bar >= SHORTEST_BAR and needed(own) <= 60
+    assert own.bar >= MIN_BAR_CELLS and needed(own) <= 60
     assert name_column(rows[0], own, 60) == own.name
     over = name_column(row(LONG), own, 60)
-    assert over > own.name and MARKS + over + GAP + VALUE <= 60, "it runs over its column, and its value is seen"
+    assert over > own.name and MARKS_CELLS + over + GAP_CELLS + MIN_VALUE_CELLS <= 60, (
+        "it runs over its column, and its value is seen"
+    )
     assert columns(need, 100).name == 2 + len(LONG), "where there is room all names stand in the column"
     assert not columns(measured([rows[0], row(LONG)]), 60).bar, "one of two is not few"
 
@@ -55,5 +57,5 @@ def test_moved_edge_gives_and_takes_room_but_leaves_names_and_values_some() -> N
     assert (wider.name, narrower.name) == (own.name + 6, own.name - 6)
     assert wider.bar < own.bar and all(needed(each) <= 52 for each in (wider, narrower))
     far = [columns(need, 52, split) for split in (-100, 100)]
-    assert far[0].name == MIN_NAME and far[1].value >= VALUE
+    assert far[0].name == MIN_NAME and far[1].value >= MIN_VALUE_CELLS
     assert name_column(row("emergency_stop_distance"), narrower, 52, -6) == narrower.name, "the name is cut"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree
-from bot_console.tui.panes.steering.state import GREATEST, Steering, greatest_of
+from bot_console.tui.panes.steering.state import DEFAULT_LIMITS, Steering, greatest_of
 
 
 def armed(greatest: tuple[float, float] = (1.0, 3.0)) -> Steering:
@@ -67,10 +67,10 @@ def test_zero_is_sent_while_disarmed_even_if_sent_before() -> None:
 @pytest.mark.parametrize(
     ("parameters", "expected"),
     [
-        ([], GREATEST),
-        ([("max_speed", Kind.DOUBLE, 2.0)], (2.0, GREATEST[1])),
+        ([], DEFAULT_LIMITS),
+        ([("max_speed", Kind.DOUBLE, 2.0)], (2.0, DEFAULT_LIMITS[1])),
         ([("max_speed", Kind.DOUBLE, 2.0), ("turn_rate", Kind.DOUBLE, 0.5)], (2.0, 0.5)),
-        ([("max_speed", Kind.STRING, "fast"), ("turn_rate", Kind.DOUBLE, -1.0)], GREATEST),
+        ([("max_speed", Kind.STRING, "fast"), ("turn_rate", Kind.DOUBLE, -1.0)], DEFAULT_LIMITS),
     ],
 )
 def test_limits_come_from_parameters_that_are_positive_numbers(parameters, expected) -> None:
@@ -85,7 +85,7 @@ def test_limits_are_never_those_of_another_robot() -> None:
     fleet = [tree("/navigator", 0.5), tree("/robot2/navigator", 2.0), tree("/robot20/navigator", 4.0)]
     assert greatest_of(fleet, "/cmd_vel", {"/robot2/", "/robot20/"})[0] == 0.5
     assert greatest_of(fleet, "/robot2/cmd_vel", {"/", "/robot20/"})[0] == 2.0
-    assert greatest_of(fleet, "/robot3/cmd_vel", {"/", "/robot2/", "/robot20/"}) == GREATEST
+    assert greatest_of(fleet, "/robot3/cmd_vel", {"/", "/robot2/", "/robot20/"}) == DEFAULT_LIMITS
     assert greatest_of(fleet[:1], "/base/cmd_vel")[0] == 0.5, "of one robot, wherever its nodes are"
 
 
