@@ -14,14 +14,15 @@ from bot_console.tui.session.machine.ros2_command_line import MachineCommandLine
 TIMEOUT_S = 240.0
 ROS2 = f"""#!{sys.executable}
 import signal
+signal.pthread_sigmask(signal.SIG_BLOCK, {{signal.SIGINT}})
 print("begun")
-signal.pause()
+signal.sigwait({{signal.SIGINT}})
 """
 
 
 @pytest.fixture(autouse=True)
 def ros2(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A `ros2` that prints a line, without flushing it, and goes on until it is interrupted."""
+    """A `ros2` that prints a line, without flushing it, and goes on until it is interrupted, from that moment on."""
     (tmp_path / "ros2").write_text(ROS2)
     (tmp_path / "ros2").chmod(0o755)
     monkeypatch.setenv("PATH", str(tmp_path))
