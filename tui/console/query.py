@@ -19,7 +19,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from bot_console.tui.console.logs.patterns import Pattern
-from bot_console.tui.console.logs.spans import Span, parse_span
+from bot_console.tui.console.logs.time_filter import Span, parse_span
 from bot_console.tui.console.model import LogRecord, Severity
 
 SEVERITY_WORDS: Mapping[str, Severity] = {

@@ -11,6 +11,8 @@ LINKS = (TOPIC, SERVICE, ACTION)
 """How the ids of items begin that stand between nodes."""
 SPACE = "namespace:"
 """Begins the id of a box that stands for all nodes of a namespace."""
+MAX_UNFOLDED_NODES = 40
+"""With more nodes, namespaces are folded until a person unfolds them."""
 
 
 def is_link(item: str) -> bool:
@@ -23,15 +25,15 @@ def namespace_of(node: str) -> str:
     return node.rpartition("/")[0]
 
 
-def folds_of(nodes: Sequence[str], maximum: int) -> frozenset[str]:
-    """The namespaces that are folded until a person says otherwise: with more than `most` nodes, the outermost ones."""
-    return outermost(nodes) if len(nodes) > maximum else frozenset()
+def folds_of(nodes: Sequence[str]) -> frozenset[str]:
+    """The namespaces that are folded until a person says otherwise: the outermost ones of many nodes."""
+    return outermost(nodes) if len(nodes) > MAX_UNFOLDED_NODES else frozenset()
 
 
-def unfolded(folded: frozenset[str], space: str, nodes: Iterable[str], maximum: int) -> frozenset[str]:
-    """The namespaces that are folded once one is not: if it has more than `most` nodes, those in it."""
+def unfolded(folded: frozenset[str], space: str, nodes: Iterable[str]) -> frozenset[str]:
+    """The namespaces that are folded once one is not: those in it, if it has many nodes."""
     inside = [each for each in nodes if each.startswith(f"{space}/")]
-    return folded - {space} | (outermost(inside, space) if len(inside) > maximum else frozenset[str]())
+    return folded - {space} | (outermost(inside, space) if len(inside) > MAX_UNFOLDED_NODES else frozenset[str]())
 
 
 def box_of(node: str, folded: Collection[str]) -> str:

@@ -57,9 +57,6 @@ from bot_console.tui.widgets.static_text import StaticText
 from rich.text import Text
 from textual.app import ComposeResult
 
-MIN_NODES_TO_FOLD = 40
-"""Nodes from which on namespaces are folded until a person unfolds them."""
-
 
 class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOverride] # Textual's HELP
     """Who talks to whom."""
@@ -145,7 +142,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         info = self._info
         if info is None:
             return
-        folded = self._folds if self._folds is not None else folds_of(self._visible, MIN_NODES_TO_FOLD)
+        folded = self._folds if self._folds is not None else folds_of(self._visible)
         self._view = replace(self._view, folded=folded, focus=self._focus_history.now)
         # Topics as boxes of their own: names are cut where it does not fit otherwise.
         for short in (False, True) if self._view.mode in (Mode.ACTIVE, Mode.ALL) else (False,):
@@ -362,7 +359,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         if not space:
             self.notify("It is in no namespace." if closed else "Only a folded namespace can be unfolded.")
             return
-        self._folds = folded | {space} if closed else unfolded(folded, space, self._visible, MIN_NODES_TO_FOLD)
+        self._folds = folded | {space} if closed else unfolded(folded, space, self._visible)
         self._draw()
         self._picture.choose(SPACE + min(self._folds - folded, default=space))
 

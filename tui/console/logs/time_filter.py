@@ -1,4 +1,4 @@
-"""Time spans in filters: `14:03..14:05`, `>=14:03:20.5`, `2026-11-22T14:03`, `-5m`, `@12.5`.
+"""Times in filters of the log: `14:03..14:05`, `>=14:03:20.5`, `2026-11-22T14:03`, `-5m`, `@12.5`.
 
 A time without a date applies to any day, in local time: a log may be read on a later day than it was written.
 """

@@ -8,8 +8,8 @@ from functools import cache
 
 import pytest
 from bot_console.tui.console.logs.search import matching
-from bot_console.tui.console.logs.spans import SECOND_NS, parse_span
 from bot_console.tui.console.logs.store import LogStore
+from bot_console.tui.console.logs.time_filter import SECOND_NS, parse_span
 from bot_console.tui.console.model import LogFilter, Severity
 from bot_console.tui.format import clock_text
 
