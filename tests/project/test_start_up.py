@@ -24,6 +24,7 @@ def report(before=()):
 """
 VERSION = """
 import __future__, collections.abc, re, typing  # what the script that pip writes brings along, at most
+import contextlib  # which `typing` brings along before Python 3.13
 import errno, signal  # part of Python itself
 before = set(sys.modules)
 from bot_console.tui.cli.main import main

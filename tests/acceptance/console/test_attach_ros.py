@@ -105,7 +105,7 @@ def test_attached_console_shows_robot_launches_beside_it_and_leaves_it_alone(
         terminal.type("8o")
         terminal.read_until(lambda: b"Open a launch file" in terminal.output, "the question for a file")
         terminal.type(f"{file}\r")
-        terminal.read_until(lambda: b"launched-1 started" in terminal.output, "the launched process")
+        terminal.read_until(lambda: shows("launched-1"), "the launched process")
         terminal.type("2")
         terminal.read_until(lambda: b"second is up" in terminal.output, "its line in the log")
         assert b"guard none" in terminal.output
