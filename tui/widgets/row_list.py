@@ -53,6 +53,9 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
             """The list."""
             return self.rows
 
+    class Resized(Message):
+        """The size of the list has changed, and with it the width of its columns and the rows in view."""
+
     _by_person = False
     """Whether the user is moving the cursor."""
     placeholder = NO_PLACEHOLDER
@@ -203,9 +206,10 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
         self.row_changed(self.cursor)
 
     def on_resize(self) -> None:
-        """Fit the rows to the new width."""
+        """Fit the rows to the new width, and post `Resized`."""
         self.rows_changed()
         self.show_cursor()
+        self.post_message(self.Resized())
 
 
 def _fitted(strip: Strip, width: int, style: Style) -> Strip:

@@ -7,7 +7,9 @@ from dataclasses import replace
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo, RateCheck
 from bot_console.tui.console.topics.port import Field, Reply, RequestedQos
 from bot_console.tui.panes.topics.pane import TopicsPane
-from bot_console.tui.panes.topics.table import TopicRows
+from bot_console.tui.panes.topics.rows import Kind
+from bot_console.tui.panes.topics.table import TopicRows, heading
+from bot_console.tui.widgets.static_text import StaticText
 from fleet import fleet
 from geometry_msgs.msg import Twist
 from piloting import Clock, Session, run
@@ -50,6 +52,18 @@ async def at(session: Session, name: str) -> None:
     rows = session.pane(TopicRows)
     rows.cursor = [each.name for each in rows.rows].index(name)
     await session.settle()
+
+
+def test_heading_fits_the_columns_of_a_list_that_is_laid_out_after_the_pane() -> None:
+    async def play(session: Session) -> None:
+        pane = await opened(session)
+        rows, title = pane.query_one(TopicRows), pane.query_one("#topics-heading", StaticText)
+        assert str(title.content) == heading(rows.columns(rows.across), Kind.TOPICS)
+        rows.styles.width = rows.across - 8
+        await session.settle()
+        assert str(title.content) == heading(rows.columns(rows.across), Kind.TOPICS)
+
+    run(live(), play, SIZE)
 
 
 def test_figures_change_once_a_second_however_often_the_system_changes() -> None:

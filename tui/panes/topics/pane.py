@@ -274,7 +274,11 @@ class TopicsPane(ListPane):
     def on_resize(self) -> None:
         """List and message side by side where there is room."""
         self.set_class(self.size.width >= MIN_SIDE_BY_SIDE_CELLS, "side")
-        self.call_after_refresh(self._laid_out)
+
+    def on_row_list_resized(self, event: RowList.Resized) -> None:
+        """Fit the heading to the columns, and measure the rows in view."""
+        event.stop()
+        self._laid_out()
 
     def _laid_out(self) -> None:
         """Other rows are in view now."""
