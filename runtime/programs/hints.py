@@ -35,11 +35,11 @@ def at(place: str, text: str) -> str:
     return f"{place}: {text}" if place and text else text
 
 
-def did_you_mean(word: str, known: Iterable[str], quote: str = "") -> str:
-    """`; did you mean NAME?` with the most similar known name; empty if none is similar."""
+def did_you_mean(word: str, known: Iterable[str], quote: str = "", similarity: float = 0.6) -> str:
+    """`; did you mean NAME?` with the most similar known name; empty if none is at least so similar, from 0 to 1."""
     from difflib import get_close_matches  # imported late: only a mistyped name needs it
 
-    near = get_close_matches(word, sorted(known), 1)
+    near = get_close_matches(word, sorted(known), 1, similarity)
     return f"; did you mean {quote}{near[0]}{quote}?" if near else ""
 
 

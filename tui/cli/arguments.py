@@ -230,10 +230,10 @@ def _words(
 
 def _similar(word: str, known: Collection[str]) -> str:
     """A message that suggests a known word for a mistyped one; empty if none is similar."""
-    from difflib import get_close_matches
+    from bot_console.runtime.programs.hints import did_you_mean
 
-    similar = [] if word in known else get_close_matches(word, known, n=1, cutoff=LEAST_SIMILARITY)
-    return f"there is no profile and no command '{word}'; did you mean '{similar[0]}'?" if similar else ""
+    meant = "" if word in known else did_you_mean(word, known, "'", LEAST_SIMILARITY)
+    return f"there is no profile and no command '{word}'{meant}" if meant else ""
 
 
 def _launch_file(parser: argparse.ArgumentParser, words: Sequence[str], given: argparse.Namespace) -> str:

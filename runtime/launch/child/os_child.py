@@ -36,9 +36,8 @@ class OsChild(StreamedChild, asyncio.SubprocessProtocol):
         """Deliver a signal; raises `ProcessLookupError` after the end."""
         if self._transport.get_returncode() is not None:
             raise ProcessLookupError
-        os.kill(
-            self.pid, signum
-        )  # `Popen.send_signal` polls, which can take the exit code away from asyncio (255 then)
+        # Not the transport's own: `Popen.send_signal` polls, which can take the exit code away from asyncio (255 then).
+        os.kill(self.pid, signum)
 
     def write(self, data: bytes) -> None:
         """Write bytes to its standard input."""

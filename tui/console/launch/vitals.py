@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Protocol, TypeAlias
 
 from bot_console.tui.console.graph.findings import debugger_text
+from bot_console.tui.text.cadence import is_due
 
 CPU_POLL_S = 1.0
 """Seconds over which CPU usage is measured, of all processes at the same moments: they are drawn at once."""
@@ -83,7 +84,7 @@ class Usage:
         if now - self._asked >= STATE_POLL_S:
             self._asked, self.stands = now, self._why_it_stands()
         passed = now - self._at
-        if passed < CPU_POLL_S / 2 or now // CPU_POLL_S == self._at // CPU_POLL_S:
+        if passed < CPU_POLL_S / 2 or not is_due(self._at, now, CPU_POLL_S):
             return
         used, wanted = self._vitals.cpu_seconds(), self._vitals.wanted_seconds()
         share = _share(self._used, used, passed)
