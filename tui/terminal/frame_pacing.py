@@ -80,6 +80,11 @@ class AnswerGate:
             began, _ = self._asked.popleft()
             self._allowed = 1 if self._clock() - began > SLOW_ANSWER_S else MAX_IN_FLIGHT
 
+    @property
+    def owed(self) -> bool:
+        """Whether a terminal that answers has not answered everything yet."""
+        return self._answers and bool(self._asked)
+
     def pressed(self) -> None:
         """Record that a key was pressed: its effect is shown at once."""
         self._pressed = self._clock()

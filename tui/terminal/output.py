@@ -23,6 +23,7 @@ from bot_console.tui.terminal.closing import closing_terminal
 from bot_console.tui.terminal.compositor import PartwiseCompositor
 from bot_console.tui.terminal.difference import ShownScreen
 from bot_console.tui.terminal.frame_pacing import AnswerGate
+from bot_console.tui.terminal.late_answers import takes_late_answers
 from bot_console.tui.terminal.suspension import leaves_an_empty_screen, takes_up_again
 from bot_console.tui.terminal.terminal_file import TerminalFile
 from rich.color import ColorSystem
@@ -187,6 +188,7 @@ class SparingApp(App[None]):
         if hasattr(driver, "_key_thread"):
             takes_up_again(driver)
             leaves_an_empty_screen(driver)
+            takes_late_answers(driver, lambda: self.gate.owed)
             if SUPPORTED:
                 self._input = reads_input(driver, self, self.key_watch)
         return driver

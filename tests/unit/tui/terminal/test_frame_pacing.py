@@ -126,3 +126,12 @@ def test_merged_frames_are_news_only_while_they_are_many_and_recent(gate: Answer
     assert gate.held_back == MIN_MERGED_FRAMES
     clock.now += MERGED_NEWS_S + 0.1
     assert gate.held_back == 0
+
+
+def test_only_a_terminal_that_answers_owes_something(gate: AnswerGate) -> None:
+    draw(gate)
+    assert not gate.owed, "perhaps it never answers"
+    gate.answered()
+    assert not gate.owed
+    draw(gate)
+    assert gate.owed

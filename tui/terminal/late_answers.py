@@ -1,0 +1,43 @@
+"""Answers that the terminal still owes when it is left: without us, the shell would take them for typed text."""
+
+from __future__ import annotations
+
+import os
+import select
+import time
+from collections.abc import Callable
+from typing import Any
+
+STATUS_QUESTION = "\x1b[5n"
+STATUS = b"\x1b[0n"
+"""The answer to it. A terminal answers in order, so all earlier answers come before."""
+LATE_ANSWERS_S = 0.8
+"""Seconds to wait for it; less than `closing` allows for the remaining output."""
+
+
+def takes_late_answers(driver: Any, owes: Callable[[], bool]) -> None:
+    """Make a Linux driver of Textual read what the terminal still owes before it leaves the terminal."""
+    leave = driver.stop_application_mode
+
+    def stop() -> None:
+        if owes():
+            driver.disable_input()  # ends the thread that would read the answers
+            driver.write(STATUS_QUESTION)
+            _read_until(driver.fileno, STATUS, time.monotonic() + LATE_ANSWERS_S)
+        leave()
+
+    driver.stop_application_mode = stop
+
+
+def _read_until(descriptor: int, last: bytes, deadline: float) -> None:
+    read = b""
+    while last not in read and (left := deadline - time.monotonic()) > 0:
+        try:
+            if not select.select([descriptor], [], [], left)[0]:
+                return
+            piece = os.read(descriptor, 4096)
+        except (OSError, ValueError):  # the terminal is gone
+            return
+        if not piece:
+            return
+        read = read[-len(last) :] + piece
