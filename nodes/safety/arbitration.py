@@ -5,19 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import lru_cache
-
-import numpy as np
-import numpy.typing as npt
-
-FRONT = math.radians(60.0)
-"""Half the angle ahead, in rad, in which obstacles count for driving forward."""
-WITNESSES = 2
-"""Beams that must see an obstacle; a single one may be dust."""
-MIN_SOURCES, MAX_SOURCES = 1e-6, 4 * math.pi
-"""Limits (rad) for the angle between beams and of the whole scan; a sensor cannot mean others."""
-EDGE = 1e-6
-"""Rounding error (rad) of float32 angles."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,38 +53,6 @@ class Arbiter:
             if command and source not in withheld and 0 <= clock() - command.stamp <= self._lifetime:
                 return command
         return None
-
-
-def nearest_ahead(ranges: npt.NDArray[np.float32], first: float, increment: float) -> float | None:
-    """The distance in m to the obstacle ahead, seen by at least two beams; `inf` if there is none.
-
-    `first` and `increment` are the angles (rad) of the first beam and between two; beams may turn either way and begin
-    anywhere. A return of `-inf` (nearer than the sensor can measure) is distance 0. None for an unusable scan: invalid
-    angles, or fewer than two beams ahead with a measurement.
-    """
-    if (
-        not (math.isfinite(first) and math.isfinite(increment))
-        or abs(first) > MAX_SOURCES
-        or not MIN_SOURCES < abs(increment) < MAX_SOURCES
-    ):
-        return None
-    front = ranges[_beams_ahead(len(ranges), first, increment)]
-    if len(front) < WITNESSES:
-        return None
-    seen = float(np.partition(front, WITNESSES - 1)[WITNESSES - 1])  # NaN is sorted last.
-    return None if math.isnan(seen) else max(0.0, seen)
-
-
-@lru_cache(maxsize=4)
-def _beams_ahead(count: int, first: float, increment: float) -> npt.NDArray[np.int64] | slice:
-    """The indices of the beams ahead, as a slice if they are consecutive; cached, as a sensor's geometry hardly
-    changes.
-    """
-    angles = first + increment * np.arange(count)
-    ahead = np.flatnonzero(np.abs(np.remainder(angles + math.pi, 2 * math.pi) - math.pi) <= FRONT + EDGE)
-    if len(ahead) and ahead[-1] - ahead[0] == len(ahead) - 1:
-        return slice(int(ahead[0]), int(ahead[-1]) + 1)
-    return ahead
 
 
 def limit(command: Command, nearest: float, emergency: float, warning: float) -> Verdict:

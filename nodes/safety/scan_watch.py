@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 
 from bot_console_robot.common.scans import ranges_of
-from bot_console_robot.safety.arbitration import nearest_ahead
+from bot_console_robot.safety.obstacle_ahead import nearest_ahead
 from sensor_msgs.msg import LaserScan
 
 

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from bot_console.tui.console.parameters.profile_port import Profiles
     from bot_console.tui.console.plot.port import Plots
     from bot_console.tui.console.robot.port import Drive
-    from bot_console.tui.console.sensors.model import Sensors
+    from bot_console.tui.console.sensors.port import Sensors
     from bot_console.tui.console.topics.port import Topics
 
 

@@ -8,10 +8,10 @@ from typing import ClassVar, TypeAlias
 
 from bot_console.tui import keymap
 from bot_console.tui.terminal.styling import StyledByPart
-from bot_console.tui.widgets.diagram.chart.drawing import draw_chart
-from bot_console.tui.widgets.diagram.chart.model import Chart
+from bot_console.tui.widgets.diagram.arrow_direction import DOWN, RIGHT, ArrowDirection
 from bot_console.tui.widgets.diagram.drawing import Drawing, Place, Run, draw
-from bot_console.tui.widgets.diagram.flow import DOWN, RIGHT, Flow
+from bot_console.tui.widgets.diagram.flow_chart.drawing import draw_chart
+from bot_console.tui.widgets.diagram.flow_chart.model import Chart
 from bot_console.tui.widgets.diagram.graph import Digraph
 from bot_console.tui.widgets.diagram.listing import Listing, draw_listing
 from bot_console.tui.widgets.diagram.overview_map import Window, map_lines, map_size, seen
@@ -30,7 +30,7 @@ MIN_THREADED_ITEMS = 60
 """Number of items from which a graph is laid out in a thread."""
 
 Content: TypeAlias = Digraph | Chart | Listing
-Manner: TypeAlias = Flow | Size
+Manner: TypeAlias = ArrowDirection | Size
 """How to lay something out: a graph in a direction, everything else for a window of a size."""
 
 MARGIN_CELLS = 2
@@ -111,7 +111,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         self._faded: frozenset[str] = frozenset()
         self._map: tuple[object, list[str]] | None = None
         self._drawings: dict[Manner, Drawing] = {}
-        self._flow: Flow | None = None
+        self._direction: ArrowDirection | None = None
         self._selecting = False
         self._downward = False
         self._room = Size()
@@ -150,8 +150,8 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
         if not isinstance(self._content, Digraph):
             return (self._window,)
         if self.is_large:
-            return (self._flow or RIGHT,)
-        return (self._flow,) if self._flow else (RIGHT, DOWN)
+            return (self._direction or RIGHT,)
+        return (self._direction,) if self._direction else (RIGHT, DOWN)
 
     @property
     def _window(self) -> Size:
@@ -197,7 +197,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
 
     def _present(self, drawing: Drawing, manner: Manner) -> None:
         if drawing is not self.drawing:
-            self._downward = isinstance(manner, Flow) and manner.downward
+            self._downward = isinstance(manner, ArrowDirection) and manner.downward
             self.drawing = drawing
             self.places = dict(drawing.places or {})
             self._links = frozenset(drawing.edges)
@@ -246,8 +246,8 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
 
     def action_turn(self) -> None:
         """Switch between arrows to the right, down, and as it fits."""
-        order: tuple[Flow | None, ...] = (None, RIGHT, DOWN)
-        self._flow = order[(order.index(self._flow) + 1) % 3]
+        order: tuple[ArrowDirection | None, ...] = (None, RIGHT, DOWN)
+        self._direction = order[(order.index(self._direction) + 1) % 3]
         self._lay_out()
         self.show_selected()
 
@@ -408,7 +408,7 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
 
 def _drawn(content: Content, manner: Manner) -> Drawing:
     if isinstance(content, Digraph):
-        return draw(content, manner if isinstance(manner, Flow) else RIGHT)
+        return draw(content, manner if isinstance(manner, ArrowDirection) else RIGHT)
     width, height = (manner.width, manner.height) if isinstance(manner, Size) else (0, 0)
     return draw_chart(content, width - 1, height) if isinstance(content, Chart) else draw_listing(content, width - 1)
 

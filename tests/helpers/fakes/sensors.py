@@ -6,8 +6,9 @@ from concurrent.futures import Future
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.command_gate import done
-from bot_console.tui.console.sensors.frame_model import Frames
-from bot_console.tui.console.sensors.model import Diagnostics, Level, Picture, ReportedStatus, Status
+from bot_console.tui.console.sensors.diagnostics import Diagnostics, Level, ReportedStatus, Status
+from bot_console.tui.console.sensors.frames import Frames
+from bot_console.tui.console.sensors.picture import Picture
 
 
 class FakeSensors:

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from bot_console.tui.console.model import Endpoint, GraphInfo, IncompatiblePair, NodeInfo
-from bot_console.tui.console.sensors.frame_model import Frame, Frames
+from bot_console.tui.console.sensors.frames import Frame, Frames
 from bot_console.tui.panes.graph.pane import GraphPane
 from bot_console.tui.widgets.diagram_view import DiagramView
 from piloting import Clock, Session, run

@@ -12,7 +12,7 @@ import pytest
 import rclpy
 from bot_console_robot.controller_node import MotionController
 from bot_console_robot.robot_node import RobotNavigator
-from bot_console_robot.safety.arbitration import nearest_ahead
+from bot_console_robot.safety.obstacle_ahead import nearest_ahead
 from bot_console_robot.safety_node import LOCKED, NAVIGATION, SafetyMonitor
 from bot_console_robot.sensor_node import SensorHandler
 from bot_console_robot.simulator_node import Simulator

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from bot_console.tui.widgets.diagram.arrow_direction import DOWN, RIGHT, ArrowDirection
 from bot_console.tui.widgets.diagram.drawing import Drawing, draw
-from bot_console.tui.widgets.diagram.flow import DOWN, RIGHT, Flow
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
 from hypothesis import given
 from hypothesis import strategies as st
@@ -58,9 +58,9 @@ def reachable(start: Iterable[Cell], cells: set[Cell]) -> set[Cell]:
 
 
 @given(graphs(), st.sampled_from([RIGHT, DOWN]))
-def test_every_edge_is_an_unbroken_line_to_an_arrow(graph: Digraph, flow: Flow) -> None:
-    drawing = draw(graph, flow)
-    head = "▼" if flow is DOWN else "▶"
+def test_every_edge_is_an_unbroken_line_to_an_arrow(graph: Digraph, direction: ArrowDirection) -> None:
+    drawing = draw(graph, direction)
+    head = "▼" if direction is DOWN else "▶"
     for edge in graph.edges:
         cells = cells_of(drawing, edge)
         arrows = {cell for cell, character in cells.items() if character == head} & around(drawing, edge[1])
@@ -70,8 +70,8 @@ def test_every_edge_is_an_unbroken_line_to_an_arrow(graph: Digraph, flow: Flow) 
 
 
 @given(graphs(), st.sampled_from([RIGHT, DOWN]))
-def test_nothing_overlaps_and_everything_is_inside(graph: Digraph, flow: Flow) -> None:
-    drawing = draw(graph, flow)
+def test_nothing_overlaps_and_everything_is_inside(graph: Digraph, direction: ArrowDirection) -> None:
+    drawing = draw(graph, direction)
     assert set(drawing.places or {}) == {item.id for item in graph.items}
     for row in drawing.rows:
         end = 0
@@ -82,8 +82,8 @@ def test_nothing_overlaps_and_everything_is_inside(graph: Digraph, flow: Flow) -
 
 
 @given(graphs(), st.sampled_from([RIGHT, DOWN]), st.randoms())
-def test_the_order_of_the_input_does_not_matter(graph: Digraph, flow: Flow, random) -> None:
+def test_the_order_of_the_input_does_not_matter(graph: Digraph, direction: ArrowDirection, random) -> None:
     items, edges = list(graph.items), list(graph.edges)
     random.shuffle(items)
     random.shuffle(edges)
-    assert draw(Digraph(tuple(items), tuple(edges)), flow).text() == draw(graph, flow).text()
+    assert draw(Digraph(tuple(items), tuple(edges)), direction).text() == draw(graph, direction).text()

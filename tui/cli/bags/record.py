@@ -14,7 +14,8 @@ from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.format import sanitize
 
 if TYPE_CHECKING:
-    from bot_console.tui.console.bags.recorder import Recorder, Ring
+    from bot_console.tui.console.bags.recorder import Recorder
+    from bot_console.tui.console.bags.snapshot_ring import Ring
     from bot_console.tui.console.bags.writer import BagWriter
     from rclpy.node import Node
 
@@ -40,7 +41,8 @@ def record(given: argparse.Namespace) -> int:
     node = make_node(given.node_name)
     if node is None:
         return 1
-    from bot_console.tui.console.bags.recorder import Ring, remarks
+    from bot_console.tui.console.bags.recorder import remarks
+    from bot_console.tui.console.bags.snapshot_ring import Ring
     from bot_console.tui.console.bags.writer import BagWriter
     from rclpy.logging import LoggingSeverity
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from bot_console.tui.console.parameters.lint import HINTS
+from bot_console.tui.console.parameters.descriptor_faults import HINTS
 
 
 @dataclass(frozen=True, order=True)

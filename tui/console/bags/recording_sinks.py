@@ -6,7 +6,8 @@ import math
 from contextlib import suppress
 from typing import Any
 
-from bot_console.tui.console.bags.recorder import Ring, Sink
+from bot_console.tui.console.bags.recorder import Sink
+from bot_console.tui.console.bags.snapshot_ring import Ring
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.files.save_file import NotSaved
 

@@ -12,8 +12,9 @@ from typing import Any, Protocol
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.missing_packages import Missing
 from bot_console.tui.console.bags.qos import noted
-from bot_console.tui.console.bags.recorder import CLOCK, Ring, in_order
+from bot_console.tui.console.bags.recorder import CLOCK, in_order
 from bot_console.tui.console.bags.recording_sinks import RingSink
+from bot_console.tui.console.bags.snapshot_ring import Ring
 from bot_console.tui.console.bags.snapshot_size import SnapshotSize
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.files.save_file import NotSaved, typed_path

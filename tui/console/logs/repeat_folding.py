@@ -10,6 +10,11 @@ import numpy.typing as npt
 Block = npt.NDArray[np.int64]
 
 
+def repeat_key(node: int, severity: int, raw: bytes) -> int:
+    """A number that is equal for repeats of a record: the same node, severity and text (UTF-8). Rarely for others."""
+    return hash((node, severity, raw))
+
+
 class Numbers:
     """Ascending numbers in parts, to which older and newer ones can be added without copying everything."""
 

@@ -15,6 +15,7 @@ from types import MappingProxyType
 from typing import Generic, TypeAlias, TypeVar
 
 import numpy as np
+from bot_console.tui.console.logs.repeat_folding import repeat_key
 from bot_console.tui.console.model import LogRecord, LogState, Severity
 
 T = TypeVar("T")
@@ -39,7 +40,7 @@ class LogSegment:
         self.node = np.zeros(size, np.uint32)
         self.site = np.zeros(size, np.uint32)
         self.key = np.zeros(size, np.int64)
-        """Equal for records with the same node, text and severity, and for hardly any others."""
+        """The `repeat_key` of each record."""
         self.start = np.zeros(size + 1, np.int64)
         self._blob: bytes | bytearray = bytearray()
 
@@ -50,7 +51,7 @@ class LogSegment:
         self.severity[index] = severity
         self.node[index] = node
         self.site[index] = site
-        self.key[index] = hash((node, severity, raw))
+        self.key[index] = repeat_key(node, severity, raw)
         self._blob += raw
         self._blob += b"\n"
         self.start[index + 1] = len(self._blob)

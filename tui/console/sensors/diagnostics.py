@@ -1,89 +1,63 @@
-"""The diagnostics of the whole system, by name, with the history of each."""
+"""A robot's diagnostics as the panes show them: each status, and when it counts as stale. Standard library only."""
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable
-from typing import Any
+from dataclasses import dataclass
+from enum import IntEnum
 
-from bot_console.tui.console.model import GraphInfo
-from bot_console.tui.console.sensors.model import Diagnostics, Level, ReportedStatus, Status
-from bot_console.tui.console.topics.offered_topics import offered_qos, offered_types_of
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from rclpy.node import Node
-
-TYPE = "diagnostic_msgs/msg/DiagnosticArray"
-AGGREGATED = "_agg"
-"""Suffix of an aggregator's topic, which repeats the statuses of the others under different names."""
-MAX_NAMES = 1000
-"""Names that are kept."""
-MAX_CHANGES_PER_NAME = 100
-"""Changes that are kept per name."""
+STALE_AFTER_S = 5.0
+"""Seconds without an update after which a status counts as stale, as in rqt_robot_monitor."""
 
 
-class DiagnosticsWatch:
-    """Subscribes to every diagnostics topic, or only to the aggregator's if there is one."""
+class Level(IntEnum):
+    """Levels of `diagnostic_msgs/msg/DiagnosticStatus`, with its codes."""
 
-    def __init__(self, node: Node, clock: Callable[[], float] = time.monotonic) -> None:
-        self._node = node
-        self._clock = clock
-        self._subscriptions: dict[str, tuple[object, Any]] = {}
-        self._statuses: dict[str, Status] = {}
-        self._dropped = 0
-        self._info = Diagnostics()
+    OK = 0
+    WARN = 1
+    ERROR = 2
+    STALE = 3
 
-    def follow(self, graph: GraphInfo) -> None:
-        """Process a changed graph; called by the executor."""
-        reported = {each.name for node in graph.nodes for each in node.publishers if TYPE in each.types}
-        reported = {each for each in reported if each.endswith(AGGREGATED)} or reported
-        wanted = {
-            topic: offered_qos(graph, topic)
-            for topic in sorted(reported)
-            if offered_types_of(graph, topic)[:1] == (TYPE,)
-        }
-        for topic, (offer, subscription) in tuple(self._subscriptions.items()):
-            if topic not in wanted or wanted[topic].key != offer:
-                self._node.destroy_subscription(subscription)
-                del self._subscriptions[topic]
-        for topic, offer in wanted.items():
-            if topic not in self._subscriptions:
-                made = self._node.create_subscription(DiagnosticArray, topic, self.take, offer.profile())
-                self._subscriptions[topic] = (offer.key, made)
-        if self._info.topics != tuple(wanted):
-            self._report()
-
-    def take(self, message: DiagnosticArray) -> None:
-        """Process a message."""
-        stamp, heard = time.time_ns(), self._clock()
-        found = dict(self._statuses)
-        for each in message.status:
-            before = found.get(each.name)
-            if before is None and len(found) >= MAX_NAMES:
-                self._dropped += 1
-            else:
-                found[each.name] = _status(each, before, stamp, heard)
-        self._statuses = found
-        self._report()
-
-    def _report(self) -> None:
-        statuses = tuple(self._statuses.values())
-        self._info = Diagnostics(statuses, tuple(sorted(self._subscriptions)), self._dropped)
-
-    def diagnostics(self) -> Diagnostics:
-        """The latest statuses; from any thread."""
-        return self._info
+    @property
+    def weight(self) -> int:
+        """How severe it is: an error is worse than stale, and stale is worse than a warning."""
+        return (0, 1, 3, 2)[self]
 
 
-def _status(new: DiagnosticStatus, before: Status | None, stamp: int, heard: float) -> Status:
-    level = _level(new.level)
-    history = before.history if before else ()
-    if not history or history[-1].level is not level or (level is not Level.OK and history[-1].message != new.message):
-        history = (*history, ReportedStatus(stamp, level, str(new.message)))[-MAX_CHANGES_PER_NAME:]
-    values = tuple((str(each.key), str(each.value)) for each in new.values)
-    return Status(str(new.name), level, str(new.message), str(new.hardware_id), values, heard, history)
+@dataclass(frozen=True, slots=True)
+class ReportedStatus:
+    """The time (ns since the epoch) at which a status changed its level, or its message at the same level."""
+
+    stamp: int
+    level: Level
+    message: str
 
 
-def _level(code: Any) -> Level:
-    """A level that is a byte, as in Jazzy, or a number; an unknown one counts as an error."""
-    number = code[0] if isinstance(code, bytes) and code else code
-    return Level(number) if number in tuple(Level) else Level.ERROR
+@dataclass(frozen=True, slots=True)
+class Status:
+    """The latest status of one part of the robot. The slashes in its name are the levels of a tree."""
+
+    name: str
+    level: Level
+    message: str = ""
+    hardware: str = ""
+    values: tuple[tuple[str, str], ...] = ()
+    heard: float = 0.0
+    """When it was last received, in s of a monotonic clock."""
+    history: tuple[ReportedStatus, ...] = ()
+    """Its past changes, the newest last."""
+
+    def now(self, clock: float) -> Level:
+        """Its level, or stale when it has been silent for too long."""
+        return Level.STALE if clock - self.heard > STALE_AFTER_S else self.level
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostics:
+    """The latest status of each name; `problem` says why there is none, and is empty when all is well."""
+
+    statuses: tuple[Status, ...] = ()
+    topics: tuple[str, ...] = ()
+    """The topics they come from."""
+    dropped: int = 0
+    """Names beyond the maximum number."""
+    problem: str = ""

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from bot_console.tui.console.model import GraphInfo
-from bot_console.tui.console.sensors.frame_model import Frame, Frames
+from bot_console.tui.console.sensors.frames import Frame, Frames
 from bot_console.tui.console.topics.interfaces import interface
 from bot_console.tui.console.topics.offered_topics import offered_qos
 from bot_console.tui.console.topics.port import Payload

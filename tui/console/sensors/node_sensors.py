@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 
 from bot_console.tui.console.command_gate import Gate
 from bot_console.tui.console.model import GraphInfo
-from bot_console.tui.console.sensors.frame_model import Frames
-from bot_console.tui.console.sensors.model import Diagnostics, Picture
+from bot_console.tui.console.sensors.diagnostics import Diagnostics
+from bot_console.tui.console.sensors.frames import Frames
+from bot_console.tui.console.sensors.picture import Picture
 
 if TYPE_CHECKING:
-    from bot_console.tui.console.sensors.diagnostics import DiagnosticsWatch
+    from bot_console.tui.console.sensors.diagnostics_watch import DiagnosticsWatch
     from bot_console.tui.console.sensors.frames_watch import FramesWatch
-    from bot_console.tui.console.sensors.images import ImageWatch
+    from bot_console.tui.console.sensors.image_watch import ImageWatch
     from rclpy.node import Node
 
 
@@ -32,9 +33,9 @@ class NodeSensors:
 
     def attach(self, node: Node) -> None:
         """The system has been reached."""
-        from bot_console.tui.console.sensors.diagnostics import DiagnosticsWatch
+        from bot_console.tui.console.sensors.diagnostics_watch import DiagnosticsWatch
         from bot_console.tui.console.sensors.frames_watch import FramesWatch
-        from bot_console.tui.console.sensors.images import ImageWatch
+        from bot_console.tui.console.sensors.image_watch import ImageWatch
 
         self._images = ImageWatch(node)
         self._frames = FramesWatch(node)

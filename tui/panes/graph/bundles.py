@@ -10,7 +10,7 @@ from types import MappingProxyType
 from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, SPACE, TOPIC, is_link, namespace_of
 from bot_console.tui.text.natural import natural_key
 from bot_console.tui.text.sanitize import counted, cut_name, sanitize
-from bot_console.tui.widgets.diagram.chart.model import Chart, ChartBox, ChartLink
+from bot_console.tui.widgets.diagram.flow_chart.model import Chart, ChartBox, ChartLink
 
 LINE = "line:"
 """Begins the id of a line between two boxes."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bot_console.tui.console.query import Query, parse
-from bot_console.tui.console.sensors.frame_model import Frames, findings
-from bot_console.tui.console.sensors.model import Sensors
+from bot_console.tui.console.sensors.frames import Frames, findings
+from bot_console.tui.console.sensors.port import Sensors
 from bot_console.tui.format import counted, sanitize
 from bot_console.tui.panes.graph.frame_rows import FrameRows
 from bot_console.tui.panes.graph.frame_tree import facts, rows, summary

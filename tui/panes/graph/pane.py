@@ -13,7 +13,7 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.graph.connections import TOOL_NAMES
 from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo
 from bot_console.tui.console.query import Query, parse
-from bot_console.tui.console.sensors.model import Sensors
+from bot_console.tui.console.sensors.port import Sensors
 from bot_console.tui.files.save_file import save_file
 from bot_console.tui.panes.graph.about import ends_of, node_of
 from bot_console.tui.panes.graph.details import (
@@ -47,7 +47,7 @@ from bot_console.tui.panes.graph.view_state import STATE_NAME, ViewState, view_s
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.transitions import ask_transition
 from bot_console.tui.text.namespaces import outermost
-from bot_console.tui.widgets.diagram.chart.drawing import MIN_WIDE_COLUMNS
+from bot_console.tui.widgets.diagram.flow_chart.drawing import MIN_WIDE_COLUMNS
 from bot_console.tui.widgets.diagram_view import MIN_THREADED_ITEMS, DiagramView
 from bot_console.tui.widgets.prompt.filtered import Narrowed
 from bot_console.tui.widgets.prompt.line import Prompt

@@ -16,7 +16,7 @@ from bot_console.tui.panes.graph.bundles import Bundles, bundled, state_mark
 from bot_console.tui.panes.graph.filtering import filtered
 from bot_console.tui.panes.graph.focus_history import Focus, around
 from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, SPACE, TOPIC, box_of, folded_edges, is_link
-from bot_console.tui.widgets.diagram.chart.model import Chart
+from bot_console.tui.widgets.diagram.flow_chart.model import Chart
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
 from bot_console.tui.widgets.diagram.listing import Listing
 

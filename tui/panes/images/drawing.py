@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from bot_console.tui.console.sensors.model import Picture
+from bot_console.tui.console.sensors.picture import Picture
 from bot_console.tui.widgets.picture import Line
 
 Pixels = npt.NDArray[np.uint8]

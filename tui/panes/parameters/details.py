@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bot_console.tui.console.model import ParameterInfo, SetOutcome, Value
-from bot_console.tui.console.parameters.lint import NO_DESCRIPTION, faults
+from bot_console.tui.console.parameters.descriptor_faults import NO_DESCRIPTION, faults
 from bot_console.tui.console.parameters.safety import risky_change
 from bot_console.tui.format import command_of, range_text, sanitize, value_text
 from bot_console.tui.text.refusals import in_detail

@@ -6,9 +6,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, overload
 
-from bot_console.tui.widgets.diagram.flow import RIGHT, Flow
+from bot_console.tui.widgets.diagram.arrow_direction import RIGHT, ArrowDirection
+from bot_console.tui.widgets.diagram.columns import Edge, Layers, layers
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
-from bot_console.tui.widgets.diagram.layering import Edge, Layers, layers
 from bot_console.tui.widgets.diagram.lines import Lines
 from bot_console.tui.widgets.diagram.ordering import ITEM, Columns, Key, ordered
 from bot_console.tui.widgets.diagram.placing import Placed, placed
@@ -58,7 +58,7 @@ class Drawing:
         return "\n".join(lines)
 
 
-def draw(graph: Digraph, flow: Flow = RIGHT) -> Drawing:
+def draw(graph: Digraph, direction: ArrowDirection = RIGHT) -> Drawing:
     """Lay a graph out and draw it."""
     if not graph.items:
         return Drawing((), {})
@@ -69,7 +69,7 @@ def draw(graph: Digraph, flow: Flow = RIGHT) -> Drawing:
     for _, b in (*found.forward, *found.back):
         arrows_in[b] = arrows_in.get(b, 0) + 1
     pushed: dict[Key, int] = {}
-    plan = _Plan(items, found, columns, placed(columns, items, arrows_in, pushed, flow), flow)
+    plan = _Plan(items, found, columns, placed(columns, items, arrows_in, pushed, direction), direction)
     for _ in range(MAX_ATTEMPTS):
         blocked = {key for each in plan.channels for key in each.blocked}
         if not blocked:
@@ -77,19 +77,21 @@ def draw(graph: Digraph, flow: Flow = RIGHT) -> Drawing:
         # Two arrows would share a row: one item moves a row down.
         for key in blocked:
             pushed[key] = pushed.get(key, 0) + 1
-        plan = _Plan(items, found, columns, placed(columns, items, arrows_in, pushed, flow), flow)
+        plan = _Plan(items, found, columns, placed(columns, items, arrows_in, pushed, direction), direction)
     return plan.picture()
 
 
 class _Plan:
     """The rows, ports, tracks and lanes of one attempt."""
 
-    def __init__(self, items: Mapping[str, Item], found: Layers, columns: Columns, at: Placed, flow: Flow) -> None:
+    def __init__(
+        self, items: Mapping[str, Item], found: Layers, columns: Columns, at: Placed, direction: ArrowDirection
+    ) -> None:
         self.items = items
         self.found = found
         self.columns = columns
         self.at = at
-        self.flow = flow
+        self.direction = direction
         self.back: dict[str, list[str]] = {}
         for a, b in found.back:
             self.back.setdefault(a, []).append(b)
@@ -109,7 +111,7 @@ class _Plan:
             if fit == len(lanes):
                 lanes.append([])
             lanes[fit].append((begin, end))
-            rows[owner] = self.at.bottom + 1 + fit * self.flow.lane
+            rows[owner] = self.at.bottom + 1 + fit * self.direction.lane
         return rows
 
     def _ports(self) -> dict[Edge, int]:
@@ -123,9 +125,9 @@ class _Plan:
         ports: dict[Edge, int] = {}
         for target, sources in coming.items():
             key = (target, ITEM)
-            first = self.flow.first_port(self.at.top[key], self.at.height[key], len(sources))
+            first = self.direction.first_port(self.at.top[key], self.at.height[key], len(sources))
             for row, (_, source) in enumerate(sorted(sources)):
-                ports[source, target] = first + row * self.flow.port
+                ports[source, target] = first + row * self.direction.port
         return ports
 
     def _trunks(self, column: int) -> list[Trunk]:
@@ -157,28 +159,28 @@ class _Plan:
     def picture(self) -> Drawing:
         """Draw everything."""
         widths = [self._width(column) for column in self.columns.columns]
-        lines = Lines(self.flow.downward)
+        lines = Lines(self.direction.downward)
         x = 0
         left: list[int] = []
         for at, here in enumerate(self.channels):
             first = x
             outermost = at in (0, len(self.channels) - 1)
-            room = 0 if outermost and not self.trunks[at] else self.flow.room(here.tracks)
+            room = 0 if outermost and not self.trunks[at] else self.direction.room(here.tracks)
             x += room
             left.append(x)
             for trunk in self.trunks[at]:
-                vertical = first + 1 + self.flow.track * here.track.get(trunk.owner, 0)
+                vertical = first + 1 + self.direction.track * here.track.get(trunk.owner, 0)
                 self._draw_trunk(lines, trunk, first, vertical, x, at - 1, widths)
             x += widths[at] if at < len(widths) else 0
         places = self._places(left, widths)
         boxes = _boxes(places, self.items)
         edge = max([self.at.bottom, *(row + 1 for row in self.lanes.values())])
-        width, height = (edge, x) if self.flow.downward else (x, edge)
+        width, height = (edge, x) if self.direction.downward else (x, edge)
         return Drawing(Rows(height, lines, boxes), places, width, (*self.found.forward, *self.found.back))
 
     def _width(self, column: Iterable[Key]) -> int:
         labels = (self.items[each] for each, kind in column if kind == ITEM)
-        return max((self.flow.along(item) for item in labels), default=1)
+        return max((self.direction.along(item) for item in labels), default=1)
 
     def _draw_trunk(
         self, lines: Lines, trunk: Trunk, first: int, vertical: int, end: int, column: int, widths: list[int]
@@ -219,7 +221,7 @@ class _Plan:
         item = self.items[owner]
         if column < 0 or self.found.column[owner] != column:
             return 0
-        return widths[column] - self.flow.along(item)
+        return widths[column] - self.direction.along(item)
 
     def _draw_lane(self, lines: Lines, trunk: Trunk, vertical: int, edges: frozenset[Edge]) -> None:
         if trunk.down is None:
@@ -238,10 +240,10 @@ class _Plan:
                 if kind == ITEM:
                     item = self.items[each]
                     key = (each, ITEM)
-                    along, across = self.flow.along(item), self.at.height[key]
+                    along, across = self.direction.along(item), self.at.height[key]
                     places[each] = (
                         Place(self.at.top[key], left[at], across, along, item.boxed)
-                        if self.flow.downward
+                        if self.direction.downward
                         else Place(left[at], self.at.top[key], along, across, item.boxed)
                     )
         return places

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from bot_console.tui.widgets.diagram.layering import Edge
+from bot_console.tui.widgets.diagram.columns import Edge
 
 UP, DOWN, LEFT, RIGHT = 1, 2, 4, 8
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from bot_console.tui.widgets.diagram.layering import Layers
+from bot_console.tui.widgets.diagram.columns import Layers
 
 SWEEPS = 8
 

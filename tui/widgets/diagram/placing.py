@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from bot_console.tui.widgets.diagram.flow import Flow
+from bot_console.tui.widgets.diagram.arrow_direction import ArrowDirection
 from bot_console.tui.widgets.diagram.graph import Item
 from bot_console.tui.widgets.diagram.ordering import ITEM, Columns, Key
 
@@ -38,19 +38,23 @@ class Placed:
 
 
 def placed(
-    columns: Columns, items: Mapping[str, Item], arrows_in: Mapping[str, int], pushed: Mapping[Key, int], flow: Flow
+    columns: Columns,
+    items: Mapping[str, Item],
+    arrows_in: Mapping[str, int],
+    pushed: Mapping[Key, int],
+    direction: ArrowDirection,
 ) -> Placed:
     """Assign rows; `arrows_in` is the number of arrows into an item, `pushed` adds free rows above a key."""
     result = Placed()
     for column in columns.columns:
         for key in column:
-            across = flow.across(items[key[0]], arrows_in.get(key[0], 0)) if key[1] == ITEM else 1
+            across = direction.across(items[key[0]], arrows_in.get(key[0], 0)) if key[1] == ITEM else 1
             result.height[key] = across
     for column in columns.columns:
         row = 0
         for key in column:
             result.top[key] = row
-            row += result.height[key] + flow.gap
+            row += result.height[key] + direction.gap
     before: dict[Key, list[Key]] = {}
     for source, targets in columns.steps.items():
         for target in targets:
@@ -59,8 +63,8 @@ def placed(
         order = columns.columns if sweep % 2 == 0 else columns.columns[::-1]
         neighbours: Mapping[Key, Sequence[Key]] = before if sweep % 2 == 0 else columns.steps
         for column in order:
-            _settle(column, neighbours, result, pushed, flow.gap)
-    _straighten(columns.columns, before, result, flow.gap)
+            _settle(column, neighbours, result, pushed, direction.gap)
+    _straighten(columns.columns, before, result, direction.gap)
     highest = min(result.top.values(), default=0)
     result.top = {key: row - highest for key, row in result.top.items()}
     return result

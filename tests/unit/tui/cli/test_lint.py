@@ -12,7 +12,7 @@ import pytest
 from bot_console.tui.cli.lint.run import files_of, lint_files, run
 from bot_console.tui.console.model import Kind, ParameterInfo
 from bot_console.tui.console.parameters.described_unit import unit_in_description
-from bot_console.tui.console.parameters.lint import faults
+from bot_console.tui.console.parameters.descriptor_faults import faults
 
 NODE = """\
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult

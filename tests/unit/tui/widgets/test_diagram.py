@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from bot_console.tui.widgets.diagram.arrow_direction import DOWN, RIGHT
+from bot_console.tui.widgets.diagram.columns import layers
 from bot_console.tui.widgets.diagram.drawing import draw
-from bot_console.tui.widgets.diagram.flow import DOWN, RIGHT
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
-from bot_console.tui.widgets.diagram.layering import layers
 from bot_console.tui.widgets.diagram.lines import Lines
 
 

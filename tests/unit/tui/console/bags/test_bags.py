@@ -21,7 +21,8 @@ from bot_console.tui.console.bags.opened_bag import OpenedBag
 from bot_console.tui.console.bags.playing.player import Player, Playing
 from bot_console.tui.console.bags.qos import noted, offered
 from bot_console.tui.console.bags.reader import Bag
-from bot_console.tui.console.bags.recorder import MESSAGE_OVERHEAD_BYTES, Recorder, Ring, in_order
+from bot_console.tui.console.bags.recorder import Recorder, in_order
+from bot_console.tui.console.bags.snapshot_ring import MESSAGE_OVERHEAD_BYTES, Ring
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.files.save_file import NotSaved
 from geometry_msgs.msg import Twist

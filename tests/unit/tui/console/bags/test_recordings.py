@@ -11,9 +11,9 @@ import rclpy
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags import recorder, recordings
 from bot_console.tui.console.bags.reader import Bag
-from bot_console.tui.console.bags.recorder import Ring
 from bot_console.tui.console.bags.recording_sinks import BagSink, RingSink
 from bot_console.tui.console.bags.recordings import Recordings
+from bot_console.tui.console.bags.snapshot_ring import Ring
 from bot_console.tui.console.bags.writer import BagWriter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.serialization import deserialize_message, serialize_message

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
-from bot_console.tui.console.sensors.frame_model import Frame, Frames, findings
+from bot_console.tui.console.sensors.frames import Frame, Frames, findings
 from bot_console.tui.console.sensors.frames_watch import FramesWatch
 from geometry_msgs.msg import TransformStamped
 from tf2_msgs.msg import TFMessage

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from bot_console.tui.console.sensors.images import _shown
+from bot_console.tui.console.sensors.image_watch import _shown
 from bot_console.tui.console.sensors.pixels import KNOWN, fitting, scaled
 from hypothesis import given
 from hypothesis import strategies as st

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from bot_console.tui.widgets.diagram.chart.model import Chart
-from bot_console.tui.widgets.diagram.layering import greedy_order
+from bot_console.tui.widgets.diagram.columns import greedy_order
+from bot_console.tui.widgets.diagram.flow_chart.model import Chart
 
 
 def ordered(chart: Chart) -> list[list[str]]:

@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from bot_console.tui.widgets.diagram.chart.cells import Cells
-from bot_console.tui.widgets.diagram.chart.model import Chart, ChartBox, ChartLink
-from bot_console.tui.widgets.diagram.chart.order import ordered
+from bot_console.tui.widgets.diagram.flow_chart.cells import Cells
+from bot_console.tui.widgets.diagram.flow_chart.model import Chart, ChartBox, ChartLink
+from bot_console.tui.widgets.diagram.flow_chart.order import ordered
 from rich.cells import cell_len
 
 BRACKET = 2

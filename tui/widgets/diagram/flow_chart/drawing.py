@@ -7,11 +7,11 @@ from dataclasses import replace
 from functools import lru_cache
 from itertools import product
 
-from bot_console.tui.widgets.diagram.chart.model import Chart, ChartLink
-from bot_console.tui.widgets.diagram.chart.plan import Placed, Plan, Style, planned
-from bot_console.tui.widgets.diagram.chart.spreading import spread
+from bot_console.tui.widgets.diagram.columns import Edge
 from bot_console.tui.widgets.diagram.drawing import Drawing, Place, Rows, Run
-from bot_console.tui.widgets.diagram.layering import Edge
+from bot_console.tui.widgets.diagram.flow_chart.model import Chart, ChartLink
+from bot_console.tui.widgets.diagram.flow_chart.plan import Placed, Plan, Style, planned
+from bot_console.tui.widgets.diagram.flow_chart.spreading import spread
 from bot_console.tui.widgets.diagram.lines import LEFT, RIGHT, UP, Lines
 from rich.cells import cell_len
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.sensors import pixels
-from bot_console.tui.console.sensors.model import COMPRESSED, IMAGE, Picture
+from bot_console.tui.console.sensors.picture import COMPRESSED, IMAGE, Picture
 from bot_console.tui.console.topics.followed_topic import FollowedTopic
 from bot_console.tui.console.topics.offered_topics import Offer
 from rclpy.node import Node

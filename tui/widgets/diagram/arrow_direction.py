@@ -1,6 +1,7 @@
 """The direction of the arrows, and what it means for sizes. Pure.
 
-Layout knows two directions only: along the arrows and across them. `Flow` gives the cells that things take in each.
+Layout knows two directions only: along the arrows and across them. `ArrowDirection` gives the cells that things take
+in each.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from rich.cells import cell_len
 
 
 @dataclass(frozen=True)
-class Flow:
+class ArrowDirection:
     """A direction of arrows with suitable distances for it, in cells."""
 
     downward: bool
@@ -51,5 +52,5 @@ class Flow:
         return cell_len(item.label) + (4 if item.boxed else 2)
 
 
-RIGHT = Flow(downward=False, track=2, port=1, gap=1, lane=1, shortest=3)
-DOWN = Flow(downward=True, track=1, port=2, gap=2, lane=2, shortest=2)
+RIGHT = ArrowDirection(downward=False, track=2, port=1, gap=1, lane=1, shortest=3)
+DOWN = ArrowDirection(downward=True, track=1, port=2, gap=2, lane=2, shortest=2)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from bot_console.tui.widgets.diagram.chart.plan import Plan
+from bot_console.tui.widgets.diagram.flow_chart.plan import Plan
 
 KEPT_ROWS = 14
 """Rows of the window that are left for what is said about the selected item."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.panes.graph.view import GraphView, shown
-from bot_console.tui.widgets.diagram.chart.drawing import draw_chart, drawn
-from bot_console.tui.widgets.diagram.chart.model import Chart, ChartBox, ChartLink
-from bot_console.tui.widgets.diagram.chart.plan import Style, planned
 from bot_console.tui.widgets.diagram.drawing import Drawing
+from bot_console.tui.widgets.diagram.flow_chart.drawing import draw_chart, drawn
+from bot_console.tui.widgets.diagram.flow_chart.model import Chart, ChartBox, ChartLink
+from bot_console.tui.widgets.diagram.flow_chart.plan import Style, planned
 from hypothesis import given
 from hypothesis import strategies as some
 from samples import graph as robot

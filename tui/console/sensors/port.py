@@ -1,0 +1,33 @@
+"""What a pane may ask of a robot's sensors: diagnostics, images and frames. Standard library only."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+from bot_console.tui.console.sensors.diagnostics import Diagnostics
+from bot_console.tui.console.sensors.frames import Frames
+from bot_console.tui.console.sensors.picture import Picture
+
+
+class Sensors(Protocol):
+    """A robot's diagnostics, images and frames."""
+
+    def diagnostics(self) -> Diagnostics:
+        """The newest diagnostics; the same object until a status changes."""
+        ...
+
+    def watch_image(self, topic: str, columns: int, rows: int) -> None:
+        """Subscribe to one image topic only, scaled to a size in pixels; an empty name stops that."""
+        ...
+
+    def picture(self) -> Picture:
+        """The newest image; the same object until there is another."""
+        ...
+
+    def watch_frames(self, on: bool) -> None:
+        """Start or stop listening to `/tf` and `/tf_static`."""
+        ...
+
+    def frames(self) -> Frames:
+        """The frames received while listening."""
+        ...
