@@ -7,8 +7,8 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-from bot_console.tui.cli.lint.declared_parameters import Declared
 from bot_console.tui.cli.lint.finding import LintFinding
+from bot_console.tui.cli.lint.parameter_declarations import Declared
 
 _MEANT = re.compile(r"^\s*ros_+parameters\s*:", re.MULTILINE)
 _NO_KEYWORD = "Cannot have a value before"

@@ -9,11 +9,11 @@ import time
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from bot_console.tui.cli.lint.declared_parameters import Declared
-from bot_console.tui.cli.lint.declared_parameters import lint as lint_python
 from bot_console.tui.cli.lint.finding import LintFinding
 from bot_console.tui.cli.lint.launch_file import dead_parameters, folder_of_package
 from bot_console.tui.cli.lint.launch_packages import unknown_packages
+from bot_console.tui.cli.lint.parameter_declarations import Declared
+from bot_console.tui.cli.lint.parameter_declarations import lint as lint_python
 from bot_console.tui.cli.lint.parameter_file import dead_values, is_meant, refused
 from bot_console.tui.console.parameters.descriptor_faults import faults
 
