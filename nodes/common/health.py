@@ -16,7 +16,7 @@ Health = tuple[bytes, str, Mapping[str, object]]
 
 
 class HealthReport:
-    """Publishes `<node>: <part>` with the result of `look` while there are subscribers; `look` is called every second
+    """Publishes `<node>: <part>` with the result of `poll` while there are subscribers; `poll` is called every second
     anyway.
     """
 

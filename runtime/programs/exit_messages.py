@@ -103,8 +103,8 @@ def help_is_english() -> None:
     argparse._ = str  # pyright: ignore[reportAttributeAccessIssue] -- what they ask for the translation of a text
 
 
-def is_read() -> bool:
-    """Whether stderr is a terminal: anything beyond the output of ROS 2 is only for people."""
+def stderr_is_terminal() -> bool:
+    """Whether a person reads stderr: anything beyond the output of ROS 2 is only for people."""
     return sys.stderr is not None and sys.stderr.isatty()
 
 

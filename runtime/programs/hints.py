@@ -10,7 +10,7 @@ import os
 import re
 from collections.abc import Iterable, Sequence
 
-from bot_console.runtime.programs.exit_messages import is_read as stderr_is_terminal
+from bot_console.runtime.programs.exit_messages import stderr_is_terminal
 
 SHOW = "BOT_CONSOLE_HINTS"
 """Set for processes of a launch whose output a person reads: in a terminal, or in the console's log."""
@@ -37,10 +37,15 @@ def at(place: str, text: str) -> str:
 
 def did_you_mean(word: str, known: Iterable[str], quote: str = "", similarity: float = 0.6) -> str:
     """`; did you mean NAME?` with the most similar known name; empty if none is at least so similar, from 0 to 1."""
+    near = nearest(word, sorted(known), similarity)
+    return f"; did you mean {quote}{near}{quote}?" if near else ""
+
+
+def nearest(word: str, known: Iterable[str], similarity: float = 0.6) -> str:
+    """The most similar known name; empty if none is at least so similar, from 0 to 1."""
     from difflib import get_close_matches  # imported late: only a mistyped name needs it
 
-    near = get_close_matches(word, sorted(known), 1, similarity)
-    return f"; did you mean {quote}{near[0]}{quote}?" if near else ""
+    return next(iter(get_close_matches(word, list(known), 1, similarity)), "")
 
 
 def wrong_type(name: str, value: str, expected: str, given: str) -> str:

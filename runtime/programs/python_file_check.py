@@ -83,8 +83,7 @@ def _imports_qt(tree: ast.Module) -> bool:
 
 
 def _is_node(definition: ast.ClassDef) -> bool:
-    bases = [ast.unparse(each) for each in definition.bases]
-    return any(each == "Node" or each.endswith((".Node", "Node")) for each in bases)
+    return any(ast.unparse(each).endswith("Node") for each in definition.bases)
 
 
 def _is_text(statement: ast.stmt) -> bool:

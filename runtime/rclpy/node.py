@@ -6,16 +6,13 @@
 from __future__ import annotations
 
 import weakref
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Sequence
 from types import FunctionType, TracebackType
 from typing import TYPE_CHECKING
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
-from bot_console.runtime.programs.hints import at, key_of_another_node
 from bot_console.runtime.rmw import names, remapping
-from bot_console.runtime.rmw.parameter_places import place_of_key
-from bot_console.runtime.rmw.parameter_precedence import COMMAND_LINE, key_matches
 from rcl_interfaces.msg import ParameterEvent
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
@@ -24,6 +21,7 @@ from rclpy.exceptions import InvalidNamespaceException, InvalidNodeNameException
 from rclpy.impl.destroyable import Destroyable
 from rclpy.impl.entity import DESTROYED
 from rclpy.impl.reexports import reexporting
+from rclpy.impl.unused_overrides import missed_files
 from rclpy.logging import get_logger
 from rclpy.node_parts.entities import NodeEntities
 from rclpy.node_parts.graph import NodeGraph
@@ -38,7 +36,6 @@ from rclpy.utilities import get_default_context
 
 if TYPE_CHECKING:
     from bot_console.runtime.rmw.arguments import Arguments
-    from bot_console.runtime.rmw.parameter_precedence import ParameterTable
     from rclpy.context import Context
     from rclpy.impl.entity import Entity, EntityExecutor
     from rclpy.impl.rcutils_logger import RcutilsLogger
@@ -290,40 +287,3 @@ __getattr__ = reexporting(
     "expand_topic_name qos_profile_services_default validate_full_topic_name validate_namespace "
     "validate_node_name validate_parameter_name validate_topic_name",
 )
-
-
-HIDDEN = "_"
-
-
-def missed_files(table: ParameterTable, node: str, others: Collection[str]) -> Iterator[str]:
-    """Yield a line for each file that has no key for a node (full name), but one that seems to be mistyped.
-
-    A file for many nodes may well omit one: a file is reported if a key that matches none of the process's `others`
-    (full names) resembles the node's name, or is the only key of the file.
-    """
-    if node.rpartition("/")[2].startswith(HIDDEN):
-        return
-    for path, keys in _keys_by_file(table).items():
-        if any(key_matches(key, node) for key in keys):
-            continue
-        free = [key for key in keys if not any(key_matches(key, each) for each in others)]
-        near = _nearest(node, free) or (free[0] if len(keys) == 1 and free else "")
-        if near:
-            yield at(place_of_key(path, near), key_of_another_node(node, near))
-
-
-def _keys_by_file(table: ParameterTable) -> dict[str, list[str]]:
-    found: dict[str, list[str]] = {}
-    for key, values in table.nodes.items():
-        for path in dict.fromkeys(values.sources):
-            if path != COMMAND_LINE:
-                found.setdefault(path, []).append(key)
-    return found
-
-
-def _nearest(node: str, keys: list[str]) -> str:
-    from difflib import get_close_matches  # imported late: only a mistyped key needs it
-
-    by_name = {key.rpartition("/")[2]: key for key in keys if "*" not in key}
-    found = get_close_matches(node.rpartition("/")[2], by_name, 1)
-    return by_name[found[0]] if found else ""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import rclpy
 from bot_console.runtime.process import current
-from bot_console.runtime.programs.exit_messages import is_read
+from bot_console.runtime.programs.exit_messages import stderr_is_terminal
 from bot_console.runtime.rmw.bus import Bus
 from bot_console.runtime.rmw.endpoints import Owner
 from bot_console.runtime.rmw.names import full_name
@@ -269,7 +269,7 @@ class Server:
 
 def polls_until_ended() -> int:
     """Return the number of checks in a row without a server after which one that has ended is reported."""
-    return ENDED_POLLS if is_read() else ENDED_POLLS_FOR_PROGRAMS
+    return ENDED_POLLS if stderr_is_terminal() else ENDED_POLLS_FOR_PROGRAMS
 
 
 def _serves(node: Node, name: str, service: str) -> bool:

@@ -6,24 +6,11 @@ import struct
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
-from bot_console.runtime.rosidl.definition import Type, parse_type
+from bot_console.runtime.rosidl.definition import TYPECODES, Type, parse_type
 from bot_console.runtime.rosidl.slot_types import nested_class
 
-CODES = {
-    "boolean": "?",
-    "octet": "c",
-    "float": "f",
-    "double": "d",
-    "int8": "b",
-    "uint8": "B",
-    "int16": "h",
-    "uint16": "H",
-    "int32": "i",
-    "uint32": "I",
-    "int64": "q",
-    "uint64": "Q",
-}
-"""Codes of `struct` by element type."""
+CODES = {"boolean": "?", "octet": "c", **TYPECODES}
+"""Codes of `struct` by element type; for numbers those of `array.array`."""
 
 FILLER = ""
 """Name of the byte sent for a structure without fields."""

@@ -7,8 +7,6 @@ from collections.abc import Mapping
 from rclpy.constants import S_TO_NS
 from tf2_py.frame_history import FrameHistory
 
-NO_PARENT = "NO_PARENT"
-
 
 def as_string(frames: Mapping[str, FrameHistory]) -> str:
     """Return a line for each frame that has a parent."""

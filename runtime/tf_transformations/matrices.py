@@ -47,25 +47,27 @@ def rotation_matrix(
 def rotation_from_matrix(matrix: object) -> tuple[float, np.ndarray, np.ndarray]:
     """Return angle (rad), axis, and a point on it (homogeneous); raises `ValueError` if it is not a rotation."""
     m = np.asarray(matrix, dtype=np.float64)
-    direction = _fixed_vector(m[:3, :3].T)[:3]
-    values, vectors = np.linalg.eig(m)
-    fixed = np.where(abs(np.real(values) - 1.0) < 1e-8)[0]
-    if not len(fixed):
-        raise ValueError("no unit eigenvector corresponding to eigenvalue 1")
-    point = np.real(vectors[:, fixed[-1]])
-    point = point / point[3] if point[3] else point
+    direction = _fixed_vector(m[:3, :3].T, "unit eigenvector")
+    point = _fixed_point(m, "unit eigenvector")
     cosine = (np.trace(m[:3, :3]) - 1.0) / 2.0
     turned = m[:3, :3] - m[:3, :3].T
     sine = 0.5 * float(np.dot(direction, [turned[2, 1], turned[0, 2], turned[1, 0]]))
     return math.atan2(sine, cosine), direction, point
 
 
-def _fixed_vector(m: np.ndarray) -> np.ndarray:
+def _fixed_vector(m: np.ndarray, name: str) -> np.ndarray:
+    """Return a vector that a matrix maps to itself; raises `ValueError`, with upstream's name of it, without one."""
     values, vectors = np.linalg.eig(m)
     fixed = np.where(abs(np.real(values) - 1.0) < 1e-8)[0]
     if not len(fixed):
-        raise ValueError("no unit eigenvector corresponding to eigenvalue 1")
+        raise ValueError(f"no {name} corresponding to eigenvalue 1")
     return np.real(vectors[:, fixed[-1]])
+
+
+def _fixed_point(m: np.ndarray, name: str) -> np.ndarray:
+    """Return the same as a point with homogeneous coordinate 1, unless it is at infinity."""
+    point = _fixed_vector(m, name)
+    return point / point[3] if point[3] else point
 
 
 def reflection_matrix(point: Sequence[float] | np.ndarray, normal: Sequence[float] | np.ndarray) -> np.ndarray:
@@ -114,12 +116,7 @@ def scale_from_matrix(matrix: object) -> tuple[float, np.ndarray, np.ndarray | N
     direction = np.real(vectors[:, stretched[0]]) if len(stretched) else None
     if direction is None:
         factor = (factor + 2.0) / 3.0
-    values, vectors = np.linalg.eig(m)
-    fixed = np.where(abs(np.real(values) - 1.0) < 1e-8)[0]
-    if not len(fixed):
-        raise ValueError("no eigenvector corresponding to eigenvalue 1")
-    origin = np.real(vectors[:, fixed[-1]])
-    return factor, origin / origin[3] if origin[3] else origin, direction
+    return factor, _fixed_point(m, "eigenvector"), direction
 
 
 def projection_matrix(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import operator
 import os
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from typing import NamedTuple
 
@@ -15,7 +15,7 @@ from bot_console.runtime.process.fork_server import Job, Report
 from launch.child.child import Output
 from launch.child.process_reports import NewsReader
 from launch.child.python_program import PythonProgram
-from launch.child.streamed_child import StreamedChild, read_stream
+from launch.child.streamed_child import StreamedChild, read_output, read_stream
 
 UNKNOWN = 255
 """Exit code of a process whose fork server was killed: nobody can get the real one from the system."""
@@ -91,20 +91,6 @@ class ForkedChild(StreamedChild):
             each.close()
 
 
-class _Feed(asyncio.Protocol):
-    """Passes on what is read from a descriptor, and its end."""
-
-    def __init__(self, take: Callable[[bytes], None], end: Callable[[], None]) -> None:
-        self._take = take
-        self._end = end
-
-    def data_received(self, data: bytes) -> None:
-        self._take(data)
-
-    def connection_lost(self, exc: Exception | None) -> None:
-        self._end()
-
-
 class OwnEnds(NamedTuple):
     """Our ends of what connects us with a process of the fork server; the caller has to close them."""
 
@@ -151,17 +137,11 @@ async def start_forked_child(
     first = f"{begun.__module__}:{begun.__name__}"
     job = Job(name, first, words, list(argv), dict(env), os.path.abspath(cwd or os.getcwd()))
     own = start_job(job, emulate_tty=emulate_tty)
-    await _feed(child, own.report, child.reported, child.all_reported)
-    await _feed(child, own.data, child.news.feed, child.news_end)
+    child.transports.append(await read_stream(own.report, child.reported, child.all_reported))
+    child.transports.append(await read_stream(own.data, child.news.feed, child.news_end))
     for fd, end in ((1, own.stdout), (2, own.stderr)):
-        child.transports.append(await read_stream(child, fd, end))
+        child.transports.append(await read_output(child, fd, end))
     child.input, _ = await loop.connect_write_pipe(asyncio.Protocol, os.fdopen(own.stdin, "wb", buffering=0))
     child.transports.append(child.input)
     await child.started
     return child
-
-
-async def _feed(child: ForkedChild, descriptor: int, take: Callable[[bytes], None], end: Callable[[], None]) -> None:
-    pipe = os.fdopen(descriptor, "rb", buffering=0)
-    transport, _ = await asyncio.get_running_loop().connect_read_pipe(lambda: _Feed(take, end), pipe)
-    child.transports.append(transport)

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from launch.child.child import Output
-from launch.child.streamed_child import StreamedChild, read_stream
+from launch.child.streamed_child import StreamedChild, read_output
 
 
 class OsChild(StreamedChild, asyncio.SubprocessProtocol):
@@ -80,7 +80,7 @@ async def start_os_child(
         for end in ends:
             os.close(end.child_end)
     for fd, end in zip((1, 2), ends, strict=True):
-        child.terminals.append(await read_stream(child, fd, end.own_end))
+        child.terminals.append(await read_output(child, fd, end.own_end))
     return child
 
 

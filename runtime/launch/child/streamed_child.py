@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import os
+from collections.abc import Callable
+from functools import partial
 
 from launch.child.child import Output
 
@@ -47,23 +49,30 @@ class StreamedChild:
 
 
 class StreamReader(asyncio.Protocol):
-    """Passes data read from a descriptor to a child, as its stdout (1) or stderr (2)."""
+    """Passes on what is read from a descriptor, and its end."""
 
-    def __init__(self, child: StreamedChild, fd: int) -> None:
-        self._child = child
-        self._fd = fd
+    def __init__(self, take: Callable[[bytes], None], end: Callable[[], None]) -> None:
+        self._take = take
+        self._end = end
 
     def data_received(self, data: bytes) -> None:
-        """Pass on output."""
-        self._child.pipe_data_received(self._fd, data)
+        """Pass on data."""
+        self._take(data)
 
     def connection_lost(self, exc: Exception | None) -> None:
         """Handle the end of the stream."""
-        self._child.pipe_connection_lost(self._fd, exc)
+        self._end()
 
 
-async def read_stream(child: StreamedChild, fd: int, own_end: int) -> asyncio.ReadTransport:
-    """Read a child's output from our end of a pipe or terminal, which the returned transport owns from now on."""
-    pipe = os.fdopen(own_end, "rb", buffering=0)
-    transport, _ = await asyncio.get_running_loop().connect_read_pipe(lambda: StreamReader(child, fd), pipe)
+async def read_stream(descriptor: int, take: Callable[[bytes], None], end: Callable[[], None]) -> asyncio.ReadTransport:
+    """Read a descriptor, which the returned transport owns from now on."""
+    pipe = os.fdopen(descriptor, "rb", buffering=0)
+    transport, _ = await asyncio.get_running_loop().connect_read_pipe(lambda: StreamReader(take, end), pipe)
     return transport
+
+
+async def read_output(child: StreamedChild, fd: int, own_end: int) -> asyncio.ReadTransport:
+    """Read a child's stdout (1) or stderr (2) from our end of a pipe or terminal."""
+    return await read_stream(
+        own_end, partial(child.pipe_data_received, fd), partial(child.pipe_connection_lost, fd, None)
+    )

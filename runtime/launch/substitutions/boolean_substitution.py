@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
-from launch.substitutions.joined import bool_of, described, word
+from launch.substitutions.joined import TwoSided, bool_of, described, word
 from launch.utilities import normalize_to_list_of_substitutions
 
 if TYPE_CHECKING:
@@ -44,65 +44,36 @@ class NotSubstitution(Substitution):
         return word(not bool_of(context, self.__value))
 
 
-class _TwoSided(Substitution):
-    """Base class with two operands, both always evaluated."""
-
-    _name = ""
-
-    def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
-        super().__init__()
-        self.__left = normalize_to_list_of_substitutions(left)
-        self.__right = normalize_to_list_of_substitutions(right)
-
-    @classmethod
-    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[_TwoSided], dict[str, object]]:
-        """Parse two arguments."""
-        if len(data) != 2:
-            raise TypeError(f"{cls._name} substitution expects 2 arguments")
-        return cls, {"left": data[0], "right": data[1]}
-
-    @property
-    def left(self) -> list[Substitution]:
-        """The first operand."""
-        return self.__left
-
-    @property
-    def right(self) -> list[Substitution]:
-        """The second operand."""
-        return self.__right
-
-    def describe(self) -> str:
-        """Return a description such as `AndSubstitution('true' 'false')`."""
-        return f"{type(self).__name__}({described(self.__left)} {described(self.__right)})"
-
-    def sides(self, context: LaunchContext) -> tuple[bool, bool]:
-        """Evaluate both operands."""
-        return bool_of(context, self.__left), bool_of(context, self.__right)
+def _values(context: LaunchContext, *operands: list[Substitution]) -> list[bool]:
+    """Evaluate all operands, whatever the first ones are."""
+    return [bool_of(context, each) for each in operands]
 
 
 @expose_substitution("and")
-class AndSubstitution(_TwoSided):
+class AndSubstitution(TwoSided):
     """Whether both operands are true."""
 
     _name = "and"
 
     def perform(self, context: LaunchContext) -> str:
         """Evaluate to `true` or `false`."""
-        return word(all(self.sides(context)))
+        return word(all(_values(context, self.left, self.right)))
 
 
 @expose_substitution("or")
-class OrSubstitution(_TwoSided):
+class OrSubstitution(TwoSided):
     """Whether at least one operand is true."""
 
     _name = "or"
 
     def perform(self, context: LaunchContext) -> str:
         """Evaluate to `true` or `false`."""
-        return word(any(self.sides(context)))
+        return word(any(_values(context, self.left, self.right)))
 
 
 class _ManySided(Substitution):
+    """Base of substitutions with any number of operands."""
+
     def __init__(self, *args: SomeSubstitutionsType) -> None:
         super().__init__()
         self.__args = [normalize_to_list_of_substitutions(each) for each in args]
@@ -125,10 +96,6 @@ class _ManySided(Substitution):
         """Return a description such as `AnySubstitution('true' 'false')`."""
         return f"{type(self).__name__}({' '.join(described(each) for each in self.__args)})"
 
-    def sides(self, context: LaunchContext) -> list[bool]:
-        """Evaluate all operands."""
-        return [bool_of(context, each) for each in self.__args]
-
 
 @expose_substitution("any")
 class AnySubstitution(_ManySided):
@@ -136,7 +103,7 @@ class AnySubstitution(_ManySided):
 
     def perform(self, context: LaunchContext) -> str:
         """Evaluate to `true` or `false`."""
-        return word(any(self.sides(context)))
+        return word(any(_values(context, *self.args)))
 
 
 @expose_substitution("all")
@@ -145,4 +112,4 @@ class AllSubstitution(_ManySided):
 
     def perform(self, context: LaunchContext) -> str:
         """Evaluate to `true` or `false`."""
-        return word(all(self.sides(context)))
+        return word(all(_values(context, *self.args)))

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from launch.frontend.expose import expose_substitution
-from launch.substitution import Substitution
-from launch.substitutions.joined import described, word
-from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch.substitutions.joined import TwoSided, word
+from launch.utilities import perform_substitutions
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -18,13 +16,13 @@ if TYPE_CHECKING:
 TRUTH = {"true": True, "1": True, "false": False, "0": False}
 
 
-def _pieces(value: SomeSubstitutionsType | float | None) -> list[Substitution]:
-    """Normalize any value to substitutions; None becomes the empty text."""
+def _operand(value: SomeSubstitutionsType | float | None) -> SomeSubstitutionsType:
+    """A boolean, number or None as text, as a launch file would write it; None becomes the empty text."""
     if value is None:
-        return normalize_to_list_of_substitutions("")
-    if isinstance(value, (bool, int, float)):
-        return normalize_to_list_of_substitutions(str(value).lower() if isinstance(value, bool) else str(value))
-    return normalize_to_list_of_substitutions(value)
+        return ""
+    if isinstance(value, bool):
+        return str(value).lower()
+    return str(value) if isinstance(value, (int, float)) else value
 
 
 def _number(text: str) -> float | None:
@@ -45,40 +43,17 @@ def _equal(left: str, right: str) -> bool:
 
 
 @expose_substitution("equals")
-class EqualsSubstitution(Substitution):
+class EqualsSubstitution(TwoSided):
     """Whether two values are equal: as booleans, else as numbers, else as texts."""
 
     _name = "equals"
 
     def __init__(self, left: SomeSubstitutionsType | float | None, right: SomeSubstitutionsType | float | None) -> None:
-        super().__init__()
-        self.__left = _pieces(left)
-        self.__right = _pieces(right)
-
-    @classmethod
-    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[EqualsSubstitution], dict[str, object]]:
-        """Parse `$(equals a b)`."""
-        if len(data) != 2:
-            raise TypeError(f"{cls._name} substitution expects 2 arguments")
-        return cls, {"left": data[0], "right": data[1]}
-
-    @property
-    def left(self) -> list[Substitution]:
-        """The first value."""
-        return self.__left
-
-    @property
-    def right(self) -> list[Substitution]:
-        """The second value."""
-        return self.__right
-
-    def describe(self) -> str:
-        """Return a description such as `EqualsSubstitution('a' 'b')`."""
-        return f"{type(self).__name__}({described(self.__left)} {described(self.__right)})"
+        super().__init__(_operand(left), _operand(right))
 
     def equal(self, context: LaunchContext) -> bool:
         """Whether the values are equal now."""
-        return _equal(perform_substitutions(context, self.__left), perform_substitutions(context, self.__right))
+        return _equal(perform_substitutions(context, self.left), perform_substitutions(context, self.right))
 
     def perform(self, context: LaunchContext) -> str:
         """Evaluate to `true` or `false`."""

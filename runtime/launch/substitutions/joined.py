@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
+
+from launch.substitution import Substitution
+from launch.utilities import normalize_to_list_of_substitutions
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
-    from launch.substitution import Substitution
+    from launch.some_substitutions_type import SomeSubstitutionsType
 
 
 def described(subs: Iterable[Substitution]) -> str:
@@ -29,3 +32,36 @@ def bool_of(context: LaunchContext, subs: Iterable[Substitution]) -> bool:
 def word(value: bool) -> str:
     """Return `true` or `false`."""
     return "true" if value else "false"
+
+
+class TwoSided(Substitution):
+    """Base of substitutions with two operands."""
+
+    _name = ""
+    """In launch files, such as `and`."""
+
+    def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
+        super().__init__()
+        self.__left = normalize_to_list_of_substitutions(left)
+        self.__right = normalize_to_list_of_substitutions(right)
+
+    @classmethod
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[TwoSided], dict[str, object]]:
+        """Parse two arguments, as of `$(and left right)`."""
+        if len(data) != 2:
+            raise TypeError(f"{cls._name} substitution expects 2 arguments")
+        return cls, {"left": data[0], "right": data[1]}
+
+    @property
+    def left(self) -> list[Substitution]:
+        """The first operand."""
+        return self.__left
+
+    @property
+    def right(self) -> list[Substitution]:
+        """The second operand."""
+        return self.__right
+
+    def describe(self) -> str:
+        """Return a description such as `AndSubstitution('true' 'false')`."""
+        return f"{type(self).__name__}({described(self.__left)} {described(self.__right)})"

@@ -1,4 +1,7 @@
-"""Values of the command line and of files that no node declares a parameter for: ROS 2 says nothing of them."""
+"""Values of the command line and of files that set nothing, of which ROS 2 says nothing.
+
+No node declares a parameter for them, or the file has no key for the node that it was given to.
+"""
 
 # pyright: reportPrivateUsage=false
 # The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
@@ -6,19 +9,20 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from typing import TYPE_CHECKING, Protocol
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
-from bot_console.runtime.programs.hints import at, is_read, not_declared
-from bot_console.runtime.rmw.parameter_places import place_of
+from bot_console.runtime.programs.hints import at, is_read, key_of_another_node, nearest, not_declared
+from bot_console.runtime.rmw.parameter_places import place_of, place_of_key
 from bot_console.runtime.rmw.parameter_precedence import COMMAND_LINE, key_matches
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from bot_console.runtime.rmw.arguments import Arguments
+    from bot_console.runtime.rmw.parameter_precedence import ParameterTable
 
 
 class OverriddenNode(Protocol):
@@ -48,6 +52,7 @@ class OverridingContext(Protocol):
 
 BY_PUBLISHERS = "qos_overrides."
 """Parameters with such names are declared when a publisher or a subscription is made."""
+HIDDEN_NODE_PREFIX = "_"
 WRITTEN_BY_LAUNCH = "launch_params_"
 """How the names of files begin that launch has written for one node."""
 
@@ -89,3 +94,35 @@ def _meant_for(node: OverriddenNode) -> Iterator[tuple[str, str]]:
                 own = os.path.basename(source).startswith(WRITTEN_BY_LAUNCH)
                 if key_matches(key, full) and (source == COMMAND_LINE or own or "*" not in key):
                     yield name, source
+
+
+def missed_files(table: ParameterTable, node: str, others: Collection[str]) -> Iterator[str]:
+    """Yield a line for each file that has no key for a node (full name), but one that seems to be mistyped.
+
+    A file for many nodes may well omit one: a file is reported if a key that matches none of the process's `others`
+    (full names) resembles the node's name, or is the only key of the file.
+    """
+    if node.rpartition("/")[2].startswith(HIDDEN_NODE_PREFIX):
+        return
+    for path, keys in _keys_by_file(table).items():
+        if any(key_matches(key, node) for key in keys):
+            continue
+        free = [key for key in keys if not any(key_matches(key, each) for each in others)]
+        near = _nearest(node, free) or (free[0] if len(keys) == 1 and free else "")
+        if near:
+            yield at(place_of_key(path, near), key_of_another_node(node, near))
+
+
+def _keys_by_file(table: ParameterTable) -> dict[str, list[str]]:
+    found: dict[str, list[str]] = {}
+    for key, values in table.nodes.items():
+        for path in dict.fromkeys(values.sources):
+            if path != COMMAND_LINE:
+                found.setdefault(path, []).append(key)
+    return found
+
+
+def _nearest(node: str, keys: list[str]) -> str:
+    by_name = {key.rpartition("/")[2]: key for key in keys if "*" not in key}
+    found = nearest(node.rpartition("/")[2], by_name)
+    return by_name[found] if found else ""

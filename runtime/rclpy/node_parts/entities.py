@@ -46,8 +46,6 @@ if TYPE_CHECKING:
     from rclpy.qos_overriding_options import QoSOverridingOptions
     from rclpy.waitable import Waitable
 
-MAX_SERVICE_QUEUE = 1000
-
 
 class NodeEntities(NodeBase):
     """Factories of `Node`."""

@@ -154,7 +154,6 @@ class NodeGraph(NodeBase):
         return self._ros_infos(topic_name, no_mangle, publisher=False)
 
     def _ros_infos(self, topic: str, no_mangle: bool, *, publisher: bool) -> list[Any]:
-        from rclpy.node_parts.graph import in_effect
         from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
 
         require_valid(

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
+from bot_console.runtime.rmw.parameter_scalars import INT64_MAX, INT64_MIN
 from bot_console.runtime.rmw.parameter_types import DOUBLE, INTEGER
 from builtin_interfaces.msg import Time
 from rcl_interfaces.msg import Parameter as ParameterMsg
@@ -223,7 +224,6 @@ class ParameterSetting(NodeEntities):
 
 CARRIED_AS_THEY_ARE = frozenset((bool, float, str))
 """Classes all of whose values are transmitted unchanged."""
-INT64 = 1 << 63
 
 
 def parameter_event(
@@ -250,7 +250,7 @@ def check_carried(parameter: Parameter) -> None:
     value = parameter._value
     kind = value.__class__
     _check_text(parameter)
-    if kind not in CARRIED_AS_THEY_ARE and not (kind is int and -INT64 <= value < INT64):
+    if kind not in CARRIED_AS_THEY_ARE and not (kind is int and INT64_MIN <= value <= INT64_MAX):
         event_parameter(parameter)
 
 

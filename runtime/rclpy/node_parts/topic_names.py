@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 from bot_console.runtime.rmw import names, remapping
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
+from rclpy.expand_topic_name import expand_topic_name
+from rclpy.validate_full_topic_name import validate_full_topic_name
 
 if TYPE_CHECKING:
     from rclpy.node_parts.base import NodeBase
@@ -26,10 +28,8 @@ def checked(node: NodeBase, name: str, *, service: bool = False) -> str:
     problem = names.validate_topic_name(name)
     if problem:
         raise kind(name, *problem)
-    full = remapped(node, _expanded(node, name), service)
-    problem = names.validate_full_topic_name(full)
-    if problem:
-        raise kind(full, *problem)
+    full = remapped(node, expand_topic_name(name, node.get_name(), node.get_namespace()), service)
+    validate_full_topic_name(full, is_service=service)
     return full
 
 
@@ -38,22 +38,9 @@ def expand_name(node: NodeBase, name: str, *, service: bool = False) -> str:
 
     Raises `ValueError` as upstream's counts do, and the exceptions of `checked` for invalid full names.
     """
-    problem = names.validate_topic_name(name)
-    if problem:
-        raise ValueError(f"topic name '{name}' is invalid: {problem[0]}")
-    full = _expanded(node, name)
-    problem = names.validate_full_topic_name(full)
-    if problem:
-        kind = InvalidServiceNameException if service else InvalidTopicNameException
-        raise kind(full, *problem)
+    full = expand_topic_name(name, node.get_name(), node.get_namespace())
+    validate_full_topic_name(full, is_service=service)
     return full
-
-
-def _expanded(node: NodeBase, name: str) -> str:
-    try:
-        return names.expand(name, node.get_name(), node.get_namespace())
-    except ValueError as error:
-        raise ValueError(f"topic name '{name}' is invalid: {error}") from None
 
 
 def resolve(node: NodeBase, name: str, *, only_expand: bool, service: bool = False) -> str:

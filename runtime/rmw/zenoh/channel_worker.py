@@ -63,7 +63,7 @@ class ChannelWorker(threading.Thread):
         self.join(1.0)
 
     def _turn(self) -> bool:
-        """Take available samples for at most `TURN`; return whether there were any."""
+        """Take available samples for at most `TURN_S`; return whether there were any."""
         until = time.monotonic() + TURN_S
         found = False
         with self._lock:

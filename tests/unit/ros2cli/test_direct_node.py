@@ -74,7 +74,7 @@ def test_node_known_to_have_ended_is_reported_sooner_to_a_person(
     monkeypatch: pytest.MonkeyPatch, is_read: bool, polls: int
 ) -> None:
     monkeypatch.setattr(direct_node, "GONE_POLLS", 99)
-    monkeypatch.setattr(direct_node, "is_read", lambda: is_read)
+    monkeypatch.setattr(direct_node, "stderr_is_terminal", lambda: is_read)
     it = Asking(answers=False)
     it.gone_at, it.ended = tuple(range(1, 20)), True
     with pytest.raises(NoAnswer, match=r"^nobody answers /robot/get: its node has ended"):

@@ -16,9 +16,9 @@ def report_once(text: str) -> None:
 
     If stderr is not a terminal, as in scripts and logs, the text is printed each time, and nothing is remembered.
     """
-    from bot_console.runtime.programs.exit_messages import is_read
+    from bot_console.runtime.programs.exit_messages import stderr_is_terminal
 
-    if not is_read() or _is_new(text):
+    if not stderr_is_terminal() or _is_new(text):
         print(text, file=sys.stderr)
 
 
