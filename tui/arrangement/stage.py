@@ -109,7 +109,7 @@ class Stage:
         for each in self.visible():
             if each.id == pane:
                 self._focused = pane
-                each.focus_target()
+                each.take_focus()
         self.show_keys()
 
     def ask(self, question: Question[Any]) -> None:
@@ -173,7 +173,7 @@ class Stage:
         target = found[(found.index(now) + step) % len(found)] if now in found else found[0]
         self._focused = target.id or ""
         if target.display:
-            target.focus_target()
+            target.take_focus()
         else:
             self.go(self._focused)
 
@@ -204,7 +204,7 @@ class Stage:
         if pane is not None and not pane.display:
             pane = next(iter(self.visible()), None)
         if pane is not None and not self.typing():
-            pane.focus_target()
+            pane.take_focus()
         self.show_keys()
 
     def typing(self) -> bool:

@@ -21,7 +21,7 @@ from bot_console.tui.tuning.specification import TuningSpecification
 from bot_console.tui.tuning.tunable import Setting
 from bot_console.tui.widgets.lazy_parts import LazyParts
 from bot_console.tui.widgets.prompt.common import file_line
-from bot_console.tui.widgets.prompt.line import Prompt, asks
+from bot_console.tui.widgets.prompt.line import Prompt, open_prompt
 from bot_console.tui.widgets.prompt.question import Confirmation, Line, Question
 from rich.text import Text
 from textual.app import App
@@ -220,7 +220,7 @@ class Pane(LazyParts):
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """No key of the pane acts while something is typed in it."""
-        return not (self.has_parts and asks(self)) and super().check_action(action, parameters)
+        return not (self.has_parts and open_prompt(self) is not None) and super().check_action(action, parameters)
 
     def on_mount(self) -> None:
         """Follow the moment that is looked at."""
@@ -249,8 +249,16 @@ class Pane(LazyParts):
         """Give the keyboard to the part of the pane `step` after the one that has it; False where there is none."""
         return False
 
+    def take_focus(self) -> None:
+        """Take the keyboard, for a question that is open, else for what the pane shows."""
+        prompt = open_prompt(self) if self.has_parts else None
+        if prompt is not None:
+            prompt.take_focus()
+        else:
+            self.focus_target()
+
     def focus_target(self) -> None:
-        """Take the keyboard: focus the part of the pane that the keys are for."""
+        """Take the keyboard for what the pane shows: focus the part of the pane that the keys are for."""
         next((each for each in self.query(Widget) if each.focusable), self).focus()
 
 

@@ -11,7 +11,7 @@ from bot_console.tui.keys.key import Key, key_text
 from bot_console.tui.layout.tree import Way
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.terminal.dimmed_screen import DimmedScreen
-from bot_console.tui.widgets.prompt.line import Prompt, asks
+from bot_console.tui.widgets.prompt.line import Prompt, open_prompt
 from bot_console.tui.widgets.prompt.question import Line
 from rich.style import Style
 from rich.text import Text
@@ -116,7 +116,7 @@ class ArrangeScreen(DimmedScreen):
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """Disable the keys that arrange panes while a name is typed."""
-        return not asks(self) and super().check_action(action, parameters)
+        return open_prompt(self) is None and super().check_action(action, parameters)
 
     def action_help(self) -> None:
         """All keys that arrange panes."""

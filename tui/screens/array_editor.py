@@ -13,7 +13,7 @@ from bot_console.tui.format import counted, element_text, parse_element, sanitiz
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.prompt.filtered import Findable
-from bot_console.tui.widgets.prompt.line import Prompt, asks
+from bot_console.tui.widgets.prompt.line import Prompt, open_prompt
 from bot_console.tui.widgets.prompt.question import Elements, Line
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
@@ -84,7 +84,7 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """Disable the keys of the list while an element is typed."""
-        return not asks(self) and super().check_action(action, parameters)
+        return open_prompt(self) is None and super().check_action(action, parameters)
 
     def _report(self, what: str = "") -> None:
         count = len(self._list.elements)

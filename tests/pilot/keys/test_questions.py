@@ -191,3 +191,35 @@ def test_finished_key_does_not_hold_up_the_next() -> None:
             assert session.app._keyboard._under_way == 0, keys
 
     run(live(), play)
+
+
+@pytest.mark.parametrize("away", [((40, 10),), ((40, 10), (80, 24), (20, 5))], ids=["once", "twice"])
+def test_prompt_has_the_keys_again_when_the_terminal_is_large_again(away: tuple[tuple[int, int], ...]) -> None:
+    async def play(session: Session) -> None:
+        await edit(session, "max_speed")
+        await session.type("2")
+        for size in (*away, (80, 24)):
+            await session.pilot.resize_terminal(*size)
+            await session.settle()
+        assert "esc Cancel" in session.lines()[-1]
+        await session.type(".5")
+        await session.press("enter")
+        assert asked(session) == [("/robot_navigator", {"max_speed": 2.5})]
+
+    run(live(), play)
+
+
+def test_prompt_of_a_pane_that_had_no_room_has_the_keys_when_the_pane_is_chosen() -> None:
+    async def play(session: Session) -> None:
+        await session.press("z", "2", "0")
+        await edit(session, "max_speed")
+        await session.pilot.resize_terminal(40, 10)
+        await session.settle()
+        await session.press("2")
+        await session.pilot.resize_terminal(80, 24)
+        await session.settle()
+        assert not session.app.stage.typing(), "another pane was chosen meanwhile"
+        await session.press("1", "escape")
+        assert not prompt(session).is_open
+
+    run(live(), play)

@@ -13,7 +13,7 @@ from bot_console.tui.terminal.dimmed_screen import DimmedScreen
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.item_list import ItemList
 from bot_console.tui.widgets.prompt.common import wrong_filter
-from bot_console.tui.widgets.prompt.line import Prompt, asks
+from bot_console.tui.widgets.prompt.line import Prompt, open_prompt
 from bot_console.tui.widgets.prompt.question import Line
 from bot_console.tui.widgets.static_text import StaticText
 from rich.segment import Segment
@@ -71,7 +71,7 @@ class RulesScreen(DimmedScreen):
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """Disable the keys of the list while a filter is typed."""
-        return not asks(self) and super().check_action(action, parameters)
+        return open_prompt(self) is None and super().check_action(action, parameters)
 
     def _report(self, problem: str = "") -> None:
         empty = "" if self._book.rules else "No rules: in the log x hides lines like one, + highlights them."

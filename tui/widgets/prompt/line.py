@@ -109,9 +109,14 @@ class Prompt(Requester[str], Horizontal):
         if not self.is_open or focused is None or focused is field:  # None when the terminal itself loses the focus
             return
         if self.parent in focused.ancestors:
-            self.screen.set_focus(field)
+            self.take_focus()
         else:
             self.give_up()
+
+    def take_focus(self) -> None:
+        """Take the keys again; the text stays selected or not, as it was."""
+        self._field.select_on_focus = False
+        self.screen.set_focus(self._field)
 
     def action_give_up(self) -> None:
         """Close without an answer."""
@@ -129,6 +134,6 @@ class Prompt(Requester[str], Horizontal):
         self.notify(why, severity="warning", markup=False)
 
 
-def asks(widget: Widget) -> bool:
-    """Whether a prompt is open in a widget, so that all keys belong to its text."""
-    return any(each.is_open for each in widget.query(Prompt))
+def open_prompt(widget: Widget) -> Prompt | None:
+    """The prompt that is open in a widget, so that all keys belong to its text."""
+    return next((each for each in widget.query(Prompt) if each.is_open), None)
