@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, cast
 
+from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.keys.key import NO_MODE
 from bot_console.tui.layout.current_layout import Arrangement
 from bot_console.tui.layout.named import OVERVIEW
@@ -22,7 +23,6 @@ from textual.widgets import Input, Static
 
 if TYPE_CHECKING:
     from bot_console.tui.arrangement.layout_keys import Arranging
-    from bot_console.tui.console.model import ConsoleSnapshot
     from bot_console.tui.panes.pane import Pane
     from bot_console.tui.widgets.prompt.question import Question
 

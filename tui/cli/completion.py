@@ -15,6 +15,7 @@ from typing import Protocol
 
 from bot_console.runtime.importer import install
 from bot_console.tui.files.folders import expanded_path
+from bot_console.tui.session.embedded.domain import others_take_part, take_part
 from bot_console.tui.session.embedded.named_profile import profile_names
 
 
@@ -92,8 +93,6 @@ class ShellNames:
 
     def live(self, *words: str) -> list[str]:
         """The same for what is running in the domain; returns nothing, immediately, if the domain is empty."""
-        from bot_console.tui.session.embedded.domain import others_take_part, take_part
-
         return self.asked(*words) if others_take_part() and not take_part() else []
 
 

@@ -7,6 +7,8 @@ import shlex
 from collections.abc import Callable
 from pathlib import Path
 
+from bot_console.runtime.importer import install
+from bot_console.runtime.programs.python_file_check import examine
 from bot_console.runtime.workspace.builtin_package import PAGE_NAME
 from bot_console.runtime.workspace.choices import all_executable_names, package_names
 from bot_console.runtime.workspace.not_found import no_executable, no_package
@@ -17,8 +19,6 @@ def program(words: list[str], hint: Callable[[str], None]) -> tuple[dict[str, st
 
     `hint` is called with warnings about a file that can run nevertheless.
     """
-    from bot_console.runtime.importer import install
-
     install()
     if words[0].endswith(".py") or os.path.isfile(words[0]):
         return {"program": str(Path(words[0]).resolve()), "words": shlex.join(words[1:])}, _fault(Path(words[0]), hint)
@@ -33,8 +33,6 @@ def program(words: list[str], hint: Callable[[str], None]) -> tuple[dict[str, st
 
 
 def _fault(file: Path, hint: Callable[[str], None]) -> str:
-    from bot_console.runtime.programs.python_file_check import examine
-
     if not os.path.isfile(file):  # `Path` raises if the name is too long.
         return f"{file} does not exist"
     found = examine(file)

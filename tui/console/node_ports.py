@@ -5,14 +5,16 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import fields, replace
+from typing import TYPE_CHECKING
 
 from bot_console.tui.console.bags.node_bags import NodeBags
+from bot_console.tui.console.bags.port import GenericTypes, Keeper
 from bot_console.tui.console.command_gate import READ_ONLY, Gate
 from bot_console.tui.console.graph.node_graph import NodeGraph
 from bot_console.tui.console.launch.elsewhere import Elsewhere
 from bot_console.tui.console.launch.gated_launcher import GatedLauncher
+from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.logs.node_logs import NodeLogs
 from bot_console.tui.console.model import Capabilities, ConsoleSnapshot, LaunchInfo, LinkInfo, Severity
 from bot_console.tui.console.parameters.node_parameters import NodeParameters
@@ -24,9 +26,7 @@ from bot_console.tui.console.sensors.node_sensors import NodeSensors
 from bot_console.tui.console.topics.node_topics import NodeTopics
 
 if TYPE_CHECKING:
-    from bot_console.tui.console.bags.port import GenericTypes, Keeper
     from bot_console.tui.console.graph.type_discovery import TypeSource
-    from bot_console.tui.console.launch.port import Launcher
     from bot_console.tui.console.robot.drive_node import DriveNode
 
 NOWHERE = ("", "", 0)
@@ -111,7 +111,8 @@ class NodePorts:
         world, launch = self.drive.world, self._launch_info()
         self.logs.discount_errors_of_ending(launch)
         launch = self._elsewhere.beside(launch)
-        parts = dict[str, Any](
+        new = ConsoleSnapshot(
+            seq=old.seq,
             graph=self.graph.info,
             parameters=self.parameters.trees,
             logs=self.logs.state,
@@ -128,8 +129,8 @@ class NodePorts:
             capabilities=self._capabilities,
             problem=self.problem,
         )
-        if not all(_same(getattr(old, name), part) for name, part in parts.items()):
-            self._snapshot = replace(old, seq=old.seq + 1, **parts)
+        if not all(_same(getattr(old, each.name), getattr(new, each.name)) for each in fields(new)):
+            self._snapshot = replace(new, seq=old.seq + 1)
         return self._snapshot
 
 

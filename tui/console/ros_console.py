@@ -13,13 +13,13 @@ from collections.abc import Callable, Container, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
+from bot_console.tui.console.bags.port import GenericTypes, Keeper
 from bot_console.tui.console.command_gate import CLOSED
 from bot_console.tui.console.launch.elsewhere import Elsewhere
 from bot_console.tui.console.model import Capabilities, LaunchInfo, LinkInfo, Severity
 from bot_console.tui.console.node_ports import LABEL, NodePorts
 
 if TYPE_CHECKING:
-    from bot_console.tui.console.bags.port import GenericTypes, Keeper
     from bot_console.tui.console.graph.type_discovery import TypeSource
     from bot_console.tui.console.graph.watch import GraphEvents, HaltedNodes
     from bot_console.tui.console.node import ConsoleNode

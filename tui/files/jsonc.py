@@ -65,9 +65,9 @@ def with_strings(text: str, key: str, wanted: Sequence[str], is_old: Callable[[s
     found = load(text)[key]
     if not isinstance(found, list):
         raise JsoncError(f"{json.dumps(key)} is not a list")
-    member = [each for each in _elements(text, _tokens(text), 0) if each.key == key][-1]
+    member = [each for each in _elements(text, _tokens(text)) if each.key == key][-1]
     inside = [each for each in _tokens(text) if each.start >= member.start]
-    items = _elements(text, inside, 0)
+    items = _elements(text, inside)
     present = [json.loads(text[each.start : each.end]) if text[each.start] == '"' else None for each in items]
     for item, value in reversed([*zip(items, present, strict=True)]):
         if isinstance(value, str) and is_old(value) and value not in wanted:
@@ -108,10 +108,10 @@ def _without(text: str, item: _Element, tokens: Sequence[_Token]) -> str:
     return text[: item.start] + text[item.end :]
 
 
-def _elements(text: str, tokens: Sequence[_Token], at: int) -> list[_Element]:
-    """The direct elements of the array or object that begins with a token."""
+def _elements(text: str, tokens: Sequence[_Token]) -> list[_Element]:
+    """The direct elements of the array or object that begins with the first token."""
     found: list[_Element] = []
-    depth, key, index = 0, "", at
+    depth, key, index = 0, "", 0
     while index < len(tokens):
         token = tokens[index]
         mark = text[token.start] if token.kind == "mark" else ""

@@ -7,7 +7,6 @@ second whether it should end, and once more with nothing to read, which delays q
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import os
 import select
 import signal
@@ -20,6 +19,7 @@ from typing import Any, Protocol
 
 from bot_console.tui.keys.input_queue import InputQueue
 from bot_console.tui.keys.terminal_events import TerminalEvents
+from bot_console.tui.terminal.private_descriptor import private_duplicate
 from textual import events
 from textual.geometry import Size
 from textual.message import Message
@@ -31,8 +31,6 @@ READ_BYTES = 4096
 MAX_READ_BYTES = 65536
 """Bytes that are read before the keys in them are passed on."""
 INPUT = (events.InputEvent, events.Resize, events.AppFocus, events.AppBlur)
-FIRST_DESCRIPTOR = 100
-"""The lowest number of our descriptors, beyond those that programs close or count."""
 
 
 class Ending(threading.Event):
@@ -43,7 +41,7 @@ class Ending(threading.Event):
         self._ends: list[int] = []
         with contextlib.suppress(OSError):
             for end in os.pipe():
-                self._ends.append(fcntl.fcntl(end, fcntl.F_DUPFD_CLOEXEC, FIRST_DESCRIPTOR))
+                self._ends.append(private_duplicate(end))
                 os.close(end)
             os.set_blocking(self._ends[1], False)
 

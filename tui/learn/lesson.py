@@ -30,14 +30,12 @@ class CourseLesson:
         workspace: Path,
         commands: str = "",
         clock: Callable[[], float] = time.monotonic,
-        since_1970: Callable[[], float] = time.time,
     ) -> None:
         """`commands` is the file in which the command lines of the domain are recorded; empty if none are."""
         self.course = course
         self._workspace = workspace
         self._commands = commands
         self._clock = clock
-        self._time = since_1970
         self._deeds = Deeds()
         self._files = WorkspaceFiles(workspace)
         self._polled_at = float("-inf")
@@ -72,7 +70,7 @@ class CourseLesson:
         files = WorkspaceFiles(self._workspace)
         if files.stamp != self._files.stamp:
             self._files, self._states = files, {}
-        commands = read_log(self._commands, self._time()) if self._commands else ()
+        commands = read_log(self._commands, time.time()) if self._commands else ()
         self._deeds.add_launches(snapshot.launch.files, commands, self._files.named)
         before = {each.id for each in self._steps if self.is_done(each)}
         self._judge()

@@ -27,6 +27,7 @@ from bot_console.runtime.rosidl import type_hash
 from bot_console.runtime.rosidl.cdr import serialize
 from bot_console.tui.cli.interruptible_wait import wait_interruptibly
 from bot_console.tui.console.bags.snapshot_size import SnapshotSize
+from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.session.embedded.child_host import why_it_hangs
 from bot_console.tui.session.embedded.domain import domain, socket_folder, take_part
@@ -52,7 +53,6 @@ from bot_console.tui.settings.settings import read_settings
 
 if TYPE_CHECKING:
     from bot_console.tui.console.bags.snapshot_buffer import SnapshotBuffer
-    from bot_console.tui.console.launch.launcher import RosLauncher
     from bot_console.tui.console.ros_console import RosConsole
     from bot_console.tui.session.launch_host.hosted_snapshot_buffer import HostedSnapshotBuffer
 
@@ -85,7 +85,6 @@ def launcher_here(
     every: Add | None = None,
 ) -> RosLauncher:
     """A launcher in this process."""
-    from bot_console.tui.console.launch.launcher import RosLauncher  # `launch` can be imported once it is installed.
 
     def spawn(target: Callable[[], None], path: str) -> Launching:
         return Launching(target, printed, launch_environment(path))

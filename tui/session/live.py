@@ -8,16 +8,16 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from bot_console.tui.app import BotConsoleApp
+from bot_console.tui.arrangement.arrival import System
 from bot_console.tui.cli.appearance import appearance_of
+from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.foreground.foreground import Foreground
 from bot_console.tui.cli.interpreter import collect_from_now_on
 from bot_console.tui.cli.slow_exit import report_slow_exit
+from bot_console.tui.pane_table import PaneEntry
 
 if TYPE_CHECKING:
-    from bot_console.tui.arrangement.arrival import System
-    from bot_console.tui.cli.arguments import Options
     from bot_console.tui.console.ros_console import RosConsole
-    from bot_console.tui.pane_table import PaneEntry
     from bot_console.tui.session.connected import Connected
     from bot_console.tui.session.protocol import ClosableLauncher
 

@@ -7,11 +7,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from bot_console.tui.cli.arguments import Options
-from bot_console.tui.console.model import ProcessState
+from bot_console.tui.console.model import LaunchInfo, ProcessState
 from bot_console.tui.console.robot.robot_needed import drives_stamped, endpoints, robot_wanted, visible_nodes
 
 if TYPE_CHECKING:
-    from bot_console.tui.console.model import LaunchInfo
     from rclpy.node import Node
 
 Process = TypeVar("Process", bound="RobotProcess")

@@ -12,6 +12,10 @@ from typing import Any, TypeVar, cast
 import yaml
 from bot_console.tui.cli.bags.play import report_repaired
 from bot_console.tui.cli.bags.record_arguments import wanted_topics
+from bot_console.tui.console.bags.definitions import class_of, definition
+from bot_console.tui.console.bags.reader import Bag
+from bot_console.tui.console.bags.together import BagsTogether
+from bot_console.tui.console.bags.writer import BagWriter, Writing
 from bot_console.tui.format import sanitize
 from bot_console.tui.text.yaml_faults import UNREADABLE
 
@@ -40,8 +44,6 @@ def add_convert_arguments(parser: argparse.ArgumentParser) -> None:
 
 def convert(given: argparse.Namespace) -> int:
     """Rewrite bags with other settings; 0 done, 1 failed."""
-    from bot_console.tui.console.bags.reader import Bag
-
     try:
         outputs = _outputs(given.output_options)
         bags = [Bag(Path(each[0])) for each in given.input]
@@ -68,10 +70,6 @@ def _outputs(path: Path) -> list[dict[str, Any]]:
 
 
 def _write(bags: list[Any], output: Mapping[str, Any]) -> None:
-    from bot_console.tui.console.bags.definitions import class_of, definition
-    from bot_console.tui.console.bags.together import BagsTogether
-    from bot_console.tui.console.bags.writer import BagWriter, Writing
-
     unknown = sorted(map(str, output.keys() - DONE_HERE))
     if unknown:
         print(
@@ -140,8 +138,6 @@ def _filters(output: Mapping[str, Any]) -> argparse.Namespace:
 
 def reindex(given: argparse.Namespace) -> int:
     """Rebuild the metadata of a bag folder; 0 done, 1 failed."""
-    from bot_console.tui.console.bags.reader import Bag
-
     if not given.bag.is_dir():
         print(f"{given.bag}: not the folder of a bag", file=sys.stderr)
         return 1

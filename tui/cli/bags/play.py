@@ -13,6 +13,8 @@ from bot_console.tui.cli.bags.common import generic_types, make_node, report_unu
 from bot_console.tui.cli.bags.keyboard import keys_read
 from bot_console.tui.cli.bags.play_arguments import NOT_NEEDED, bag_paths, chosen_topics, end_of, wrong_play
 from bot_console.tui.console.bags.damage import NoBag
+from bot_console.tui.console.bags.definitions import class_of
+from bot_console.tui.console.bags.playing.control_topics import left_out_warning
 from bot_console.tui.format import sanitize
 
 if TYPE_CHECKING:
@@ -100,8 +102,6 @@ def progress_line(player: Player) -> str:
 
 def _prepare(given: argparse.Namespace) -> tuple[Node, Player] | int:
     """A node and a player; a return code if there cannot be one."""
-    from bot_console.tui.console.bags.definitions import class_of
-    from bot_console.tui.console.bags.playing.control_topics import left_out_warning
     from bot_console.tui.console.bags.playing.player import Player, Playing
     from bot_console.tui.console.bags.qos import read_overrides
     from bot_console.tui.console.bags.reader import Bag

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from bot_console.tui.cli.bags.common import make_node, new_folder, report_unused, service_types, spin
 from bot_console.tui.cli.bags.keyboard import keys_read
 from bot_console.tui.cli.bags.record_arguments import NOT_NEEDED, wanted_topics, wrong_record
+from bot_console.tui.console.bags.definitions import class_of
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.format import sanitize
 
@@ -101,8 +102,6 @@ class _Types:
         self._node = rclpy.create_node(f"_{RECORDER}_types", start_parameter_services=False)
 
     def __call__(self, type_name: str) -> Any:
-        from bot_console.tui.console.bags.definitions import class_of
-
         try:
             return class_of(type_name)
         except (ImportError, AttributeError, ValueError):

@@ -8,10 +8,13 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from bot_console.runtime.importer import install
 from bot_console.tui.cli.check.runner import Outcome, Runner
 from bot_console.tui.cli.check.script import ScriptError, Step, read
+from bot_console.tui.cli.check.stepped import StartError, read_start, run_stepped
 from bot_console.tui.cli.numbers import seconds, seed
 from bot_console.tui.format import counted, sanitize
+from bot_console.tui.session.embedded.workspaces import choose
 from bot_console.tui.session.reached_console import known, reached_console
 
 MAX_SCRIPT_BYTES = 1_000_000
@@ -101,10 +104,6 @@ def _on_what_runs(steps: Sequence[Step], given: argparse.Namespace) -> list[Outc
 
 def _stepped(steps: Sequence[Step], given: argparse.Namespace) -> list[Outcome] | None:
     """The outcomes on what the options start; None, after printing why, if it cannot be started."""
-    from bot_console.runtime.importer import install
-    from bot_console.tui.cli.check.stepped import StartError, read_start, run_stepped
-    from bot_console.tui.session.embedded.workspaces import choose
-
     install()
     choose([])
     try:

@@ -15,6 +15,7 @@ from typing import Any
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.check.runner import Outcome, Runner
 from bot_console.tui.cli.check.script import Step
+from bot_console.tui.session.embedded.named_launch import with_launch_file
 
 LINK_TIMEOUT_S = 10.0
 """Simulated seconds within which the console is connected."""
@@ -57,8 +58,6 @@ class Start:
 
 def read_start(line: str) -> Start:
     """Parse `run ...` or `launch ...`; raises `StartError`."""
-    from bot_console.tui.session.embedded.named_launch import with_launch_file
-
     try:
         verb, *words = shlex.split(line) or [""]
     except ValueError as error:

@@ -7,16 +7,14 @@ import uuid
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
 from bot_console.tui.console.graph.full_name import node_name_of
 from bot_console.tui.console.robot.stop_link import LATCHED, RELEASE, REQUEST, STATUS, is_lock
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from rcl_interfaces.srv import ListParameters
-
-if TYPE_CHECKING:
-    from rclpy.node import Node
+from rclpy.node import Node
 
 Spin = Callable[..., None]
 """Spins a node for so many seconds, or until a condition holds."""

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Mapping
 
 from bot_console.runtime.domain_id import parse_domain
+from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
 from bot_console.runtime.rmw.zenoh.domain.sockets import sockets
 from bot_console.tui import __version__
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
@@ -84,8 +85,6 @@ def domain_finding(text: str) -> DoctorFinding:
 
 def sockets_findings() -> list[DoctorFinding]:
     """The programs in the domain's folder, and sockets of programs that are dead or stopped."""
-    from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
-
     try:
         folder = domain_folder(domain())
     except FolderRefusedError as error:

@@ -6,7 +6,7 @@ import importlib
 import re
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import rclpy
 from bot_console.runtime.rosidl import type_hash
@@ -15,10 +15,8 @@ from bot_console.tui.cli.doctor.locks import ask_locks, find_locks, lock_finding
 from bot_console.tui.console.graph.full_name import node_name_of
 from bot_console.tui.console.graph.pairs import hash_of, unheard
 from rcl_interfaces.srv import GetParameters, ListParameters
+from rclpy.node import Node
 from rclpy.parameter import parameter_value_to_python
-
-if TYPE_CHECKING:
-    from rclpy.node import Node
 
 TWISTS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
 TIMEOUT = re.compile(r"(cmd|command|vel|twist|input|watchdog).*time_?out|time_?out.*(cmd|command|vel)|watchdog", re.I)

@@ -8,7 +8,6 @@ read the keys.
 from __future__ import annotations
 
 import contextlib
-import fcntl
 import os
 import select
 import sys
@@ -16,12 +15,12 @@ import threading
 from collections.abc import Callable, Generator, Iterator
 from typing import IO
 
+from bot_console.tui.terminal.private_descriptor import private_duplicate
+
 Printed = Callable[[int, str, str], None]
 LABEL = "stderr"
 MAX_LINE_BYTES = 1 << 16
 """Bytes after which an unterminated line is logged as it is."""
-FIRST_DESCRIPTOR = 100
-"""Our descriptors start here, beyond those that programs usually close or count."""
 DRAIN_TIMEOUT_S = 10.0
 """How long at most the end waits until the lines written before it are in the log."""
 MAX_PIPE_BYTES = 1 << 20
@@ -42,14 +41,10 @@ def captured_descriptors(printed: Printed) -> Generator[None]:
         yield
 
 
-def _duplicate(number: int) -> int:
-    return fcntl.fcntl(number, fcntl.F_DUPFD_CLOEXEC, FIRST_DESCRIPTOR)
-
-
 @contextlib.contextmanager
 def _withheld() -> Generator[None]:
     before: IO[str] | None = sys.__stdin__
-    keys = os.fdopen(_duplicate(0), encoding="utf-8", errors="replace")
+    keys = os.fdopen(private_duplicate(0), encoding="utf-8", errors="replace")
     nowhere = os.open(os.devnull, os.O_RDONLY)
     os.dup2(nowhere, 0)
     os.close(nowhere)
@@ -67,8 +62,8 @@ def _captured(number: int, name: str, printed: Printed) -> Generator[None]:
     before: IO[str] | None = getattr(sys, name)
     if before is not None:
         before.flush()
-    saved = _duplicate(number)
-    screen = os.fdopen(_duplicate(number), "w", encoding="utf-8", errors="replace", newline="")
+    saved = private_duplicate(number)
+    screen = os.fdopen(private_duplicate(number), "w", encoding="utf-8", errors="replace", newline="")
     reading, writing = os.pipe()
     os.dup2(writing, number)
     os.close(writing)

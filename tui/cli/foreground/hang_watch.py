@@ -14,7 +14,6 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import faulthandler
-import fcntl
 import os
 import signal
 import threading
@@ -23,6 +22,8 @@ from collections.abc import Callable, Generator
 from pathlib import Path
 from types import FrameType
 from typing import Any
+
+from bot_console.tui.terminal.private_descriptor import private_duplicate
 
 FILE = "console-stacks.txt"
 HANG_AFTER_S = 15.0
@@ -33,8 +34,6 @@ MAX_MISSED_HEARTBEATS = round(HANG_AFTER_S / HEARTBEAT_S)
 
 Heartbeats rather than seconds: for a process that was stopped, or had lent its terminal, only the clock went on.
 """
-FIRST_DESCRIPTOR = 100
-"""Our descriptors start here, beyond those that programs usually close or count."""
 
 
 class HangWatch:
@@ -43,7 +42,7 @@ class HangWatch:
     def __init__(
         self, path: Path, descriptor: int, report: Callable[[str], None], clock: Callable[[], float] = time.monotonic
     ) -> None:
-        """`tell` is given a line when the thread has stood and goes on; `descriptor` is that of the file at `path`."""
+        """`descriptor` is that of the file at `path`; `report` is given a line when a hung thread goes on."""
         self._path = path
         self._descriptor = descriptor
         self._report = report
@@ -147,7 +146,7 @@ def hang_watch(folder: Path, state: Callable[[], str], report: Callable[[str], N
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with path.open("ab") as file:
-            descriptor = fcntl.fcntl(file.fileno(), fcntl.F_DUPFD_CLOEXEC, FIRST_DESCRIPTOR)
+            descriptor = private_duplicate(file.fileno())
     except OSError:
         yield None
         return

@@ -7,6 +7,10 @@ import hashlib
 import os
 import sys
 
+from bot_console.runtime.programs.exit_messages import stderr_is_terminal
+from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, runtime_folder
+from bot_console.runtime.rmw.zenoh.domain.sockets import lives
+
 FOLDER = "told"
 """The folder of the markers, beside those of the domains."""
 
@@ -16,8 +20,6 @@ def report_once(text: str) -> None:
 
     If stderr is not a terminal, as in scripts and logs, the text is printed each time, and nothing is remembered.
     """
-    from bot_console.runtime.programs.exit_messages import stderr_is_terminal
-
     if not stderr_is_terminal() or _is_new(text):
         print(text, file=sys.stderr)
 
@@ -26,8 +28,6 @@ def _is_new(text: str) -> bool:
     """Whether this terminal's shell has not shown the text yet; marks it as shown. True if the marker cannot be
     saved.
     """
-    from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, runtime_folder
-
     try:
         shell = os.getsid(0)
         folder = runtime_folder(FOLDER)
@@ -42,8 +42,6 @@ def _is_new(text: str) -> bool:
 
 
 def _forget_ended_shells(folder: str) -> None:
-    from bot_console.runtime.rmw.zenoh.domain.sockets import lives
-
     for name in os.listdir(folder):
         shell = name.partition(".")[0]
         if shell.isdecimal() and not lives(int(shell)):

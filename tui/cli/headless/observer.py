@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import rclpy
 from bot_console.runtime.process import current
+from bot_console.tui.console.model import Endpoint, GraphInfo
 from rclpy.clock import Clock, ClockType
 from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
@@ -95,8 +96,6 @@ class Observer:
             self._listen(self._node, self._topics)
 
     def _listen(self, node: Node, topics: PlotWatch) -> None:
-        from bot_console.tui.console.model import Endpoint, GraphInfo
-
         found = node.get_topic_names_and_types()
         graph = GraphInfo(topics=tuple(Endpoint(name, tuple(types)) for name, types in found))
         self._waited_for = [each for each in self._waited_for if not topics.watch(each, graph, {}).ok]

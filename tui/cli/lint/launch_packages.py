@@ -7,6 +7,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from xml.etree import ElementTree
 
+from bot_console.runtime.importer import install
+from bot_console.runtime.programs.hints import did_you_mean
+from bot_console.runtime.workspace.choices import package_names
+from bot_console.runtime.workspace.executables import executables
 from bot_console.tui.cli.lint.finding import LintFinding
 from bot_console.tui.cli.lint.launch_file import MANIFEST, folder_of_package, package_name
 
@@ -60,12 +64,9 @@ def _in_xml(path: Path) -> Iterator[tuple[str, int]]:
 
 
 def _is_there(package: str) -> bool:
-    from bot_console.runtime.importer import install
-
     install()
     from ament_index_python.packages import get_package_prefix
     from bot_console.runtime.launch_ros.node_program import container_path
-    from bot_console.runtime.workspace.executables import executables
 
     for look in (get_package_prefix, executables):
         try:
@@ -77,8 +78,5 @@ def _is_there(package: str) -> bool:
 
 
 def _hint(package: str) -> str:
-    from bot_console.runtime.programs.hints import did_you_mean
-    from bot_console.runtime.workspace.choices import package_names
-
     meant = did_you_mean(package, package_names(), "'").strip(" ;:,.")
     return meant or "add it to the workspace; the file cannot be launched here without it"

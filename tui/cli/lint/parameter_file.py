@@ -7,8 +7,12 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+from bot_console.runtime.rmw.parameter_file import read_parameter_file
+from bot_console.runtime.rmw.parameter_overrides import ParameterOverrides, ParameterYamlError
 from bot_console.tui.cli.lint.finding import LintFinding
 from bot_console.tui.cli.lint.parameter_declarations import Declared
+from bot_console.tui.console.parameters.file.node_keys import is_wildcard
+from bot_console.tui.console.parameters.file.text import KEYWORD, sections
 
 _MEANT = re.compile(r"^\s*ros_+parameters\s*:", re.MULTILINE)
 _NO_KEYWORD = "Cannot have a value before"
@@ -25,9 +29,6 @@ def is_meant(path: Path) -> bool:
 
 def refused(path: Path) -> Iterator[LintFinding]:
     """Why a node does not start with this file, if so."""
-    from bot_console.runtime.rmw.parameter_file import read_parameter_file
-    from bot_console.runtime.rmw.parameter_overrides import ParameterOverrides, ParameterYamlError
-
     try:
         read_parameter_file(str(path), ParameterOverrides())
     except ParameterYamlError as error:
@@ -42,9 +43,6 @@ def refused(path: Path) -> Iterator[LintFinding]:
 
 def dead_values(path: Path, declared: Declared) -> Iterator[LintFinding]:
     """Keys that match no node, and parameters that no node declares."""
-    from bot_console.tui.console.parameters.file.node_keys import is_wildcard
-    from bot_console.tui.console.parameters.file.text import KEYWORD, sections
-
     try:
         text = path.read_text(encoding="utf-8-sig")
         found = sections(text) if KEYWORD in text else []

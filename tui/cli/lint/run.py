@@ -9,13 +9,19 @@ import time
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+from bot_console.runtime.importer import install
+from bot_console.runtime.workspace.builtin_package import NAME, own_package
+from bot_console.runtime.workspace.discover import workspace
+from bot_console.runtime.workspace.package import read_package
 from bot_console.tui.cli.lint.finding import LintFinding
 from bot_console.tui.cli.lint.launch_file import dead_parameters, folder_of_package
 from bot_console.tui.cli.lint.launch_packages import unknown_packages
+from bot_console.tui.cli.lint.packaging import obstacles
 from bot_console.tui.cli.lint.parameter_declarations import Declared
 from bot_console.tui.cli.lint.parameter_declarations import lint as lint_python
 from bot_console.tui.cli.lint.parameter_file import dead_values, is_meant, refused
 from bot_console.tui.console.parameters.descriptor_faults import faults
+from bot_console.tui.session.embedded.reaching import reach_system
 
 INDEX = "course.md"
 """The file that makes a folder a course."""
@@ -90,10 +96,6 @@ def _of_files(what: str) -> tuple[str, list[LintFinding]]:
 
 def _of_packages(files: Iterable[Path], where: Path) -> Iterator[LintFinding]:
     """The problems that keep the packages of these files from working on ROS 2."""
-    from bot_console.runtime.importer import install
-    from bot_console.runtime.workspace.package import read_package
-    from bot_console.tui.cli.lint.packaging import obstacles
-
     install()
     folders = {folder for each in files if (folder := folder_of_package(each)) is not None}
     folders |= {where.resolve()} if (where / "package.xml").is_file() else set()
@@ -108,10 +110,6 @@ def files_of(what: str) -> list[Path]:
     if path.is_file():
         return [path]
     if not path.is_dir():
-        from bot_console.runtime.importer import install
-        from bot_console.runtime.workspace.builtin_package import NAME, own_package
-        from bot_console.runtime.workspace.discover import workspace
-
         install()
         package = own_package() if what == NAME else workspace().packages.get(what)
         if package is None:
@@ -175,9 +173,6 @@ def _unreadable(error: SyntaxError | UnicodeDecodeError | OSError) -> tuple[str,
 
 
 def _running() -> tuple[str, list[LintFinding]]:
-    from bot_console.runtime.importer import install
-    from bot_console.tui.session.embedded.reaching import reach_system
-
     install()
     if unreachable := reach_system():
         return unreachable, []

@@ -8,6 +8,8 @@ import sys
 from collections.abc import Sequence
 
 from bot_console.tui.child_command import child_command
+from bot_console.tui.cli.arguments import parse
+from bot_console.tui.cli.attach_options import parse as parse_attach
 from bot_console.tui.cli.main import is_command
 from bot_console.tui.cli.numbers import integer, port
 
@@ -97,9 +99,6 @@ def _address(parser: argparse.ArgumentParser, text: str) -> str:
 
 def _console(parser: argparse.ArgumentParser, words: Sequence[str], *, control: bool) -> list[str]:
     """The command of a console; exits with 2 for words that open none."""
-    from bot_console.tui.cli.arguments import parse
-    from bot_console.tui.cli.attach_options import parse as parse_attach
-
     if words and is_command(words[0]) and words[0] not in EXPECTED:
         parser.error(f"'{words[0]}' opens no console; a command to serve: {', '.join(EXPECTED)}")
     opened = [*words] if control else [*words, "--read-only"]

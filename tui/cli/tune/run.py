@@ -9,10 +9,12 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
+from bot_console.runtime.importer import install
 from bot_console.tui.cli.arguments import add_profile_folders
 from bot_console.tui.cli.numbers import integer, positive, seed
 from bot_console.tui.cli.tune.describing import result_line, result_of, tunables_of
 from bot_console.tui.cli.tune.pool import Pool
+from bot_console.tui.cli.tune.saving import save_profile
 from bot_console.tui.files.folders import state_folder
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.session.embedded.named_profile import NoProfileError, named_profile
@@ -142,11 +144,7 @@ def _reported(specification: TuningSpecification, progress: Progress, given: arg
         print(progress.problem or "stopped", file=sys.stderr)
         return 1
     if given.save:
-        from bot_console.runtime.importer import install
-
         install()
-        from bot_console.tui.cli.tune.saving import save_profile
-
         try:
             print(save_profile(given.save, specification, best), file=sys.stderr)
         except NotSaved as error:

@@ -8,12 +8,14 @@ from collections.abc import Callable, Sequence
 from functools import partial
 
 from bot_console.runtime.importer import install
+from bot_console.tui.cli.arguments import parse
 from bot_console.tui.cli.bags import convert, info, play, record
 from bot_console.tui.cli.bags.common import generic_types, join_domain, named_folder
 from bot_console.tui.cli.bags.play_arguments import ON_MACHINE, add_burst_arguments, add_play_arguments
 from bot_console.tui.cli.bags.record_arguments import add_record_arguments
 from bot_console.tui.console.bags.damage import NoBag
 from bot_console.tui.console.bags.missing_packages import Missing
+from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.format import sanitize
 from bot_console.tui.session.machine.console_needs import provide_missing
@@ -88,11 +90,9 @@ def parser() -> argparse.ArgumentParser:
 def _open(given: argparse.Namespace) -> int:
     from bot_console.tui.bag_app import BagApp
     from bot_console.tui.cli.appearance import appearance_of
-    from bot_console.tui.cli.arguments import parse
     from bot_console.tui.console.bags.contents import Contents
     from bot_console.tui.console.bags.opened_bag import OpenedBag
     from bot_console.tui.console.bags.playing.bag_playback import BagPlayback
-    from bot_console.tui.console.bags.reader import Bag
 
     bag = Bag(given.bag)
     play.report_repaired(bag)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.command_gate import Gate
 from bot_console.tui.console.model import GraphInfo, LaunchInfo, ParameterTree
+from bot_console.tui.files.save_file import NotSaved, typed_path
 
 if TYPE_CHECKING:
     from bot_console.tui.console.graph.lifecycle import LifecycleWatch
@@ -54,7 +55,6 @@ class NodeGraph:
     def write_launch(self, path: str) -> Answer:
         """Write a launch file and a parameter file."""
         from bot_console.tui.console.launch.launch_writer import RunningSystem, write_launch
-        from bot_console.tui.files.save_file import NotSaved, typed_path
 
         if self._gate.unreached:
             return Answer(False, self._gate.unreached)

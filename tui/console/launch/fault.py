@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import traceback
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from difflib import get_close_matches
 from typing import Any, TypeAlias
 
 from bot_console.tui.console.user_code import library_folders
@@ -56,8 +57,6 @@ def _is_missing_package(error: BaseException) -> bool:
 
 def _no_package(message: str) -> str:
     """The message for a package that was not found, with a remedy."""
-    from difflib import get_close_matches
-
     from ament_index_python.packages import get_packages_with_prefixes
 
     text = message.partition(", searching:")[0]

@@ -21,15 +21,16 @@ from bot_console.tui.console.model import (
     Severity,
     Value,
 )
+from bot_console.tui.console.parameters.journal import Journal
 from bot_console.tui.console.parameters.provenance import Provenance
 from bot_console.tui.console.parameters.safety import takes_safety
+from bot_console.tui.files.save_file import NotSaved, typed_path
 from bot_console.tui.text.value_text import value_text
 
 if TYPE_CHECKING:
     from bot_console.tui.console.calls import Calls
     from bot_console.tui.console.launch.process_output import Add
     from bot_console.tui.console.parameters.history_file import History
-    from bot_console.tui.console.parameters.journal import Journal
     from bot_console.tui.console.parameters.mirror import ParameterMirror
     from bot_console.tui.console.parameters.setter import ParameterSetter
     from rclpy.node import Node
@@ -60,7 +61,6 @@ class NodeParameters:
 
         `log` receives warnings about values that make the robot less safe; `history` keeps changes for later runs.
         """
-        from bot_console.tui.console.parameters.journal import Journal
         from bot_console.tui.console.parameters.mirror import ParameterMirror
         from bot_console.tui.console.parameters.setter import ParameterSetter
 
@@ -161,7 +161,6 @@ class NodeParameters:
     def save(self, path: str, nodes: Sequence[str] = (), *, only_changed: bool = False) -> Answer:
         """Write parameters to a file."""
         from bot_console.tui.console.parameters.file.saving import save
-        from bot_console.tui.files.save_file import NotSaved, typed_path
 
         if self._gate.unreached:
             return Answer(False, self._gate.unreached)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, cast
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.command_gate import Gate
 from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.topics.interfaces import interface
 from bot_console.tui.console.topics.port import (
     Goal,
     LiveMessage,
@@ -230,7 +231,6 @@ class NodeTopics:
 
     async def _call(self, service: str, type_name: str, values: Values) -> Reply:
         from bot_console.tui.console.calls import NoAnswer
-        from bot_console.tui.console.topics.interfaces import interface
         from bot_console.tui.console.topics.message_tree import tree
 
         try:

@@ -5,15 +5,11 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from bot_console.tui.console.graph.expected_topic import ExpectedTopic, deviation, from_parameters
 from bot_console.tui.console.model import ParameterTree, Profile, RateCheck
-from bot_console.tui.console.topics.port import Measure
+from bot_console.tui.console.topics.port import Measure, Topics
 from bot_console.tui.text.figures import coarse_rate, steady
-
-if TYPE_CHECKING:
-    from bot_console.tui.console.topics.port import Topics
 
 CHECK_POLL_S = 1.0
 SETTLING_S = 6.0

@@ -9,6 +9,9 @@ from bot_console.tui import keymap
 from bot_console.tui.arrangement.opening import matching
 from bot_console.tui.console.model import ConsoleSnapshot, JournalState
 from bot_console.tui.format import clock_text
+from bot_console.tui.panes.plot import view as plot_view
+from bot_console.tui.panes.plot.formulas.formula import Formula, read
+from bot_console.tui.panes.plot.pictures import sparklines, xy_plot
 from bot_console.tui.panes.plot.questions import PlotQuestions
 from bot_console.tui.panes.plot.responses import Responses, wrong_formula
 from bot_console.tui.panes.plot.time_window import DEFAULTS, WINDOWS_S, Timeline
@@ -176,19 +179,12 @@ class PlotPane(PlotQuestions):
         else:
             picture.set_lines(self._lines(width, height, form))
         if below:
-            from bot_console.tui.panes.plot.view import legend as line
-
             axes = self._timeline.axes(width)
             first = max(0, self._chosen - 5)
-            legend.set_lines(
-                [line(each, axes, width, at == self._chosen) for at, each in enumerate(curves)][first : first + 6]
-            )
+            shown = list(enumerate(curves))[first : first + 6]
+            legend.set_lines([plot_view.legend(each, axes, width, at == self._chosen) for at, each in shown])
 
     def _lines(self, width: int, height: int, form: str) -> Sequence[Line]:
-        # NumPy is imported after the first frame: it is a third of the start-up time.
-        from bot_console.tui.panes.plot import view as plot_view
-        from bot_console.tui.panes.plot.pictures import sparklines, xy_plot
-
         timeline = self._timeline
         axes = timeline.axes(width - plot_view.LABEL_CELLS if form == "framed" else width)
         if form == "strips":
@@ -364,8 +360,6 @@ def _within(wanted: str, known: Collection[str], topics: Collection[str]) -> boo
 
     What is known names the first element of an array only, and nothing of arrays of messages.
     """
-    from bot_console.tui.panes.plot.formulas.formula import Formula, read
-
     try:
         formula = read(wanted)
     except ValueError:

@@ -12,6 +12,7 @@ from bot_console.tui.files import plot_presets
 from bot_console.tui.files.plot_presets import KeptCurve, NoPreset, Preset
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.panes.pane import Pane
+from bot_console.tui.panes.plot.formulas.formula import split
 from bot_console.tui.panes.plot.thresholds import thresholds_of, thresholds_text, wrong_thresholds
 from bot_console.tui.panes.plot.time_window import Timeline, limits_of, wrong_limits, zoomed
 from bot_console.tui.widgets.prompt.question import Choice, Option
@@ -58,8 +59,6 @@ class PlotQuestions(Pane):
         )
 
     def _add_all(self, paths: str) -> None:
-        from bot_console.tui.panes.plot.formulas.formula import split
-
         for path in split(paths):
             self.add(path)
 

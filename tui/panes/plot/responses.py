@@ -4,17 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from bot_console.tui.console.model import Change
 from bot_console.tui.console.plot.port import Plots
 from bot_console.tui.format import sanitize
 from bot_console.tui.panes.plot.curves import Curve
-from bot_console.tui.panes.plot.step_response import Figures, figures, figures_text, moments, response, score
+from bot_console.tui.panes.plot.step_response import Figures, Response, figures, figures_text, moments, response, score
+from bot_console.tui.panes.plot.view import Axes, framed
 from bot_console.tui.widgets.picture import Line
-
-if TYPE_CHECKING:
-    from bot_console.tui.panes.plot.step_response import Response
 
 HOW = "No responses yet: mark values in the Parameters pane (m), then A there sends set B, and again set A."
 
@@ -48,8 +45,6 @@ class Responses:
 
     def draw(self, curves: Sequence[Curve], chosen: int, window: float, size: tuple[int, int]) -> list[Line]:
         """The picture: both responses from the moment of their change on, and a line of figures for each."""
-        from bot_console.tui.panes.plot.view import Axes, framed
-
         width, height = size
         found = self.of(curves[chosen], window) if chosen < len(curves) else []
         if not found:

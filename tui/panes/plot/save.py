@@ -12,6 +12,8 @@ from typing import Any
 import numpy as np
 from bot_console.tui.files.save_file import save_file
 from bot_console.tui.panes.plot.curves import Curve
+from bot_console.tui.panes.plot.pictures import image_files
+from bot_console.tui.panes.plot.pictures.vector_drawing import sheet
 from bot_console.tui.panes.plot.view import Axes, Mark
 
 SIZE_CELLS = (120, 34)
@@ -44,9 +46,6 @@ def picture(
 ) -> None:
     """Write what is seen as `.svg`, `.png` or `.html`, else as plain text; raises `NotSaved`."""
     if path.suffix in (".svg", ".png"):
-        from bot_console.tui.panes.plot.pictures import image_files
-        from bot_console.tui.panes.plot.pictures.vector_drawing import sheet
-
         page = sheet(curves, marks, axes, wall)
         (image_files.write_svg if path.suffix == ".svg" else image_files.write_png)(path, page)
     else:

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import Change
 from bot_console.tui.console.plot.port import Plots
 from bot_console.tui.format import value_text
 from bot_console.tui.panes.plot.curves import Curve
+from bot_console.tui.panes.plot.formulas.computed import Computed
+from bot_console.tui.panes.plot.formulas.formula import Formula, read
 from bot_console.tui.panes.plot.thresholds import first_crossed
-
-if TYPE_CHECKING:
-    from bot_console.tui.panes.plot.formulas.formula import Formula
-    from bot_console.tui.panes.plot.view import Axes, Mark
+from bot_console.tui.panes.plot.view import Axes, Mark
 
 WINDOWS_S = (1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0)
 """Lengths of the time window, s."""
@@ -58,9 +56,6 @@ class Timeline:
 
     def add(self, text: str) -> Answer:
         """One more curve, of a path or an expression, in the first free colour; says why not."""
-        from bot_console.tui.panes.plot.formulas.computed import Computed
-        from bot_console.tui.panes.plot.formulas.formula import read
-
         found: Formula | str = text
         if text not in self._plots.plottable():
             try:
@@ -139,7 +134,6 @@ class Timeline:
         if not changes:
             self.marks = []
             return
-        from bot_console.tui.panes.plot.view import Mark
 
         self.marks = [Mark(self._plots.time(each.stamp), not each.accepted, change_text(each)) for each in changes]
 
@@ -214,8 +208,6 @@ class Timeline:
 
     def axes(self, across: int) -> Axes:
         """The window; it moves in steps of some cells, so that between two steps only the newest cells are drawn."""
-        from bot_console.tui.panes.plot.view import Axes
-
         cell = self.window / max(1, across)
         step = cell * max(1, min(across // MIN_STEPS, math.ceil(PACE_S / cell)))
         if self.paused_at is not None:

@@ -34,8 +34,8 @@ def is_closed(field: Field, closed: frozenset[str], opened: frozenset[str]) -> b
 class MessageRows(RowList):
     """Lines of a message."""
 
-    def __init__(self, *, id: str | None = None) -> None:
-        super().__init__(id=id)
+    def __init__(self) -> None:
+        super().__init__()
         self.fields: Sequence[Field] = ()
         self.lines: list[Field] = []
         self._shut: frozenset[str] = frozenset()

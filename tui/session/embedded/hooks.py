@@ -12,6 +12,7 @@ from bot_console.runtime.process.virtual.install import reinstall_stdio
 from bot_console.runtime.rmw.middleware import bus_of
 from bot_console.runtime.rosidl.generic import generic_class
 from bot_console.runtime.rosidl.type_hash import text
+from bot_console.tui.session.embedded.domain import domain
 
 
 class DomainTypes:
@@ -46,8 +47,6 @@ def halted_nodes(domain: int) -> tuple[Mapping[int, Sequence[str]], Mapping[str,
 
 def node_processes() -> Mapping[int, Sequence[str]]:
     """The processes of this machine in the domain, by pid, with their nodes."""
-    from bot_console.tui.session.embedded.domain import domain
-
     return bus_of(domain()).processes()
 
 

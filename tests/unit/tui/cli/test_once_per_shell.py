@@ -8,7 +8,6 @@ import sys
 from pathlib import Path
 
 import pytest
-from bot_console.runtime.programs import exit_messages
 from bot_console.tui.cli.foreground import once_per_shell
 from bot_console.tui.cli.foreground.once_per_shell import FOLDER, report_once
 
@@ -18,7 +17,7 @@ def marks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The folder of the markers, in a terminal."""
     base = tmp_path / "sockets"
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", str(base))
-    monkeypatch.setattr(exit_messages, "stderr_is_terminal", lambda: True)
+    monkeypatch.setattr(once_per_shell, "stderr_is_terminal", lambda: True)
     return base / FOLDER
 
 
@@ -42,7 +41,7 @@ def test_new_session_with_a_reused_id_gets_the_hint(
 def test_without_terminal_hint_is_printed_each_time_and_leaves_no_marker(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, marks: Path
 ) -> None:
-    monkeypatch.setattr(exit_messages, "stderr_is_terminal", lambda: False)
+    monkeypatch.setattr(once_per_shell, "stderr_is_terminal", lambda: False)
     assert [message(capsys, "one") for _ in range(2)] == ["one\n"] * 2
     assert not marks.exists()
 
