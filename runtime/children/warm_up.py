@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from bot_console.runtime.importer import install
+from bot_console.runtime.rosidl.names import KINDS
 
 INTERFACES = ("action_msgs", "builtin_interfaces", "geometry_msgs", "nav_msgs", "rcl_interfaces", "sensor_msgs",
               "std_msgs", "std_srvs", "tf2_msgs")  # fmt: skip
@@ -39,7 +40,7 @@ def warm_up() -> None:
 
     install()
     for package in INTERFACES:
-        for kind in ("msg", "srv", "action"):
+        for kind in KINDS:
             with contextlib.suppress(ModuleNotFoundError):
                 importlib.import_module(f"{package}.{kind}")
     for name in MODULES:

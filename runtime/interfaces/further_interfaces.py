@@ -11,11 +11,11 @@ from functools import cache
 from pathlib import Path
 
 from bot_console.runtime.files.user_folders import data_folder
+from bot_console.runtime.rosidl.names import KINDS
 from bot_console.runtime.rosidl.sources import EXAMPLES
 
 UNVERIFIED = Path(__file__).resolve().parents[1] / "rosidl" / "unverified"
 """Definitions whose fields come from public sources and whose hashes were not compared with ROS 2."""
-KINDS = ("msg", "srv", "action")
 
 
 class NotAdded(Exception):

@@ -9,10 +9,11 @@ from importlib.machinery import ModuleSpec, PathFinder
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
+from bot_console.runtime.rosidl.names import KINDS
+
 if TYPE_CHECKING:
     from pathlib import Path
 
-KINDS = ("msg", "srv", "action")
 NEVER_OURS = sys.stdlib_module_names | {"org"}
 """Names for which no workspace is searched; `org` is Jython's, which the standard library's `copy` imports."""
 

@@ -13,11 +13,12 @@ from collections.abc import Iterable, Mapping
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
+from bot_console.runtime.rosidl.names import KINDS
+
 if TYPE_CHECKING:
     import tempfile
     from pathlib import Path
 
-KINDS = ("msg", "srv", "action")
 TYPE_NAME = rf"[a-z][a-z0-9_]*/(?:{'|'.join(KINDS)})/[A-Z][A-Za-z0-9]*"
 """The pattern, compiled when needed, of valid names of folders and files: they come from another program or machine."""
 FALSE = "describes it by a definition that does not have the hash"

@@ -6,6 +6,7 @@ import importlib
 import os
 import sys
 from collections.abc import Callable, Sequence
+from functools import partial
 from importlib.machinery import PathFinder
 from types import FunctionType, ModuleType
 from typing import Any, NamedTuple
@@ -17,8 +18,6 @@ NO_MAIN = (
     "An executable of setup.py is a function of a module, and this module has no function main(). Add def main(): "
     "rclpy.init(), make the node, rclpy.spin(node)"
 )
-
-
 NO_ENTRY = "The 'console_scripts' entry in setup.py refers to {0}, which does not exist{1}. Correct that entry"
 """Message for an entry point that does not exist, with what the module has instead."""
 
@@ -51,19 +50,19 @@ def file_program(path: str, places: Places = ANYWHERE) -> Callable[[], None]:
     The callable raises what the file raises; for a file that cannot be read it exits with code 2 and the interpreter's
     message.
     """
-    return _FileProgram(os.path.abspath(path), places)
+    return partial(_run_file, os.path.abspath(path), places)
 
 
 def module_program(name: str, places: Places) -> Callable[[], None]:
     """Return a callable that runs a module as `python -m name` does: as `__main__`, the working directory first on
     `sys.path`.
     """
-    return _ModuleProgram(name, places)
+    return partial(_run_module, name, places)
 
 
 def code_program(text: str, places: Places = ANYWHERE) -> Callable[[], None]:
     """Return a callable that runs a text as `python -c text` does."""
-    return _CodeProgram(text, places)
+    return partial(_run_code, text, places)
 
 
 def entry_point_program(entry_point: str, places: Places = ANYWHERE) -> Callable[[], None]:
@@ -74,87 +73,68 @@ def entry_point_program(entry_point: str, places: Places = ANYWHERE) -> Callable
     module, separator, function = entry_point.partition(":")
     if not (module.strip() and separator and function.strip()):
         raise ValueError(f"entry point {entry_point!r} must have the form 'module:function'")
-    return _EntryPoint(module.strip(), function.split("[")[0].strip(), places)
+    return partial(_run_entry_point, module.strip(), function.split("[")[0].strip(), places)
 
 
-class _FileProgram:
-    def __init__(self, path: str, places: Places) -> None:
-        self._path = path
-        self._places = places
+def _run_file(path: str, places: Places) -> None:
+    source = _read(path)
+    main = _new_main(places, os.path.dirname(path))
+    vars(main).update(__file__=path, __cached__=None)
+    exec(compile(source, path, "exec", dont_inherit=True), vars(main))
 
-    def __call__(self) -> None:
-        source = self._read()
-        folder = os.path.dirname(self._path)
-        main = _new_main(self._places, folder)
-        vars(main).update(__file__=self._path, __cached__=None)
-        exec(compile(source, self._path, "exec", dont_inherit=True), vars(main))
 
-    def _read(self) -> bytes:
+def _read(path: str) -> bytes:
+    try:
+        with open(path, "rb") as source_file:
+            return source_file.read()
+    except OSError as error:
+        print(f"python3: can't open file {path!r}: [Errno {error.errno}] {error.strerror}", file=sys.stderr)
+        sys.exit(2)
+
+
+def _run_module(name: str, places: Places) -> None:
+    import runpy
+
+    _new_main(places, os.getcwd())
+    run: Any = vars(runpy)["_run_module_as_main"]  # what `python -m` calls
+    run(name)
+
+
+def _run_code(text: str, places: Places) -> None:
+    main = _new_main(places, "")
+    if sys.version_info >= (3, 13):  # from there on, tracebacks show the lines of `-c`
+        import linecache
+
+        linecache.cache["<string>"] = len(text), None, text.splitlines(keepends=True), "<string>"
+    exec(compile(text, "<string>", "exec", dont_inherit=True), vars(main))
+
+
+def _run_entry_point(module: str, function: str, places: Places) -> None:
+    if local.process.main_state is None:  # a composed node shares the modules of its process
+        _find_modules_in(places)
+    sys.exit(_look_up(module, function)())
+
+
+def _look_up(module_name: str, function: str) -> Callable[[], Any]:
+    """Return the function of an entry point; raises what importing it raises, with a hint if it does not exist."""
+    try:
+        module: Any = importlib.import_module(module_name)
+    except ModuleNotFoundError as error:
+        if error.name and f"{module_name}.".startswith(f"{error.name}."):  # else a module that this one imports
+            setattr(error, HINT, NO_ENTRY.format(f"the module {module_name}", ""))
+        raise
+    found = module
+    for name in function.split("."):
         try:
-            with open(self._path, "rb") as source_file:
-                return source_file.read()
-        except OSError as error:
-            print(f"python3: can't open file {self._path!r}: [Errno {error.errno}] {error.strerror}", file=sys.stderr)
-            sys.exit(2)
-
-
-class _ModuleProgram:
-    def __init__(self, name: str, places: Places) -> None:
-        self._name = name
-        self._places = places
-
-    def __call__(self) -> None:
-        import runpy
-
-        _new_main(self._places, os.getcwd())
-        run: Any = vars(runpy)["_run_module_as_main"]  # what `python -m` calls
-        run(self._name)
-
-
-class _CodeProgram:
-    def __init__(self, text: str, places: Places) -> None:
-        self._text = text
-        self._places = places
-
-    def __call__(self) -> None:
-        main = _new_main(self._places, "")
-        if sys.version_info >= (3, 13):  # from there on, tracebacks show the lines of `-c`
-            import linecache
-
-            linecache.cache["<string>"] = len(self._text), None, self._text.splitlines(keepends=True), "<string>"
-        exec(compile(self._text, "<string>", "exec", dont_inherit=True), vars(main))
-
-
-class _EntryPoint:
-    def __init__(self, module: str, function: str, places: Places) -> None:
-        self._module = module
-        self._function = function
-        self._places = places
-
-    def __call__(self) -> None:
-        if local.process.main_state is None:  # a composed node shares the modules of its process
-            _find_modules_in(self._places)
-        sys.exit(self._look_up()())
-
-    def _look_up(self) -> Callable[[], Any]:
-        try:
-            module: Any = importlib.import_module(self._module)
-        except ModuleNotFoundError as error:
-            if error.name and f"{self._module}.".startswith(f"{error.name}."):  # else a module that this one imports
-                setattr(error, HINT, NO_ENTRY.format(f"the module {self._module}", ""))
+            found = getattr(found, name)
+        except AttributeError as error:
+            if name == "main":
+                raise  # which has its own explanation
+            functions = _functions(module)
+            has = f"; it has {', '.join(functions)}" if functions else ""
+            setattr(error, HINT, NO_ENTRY.format(f"{function}() of {module_name}", has))
             raise
-        found = module
-        for name in self._function.split("."):
-            try:
-                found = getattr(found, name)
-            except AttributeError as error:
-                if name == "main":
-                    raise  # which has its own explanation
-                functions = _functions(module)
-                has = f"; it has {', '.join(functions)}" if functions else ""
-                setattr(error, HINT, NO_ENTRY.format(f"{self._function}() of {self._module}", has))
-                raise
-        return found
+    return found
 
 
 class _FoundFirst:

@@ -19,7 +19,6 @@ class Verb(NamedTuple):
     description: str
     main: Callable[[argparse.Namespace], Result]
     arguments: Arguments = lambda parser: None
-    epilog: str | None = None
 
 
 class Command(NamedTuple):
@@ -30,5 +29,3 @@ class Command(NamedTuple):
     verbs: Sequence[Verb] = ()
     arguments: Arguments = lambda parser: None
     main: Callable[[argparse.Namespace], Result] | None = None
-    raw: bool = False
-    """Whether all arguments after the command belong to it, as with `run`."""

@@ -148,9 +148,7 @@ def add_command(parser: argparse.ArgumentParser, command: Command, words: Sequen
     if command.verbs:
         verbs = _subparsers(subparser, f"ros2 {command.name}", {each.name: each.description for each in command.verbs})
         for verb in command.verbs:
-            leaf = verbs.add_parser(
-                verb.name, description=verb.description, formatter_class=HelpFormatter, epilog=verb.epilog
-            )
+            leaf = verbs.add_parser(verb.name, description=verb.description, formatter_class=HelpFormatter)
             leaf.set_defaults(_verb=verb, parser=leaf)
             if verb.name in words:
                 verb.arguments(leaf)

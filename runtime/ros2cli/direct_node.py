@@ -159,7 +159,7 @@ def node_names(node: Node, *, include_hidden: bool = False) -> list[NodeName]:
 
 
 def absolute(name: str) -> str:
-    """A node name with its leading slash."""
+    """A name with its leading slash."""
     return name if name.startswith("/") else f"/{name}"
 
 

@@ -16,22 +16,7 @@ from rclpy.qos import (
     ReliabilityPolicy,
 )
 
-HISTORY = ("system_default", "keep_last", "keep_all", "unknown")
-RELIABILITY = ("system_default", "reliable", "best_effort", "unknown", "best_available")
-DURABILITY = ("system_default", "transient_local", "volatile", "unknown", "best_available")
-LIVELINESS = ("system_default", "automatic", "manual_by_topic", "unknown", "best_available")
 COMPATIBLE = "Compatible profile with running endpoints "
-PROFILES = (
-    "unknown",
-    "default",
-    "system_default",
-    "sensor_data",
-    "services_default",
-    "parameters",
-    "parameter_events",
-    "action_status_default",
-    "best_available",
-)
 
 
 def add_qos_arguments(parser: argparse.ArgumentParser, verb: str, default: str) -> None:
@@ -43,15 +28,15 @@ def add_qos_arguments(parser: argparse.ArgumentParser, verb: str, default: str) 
 
     parser.add_argument(
         "--qos-profile",
-        choices=PROFILES,
+        choices=QoSPresetProfiles.short_keys(),
         help=f"Quality of service preset profile to {verb} with (default: {default})",
     )
     add("depth", "Queue size", "depth", ")", metavar="N", type=int)
-    add("history", "History of samples", "history", ", default: keep_last)", choices=HISTORY)
+    add("history", "History of samples", "history", ", default: keep_last)", choices=HistoryPolicy.short_keys())
     tail = f", default: {COMPATIBLE})"
-    add("reliability", "Quality of service reliability", "reliability", tail, choices=RELIABILITY)
-    add("durability", "Quality of service durability", "durability", tail, choices=DURABILITY)
-    add("liveliness", "Quality of service liveliness", "liveliness", "", choices=LIVELINESS)
+    add("reliability", "Quality of service reliability", "reliability", tail, choices=ReliabilityPolicy.short_keys())
+    add("durability", "Quality of service durability", "durability", tail, choices=DurabilityPolicy.short_keys())
+    add("liveliness", "Quality of service liveliness", "liveliness", "", choices=LivelinessPolicy.short_keys())
     add(
         "liveliness-lease-duration-seconds",
         "Quality of service liveliness lease duration",

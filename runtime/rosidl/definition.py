@@ -29,6 +29,14 @@ PRIMITIVES = {
 }
 """Type names in definition files and those in `get_fields_and_field_types`."""
 
+WRITTEN = {name: name for name in PRIMITIVES.values()} | {
+    "boolean": "bool",
+    "octet": "byte",
+    "float": "float32",
+    "double": "float64",
+}
+"""The usual one of the names in definition files, by that in `get_fields_and_field_types`."""
+
 TYPECODES = {
     "float": "f",
     "double": "d",

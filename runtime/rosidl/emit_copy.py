@@ -16,6 +16,7 @@ LIMITS = {
     )
     for name in INTEGERS
 }
+"""The least and the largest value of each type of integers."""
 EXACT = {"boolean": "bool", "double": "float", "string": "str", "wstring": "str"}
 
 

@@ -1,8 +1,11 @@
-"""Names of generated modules."""
+"""The kinds of interfaces, and the names of generated modules."""
 
 from __future__ import annotations
 
 import re
+
+KINDS = ("msg", "srv", "action")
+"""Also the folders of a package that hold definitions, and the endings of their files."""
 
 
 def module_name(name: str) -> str:

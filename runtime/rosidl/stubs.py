@@ -6,8 +6,18 @@ from collections.abc import Iterator, Mapping, Sequence
 from keyword import iskeyword
 
 from bot_console.runtime.rosidl.comments import Comments, comments
-from bot_console.runtime.rosidl.definition import DTYPES, PRIMITIVES, TYPECODES, Definition, Field, Interface, Type
+from bot_console.runtime.rosidl.definition import (
+    DTYPES,
+    PRIMITIVES,
+    TYPECODES,
+    WRITTEN,
+    Definition,
+    Field,
+    Interface,
+    Type,
+)
 from bot_console.runtime.rosidl.emit import SCALARS
+from bot_console.runtime.rosidl.emit_copy import LIMITS
 from bot_console.runtime.rosidl.emit_holder import SERVICE_PARTS
 from bot_console.runtime.rosidl.names import module_name
 from bot_console.runtime.rosidl.parse import parse
@@ -26,9 +36,6 @@ from numpy.typing import NDArray as _NDArray
 from bot_console.runtime.rosidl.message import Message as _Message, ServiceType as _ServiceType
 '''
 """Under names that no field can have: a field named `list` would stand for the type in its class."""
-BITS = {f"{sign}int{bits}": (sign, bits) for sign in ("", "u") for bits in (8, 16, 32, 64)}
-SHOWN = {"float": "float32", "double": "float64", "boolean": "bool", "octet": "byte"}
-"""The names of types in definition files, where they differ from ours."""
 NO_COMMENTS = Comments("", {})
 
 
@@ -64,11 +71,11 @@ def _module(interface: Interface, text: str) -> Iterator[str]:
     for definition, of_it in zip(definitions, described, strict=False):
         yield from _message(definition, of_it, names)
     if interface.kind == "srv":
-        yield from _holder(interface.name, described[0].whole, {each: each for each in SERVICE_PARTS})
+        yield from _holder(interface.name, described[0].whole, SERVICE_PARTS)
     if interface.kind == "action":
         for each in ("SendGoal", "GetResult"):
-            yield from _holder(f"{interface.name}_{each}", "", {part: part for part in SERVICE_PARTS})
-        yield from _holder(interface.name, described[0].whole, {each: each for each in ("Goal", "Result", "Feedback")})
+            yield from _holder(f"{interface.name}_{each}", "", SERVICE_PARTS)
+        yield from _holder(interface.name, described[0].whole, ("Goal", "Result", "Feedback"))
         yield "    class Impl:"
         yield "        from action_msgs.msg._goal_status_array import GoalStatusArray as GoalStatusMessage"
         yield "        from action_msgs.srv._cancel_goal import CancelGoal as CancelGoalService"
@@ -77,13 +84,13 @@ def _module(interface: Interface, text: str) -> Iterator[str]:
         yield f"        FeedbackMessage = {interface.name}_FeedbackMessage"
 
 
-def _holder(name: str, text: str, parts: Mapping[str, str]) -> Iterator[str]:
+def _holder(name: str, text: str, parts: Sequence[str]) -> Iterator[str]:
     yield from (
         "",
         f"class {name}(metaclass=_ServiceType):",
         *_documented(text or f"{name}: {', '.join(parts)}.", "    "),
     )
-    yield from (f"    {part} = {name}_{suffix}" for part, suffix in parts.items())
+    yield from (f"    {part} = {name}_{part}" for part in parts)
 
 
 def _message(definition: Definition, of_it: Comments, names: Mapping[str, str]) -> Iterator[str]:
@@ -122,10 +129,10 @@ def _documented(text: str, indent: str) -> Sequence[str]:
 def _shown(field: Field) -> str:
     """The type of a field with the range of its values, such as `uint8, 0 to 255`."""
     kind = field.type
-    item = SHOWN.get(kind.item, kind.item) + (f", at most {kind.limit} characters" if kind.limit else "")
-    if kind.item in BITS:
-        sign, bits = BITS[kind.item]
-        low, high = (0, 2**bits - 1) if sign else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
+    item = WRITTEN[kind.item] if kind.primitive else kind.item
+    item += f", at most {kind.limit} characters" if kind.limit else ""
+    if kind.item in LIMITS:
+        low, high = LIMITS[kind.item]
         item = f"{item}, {low} to {high}"
     if kind.sequence:
         item = f"sequence of {item}" + (f", at most {kind.bound} elements" if kind.bound else "")

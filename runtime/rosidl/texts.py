@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from bot_console.runtime.rosidl.names import KINDS
 from bot_console.runtime.rosidl.sources import EXAMPLES, added_folders
 
 PREFIX = Path(__file__).resolve().parent / "generated" / "ament-prefix"
 """The prefix in which the standard packages are installed, in ament's sense; their definitions lie below `share`."""
-
-KINDS = ("msg", "srv", "action")
 
 
 def package_folder(package: str) -> Path | None:

@@ -5,10 +5,7 @@ from __future__ import annotations
 import ast
 from typing import Any, cast
 
-from bot_console.runtime.rosidl.definition import PRIMITIVES, Constant, Definition, Field, Interface, Type
-
-OTHER_WORDS = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "float64"}
-WORDS = {name: OTHER_WORDS.get(name, name) for name in PRIMITIVES.values()}
+from bot_console.runtime.rosidl.definition import WRITTEN, Constant, Definition, Field, Interface, Type
 
 
 def written(interface: Interface) -> str:
@@ -38,7 +35,7 @@ def _read(literal: str) -> Any:
 
 
 def _type(kind: Type, package: str) -> str:
-    item = WORDS[kind.item] if kind.primitive else kind.item.removeprefix(f"{package}/")
+    item = WRITTEN[kind.item] if kind.primitive else kind.item.removeprefix(f"{package}/")
     item += f"<={kind.limit}" if kind.limit else ""
     if kind.sequence:
         return f"{item}[<={kind.bound}]" if kind.bound else f"{item}[]"

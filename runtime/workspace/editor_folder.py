@@ -16,9 +16,10 @@ from bot_console.runtime.files.user_folders import cache_folder
 from bot_console.runtime.importer import PACKAGES, RUNTIME
 from bot_console.runtime.interfaces.interface_finder import interface_folders
 from bot_console.runtime.programs.python_file_check import QT
+from bot_console.runtime.rosidl.names import KINDS
 from bot_console.runtime.rosidl.sources import EXAMPLES
 from bot_console.runtime.rosidl.stubs import package_stubs
-from bot_console.runtime.rosidl.texts import KINDS, PREFIX
+from bot_console.runtime.rosidl.texts import PREFIX
 
 WINDOWS = '''\
 """A package of desktop ROS 2: bot-console cannot run it, since it opens windows. Known here for the editor only."""

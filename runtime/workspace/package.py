@@ -9,10 +9,10 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import NamedTuple
 
+from bot_console.runtime.rosidl.names import KINDS
 from bot_console.runtime.workspace.cmake_lists import read_cmake_lists
 from bot_console.runtime.workspace.setup_py import PANES, SetupFile, entry_lines, read_setup_py
 
-INTERFACE_FOLDERS = ("msg", "srv", "action")
 MAX_NAME_CHARACTERS = 100
 """Characters of a file's name that are shown in a problem."""
 
@@ -46,7 +46,7 @@ class Package:
     @cached_property
     def has_interfaces(self) -> bool:
         """Whether the package defines messages, services or actions."""
-        return any(next((self.folder / each).glob(f"*.{each}"), None) for each in INTERFACE_FOLDERS)
+        return any(next((self.folder / each).glob(f"*.{each}"), None) for each in KINDS)
 
 
 def read_package(folder: Path) -> Package:

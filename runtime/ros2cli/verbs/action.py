@@ -29,6 +29,7 @@ from ros2cli.direct_node import (
     node_names,
     spin_until,
 )
+from ros2cli.names_and_types import add_count_argument, print_names, print_types
 from ros2cli.type_discovery import typed_class
 from ros2cli.yaml_values import read_values
 from rosidl_runtime_py import message_to_yaml, set_message_fields
@@ -57,9 +58,7 @@ def _clients_and_servers(node: Node, action: str) -> tuple[Rows, Rows]:
 def _list_arguments(parser: argparse.ArgumentParser) -> None:
     add_strategy_arguments(parser)
     parser.add_argument("-t", "--show-types", action="store_true", help="Additionally show the action type")
-    parser.add_argument(
-        "-c", "--count-actions", action="store_true", help="Only display the number of actions discovered"
-    )
+    add_count_argument("actions", parser)
 
 
 def _list(arguments: argparse.Namespace) -> Result:
@@ -67,9 +66,8 @@ def _list(arguments: argparse.Namespace) -> Result:
         actions = get_action_names_and_types(node)
     if arguments.count_actions:
         print(len(actions))
-        return None
-    for name, types in actions:
-        print(f"{name} [{', '.join(types)}]" if arguments.show_types else name)
+    else:
+        print_names(actions, arguments.show_types)
     return None
 
 
@@ -104,12 +102,8 @@ def _type_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _type(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        types = dict(get_action_names_and_types(node)).get(arguments.action_name)
-    if types is None:
-        return 1
-    for each in types:
-        print(each)
-    return None
+        actions = get_action_names_and_types(node)
+    return print_types(actions, arguments.action_name)
 
 
 def _goal_arguments(parser: argparse.ArgumentParser) -> None:

@@ -11,6 +11,7 @@ from typing import Any
 
 from bot_console.runtime.interfaces.further_interfaces import NotAdded, add, unverified_folders
 from bot_console.runtime.interfaces.interface_finder import interface_folders
+from bot_console.runtime.rosidl.names import KINDS
 from ros2cli.command import Command, Result, Verb
 from ros2cli.interface_text import show_text
 from ros2cli.type_discovery import learned, not_installed
@@ -22,7 +23,6 @@ from rosidl_runtime_py import (
 )
 from rosidl_runtime_py.utilities import get_action, get_message, get_service
 
-KINDS = ("msg", "srv", "action")
 UNVERIFIED = (
     "names and types of the fields of {0} were read from public sources, its type hash was not compared with ROS 2; "
     "beside a real robot add the package's own sources: bot-console interface add FOLDER"

@@ -10,6 +10,7 @@ from lifecycle_msgs.srv import ChangeState, GetAvailableTransitions, GetState
 from rclpy.node import Node
 from ros2cli.command import Command, Result, Verb
 from ros2cli.direct_node import DirectNode, absolute, add_strategy_arguments, call, node_names
+from ros2cli.names_and_types import add_count_argument
 
 GET_STATE = "lifecycle_msgs/srv/GetState"
 
@@ -28,7 +29,7 @@ def _hidden(parser: argparse.ArgumentParser) -> None:
 def _nodes_arguments(parser: argparse.ArgumentParser) -> None:
     add_strategy_arguments(parser)
     parser.add_argument("-a", "--all", action="store_true", help="Display all nodes even hidden ones")
-    parser.add_argument("-c", "--count-nodes", action="store_true", help="Only display the number of nodes discovered")
+    add_count_argument("nodes", parser)
 
 
 def _nodes(arguments: argparse.Namespace) -> Result:

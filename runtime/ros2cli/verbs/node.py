@@ -11,7 +11,7 @@ from rclpy.node import Node
 from ros2cli.advice import advise, no_node
 from ros2cli.command import Command, Result, Verb
 from ros2cli.direct_node import DirectNode, NodeName, add_strategy_arguments, node_names
-from ros2cli.endpoints import action_names_and_types, without_actions
+from ros2cli.names_and_types import action_names_and_types, add_count_argument, visible
 
 DUPLICATES = (
     "WARNING: Be aware that there are nodes in the graph that share an exact name, "
@@ -22,7 +22,7 @@ DUPLICATES = (
 def _list_arguments(parser: argparse.ArgumentParser) -> None:
     add_strategy_arguments(parser)
     parser.add_argument("-a", "--all", action="store_true", help="Display all nodes even hidden ones")
-    parser.add_argument("-c", "--count-nodes", action="store_true", help="Only display the number of nodes discovered")
+    add_count_argument("nodes", parser)
 
 
 def _list(arguments: argparse.Namespace) -> Result:
@@ -73,10 +73,10 @@ def _sections(node: Node, name: NodeName, hidden: bool) -> Sequence[tuple[str, A
     servers = node.get_service_names_and_types_by_node(*who)
     clients = node.get_client_names_and_types_by_node(*who)
     return (
-        ("Subscribers", without_actions(subscribers, hidden)),
-        ("Publishers", without_actions(publishers, hidden)),
-        ("Service Servers", without_actions(servers, hidden)),
-        ("Service Clients", without_actions(clients, hidden)),
+        ("Subscribers", visible(subscribers, hidden)),
+        ("Publishers", visible(publishers, hidden)),
+        ("Service Servers", visible(servers, hidden)),
+        ("Service Clients", visible(clients, hidden)),
         ("Action Servers", action_names_and_types(servers)),
         ("Action Clients", action_names_and_types(clients)),
     )

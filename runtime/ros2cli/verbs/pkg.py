@@ -16,10 +16,6 @@ from ros2cli.command import Command, Result, Verb
 from ros2cli.verbs import pkg_create
 
 
-def _no_arguments(parser: argparse.ArgumentParser) -> None:
-    return None
-
-
 def _list(arguments: argparse.Namespace) -> Result:
     for name in sorted(get_packages_with_prefixes()):
         print(name)
@@ -87,7 +83,7 @@ COMMAND = Command(
     (
         Verb("create", "Create a new ROS 2 package", pkg_create.create, pkg_create.arguments),
         Verb("executables", "Output a list of package specific executables", _executables, _executables_arguments),
-        Verb("list", "Output a list of available packages", _list, _no_arguments),
+        Verb("list", "Output a list of available packages", _list),
         Verb("prefix", "Output the prefix path of a package", _prefix, _prefix_arguments),
         Verb("xml", "Output the XML of the package manifest or a specific tag", _xml, _xml_arguments),
     ),

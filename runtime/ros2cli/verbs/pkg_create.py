@@ -11,11 +11,23 @@ import sys
 from xml.sax.saxutils import escape
 
 from ros2cli.command import Result
-from ros2cli.verbs import pkg_create as licenses
 from ros2cli.verbs import pkg_templates as texts
 
 NAME = re.compile(r"^(?!.*__)(?!.*_$)[a-z][a-z0-9_]*$")
 BUILD_TYPES = ("cmake", "ament_cmake", "ament_python")
+LICENSES = (
+    "Apache-2.0",
+    "BSL-1.0",
+    "BSD-2.0",
+    "BSD-2-Clause",
+    "BSD-3-Clause",
+    "GPL-3.0-only",
+    "LGPL-3.0-only",
+    "MIT",
+    "MIT-0",
+)
+"""SPDX identifiers that ament knows."""
+LICENSE_FOLDER = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "licenses")
 
 NOT_COMPILED = (
     "programs in C++ are not compiled here; interfaces in its msg/, srv/ and action/ and Python programs that its "
@@ -54,7 +66,7 @@ def arguments(parser: argparse.ArgumentParser) -> None:
 def create(arguments: argparse.Namespace) -> Result:
     """`ros2 pkg create`."""
     if arguments.license == "?":
-        print("Supported licenses:", *licenses.KNOWN, sep="\n")
+        print("Supported licenses:", *LICENSES, sep="\n")
         return None
     name = arguments.package_name
     if not NAME.match(name):
@@ -183,40 +195,23 @@ def _words(arguments: argparse.Namespace, email: str) -> dict[str, str]:
 
 def _license(folder: str, identifier: str) -> None:
     """Write the license file of the package, or print why there is none."""
-    text = licenses.text(identifier)
+    text = _license_text(identifier)
     if text:
         with open(os.path.join(folder, "LICENSE"), "w", encoding="utf-8") as file:
             file.write(text)
-    elif identifier in licenses.KNOWN:
+    elif identifier in LICENSES:
         print(f"\n[WARNING]: No LICENSE file has been created: put the text of '{identifier}' there.")
     else:
         print(
             f"\n[WARNING]: Unknown license '{identifier}'.  This has been set in the package.xml, but no LICENSE file "
-            "has been created.\nIt is recommended to use one of the ament license identifiers:\n"
-            + "\n".join(licenses.KNOWN)
+            "has been created.\nIt is recommended to use one of the ament license identifiers:\n" + "\n".join(LICENSES)
         )
 
 
-KNOWN = (
-    "Apache-2.0",
-    "BSL-1.0",
-    "BSD-2.0",
-    "BSD-2-Clause",
-    "BSD-3-Clause",
-    "GPL-3.0-only",
-    "LGPL-3.0-only",
-    "MIT",
-    "MIT-0",
-)
-"""SPDX identifiers that ament knows."""
-
-FOLDER = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "licenses")
-
-
-def text(identifier: str) -> str:
+def _license_text(identifier: str) -> str:
     """The text of a license; empty for those that are not included, such as the GPL's."""
-    path = os.path.join(FOLDER, f"{identifier}.txt")
-    if identifier not in KNOWN or not os.path.exists(path):
+    path = os.path.join(LICENSE_FOLDER, f"{identifier}.txt")
+    if identifier not in LICENSES or not os.path.exists(path):
         return ""
     with open(path, encoding="utf-8") as file:
         return file.read()

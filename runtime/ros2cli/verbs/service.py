@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import importlib
 import sys
+from functools import partial
 from typing import Any
 
 from rclpy.clock import Clock, ClockType
@@ -12,46 +13,38 @@ from rclpy.duration import Duration
 from rclpy.node import Node
 from ros2cli.command import Command, Result, Verb
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, answer, node_names, spin_until
-from ros2cli.endpoints import hidden
+from ros2cli.names_and_types import (
+    add_count_argument,
+    add_hidden_argument,
+    print_found,
+    print_names,
+    print_types,
+    repeat_hidden_argument,
+    visible,
+)
 from ros2cli.type_discovery import full_type_name, typed_class
 from ros2cli.verbs import service_echo
 from ros2cli.verbs.topic_pub import POSITIVE_FLOAT
 from ros2cli.yaml_values import read_values
 from rosidl_runtime_py import set_message_fields
 
-
-def _hidden_argument(parser: argparse.ArgumentParser, **more: Any) -> None:
-    text = "Consider hidden services as well"
-    parser.add_argument("--include-hidden-services", action="store_true", help=text, **more)
-
-
-def _hidden_as_well(parser: argparse.ArgumentParser) -> None:
-    """Accept the option after the verb as well; if it is absent there, the one before the verb applies."""
-    _hidden_argument(parser, default=argparse.SUPPRESS)
-
-
-def _rows(node: Node, include_hidden: bool) -> list[tuple[str, list[str]]]:
-    rows = node.get_service_names_and_types()
-    return sorted((name, types) for name, types in rows if include_hidden or not hidden(name))
+_hidden_as_well = partial(repeat_hidden_argument, "services")
 
 
 def _list_arguments(parser: argparse.ArgumentParser) -> None:
     add_strategy_arguments(parser)
     parser.add_argument("-t", "--show-types", action="store_true", help="Additionally show the service type")
-    parser.add_argument(
-        "-c", "--count-services", action="store_true", help="Only display the number of services discovered"
-    )
+    add_count_argument("services", parser)
     _hidden_as_well(parser)
 
 
 def _list(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        rows = _rows(node, arguments.include_hidden_services)
+        rows = visible(node.get_service_names_and_types(), arguments.include_hidden_services)
     if arguments.count_services:
         print(len(rows))
-        return None
-    for name, types in rows:
-        print(f"{name} [{', '.join(types)}]" if arguments.show_types else name)
+    else:
+        print_names(rows, arguments.show_types)
     return None
 
 
@@ -68,18 +61,14 @@ def _info_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _type(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        types = dict(_rows(node, arguments.include_hidden_services)).get(arguments.service_name)
-    if types is None:
-        return 1
-    for each in types:
-        print(each)
-    return None
+        rows = visible(node.get_service_names_and_types(), arguments.include_hidden_services)
+    return print_types(rows, arguments.service_name)
 
 
 def _info(arguments: argparse.Namespace) -> Result:
     name = arguments.service_name
     with DirectNode(arguments) as node:
-        types = dict(_rows(node, arguments.include_hidden_services)).get(name)
+        types = dict(visible(node.get_service_names_and_types(), arguments.include_hidden_services)).get(name)
         if types is None:
             return f"Unknown service '{name}'"
         clients = servers = 0
@@ -96,18 +85,14 @@ def _info(arguments: argparse.Namespace) -> Result:
 def _find_arguments(parser: argparse.ArgumentParser) -> None:
     add_strategy_arguments(parser)
     parser.add_argument("service_type", help="Name of the ROS service type to filter for (e.g. 'std_srvs/srv/Empty')")
-    parser.add_argument(
-        "-c", "--count-services", action="store_true", help="Only display the number of services discovered"
-    )
+    add_count_argument("services", parser)
     _hidden_as_well(parser)
 
 
 def _find(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        rows = _rows(node, arguments.include_hidden_services)
-    found = [name for name, types in rows if arguments.service_type in types]
-    print(len(found)) if arguments.count_services else [print(name) for name in found]
-    return None
+        rows = visible(node.get_service_names_and_types(), arguments.include_hidden_services)
+    return print_found(rows, arguments.service_type, arguments.count_services)
 
 
 def _call_arguments(parser: argparse.ArgumentParser) -> None:
@@ -176,5 +161,5 @@ COMMAND = Command(
         Verb("list", "Output a list of available services", _list, _list_arguments),
         Verb("type", "Output a service's type", _type, _name_arguments),
     ),
-    _hidden_argument,
+    partial(add_hidden_argument, "services"),
 )

@@ -8,7 +8,7 @@ from typing import Any
 
 from rclpy.node import Node
 from ros2cli.command import Result
-from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
+from ros2cli.direct_node import DirectNode, absolute, add_strategy_arguments, spin_until
 from ros2cli.qos_arguments import add_qos_arguments, profile
 from ros2cli.type_discovery import typed_class
 from ros2cli.verbs.topic_echo import add_form_arguments
@@ -55,7 +55,7 @@ def _service_class(node: Node, arguments: argparse.Namespace) -> Any:
     if arguments.service_type is not None:
         invalid = f"The service type '{arguments.service_type}' is invalid"
         return typed_class(get_service, "srv", arguments.service_type, invalid, node)
-    types = dict(node.get_service_names_and_types()).get(name if name.startswith("/") else f"/{name}")
+    types = dict(node.get_service_names_and_types()).get(absolute(name))
     if not types:
         return "Could not load the type for the passed service"
     return typed_class(get_service, "srv", types[0], f"The service name '{name}' is invalid", node)

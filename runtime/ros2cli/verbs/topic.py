@@ -3,56 +3,47 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any
+from functools import partial
 
-from rclpy.node import Node
 from ros2cli.command import Command, Result, Verb
 from ros2cli.direct_node import DirectNode, add_strategy_arguments
-from ros2cli.endpoints import hidden
+from ros2cli.names_and_types import (
+    NamesAndTypes,
+    add_count_argument,
+    add_hidden_argument,
+    print_found,
+    print_names,
+    print_types,
+    repeat_hidden_argument,
+    visible,
+)
 from ros2cli.verbs import topic_echo, topic_pub, topic_rate
 
-
-def _hidden_argument(parser: argparse.ArgumentParser, **more: Any) -> None:
-    text = "Consider hidden topics as well"
-    parser.add_argument("--include-hidden-topics", action="store_true", help=text, **more)
-
-
-def _hidden_as_well(parser: argparse.ArgumentParser) -> None:
-    """Accept the option after the verb as well; if it is absent there, the one before the verb applies."""
-    _hidden_argument(parser, default=argparse.SUPPRESS)
+_hidden_as_well = partial(repeat_hidden_argument, "topics")
 
 
 def _list_arguments(parser: argparse.ArgumentParser) -> None:
     add_strategy_arguments(parser)
     parser.add_argument("-t", "--show-types", action="store_true", help="Additionally show the topic type")
-    parser.add_argument(
-        "-c", "--count-topics", action="store_true", help="Only display the number of topics discovered"
-    )
+    add_count_argument("topics", parser)
     _hidden_as_well(parser)
     parser.add_argument("-v", "--verbose", action="store_true", help="List full details about each topic")
 
 
-def _names_and_types(node: Node, include_hidden: bool) -> list[tuple[str, list[str]]]:
-    return sorted(
-        (name, types) for name, types in node.get_topic_names_and_types() if include_hidden or not hidden(name)
-    )
-
-
 def _list(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        rows = _names_and_types(node, arguments.include_hidden_topics)
+        rows = visible(node.get_topic_names_and_types(), arguments.include_hidden_topics)
         counts = {name: (node.count_publishers(name), node.count_subscribers(name)) for name, _ in rows}
     if arguments.count_topics:
         print(len(rows))
     elif arguments.verbose and rows:
         _print_sides(rows, counts)
     else:
-        for name, types in rows:
-            print(f"{name} [{', '.join(types)}]" if arguments.show_types else name)
+        print_names(rows, arguments.show_types)
     return None
 
 
-def _print_sides(rows: list[tuple[str, list[str]]], counts: dict[str, tuple[int, int]]) -> None:
+def _print_sides(rows: NamesAndTypes, counts: dict[str, tuple[int, int]]) -> None:
     for side, (title, word) in enumerate((("Published topics:", "publisher"), ("Subscribed topics:", "subscriber"))):
         print(title)
         for name, types in rows:
@@ -77,7 +68,7 @@ def _info_arguments(parser: argparse.ArgumentParser) -> None:
 def _info(arguments: argparse.Namespace) -> Result:
     name = arguments.topic_name
     with DirectNode(arguments) as node:
-        types = dict(_names_and_types(node, include_hidden=True)).get(name)
+        types = dict(node.get_topic_names_and_types()).get(name)
         if types is None:
             return f"Unknown topic '{name}'"
         print(f"Type: {types[0] if len(types) == 1 else types}", end="\n\n" if arguments.verbose else "\n")
@@ -100,29 +91,21 @@ def _type_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _type(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        types = dict(_names_and_types(node, arguments.include_hidden_topics)).get(arguments.topic_name)
-    if types is None:
-        return 1
-    for each in types:
-        print(each)
-    return None
+        rows = visible(node.get_topic_names_and_types(), arguments.include_hidden_topics)
+    return print_types(rows, arguments.topic_name)
 
 
 def _find_arguments(parser: argparse.ArgumentParser) -> None:
     add_strategy_arguments(parser)
     parser.add_argument("topic_type", help="Name of the ROS topic type to filter for (e.g. 'std_msgs/msg/String')")
-    parser.add_argument(
-        "-c", "--count-topics", action="store_true", help="Only display the number of topics discovered"
-    )
+    add_count_argument("topics", parser)
     _hidden_as_well(parser)
 
 
 def _find(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        rows = _names_and_types(node, arguments.include_hidden_topics)
-    found = [name for name, types in rows if arguments.topic_type in types]
-    print(len(found)) if arguments.count_topics else [print(name) for name in found]
-    return None
+        rows = visible(node.get_topic_names_and_types(), arguments.include_hidden_topics)
+    return print_found(rows, arguments.topic_type, arguments.count_topics)
 
 
 COMMAND = Command(
@@ -139,5 +122,5 @@ COMMAND = Command(
         Verb("pub", "Publish a message to a topic", topic_pub.publish, topic_pub.arguments),
         Verb("type", "Print a topic's type", _type, _type_arguments),
     ),
-    _hidden_argument,
+    partial(add_hidden_argument, "topics"),
 )

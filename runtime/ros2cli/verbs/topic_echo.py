@@ -10,7 +10,7 @@ from typing import Any
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 from ros2cli.command import Result
-from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
+from ros2cli.direct_node import DirectNode, absolute, add_strategy_arguments, spin_until
 from ros2cli.qos_arguments import add_qos_arguments, compatible
 from ros2cli.type_discovery import message_class, typed_class
 from ros2cli.verbs.topic_pub import POSITIVE_FLOAT
@@ -164,7 +164,7 @@ def _message_class(node: Node, arguments: argparse.Namespace) -> Any:
     if arguments.message_type:
         invalid = "The passed message type is invalid"
         return typed_class(get_message, "msg", arguments.message_type, invalid, node)
-    name = arguments.topic_name if arguments.topic_name.startswith("/") else f"/{arguments.topic_name}"
+    name = absolute(arguments.topic_name)
     types = dict(node.get_topic_names_and_types()).get(name)
     if not types:
         print(f"WARNING: topic [{arguments.topic_name}] does not appear to be published yet")

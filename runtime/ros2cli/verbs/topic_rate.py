@@ -12,7 +12,7 @@ from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from ros2cli.command import Result
-from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
+from ros2cli.direct_node import DirectNode, absolute, add_strategy_arguments, spin_until
 from ros2cli.type_discovery import message_class
 from ros2cli.verbs.topic_echo import message_filter
 
@@ -69,7 +69,7 @@ def delay_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _subscribe(node: Node, topic: str, take: Callable[..., None], *, raw: bool = False) -> str:
     """Wait for the topic and subscribe to it; returns why that is impossible, or an empty string."""
-    name = topic if topic.startswith("/") else f"/{topic}"
+    name = absolute(topic)
     if name not in dict(node.get_topic_names_and_types()):
         print(f"WARNING: topic [{topic}] does not appear to be published yet")
     spin_until(node, lambda: name in dict(node.get_topic_names_and_types()))
@@ -196,12 +196,12 @@ def _amount(count: float, total: float) -> str:
 def delay(arguments: argparse.Namespace) -> Result:
     """`ros2 topic delay`; not measured on the first message. Raises `RuntimeError` for messages without a header."""
     delays: deque[int] = deque(maxlen=arguments.window_size)
-    started: list[None] = []
-    fresh: list[None] = []
+    started = fresh = False
     arguments.no_daemon = True
     with DirectNode(arguments) as node:
 
         def take(message: Any) -> None:
+            nonlocal started, fresh
             if not hasattr(message, "header"):
                 raise RuntimeError("msg does not have header")
             stamp, now = message.header.stamp, node.get_clock().now().nanoseconds
@@ -212,14 +212,15 @@ def delay(arguments: argparse.Namespace) -> Result:
                 return
             if started:
                 delays.append(now - stamp.sec * SECOND_NS - stamp.nanosec)
-            started[:] = fresh[:] = [None]
+            started = fresh = True
 
         def report() -> str:
+            nonlocal fresh
             if not delays:
                 return ""
             if not fresh:
                 return "no new messages"
-            fresh.clear()
+            fresh = False
             mean, low, high, deviation = (each * 1e-9 for each in spread(list(delays)))
             return (
                 f"average delay: {mean:.3f}\n\tmin: {low:.3f}s max: {high:.3f}s "
