@@ -24,6 +24,7 @@ from textual.widgets import Input, Static
 if TYPE_CHECKING:
     from bot_console.tui.arrangement.layout_keys import Arranging
     from bot_console.tui.panes.pane import Pane
+    from bot_console.tui.widgets.command_line import CommandField
     from bot_console.tui.widgets.prompt.question import Question
 
 MIN_SIZE = (60, 20)
@@ -200,12 +201,21 @@ class Stage:
             if pane.display and not before:
                 pane.show(self._newest())
         self._tabs(shown)
+        if small:
+            screen.set_focus(None)  # keys do what the notice says, and nothing that is hidden
+        elif not self.typing():
+            self._focus()
+        self.show_keys()
+
+    def _focus(self) -> None:
+        lines = cast("list[CommandField]", list(self._app.screen_stack[0].query("CommandField.open")))
         pane = self.current()
         if pane is not None and not pane.display:
             pane = next(iter(self.visible()), None)
-        if pane is not None and not self.typing():
+        if lines:
+            lines[0].take_focus()
+        elif pane is not None:
             pane.take_focus()
-        self.show_keys()
 
     def typing(self) -> bool:
         """Whether a text field has the focus."""

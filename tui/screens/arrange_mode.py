@@ -11,7 +11,7 @@ from bot_console.tui.keys.key import Key, key_text
 from bot_console.tui.layout.tree import Way
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.terminal.dimmed_screen import DimmedScreen
-from bot_console.tui.widgets.prompt.line import Prompt, open_prompt
+from bot_console.tui.widgets.prompt.line import KEYS, Prompt, open_prompt
 from bot_console.tui.widgets.prompt.question import Line
 from rich.style import Style
 from rich.text import Text
@@ -92,9 +92,9 @@ class ArrangeScreen(DimmedScreen):
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("arrange")]
     AUTO_FOCUS = ""
     DEFAULT_CSS = """
-    ArrangeScreen Prompt { dock: bottom; }
-    ArrangeScreen Static { dock: bottom; height: 1; padding: 0 1; background: $accent; color: $background;
-                           text-wrap: nowrap; text-overflow: ellipsis; }
+    ArrangeScreen Prompt { dock: bottom; margin-bottom: 1; }
+    #arrange-keys { dock: bottom; height: 1; padding: 0 1; background: $accent; color: $background;
+                    text-wrap: nowrap; text-overflow: ellipsis; }
     """
 
     def __init__(self, arranger: Arranger) -> None:
@@ -108,7 +108,19 @@ class ArrangeScreen(DimmedScreen):
 
     def on_resize(self, event: Resize) -> None:
         """Fit the line of keys to the width."""
-        self.query_one("#arrange-keys", Static).update(keys_line(event.size.width - 2))
+        self._show_keys(event.size.width)
+
+    def on_descendant_focus(self) -> None:
+        """Name the keys of the line that is typed."""
+        self._show_keys(self.size.width)
+
+    def on_descendant_blur(self) -> None:
+        """Name the keys that arrange panes again."""
+        self._show_keys(self.size.width)
+
+    def _show_keys(self, width: int) -> None:
+        typing = open_prompt(self) is not None
+        self.query_one("#arrange-keys", Static).update(KEYS if typing else keys_line(width - 2))
 
     def on_mount(self) -> None:
         """Highlight the selected pane."""

@@ -91,6 +91,10 @@ class CommandField(Vertical):
         self.screen.set_focus(self._field)
         self._begin()
 
+    def take_focus(self) -> None:
+        """Take the keys again, after the line was hidden."""
+        self.screen.set_focus(self._field)
+
     def close(self) -> None:
         """Hide, and give the focus back."""
         self.remove_class("open")

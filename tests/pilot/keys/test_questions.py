@@ -223,3 +223,23 @@ def test_prompt_of_a_pane_that_had_no_room_has_the_keys_when_the_pane_is_chosen(
         assert not prompt(session).is_open
 
     run(live(), play)
+
+
+@pytest.mark.parametrize("opens", [("1", "e"), (":",)], ids=["prompt", "command line"])
+def test_all_stop_acts_where_a_text_field_is_hidden_and_the_field_has_the_keys_afterwards(
+    opens: tuple[str, ...],
+) -> None:
+    async def play(session: Session) -> None:
+        await session.press(*opens)
+        await session.pilot.resize_terminal(20, 5)
+        await session.settle()
+        assert next(line.strip() for line in session.lines() if line.strip()) == "20x5 is too small"
+        await session.press("exclamation_mark")
+        assert session.console.current.drive.stops
+        await session.pilot.resize_terminal(80, 24)
+        await session.settle()
+        assert session.app.stage.typing() and "esc Cancel" in session.lines()[-1]
+        await session.press("escape")
+        assert not session.app.stage.typing()
+
+    run(live(), play)

@@ -303,12 +303,16 @@ def test_a_message_is_filled_in_and_published_once_and_at_a_rate() -> None:
     async def play(session: Session) -> None:
         await opened(session)
         await at(session, "/cmd_vel")
-        await session.press("P", "enter")
+        await session.press("P")
+        assert "Enter OK" not in session.text()
+        await session.press("enter")
         await session.type("fast")
-        assert "not a number" in session.text()
+        assert "not a number" in session.text() and "─ Enter OK · Esc Cancel ─" in session.text()
         await session.press("ctrl+u")
         await session.type("0.5")
-        await session.press("enter", "s", "r", "enter")
+        await session.press("enter")
+        assert "─ Enter Edit · s Send once" in session.text()
+        await session.press("s", "r", "enter")
         asked = session.console.asked
         assert ("publish", "/cmd_vel", {"linear.x": "0.5"}, 0.0) in asked
         assert ("publish", "/cmd_vel", {"linear.x": "0.5"}, 10.0) in asked

@@ -111,7 +111,10 @@ def test_layout_is_saved_under_a_name_and_reopened() -> None:
     async def play(session: Session) -> None:
         await session.press("V", "x", "w")
         await session.type("mine")
+        assert session.lines()[-2].startswith(" save as mine")
+        assert session.lines()[-1].split() == ["Enter", "OK", "·", "Esc", "Cancel"]
         await session.press("enter")
+        assert session.lines()[-1].startswith(" Arrange")
         kept = tree(session)
         assert session.app.stage.arranging.arrangement.title == "mine"
         await session.press("o")

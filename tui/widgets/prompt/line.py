@@ -7,6 +7,7 @@ from typing import ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.format import sanitize
+from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.prompt.question import Line, Requester
 from rich.cells import cell_len
 from textual.binding import BindingType
@@ -15,6 +16,8 @@ from textual.suggester import Suggester, SuggestFromList
 from textual.widget import Widget
 from textual.widgets import Input, Label
 
+KEYS = "Enter OK · Esc Cancel"
+"""The keys that act while a line is typed in a box."""
 AROUND_COLUMNS = 5
 """Columns around the label and at the end of the text."""
 
@@ -49,6 +52,8 @@ class Prompt(Requester[str], Horizontal):
 
     _line: Line | None = None
     _before: Widget | None = None
+    _keys_around: str | None = None
+    """The keys that the box around it names while nothing is typed; None: it is in a pane."""
 
     def _make(self) -> None:
         self._label = Label("", markup=False)
@@ -75,6 +80,8 @@ class Prompt(Requester[str], Horizontal):
         self._complain(line.text)
         self.add_class("open")
         self._before = self.screen.focused
+        if isinstance(self.parent, Box):
+            self._keys_around, self.parent.border_subtitle = self.parent.border_subtitle, KEYS
         # At once, instead of by `focus`, which takes effect after keys that are already queued.
         self.screen.set_focus(field)
 
@@ -125,6 +132,8 @@ class Prompt(Requester[str], Horizontal):
     def close(self) -> None:
         """Hide, and restore the focus."""
         self.remove_class("open")
+        if self._keys_around is not None and isinstance(self.parent, Box):
+            self.parent.border_subtitle, self._keys_around = self._keys_around, None
         if self.screen.focused is self._field:
             self.screen.set_focus(self._before)
         self._before = None
