@@ -6,8 +6,6 @@ import json
 import os
 import re
 import signal
-import subprocess
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -25,14 +23,10 @@ from bot_console.tui.session.launch_host.address import connect_to_host, host_ad
 from bot_console.tui.session.launch_host.combined import CombinedLauncher, OtherHosts
 from bot_console.tui.session.launch_host.proxy import HostedLauncher
 from launcher_bench import WAITS
+from processes.typed import typed
 
 TIMEOUT_S = 240.0
 """Seconds after which a test gives up; nothing is measured by it."""
-
-
-def typed(*words: str) -> subprocess.CompletedProcess[str]:
-    line = [sys.executable, "-m", "bot_console.tui", *words]
-    return subprocess.run(line, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
 
 
 @pytest.fixture

@@ -17,6 +17,7 @@ import pytest
 import rclpy
 from bot_console.tui.cli.bags import common, record
 from bot_console.tui.cli.verbs.bag import run
+from processes.typed import Typed, typed
 from rclpy.node import Node
 
 pytest.importorskip("mcap")
@@ -29,18 +30,13 @@ def robot(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     """A robot in its own domain, and a folder for bags."""
     folder = tmp_path_factory.mktemp("bags")
     environment = os.environ | {"BOT_CONSOLE_SOCKET_DIR": SOCKETS, "BOT_CONSOLE_USER_DIR": f"{SOCKETS}-user"}
-    line = [*PROGRAM, "--headless", "--duration", "100000"]
-    system = subprocess.Popen(line, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment)
-    seen = [*PROGRAM, "topic", "echo", "--once", "--timeout", "240", "/odom", "nav_msgs/msg/Odometry"]
+    system = Typed("--headless", "--duration", "100000", env=environment)
+    seen = ("topic", "echo", "--once", "--timeout", "240", "/odom", "nav_msgs/msg/Odometry")
     try:
-        subprocess.run(seen, capture_output=True, timeout=240, check=True, env=environment)
+        assert typed(*seen, env=environment).returncode == 0
         yield folder
     finally:
-        system.send_signal(signal.SIGINT)
-        try:
-            system.wait(240)
-        except subprocess.TimeoutExpired:
-            system.kill()
+        system.end(signal.SIGINT)
     subprocess.run(["rm", "-rf", SOCKETS, f"{SOCKETS}-user"], check=False)
 
 
@@ -50,9 +46,8 @@ def domain(robot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("BOT_CONSOLE_USER_DIR", f"{SOCKETS}-user")
 
 
-def typed(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
-    line = [*PROGRAM, "bag", *words]
-    return subprocess.run(line, capture_output=True, text=True, timeout=240, check=False, cwd=folder)
+def bag(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    return typed("bag", *words, cwd=folder)
 
 
 def grown(file: Path, size: int) -> bool:
@@ -66,48 +61,42 @@ def grown(file: Path, size: int) -> bool:
 def test_topics_are_recorded_and_played(robot: Path) -> None:
     for seconds in (4, 16, 64, 256):  # On a busy machine a short recording ends before it has heard anything.
         shutil.rmtree(robot / "mine", ignore_errors=True)
-        done = typed(robot, "record", "/odom", "/scan", "-o", "mine", "--duration", str(seconds))
-        reported = typed(robot, "info", "mine")
+        done = bag(robot, "record", "/odom", "/scan", "-o", "mine", "--duration", str(seconds))
+        reported = bag(robot, "info", "mine")
         if re.search(r"Topic: /odom \| Type: nav_msgs/msg/Odometry \| Count: [1-9]", reported.stdout):
             break
     assert done.returncode == 0 and "Subscribed to topic '/odom'" in done.stderr, done.stderr
     assert reported.returncode == 0 and "Topic: /odom | Type: nav_msgs/msg/Odometry | Count: 0" not in reported.stdout
-    again = typed(robot, "record", "/odom", "-o", "mine", "--duration", "1")
+    again = bag(robot, "record", "/odom", "-o", "mine", "--duration", "1")
     assert again.returncode == 1 and "exists already" in again.stderr
-    line = [*PROGRAM, "bag", "play", "mine", "-m", "/odom:=/copy", "-l"]
-    played = subprocess.Popen(line, cwd=robot, stderr=subprocess.PIPE, text=True)
-    heard = [*PROGRAM, "topic", "echo", "--once", "/copy", "nav_msgs/msg/Odometry"]
-    out = subprocess.run(heard, capture_output=True, text=True, timeout=240, check=False).stdout
-    played.send_signal(signal.SIGINT)
-    _, reported = played.communicate(timeout=240)
-    assert "pose:" in out and played.returncode == 0, reported
+    player = Typed("bag", "play", "mine", "-m", "/odom:=/copy", "-l", cwd=robot)
+    out = typed("topic", "echo", "--once", "/copy", "nav_msgs/msg/Odometry").stdout
+    played = player.end(signal.SIGINT)
+    assert "pose:" in out and played.returncode == 0, played.stderr
 
 
 def called(name: str, kind: str, request: str = "{}") -> str:
     """The answer of a service of rosbag2."""
-    line = [*PROGRAM, "service", "call", name, f"rosbag2_interfaces/srv/{kind}", request]
-    return subprocess.run(line, capture_output=True, text=True, timeout=240, check=False).stdout
+    return typed("service", "call", name, f"rosbag2_interfaces/srv/{kind}", request).stdout
 
 
 def test_a_recorder_and_a_player_follow_options_and_services(robot: Path) -> None:
     words = ["record", "--topics", "/odom", "/scan", "-s", "sqlite3", "--max-bag-duration", "1", "-o", "options"]
     words += ["--compression-mode", "message", "--compression-format", "zstd", "--custom-data", "who=me"]
     words += ["--node-name", "mine", "--start-paused", "--duration", "1000"]
-    recorder = subprocess.Popen([*PROGRAM, "bag", *words], cwd=robot, stderr=subprocess.PIPE, text=True)
+    recorder = Typed("bag", *words, cwd=robot)
     assert "paused=True" in called("/mine/is_paused", "IsPaused")
     called("/mine/resume", "Resume")
     assert grown(robot / "options" / "options_2.db3", 1)
-    recorder.send_signal(signal.SIGINT)
-    recorder.communicate(timeout=240)
-    reported = typed(robot, "info", "options")
+    recorder.end(signal.SIGINT)
+    reported = bag(robot, "info", "options")
     assert reported.returncode == 0 and "who=me" in reported.stdout and "Storage id:        sqlite3" in reported.stdout
-    line = [*PROGRAM, "bag", "play", "options", "--start-paused", "--remap", "/odom:=/copy"]
-    player = subprocess.Popen(line, cwd=robot, stderr=subprocess.PIPE, text=True)
+    player = Typed("bag", "play", "options", "--start-paused", "--remap", "/odom:=/copy", cwd=robot)
     assert "success=True" in called("/rosbag2_player/play_next", "PlayNext")
     assert "success=True" in called("/rosbag2_player/set_rate", "SetRate", "{rate: 100.0}")
     called("/rosbag2_player/resume", "Resume")
-    _, message = player.communicate(timeout=240)
-    assert player.returncode == 0 and "0 messages published" not in f" {message}".splitlines(), message
+    played = player.end()
+    assert played.returncode == 0 and "0 messages published" not in f" {played.stderr}".splitlines(), played.stderr
 
 
 @pytest.mark.soak
@@ -123,18 +112,17 @@ def test_a_recorder_of_a_launch_file_records(robot: Path) -> None:
     assert grown(robot / "launched" / "launched_0.mcap", 20_000)
     launch.send_signal(signal.SIGINT)
     assert launch.wait(240) == 0
-    reported = typed(robot, "info", "launched")
+    reported = bag(robot, "info", "launched")
     assert "Topic: /odom" in reported.stdout and not reported.stderr, reported
 
 
 def test_killed_recorder_leaves_a_readable_bag(robot: Path) -> None:
-    recorder = subprocess.Popen([*PROGRAM, "bag", "record", "-a", "-o", "killed"], cwd=robot, stderr=subprocess.DEVNULL)
+    recorder = Typed("bag", "record", "-a", "-o", "killed", cwd=robot)
     assert grown(robot / "killed" / "killed_0.mcap", 200_000)
-    recorder.kill()
-    recorder.wait()
-    reported = typed(robot, "info", "killed")
+    recorder.end(signal.SIGKILL)
+    reported = bag(robot, "info", "killed")
     assert reported.returncode == 0 and "was given one" in reported.stderr and "/scan" in reported.stdout
-    assert "was given one" not in typed(robot, "info", "killed").stderr
+    assert "was given one" not in bag(robot, "info", "killed").stderr
 
 
 @pytest.mark.parametrize("begun", [False, True], ids=["before its node", "before it spins"])
@@ -164,7 +152,7 @@ def test_recorder_interrupted_at_start_leaves_a_complete_bag_or_none(
 
 
 def test_snapshot_needs_a_recorder_in_snapshot_mode(robot: Path) -> None:
-    assert "snapshot mode" in typed(robot, "snapshot").stderr
+    assert "snapshot mode" in bag(robot, "snapshot").stderr
 
 
 @pytest.mark.parametrize(

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
-import sys
 from pathlib import Path
 from typing import Any
 
 import pytest
 from bot_console.tui.cli.check.stepped import StartError, read_start
+from processes.typed import typed
 
 NAVIGATOR = "run bot_console_robot robot_node"
 SIMULATOR = "launch bot_console_robot simulator.launch.py seed:=3"
@@ -18,10 +17,8 @@ SIMULATOR = "launch bot_console_robot simulator.launch.py seed:=3"
 
 def checked(folder: Path, steps: str, *starts: str) -> tuple[int, list[dict[str, Any]]]:
     (folder / "steps").write_text(steps, "utf-8")
-    words = [sys.executable, "-m", "bot_console.tui", "check", "steps", "--json"]
-    words += [word for each in starts for word in ("--start", each)]
-    environment = {**os.environ, "ROS_HOME": str(folder)}
-    done = subprocess.run(words, cwd=folder, env=environment, capture_output=True, text=True, check=False)
+    options = [word for each in starts for word in ("--start", each)]
+    done = typed("check", "steps", "--json", *options, cwd=folder, env={**os.environ, "ROS_HOME": str(folder)})
     return done.returncode, json.loads(done.stdout)["steps"]
 
 

@@ -12,16 +12,12 @@ from pathlib import Path
 import pytest
 from processes.certificates import make_certificates
 from processes.ports import free_port
+from processes.typed import typed
 
 if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
 TIMEOUT_S = 240
-
-
-def run(*words: str) -> subprocess.CompletedProcess[str]:
-    line = [sys.executable, "-m", "bot_console.tui", *words]
-    return subprocess.run(line, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
 
 
 def test_background_robot_is_reached_through_router_with_certificate_only(
@@ -31,14 +27,14 @@ def test_background_robot_is_reached_through_router_with_certificate_only(
     files = make_certificates(tmp_path)
     place = f"tls/localhost:{free_port()}"
     shown = ("--tls-certificate", files.certificate, "--tls-key", files.key)
-    started = run("up", "--serve", place, "--tls-ca", files.ca, *shown)
+    started = typed("up", "--serve", place, "--tls-ca", files.ca, *shown)
     try:
         assert started.returncode == 0, started.stderr
         assert "WARNING" not in started.stderr  # It listens on loopback.
         monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", f"{os.environ['BOT_CONSOLE_SOCKET_DIR']}x")
         capture = tmp_path / "robot.json"
         way = ("--connect", place, "--tls-ca", files.ca)
-        seen = run("doctor", *way, *shown, "--capture", str(capture))
+        seen = typed("doctor", *way, *shown, "--capture", str(capture))
         assert seen.returncode == 0, seen.stdout
         assert "emergency stop that answers" in seen.stdout
         assert any("/simulator/" in each for each in json.loads(capture.read_text())["tokens"])
@@ -50,17 +46,17 @@ def test_background_robot_is_reached_through_router_with_certificate_only(
         }
         override = ("enable_mtls=true", *(f'{name}="{path}"' for name, path in names.items()))
         monkeypatch.setenv("ZENOH_CONFIG_OVERRIDE", ";".join(f"transport/link/tls/{each}" for each in override))
-        assert "/simulator" in run("node", "list").stdout
-        assert run("stop", "from afar").returncode == 0
+        assert "/simulator" in typed("node", "list").stdout
+        assert typed("stop", "from afar").returncode == 0
         monkeypatch.delenv("ZENOH_CONFIG_OVERRIDE")
         monkeypatch.delenv("BOT_CONSOLE_CONNECT")
-        refused = run("doctor", *way)
+        refused = typed("doctor", *way)
         assert refused.returncode == 1 and "--tls-certificate" in refused.stdout
     finally:
         monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", os.environ["BOT_CONSOLE_SOCKET_DIR"].removesuffix("x"))
-        ended = run("down")
+        ended = typed("down")
     assert ended.returncode == 0
-    assert run("doctor", "--connect", place.replace("tls/", "tcp/")).returncode == 1
+    assert typed("doctor", "--connect", place.replace("tls/", "tcp/")).returncode == 1
 
 
 @pytest.mark.parametrize(
@@ -72,7 +68,7 @@ def test_background_robot_is_reached_through_router_with_certificate_only(
     ],
 )
 def test_invalid_endpoint_is_refused_and_open_one_warned_of(words: list[str], code: int, reported: str) -> None:
-    done = run("router", *words)
+    done = typed("router", *words)
     assert done.returncode == code and reported in done.stderr
 
 

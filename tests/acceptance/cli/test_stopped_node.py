@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import os
 import signal
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -15,6 +13,7 @@ from bot_console.runtime.rmw.zenoh.settings import Serving
 from helpers.processes.mesh import eventually
 from helpers.processes.two_processes import DOMAIN, two_processes
 from processes.ports import free_port
+from processes.typed import typed
 
 if os.name == "nt":
     pytest.skip("needs SIGSTOP", allow_module_level=True)
@@ -40,14 +39,7 @@ def test_request_to_a_frozen_process_ends_and_names_it(tmp_path: Path, words: tu
         try:
             peer.send_signal(signal.SIGSTOP)
             assert eventually(lambda: list(client.stopped().values()) == [peer.pid])
-            asked = subprocess.run(
-                [sys.executable, "-m", "bot_console.tui", *words],
-                env=dict(os.environ, BOT_CONSOLE_CONNECT=place),
-                capture_output=True,
-                text=True,
-                timeout=TIMEOUT_S,
-                check=False,
-            )
+            asked = typed(*words, env=dict(os.environ, BOT_CONSOLE_CONNECT=place))
         finally:
             client.close()
             router.close()

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
+import signal
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.console.topics.port import Payload, Slot, Topics
 from bot_console.tui.session.embedded.domain import take_part
 from bot_console.tui.session.embedded.hooks import DomainTypes
+from processes.typed import Typed, typed
 from rigs import until
 
 if os.name == "nt":
@@ -81,15 +81,9 @@ def elsewhere(tmp_path: Path) -> Iterator[Path]:
     (tmp_path / "elsewhere").mkdir()
     file = tmp_path / "here" / "painter.py"
     file.write_text(PAINTER)
-    line = [sys.executable, "-m", "bot_console.tui", "run", str(file)]
-    with subprocess.Popen(line, cwd=file.parent) as process:
-        yield tmp_path / "elsewhere"
-        process.kill()
-
-
-def typed(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
-    line = [sys.executable, "-m", "bot_console.tui", *words]
-    return subprocess.run(line, cwd=folder, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
+    painter = Typed("run", str(file), cwd=file.parent)
+    yield tmp_path / "elsewhere"
+    painter.end(signal.SIGKILL)
 
 
 def form_of(traffic: Topics, payload: Payload, type_name: str) -> Sequence[Slot]:
@@ -101,54 +95,54 @@ def form_of(traffic: Topics, payload: Payload, type_name: str) -> Sequence[Slot]
 
 
 def test_verb_reads_messages_by_definition_from_their_node_unless_hash_differs(elsewhere: Path) -> None:
-    while "/spots" not in typed(elsewhere, "topic", "list").stdout:
+    while "/spots" not in typed("topic", "list", cwd=elsewhere).stdout:
         pass
-    echo = typed(elsewhere, "topic", "echo", "--once", "/spots")
+    echo = typed("topic", "echo", "--once", "/spots", cwd=elsewhere)
     assert echo.stdout.startswith("spots:\n- x: 1.5\n  y: 0.0\nheader:\n") and "tag: abc" in echo.stdout
     assert echo.returncode == 0
-    untrue = typed(elsewhere, "topic", "echo", "--once", "/false_spots")
+    untrue = typed("topic", "echo", "--once", "/false_spots", cwd=elsewhere)
     assert untrue.returncode == 1 and untrue.stdout == ""
     assert "'false_shapes/msg/Spot' of topic '/false_spots' is not installed here" in untrue.stderr
     assert "/painter describes it by a definition that does not have the hash RIHS01_" in untrue.stderr
 
 
 def test_bag_records_foreign_types_and_names_topics_without_definition_or_publisher(elsewhere: Path) -> None:
-    while "/spots" not in typed(elsewhere, "topic", "list").stdout:
+    while "/spots" not in typed("topic", "list", cwd=elsewhere).stdout:
         pass
     topics = "/spots", "/false_spots", "/nowhere"
-    recorded = typed(elsewhere, "bag", "record", "-o", "bag", "--duration", "4", *topics)
+    recorded = typed("bag", "record", "-o", "bag", "--duration", "4", *topics, cwd=elsewhere)
     assert recorded.returncode == 0, recorded.stderr
     ended = recorded.stderr.splitlines()[-1]
     assert "/false_spots was recorded without a definition" in ended
     assert "'/false_spots' is recorded without a definition: its type false_shapes/msg/Spot is not" in recorded.stderr
     assert "/nowhere was not recorded: nobody has published it" in ended and "/spots was" not in ended.split("; ")
-    shown = typed(elsewhere, "bag", "info", "bag").stdout
+    shown = typed("bag", "info", "bag", cwd=elsewhere).stdout
     assert "Topic: /spots | Type: told_shapes/msg/Path" in shown
     assert "Topic: /false_spots | Type: false_shapes/msg/Spot" in shown
 
 
 def test_verbs_send_goals_requests_and_messages_of_foreign_types(elsewhere: Path) -> None:
-    while "/draw" not in typed(elsewhere, "action", "list").stdout:
+    while "/draw" not in typed("action", "list", cwd=elsewhere).stdout:
         pass
-    assert "/draw [told_shapes/action/Draw]\n" in typed(elsewhere, "action", "list", "-t").stdout
-    info = typed(elsewhere, "action", "info", "-t", "/draw")
+    assert "/draw [told_shapes/action/Draw]\n" in typed("action", "list", "-t", cwd=elsewhere).stdout
+    info = typed("action", "info", "-t", "/draw", cwd=elsewhere)
     assert "Action servers: 1\n    /painter [told_shapes/action/Draw]\n" in info.stdout
-    sent = typed(elsewhere, "action", "send_goal", "-f", "/draw", "told_shapes/action/Draw", "{to: {x: 1.5}}")
+    sent = typed("action", "send_goal", "-f", "/draw", "told_shapes/action/Draw", "{to: {x: 1.5}}", cwd=elsewhere)
     assert (sent.stderr, sent.returncode) == ("", 0)
     assert "Sending goal:\n     to:\n  x: 1.5\n  y: 0.0\nhow: 2\n" in sent.stdout
     assert "Feedback:\n    done: 0.5\n" in sent.stdout and "Result:\n    drawn:\n- x: 1.5\n" in sent.stdout
     assert sent.stdout.endswith("Goal finished with status: SUCCEEDED\n")
 
-    shown = typed(elsewhere, "interface", "show", "told_shapes/action/Draw").stdout
+    shown = typed("interface", "show", "told_shapes/action/Draw", cwd=elsewhere).stdout
     assert shown.startswith("# To\nSpot to\n\tfloat64 x\n\tfloat64 y\nint8 BY=2\nint8 how 2\n---\n")
-    called = typed(elsewhere, "service", "call", "/paint", "told_shapes/srv/Paint", "{at: {x: 1.0, y: 2.0}}")
+    called = typed("service", "call", "/paint", "told_shapes/srv/Paint", "{at: {x: 1.0, y: 2.0}}", cwd=elsewhere)
     assert called.stdout.endswith("told_shapes.srv.Paint_Response(painted=3.0)\n\n")
-    published = typed(elsewhere, "topic", "pub", "--once", "/wanted", "told_shapes/Spot", "{x: 4.0}")
+    published = typed("topic", "pub", "--once", "/wanted", "told_shapes/Spot", "{x: 4.0}", cwd=elsewhere)
     assert "publishing #1: told_shapes.msg.Spot(x=4.0, y=0.0)" in published.stdout
 
-    wrong = typed(elsewhere, "action", "send_goal", "/draw", "told_shapes/action/Drew")
+    wrong = typed("action", "send_goal", "/draw", "told_shapes/action/Drew", cwd=elsewhere)
     assert (wrong.stdout, wrong.stderr.strip(), wrong.returncode) == ("", "The passed action type is invalid", 1)
-    untrue = typed(elsewhere, "action", "send_goal", "/draw_falsely", "false_shapes/action/Draw")
+    untrue = typed("action", "send_goal", "/draw_falsely", "false_shapes/action/Draw", cwd=elsewhere)
     assert untrue.stdout == "" and untrue.returncode == 1
     assert "/painter describes it by a definition that does not have the hash RIHS01_" in untrue.stderr
 
@@ -183,7 +177,8 @@ def test_panes_show_plot_fill_in_and_call_foreign_types(elsewhere: Path, monkeyp
         form = until(lambda: form_of(traffic, Payload.GOAL, "told_shapes/action/Draw"), "the action")
         assert [each.path for each in form] == ["to", "to.x", "to.y", "how"]
         assert traffic.send_goal("/draw", "told_shapes/action/Draw", {"to.x": "2.5"}).ok
-        until(lambda: "/draw" in traffic.goals() and not traffic.goals()["/draw"].active, "the goal's end")
+        drawn = lambda: (goal := traffic.goals().get("/draw")) and not goal.active and goal.feedback  # noqa: E731
+        until(drawn, "the goal's end and its feedback, which come in any order")
         goal = traffic.goals()["/draw"]
         assert (goal.status, [each.text for each in goal.feedback]) == ("succeeded", ["0.5"])
         assert "2.5" in str(goal.result)

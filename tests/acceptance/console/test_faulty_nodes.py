@@ -8,8 +8,6 @@ from __future__ import annotations
 import os
 import shutil
 import signal
-import subprocess
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -27,6 +25,7 @@ from bot_console.tui.session.embedded.child_host import start_host, why_it_hangs
 from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH, SYSTEM_LAUNCH
 from bot_console.tui.session.launch_host.proxy import HostedLauncher
 from launcher_bench import WAITS
+from processes.typed import typed
 
 TIMEOUT_S = 240.0
 """Seconds after which a test gives up; nothing is measured by it."""
@@ -84,12 +83,6 @@ class System:
         assert typed("topic", "echo", "--once", "/odom", "--field", "header.stamp").returncode == 0
         assert self.named("good").state is ProcessState.RUNNING
         assert self.named("safety_node").restarts == 0
-
-
-def typed(*words: str) -> subprocess.CompletedProcess[str]:
-    """Run a command line in another terminal."""
-    line = [sys.executable, "-m", "bot_console.tui", *words]
-    return subprocess.run(line, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
 
 
 @pytest.fixture(scope="module")

@@ -4,27 +4,21 @@ from __future__ import annotations
 
 import os
 import shutil
-import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from processes.typed import typed
 
 sys.path.insert(0, str(Path(__file__).parent))
-from terminal import TIMEOUT_S, Terminal
+from terminal import Terminal
 
 if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
 CONSOLE = ["-m", "bot_console.tui"]
 SOCKETS = f"/tmp/bct-{os.getpid()}"
-
-
-def typed(*words: str) -> subprocess.CompletedProcess[str]:
-    """Run a command line in another terminal to its end."""
-    line = [sys.executable, *CONSOLE, *words]
-    return subprocess.run(line, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
 
 
 @pytest.fixture(scope="module")

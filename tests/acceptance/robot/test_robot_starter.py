@@ -1,10 +1,10 @@
 """A launch file whose nodes need a robot gets the simulated one beside it; no other launch file does."""
 
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from processes.typed import typed
 
 sys.path.insert(0, str(Path(__file__).parent))
 from headless import headless
@@ -49,8 +49,7 @@ def write(folder, *entities):
 
 def run(folder, *words, seconds="6"):
     words = ("--headless", "--fast", "--duration", seconds, "--launch", "mine.launch.py", *words)
-    line = [sys.executable, "-m", "bot_console.tui", *words]
-    return subprocess.run(line, cwd=folder, capture_output=True, text=True, check=False)
+    return typed(*words, cwd=folder)
 
 
 def test_nodes_that_need_a_robot_drive_ours_reproducibly(tmp_path):
@@ -182,6 +181,5 @@ def test_run_and_launch_verbs_start_no_robot(tmp_path, monkeypatch, words, giver
     (tmp_path / "asks.py").write_text(ASKS.replace("MAX_LOOKS", str(max_looks)))
     node = "Node(executable='./asks.py', output='screen')"
     (tmp_path / "asks.launch.py").write_text(LAUNCH.format(entities=f"[{node}]"))
-    line = [sys.executable, "-m", "bot_console.tui", *words]
-    done = subprocess.run(line, cwd=tmp_path, capture_output=True, text=True, check=False)
+    done = typed(*words, cwd=tmp_path)
     assert f"given by {givers}" in done.stdout + done.stderr, done.stderr

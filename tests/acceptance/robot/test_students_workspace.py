@@ -1,10 +1,10 @@
 """Our robot starts whatever a workspace contains: here, packages with both of its names, with one node each."""
 
-import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from processes.typed import typed
 
 sys.path.insert(0, str(Path(__file__).parent))
 from headless import headless
@@ -78,8 +78,7 @@ def test_users_executable_runs_beside_our_simulator(name, workspace):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_named_package_is_the_workspaces(name, workspace):
-    line = [sys.executable, "-m", "bot_console.tui", "run", name, "safety_node"]
-    done = subprocess.run(line, cwd=workspace, capture_output=True, text=True, check=False)
+    done = typed("run", name, "safety_node", cwd=workspace)
     assert done.returncode == 1
     assert "which has: robot_node" in done.stderr
     assert f"package '{name}' is the one in {workspace / 'src' / name}" in done.stderr

@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 from processes.two_processes import two_processes
+from processes.typed import typed
 
 if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
 
 def complete(*words: str) -> list[str]:
-    line = [sys.executable, "-m", "bot_console.tui", "complete", "bot-console", *words]
-    return subprocess.run(line, capture_output=True, text=True, timeout=240, check=True).stdout.split()
+    done = typed("complete", "bot-console", *words)
+    assert done.returncode == 0
+    return done.stdout.split()
 
 
 def test_running_nodes_topics_services_and_parameters_are_completed(socket_folder: str) -> None:

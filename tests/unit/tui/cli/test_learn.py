@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 from bot_console.tui.cli.learn import run
 from bot_console.tui.cli.lint.run import run as lint
 from bot_console.tui.learn.command_log import open_log, read_log
+from processes.typed import typed
 
 
 def test_list_shows_steps_and_what_the_next_one_misses(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -56,11 +55,11 @@ def test_recorded_exit_code_is_the_one_of_the_process(tmp_path: Path, monkeypatc
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", str(tmp_path))
     log = open_log()
     codes = [
-        subprocess.run([sys.executable, "-m", "bot_console.tui", *words], capture_output=True, check=False).returncode
+        typed(*words).returncode
         for words in (["lint", "--help"], ["lint", "--nonsense"], ["stop", "--help"], ["--version"])
     ]
     assert codes == [0, 2, 0, 0]
     assert [(each.words[0], each.code) for each in read_log(log)] == [("lint", 0), ("lint", 2)]
     os.remove(log)
-    subprocess.run([sys.executable, "-m", "bot_console.tui", "lint", "--help"], capture_output=True, check=False)
+    typed("lint", "--help")
     assert not os.path.exists(log)
