@@ -36,6 +36,7 @@ COLLISION = 2.0
 NEARNESS = 5.0
 """Score penalty per metre of missing clearance, in m/s."""
 DIGITS = 3
+"""Decimals of the values that are tried."""
 
 
 class AutoTune(Node):

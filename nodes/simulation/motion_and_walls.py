@@ -21,8 +21,9 @@ FAR = 5.0
 """Distances in m beyond which obstacles are not searched."""
 NEAR = 0.25
 """Margin (m) added to the last distance for the first search: nothing farther away can arrive within one step."""
-MASS = 10.0
-SLOP = 0.001
+MASS_KG = 10.0
+SLOP_M = 0.001
+"""How far bodies may overlap without being pushed apart."""
 
 
 class Space:
@@ -35,7 +36,7 @@ class Space:
         self._memory = EngineMemory()
         self._space = pymunk.Space()
         self._memory.take(self._space, self._space.static_body)
-        self._space.collision_slop = SLOP
+        self._space.collision_slop = SLOP_M
         self._pointer = pointer(self._space)
         self._kinds: dict[Any, str] = {}
         self._radius = radius
@@ -45,7 +46,7 @@ class Space:
         self._add_still(world)
         for mover in movers:
             self._add(pymunk.Circle(mover.body, mover.mover.radius), "a moving obstacle", mover.body)
-        self._robot = pymunk.Body(MASS, pymunk.moment_for_circle(MASS, 0, radius))
+        self._robot = pymunk.Body(MASS_KG, pymunk.moment_for_circle(MASS_KG, 0, radius))
         hull = pymunk.Circle(self._robot, radius)
         hull.filter = ROBOT
         self._memory.take(self._robot, hull)
@@ -92,7 +93,7 @@ class Space:
         # A step moves bodies first and resolves contacts afterwards, so a velocity set here would pass through walls.
         # As a force it is resolved against them; the heading used is that at the middle of the resulting move.
         heading = self._angle + (turning + 0.5 * angular) * dt
-        push = MASS / dt
+        push = MASS_KG / dt
         force = (linear * math.cos(heading) - velocity.x) * push, (linear * math.sin(heading) - velocity.y) * push
         engine.set_force(body, force)
         engine.set_torque(body, (angular - turning) * self._moment / dt)

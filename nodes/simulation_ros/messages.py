@@ -23,7 +23,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 MAP, ODOM = "map", "odom"
 FULL_TURN = 6.2
 """Fields of view (rad) of at least this size are taken for a full turn."""
-PERSON_HEIGHT = 1.7
+PERSON_HEIGHT_M = 1.7
 
 
 def time_of(nanoseconds: int) -> Time:
@@ -125,8 +125,8 @@ def _cylinder(number: int, row: Floats, stamp: Time) -> Marker:
     marker = Marker(ns="moving", id=number, type=Marker.CYLINDER, action=Marker.ADD)
     marker.header.stamp = stamp
     marker.header.frame_id = MAP
-    marker.pose.position.x, marker.pose.position.y, marker.pose.position.z = x, y, 0.5 * PERSON_HEIGHT
+    marker.pose.position.x, marker.pose.position.y, marker.pose.position.z = x, y, 0.5 * PERSON_HEIGHT_M
     marker.scale.x = marker.scale.y = 2.0 * radius
-    marker.scale.z = PERSON_HEIGHT
+    marker.scale.z = PERSON_HEIGHT_M
     marker.color.r, marker.color.g, marker.color.b, marker.color.a = 0.9, 0.6, 0.1, 1.0
     return marker

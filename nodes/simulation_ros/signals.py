@@ -21,7 +21,7 @@ from sensor_msgs.msg import BatteryState, Imu, JointState
 from tf2_msgs.msg import TFMessage
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-GRAVITY = 9.81
+GRAVITY_M_S2 = 9.81
 FULL_VOLTAGE, EMPTY_VOLTAGE, CAPACITY = 12.6, 11.0, 1.8
 """V, V, Ah: three lithium cells."""
 LASTS = 9000.0
@@ -101,7 +101,7 @@ class Signals:
         message.orientation = quaternion(self._frames.in_odom(simulation.odometry.pose).heading)
         message.angular_velocity.z = simulation.turn_rate
         message.linear_acceleration.x = (simulation.drive.linear - self._speed) / passed if passed else 0.0
-        message.linear_acceleration.z = GRAVITY
+        message.linear_acceleration.z = GRAVITY_M_S2
         return message
 
     def _charge(self, simulation: Simulation, stamp: Time) -> BatteryState:

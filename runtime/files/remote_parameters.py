@@ -31,7 +31,8 @@ SILENCE_TIMEOUT_S = 5.0
 """Seconds without data after which a server counts as unreachable."""
 FETCH_TIMEOUT_S = 15.0
 """The time limit (s) for a whole download."""
-PIECE = 65_536
+READ_BYTES = 65_536
+"""How much is read at once."""
 
 
 class RemoteError(OSError):
@@ -191,7 +192,7 @@ def _content(address: str, answer: Any) -> bytes:
     """Return the body, within the limits of size and time."""
     end = time.monotonic() + FETCH_TIMEOUT_S
     content = b""
-    while piece := answer.read1(PIECE):
+    while piece := answer.read1(READ_BYTES):
         content += piece
         if len(content) > MAX_FILE_BYTES:
             raise RemoteError(f"{address} is larger than {MAX_FILE_BYTES // 1000} kB, which no parameter file is")

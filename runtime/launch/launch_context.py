@@ -5,18 +5,15 @@ from __future__ import annotations
 import asyncio
 import os
 from collections.abc import Iterable, Mapping
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import launch.logging
 from launch.event_queue import EventQueue
 from launch.handler_registry import HandlerRegistry
 from launch.inherited_arguments import Includes
 
-
-class NamedEvent(Protocol):
-    """An event as the queue knows it."""
-
-    name: str
+if TYPE_CHECKING:
+    from launch.event import Event
 
 
 class LaunchContext:
@@ -133,16 +130,16 @@ class LaunchContext:
         """Unregister a handler; raises `ValueError` if it is not registered."""
         self._event_handlers.remove(event_handler)
 
-    def would_handle_event(self, event: NamedEvent) -> bool:
+    def would_handle_event(self, event: Event) -> bool:
         """Whether any handler matches."""
         return bool(self._event_handlers.matching(event))
 
-    def emit_event_sync(self, event: NamedEvent) -> None:
+    def emit_event_sync(self, event: Event) -> None:
         """Put an event into the queue, from the loop's thread."""
         self.__logger.debug("emitting event synchronously: '%s'", event.name)
         self._event_queue.put_nowait(event)
 
-    async def emit_event(self, event: NamedEvent) -> None:
+    async def emit_event(self, event: Event) -> None:
         """Put an event into the queue."""
         self.__logger.debug("emitting event: '%s'", event.name)
         self._event_queue.put_nowait(event)

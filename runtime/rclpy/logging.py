@@ -74,18 +74,18 @@ def get_logging_directory() -> Path:
     return Path(logging_directory())
 
 
-def register_rosout(name: str, show_text: Any) -> None:
+def register_rosout(name: str, publish: Any) -> None:
     """Publish the messages of the logger with that name by a node's publisher."""
     shared = state()
     if name in shared.rosout:
         get_logger("rcl.logging_rosout").warning(_REGISTERED_TWICE.format(name))
         return
-    shared.rosout[name] = show_text
+    shared.rosout[name] = publish
 
 
 def unregister_rosout(name: str) -> None:
     """Stop publishing the messages of the logger with that name and of its children."""
     shared = state()
-    show_text = shared.rosout.get(name)
-    if show_text is not None:
-        forget_rosout(shared, show_text)
+    publish = shared.rosout.get(name)
+    if publish is not None:
+        forget_rosout(shared, publish)

@@ -11,6 +11,7 @@ MAX_NODE_NAME = 255
 MAX_TOPIC_NAME = 247
 MAX_NAMESPACE = 245
 MAX_ENCLAVE = 255
+"""Lengths in characters."""
 
 Problem = tuple[str, int]
 

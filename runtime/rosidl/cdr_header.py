@@ -1,6 +1,7 @@
 """The header of a serialized message, and the error for bytes that are none. Apart, since it costs no generator."""
 
 HEADER_SIZE = 4
+"""In bytes."""
 ORDERS = {0: ">", 1: "<"}
 """Byte order by the second byte of the header."""
 

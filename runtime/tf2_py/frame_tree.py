@@ -9,6 +9,7 @@ from tf2_py.frame_history import FrameHistory
 from tf2_py.rigid import IDENTITY, Rigid, compose, inverse
 
 MAX_DEPTH = 1000
+"""Frames between a frame and the root of its tree; more are taken for a loop."""
 LOOP = "The tf tree is invalid because it contains a loop."
 Find = Callable[[str], FrameHistory | None]
 """Returns the history of a frame; None for one that is nobody's child."""

@@ -18,7 +18,8 @@ from bot_console.runtime.workspace.share import share_folder
 
 IGNORED = frozenset({"build", "install", "log", "node_modules", "__pycache__", "venv", "site-packages"})
 MARKERS = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
-DEPTH = 6
+MAX_DEPTH = 6
+"""Levels of folders below a workspace in which packages are searched for."""
 SOURCED_VARIABLE = "BOT_CONSOLE_WORKSPACE"
 """The workspaces whose `install/setup.bash` a shell has sourced, joined by colons; the last one sourced is first."""
 MAX_FOLDERS = 20_000
@@ -49,7 +50,7 @@ class Workspace:
         found: dict[str, Package] = {}
         budget = [MAX_FOLDERS]
         for folder in self.folders:
-            for each in _package_folders(os.fspath(folder), DEPTH, budget):
+            for each in _package_folders(os.fspath(folder), MAX_DEPTH, budget):
                 package = read_package(Path(each))
                 found.setdefault(package.name, package)
         found.setdefault(NAME, own_package())

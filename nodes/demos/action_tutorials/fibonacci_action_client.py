@@ -11,7 +11,7 @@ from bot_console_demos.running import initialised
 from rclpy.action import ActionClient
 from rclpy.node import Node
 
-ORDER = 10
+SEQUENCE_ORDER = 10
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class Client(Node):
         self._client.wait_for_server()
         if self._words.sending:
             self.get_logger().info(self._words.sending)
-        goal = self._client.send_goal_async(Fibonacci.Goal(order=ORDER), feedback_callback=self._on_feedback)
+        goal = self._client.send_goal_async(Fibonacci.Goal(order=SEQUENCE_ORDER), feedback_callback=self._on_feedback)
         goal.add_done_callback(self._on_answer)
 
     def _report(self, text: str, numbers: Any) -> None:

@@ -23,8 +23,8 @@ class Server(Node):
         return response
 
 
-def _ask(name: str, a: int, b: int, reported: str, args: list[str] | None) -> None:
-    """Wait for the server, call it, log `told` and the sum, and exit."""
+def _ask(name: str, a: int, b: int, prefix: str, args: list[str] | None) -> None:
+    """Wait for the server, call it, log the sum behind `prefix`, and exit."""
     with initialised(args):
         node = rclpy.create_node(name)
         client = node.create_client(AddTwoInts, "add_two_ints")
@@ -36,7 +36,7 @@ def _ask(name: str, a: int, b: int, reported: str, args: list[str] | None) -> No
         if response is None:
             node.get_logger().error(f"service call failed: {answer.exception()}")
         else:
-            node.get_logger().info(f"Result of add_two_ints: {reported}{response.sum}")
+            node.get_logger().info(f"Result of add_two_ints: {prefix}{response.sum}")
 
 
 def serve(args: list[str] | None = None) -> None:

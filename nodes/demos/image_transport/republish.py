@@ -16,6 +16,7 @@ from rclpy.utilities import remove_ros_args
 
 USAGE = "usage: republish [IN_TRANSPORT [OUT_TRANSPORT]] --ros-args -r in:=TOPIC -r out:=TOPIC; transports: {}"
 QUEUE = 10
+"""Messages that a subscription or publisher keeps."""
 
 
 class Republisher(Node):

@@ -13,6 +13,7 @@ from std_srvs.srv import Empty
 from turtlesim.msg import Pose
 
 SIDE = 2.0
+"""Length of a side in m."""
 SPEED, TURN_RATE = 1.0, 0.4
 """m/s, rad/s."""
 NEAR, ALIGNED, AT_REST = 0.1, 0.01, 0.0001

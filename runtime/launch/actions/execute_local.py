@@ -41,7 +41,6 @@ if TYPE_CHECKING:
     from launch.event import Event
     from launch.event_handler import BaseEventHandler
     from launch.events import Shutdown
-    from launch.events.process import ProcessIO, SignalProcess
     from launch.launch_context import LaunchContext
     from launch.launch_description_entity import LaunchDescriptionEntity
     from launch.some_entities_type import SomeEntitiesType

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from launch.condition import Condition
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
-    from launch.launch_context import LaunchContext
     from launch.launch_description import LaunchDescription
     from launch.launch_description_entity import LaunchDescriptionEntity
     from launch.some_substitutions_type import SomeSubstitutionsType

@@ -10,7 +10,6 @@ from launch.event_handlers.on_action_event_base import OnActionEventBase
 from launch.events.execution_complete import ExecutionComplete
 
 if TYPE_CHECKING:
-    from launch.action import Action
     from launch.some_entities_type import SomeEntitiesType
 
 

@@ -10,7 +10,6 @@ from launch.events.process import ProcessIO
 
 if TYPE_CHECKING:
     from launch.action import Action
-    from launch.events.process import ProcessIO
     from launch.launch_context import LaunchContext
     from launch.some_entities_type import SomeEntitiesType
 

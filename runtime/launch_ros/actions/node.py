@@ -29,6 +29,7 @@ from launch_ros.utilities import (
     warn_of_same_name,
 )
 from rclpy.validate_namespace import validate_namespace
+from rclpy.validate_node_name import validate_node_name
 
 if TYPE_CHECKING:
     from launch.frontend.entity import Entity
@@ -199,14 +200,14 @@ class Node(ExecuteProcess):
         try:
             if self.__name is not None:
                 self.__expanded_name = _performed(context, self.__name)
-                _validate_name(self.__expanded_name)
+                validate_node_name(self.__expanded_name)
             own = None if self.__namespace is None else _performed(context, self.__namespace)
             base = context.launch_configurations.get("ros_namespace")
             namespace = make_namespace_absolute(prefix_namespace(base, own))
             if namespace is not None:
                 self.__expanded_namespace = namespace or "/"
                 self._add_words("-r", f"__ns:={self.__expanded_namespace}")
-                _validate_namespace(self.__expanded_namespace)
+                validate_namespace(self.__expanded_namespace)
         except Exception:
             described = (
                 f"package={self.__package}, executable={self.__executable}, name={self.__name}, "
@@ -264,13 +265,3 @@ class Node(ExecuteProcess):
 
 def _performed(context: LaunchContext, text: SomeSubstitutionsType) -> str:
     return perform_substitutions(context, normalize_to_list_of_substitutions(text))
-
-
-def _validate_name(name: str) -> None:
-    from rclpy.validate_node_name import validate_node_name
-
-    validate_node_name(name)
-
-
-def _validate_namespace(namespace: str) -> None:
-    validate_namespace(namespace)

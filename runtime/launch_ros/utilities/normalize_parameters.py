@@ -22,7 +22,7 @@ SCALARS = (bool, int, float, str, bytes)
 def normalize_parameters(parameters: object) -> list[Any]:
     """Return each entry as a normalized dict, a `ParameterFile`, or a `Parameter`; raises `TypeError`."""
     if isinstance(parameters, str) or not isinstance(parameters, Sequence):
-        raise TypeError("Expecting list of parameters, got {parameters}")
+        raise TypeError(f"Expecting list of parameters, got {parameters}")
     given = cast("Sequence[Any]", parameters)
     return [_entry(each) for each in given]
 

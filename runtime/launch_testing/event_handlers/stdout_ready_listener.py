@@ -17,10 +17,10 @@ class StdoutReadyListener(OnProcessIO):
     def __init__(
         self, *, target_action: Action | None = None, ready_txt: str, actions: list[LaunchDescriptionEntity]
     ) -> None:
-        def poll(event: Any) -> Any:
+        def actions_if_ready(event: Any) -> Any:
             return actions if ready_txt in event.text.decode() else None
 
-        super().__init__(target_action=target_action, on_stdout=poll)
+        super().__init__(target_action=target_action, on_stdout=actions_if_ready)
         self.__actions = actions
 
     def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:

@@ -13,6 +13,7 @@ import threading
 from collections.abc import Collection
 
 _SUBREAPER = 36
+"""The number of PR_SET_CHILD_SUBREAPER, see prctl(2)."""
 
 
 def adopt() -> None:

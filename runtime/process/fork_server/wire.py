@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 _LENGTH = struct.Struct("!I")
 MAX_DESCRIPTORS = 8
+"""File descriptors that one message may carry."""
 
 
 def send(connection: socket.socket, data: bytes, descriptors: Sequence[int]) -> None:

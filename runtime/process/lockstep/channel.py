@@ -13,7 +13,7 @@ import struct
 from typing import Any, NamedTuple
 
 _LENGTH = struct.Struct("!I")
-_CHUNK = 1 << 18
+_MAX_READ_BYTES = 1 << 18
 SIGNAL = "signal"
 """The operation (`SIGNAL`, number): the process is sent a signal."""
 
@@ -58,7 +58,7 @@ class Channel:
                     self._rest = rest[end:]
                     return marshal.loads(rest[_LENGTH.size : end])
             try:
-                data = self._connection.recv(_CHUNK)
+                data = self._connection.recv(_MAX_READ_BYTES)
             except ConnectionError:  # it was killed with something unread
                 return None
             if not data:

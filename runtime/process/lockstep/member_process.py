@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from ..stepping.scheduler import ScheduledTask
     from ..stepping.stepped_time import SteppedTime
 
-_CHUNK = 1 << 16
+_MAX_READ_BYTES = 1 << 16
 STOPPED = "T"
 """State of a stopped process, see proc(5)."""
 
@@ -196,7 +196,7 @@ class MemberProcess:
     def _read(self, descriptor: int) -> None:
         reader = self._readers[descriptor]
         try:
-            data = os.read(descriptor, _CHUNK)
+            data = os.read(descriptor, _MAX_READ_BYTES)
         except OSError:  # a terminal whose other end is closed
             data = b""
         if not data:

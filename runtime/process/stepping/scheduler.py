@@ -24,6 +24,7 @@ POLL_NS = 20_000
 INSTANT_WAITS = 50_000
 """Number of waits at one instant after which each costs `POLL_NS`: nodes may keep waking each other for ever."""
 STALE_DEADLINES = 64
+"""Entries that the deadline queue may have beyond four per thread before those of ended waits are dropped."""
 Note = TypeVar("Note")
 SIGNAL_CHECK_S = 0.2
 """How often (s of wall time) a waiting driver checks for real signals: another thread may have received them."""

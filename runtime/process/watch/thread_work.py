@@ -55,13 +55,13 @@ class ThreadWork:
             blocked = state == SLEEPING and self._is_blocked(importing)
         self._blocked = self._blocked + 1 if blocked else 0
 
-    def is_blocked(self, timeout_s: int = 1) -> bool:
+    def is_blocked(self, stalls: int = 1) -> bool:
         """Whether it has been waiting in the kernel for that many stalls."""
-        return self._blocked >= CHECKS_PER_STALL * self._checks_left * timeout_s
+        return self._blocked >= CHECKS_PER_STALL * self._checks_left * stalls
 
-    def is_busy(self, stall_s: float, timeout_s: int = 1) -> bool:
-        """Whether it has computed for long, or imported for very long."""
-        limit = COMPUTING * stall_s * timeout_s
+    def is_busy(self, stall_s: float, stalls: int = 1) -> bool:
+        """Whether it has computed for that many stalls of `stall_s` seconds, or imported for many more."""
+        limit = COMPUTING * stall_s * stalls
         return self._computed >= limit or self._imported >= IMPORTING / COMPUTING * limit
 
     def _is_blocked(self, importing: bool) -> bool:

@@ -34,7 +34,8 @@ if TYPE_CHECKING:
     from rclpy.node import Node
     from rclpy.task import Future
 
-RESULT_TIMEOUT = 900
+RESULT_TIMEOUT_S = 900
+"""How long a result is kept after the end of its goal."""
 MARGIN_NS = 1_000_000
 """The executor wakes by another clock than the one that says whether a result has expired."""
 
@@ -92,7 +93,7 @@ class ActionServer(ActionEntity):
         cancel_service_qos_profile: QoSProfile = qos_profile_services_default,
         feedback_pub_qos_profile: QoSProfile | None = None,
         status_pub_qos_profile: QoSProfile = qos_profile_action_status_default,
-        result_timeout: float = RESULT_TIMEOUT,
+        result_timeout: float = RESULT_TIMEOUT_S,
     ) -> None:
         super().__init__(node, action_type, callback_group)
         self._lock = threading.Lock()

@@ -14,7 +14,7 @@ from rclpy.impl.callback_order import WAITABLE, OrderKey, next_creation, order_k
 
 if TYPE_CHECKING:
     from collections import deque
-    from collections.abc import Callable, Coroutine, Sequence
+    from collections.abc import Callable, Coroutine
 
     from bot_console.runtime.process.clock_source import Wakeup
 

@@ -16,7 +16,7 @@ from rclpy.impl.log_format import Formatter
 if TYPE_CHECKING:
     from bot_console.runtime.rmw.arguments import Arguments
 
-PER_MILLISECOND = 1_000_000
+MS_TO_NS = 1_000_000
 
 
 class LogFile:
@@ -43,7 +43,7 @@ class LogFile:
             os.makedirs(folder, exist_ok=True)
             process = current()
             first = arguments.log_file_name or os.path.basename(sys.executable) or "python3"
-            name = f"{first}_{process.pid}_{process.clock.system_ns() // PER_MILLISECOND}.log"
+            name = f"{first}_{process.pid}_{process.clock.system_ns() // MS_TO_NS}.log"
             self._path = os.path.join(folder, name)
             self._formatter = Formatter.of_environment(enveloped=False)
             self.is_wanted = True

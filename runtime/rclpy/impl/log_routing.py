@@ -64,9 +64,7 @@ class LogState:
             name = name.rpartition(".")[0]
         return self.default or INFO
 
-    def show_text(
-        self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int
-    ) -> None:
+    def write(self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int) -> None:
         """Write a message to `/rosout`, the console and the log file."""
         publish = self.rosout.get(name)
         # First to `/rosout`: the formatted line can say whether that was done.
@@ -95,7 +93,7 @@ def reset() -> None:
     _state.set(LogState(state().log_file))
 
 
-def forget_rosout(found: LogState, show_text: object) -> None:
+def forget_rosout(found: LogState, publish: object) -> None:
     """Remove a publisher of `/rosout` from every logger that uses it."""
-    for name in [name for name, each in found.rosout.items() if each == show_text]:
+    for name in [name for name, each in found.rosout.items() if each == publish]:
         del found.rosout[name]

@@ -112,7 +112,7 @@ class RcutilsLogger:
         if "\0" in message:
             message = message.partition("\0")[0]  # as upstream, where C strings end there
         stamp = current().clock.system_ns()
-        shared.show_text(severity, name, message, code.co_filename, code.co_name, line, stamp)
+        shared.write(severity, name, message, code.co_filename, code.co_name, line, stamp)
         return True
 
 

@@ -21,7 +21,6 @@ from rclpy.node import Node
 if TYPE_CHECKING:
     from rclpy.callback_groups import CallbackGroup
     from rclpy.impl.rcutils_logger import RcutilsLogger
-    from rclpy.node import Node
 
 _SHUTDOWNS = {
     "unconfigured": Transition.TRANSITION_UNCONFIGURED_SHUTDOWN,

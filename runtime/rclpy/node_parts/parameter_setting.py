@@ -172,9 +172,9 @@ class ParameterSetting(NodeEntities):
         parameters: Sequence[Parameter],
         descriptors: dict[str, ParameterDescriptor] | None,
         keep_not_set: bool,
-        reported: Callable[[Parameter], Any],
+        convert: Callable[[Parameter], Any],
     ) -> ParameterEvent:
-        """Store the values; returns the event made of `told(parameter)` for each."""
+        """Store the values; returns the event made of `convert(parameter)` for each."""
         stored = self._parameters
         new: list[ParameterMsg] = []
         changed: list[ParameterMsg] = []
@@ -184,14 +184,14 @@ class ParameterSetting(NodeEntities):
             if parameter._type_ is NOT_SET and not keep_not_set:
                 stored.pop(name, None)
                 self._descriptors.pop(name, None)
-                deleted.append(reported(parameter))
+                deleted.append(convert(parameter))
                 continue
             if descriptors is not None:
                 self._descriptors[name] = descriptors[name]
             elif name not in self._descriptors:
                 self._descriptors[name] = ParameterDescriptor(dynamic_typing=True)
             before = stored.get(name)
-            (new if before is None or before._type_ is NOT_SET else changed).append(reported(parameter))
+            (new if before is None or before._type_ is NOT_SET else changed).append(convert(parameter))
             stored[name] = parameter
         return parameter_event(self._ros_event_node_name, self._clock._now_ns(), new, changed, deleted)
 

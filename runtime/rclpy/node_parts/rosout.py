@@ -41,11 +41,9 @@ class Rosout:
         self._name = node.get_logger().name
         self.publisher = node.create_publisher(Log, "/rosout", ROSOUT)
         self._endpoint = self.publisher._endpoint
-        logging.register_rosout(self._name, self._show_text)
+        logging.register_rosout(self._name, self._publish)
 
-    def _show_text(
-        self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int
-    ) -> bool:
+    def _publish(self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int) -> bool:
         message = self._log()
         # Bypasses the properties and their checks, which the logger's own values do not need: this runs for each line.
         stamp = message._stamp

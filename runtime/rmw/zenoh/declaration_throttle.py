@@ -10,7 +10,9 @@ AT_ONCE = 1000
 DECLARATIONS_PER_PAUSE = 20
 """Declarations between two pauses."""
 PAUSE_S = 0.005
-"""Length of a pause, in seconds: as long as `EACH` declarations take, which leaves half of a processor to others."""
+"""Length of a pause, in seconds: as long as the declarations between two take, which leaves half of a processor to
+others.
+"""
 QUIET_S = 0.1
 """Seconds without a declaration after which `AT_ONCE` may be made without a pause again."""
 

@@ -59,7 +59,7 @@ class Declaration:
         self._session.forget(self)
 
     def take_back(self) -> None:
-        """Undeclare the Zenoh entity, retrying for up to `LENT_FOR` while another thread is sending with it."""
+        """Undeclare the Zenoh entity, retrying for `UNDECLARE_TIMEOUT_S` while another thread is sending with it."""
         until = time.monotonic() + UNDECLARE_TIMEOUT_S
         while time.monotonic() < until:
             try:

@@ -35,7 +35,7 @@ class GraphCache:
     ) -> None:
         """With `known` all existing tokens are taken in at once; `refused` is called with a new key that is no token.
 
-        Without a key nothing is declared: an existing watch calls `saw`, and `set_watch` takes the `Look` that does so.
+        Without a key nothing is declared: an existing watch calls `saw`, and is given to `set_watch`.
         """
         self._refused = refused
         self._own = session.zid
@@ -46,9 +46,9 @@ class GraphCache:
         if key is not None:
             self._declared = watch_all(session, key, self.saw, known) if known else session.watch_tokens(key, self.saw)
 
-    def set_watch(self, poll: TopicWatch) -> None:
+    def set_watch(self, watch: TopicWatch) -> None:
         """Set the watch that reports these tokens."""
-        self._declared = poll
+        self._declared = watch
 
     def saw(self, key: str, came: bool) -> None:
         """A token appeared or disappeared; ignores keys that are no valid token, and tokens of this session."""
@@ -125,7 +125,7 @@ class Watches:
                 else:
                     self._single[kind] += 1
         if serving:
-            seen.set_watch(serving.poll(topic, seen.saw))
+            seen.set_watch(serving.watch(topic, seen.saw))
         seen.listen(listener)
         return seen
 

@@ -48,7 +48,7 @@ class KindWatch:
         self._rows: dict[str, TopicTokens] = {}
         self._watch = session.watch_tokens(tokens_of_kind(session.domain, kind), self._saw, apart=True)
 
-    def poll(self, topic: str, seen: TokenCallback) -> TopicWatch:
+    def watch(self, topic: str, seen: TokenCallback) -> TopicWatch:
         """Call back for each token of a topic that exists, appears or disappears.
 
         Must not be called with a lock held that the removal of a node takes: it may wait for a watcher that is being

@@ -20,7 +20,7 @@ all queries as if they were answered.
 """
 PING_TIMEOUT_S = 10.0
 """Timeout of a ping, in seconds; on a full link an answer comes late, but still counts."""
-FIRST_PING_S, LATER = 0.001, 0.02
+FIRST_PING_S, PING_POLL_S = 0.001, 0.02
 """Polling intervals, in seconds: shortly after a ping, and later."""
 
 Answer = Callable[[], "bool | None"]
@@ -75,7 +75,7 @@ class LinkProbe:
         since = self._clock() - self._asked
         if not self._open:
             return max(FIRST_PING_S, PING_PERIOD_S - since)
-        return FIRST_PING_S if since < LATER else LATER
+        return FIRST_PING_S if since < PING_POLL_S else PING_POLL_S
 
     def _ask_if_due(self) -> None:
         if self._clock() - self._asked >= PING_PERIOD_S:

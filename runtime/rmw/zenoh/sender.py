@@ -93,7 +93,7 @@ class Sender:
             self._thread.start()
 
     def _is_emptied(self, timeout_s: float) -> bool:
-        """Wait until the queue is sent, at most `patience` (s); return whether it was."""
+        """Wait until the queue is sent, at most `timeout_s`; return whether it was."""
         with self._lock:
             if not self._queue:
                 return True
@@ -135,7 +135,7 @@ class Sender:
             self._wake.acquire()
 
     def end(self, timeout_s: float) -> bool:
-        """Stop the thread once the queue is sent, waiting at most `patience` (s); return whether it was sent."""
+        """Stop the thread once the queue is sent, waiting at most `timeout_s`; return whether it was sent."""
         with self._lock:
             self._ended = True
             if self._waits:

@@ -17,7 +17,8 @@ from ros2cli.verbs.topic_pub import POSITIVE_FLOAT
 from rosidl_runtime_py import message_to_csv, message_to_yaml
 from rosidl_runtime_py.utilities import get_message
 
-TRUNCATE = 128
+MAX_SHOWN = 128
+"""Elements or characters that are shown by default."""
 
 
 def unsigned(text: str) -> int:
@@ -44,8 +45,8 @@ def add_form_arguments(parser: argparse.ArgumentParser) -> None:
         "--truncate-length",
         "-l",
         type=unsigned,
-        default=TRUNCATE,
-        help=f"The length to truncate arrays, bytes, and string to (default: {TRUNCATE})",
+        default=MAX_SHOWN,
+        help=f"The length to truncate arrays, bytes, and string to (default: {MAX_SHOWN})",
     )
     parser.add_argument("--no-arr", action="store_true", help="Don't print array fields of messages")
     parser.add_argument("--no-str", action="store_true", help="Don't print string fields of messages")

@@ -18,6 +18,7 @@ from ros2cli.verbs.topic_echo import message_filter
 
 WINDOW = 10_000
 BYTES_WINDOW = 100
+"""Messages over which is measured by default, and those of `bw`."""
 SECOND_NS = 1_000_000_000
 
 

@@ -189,6 +189,11 @@ def test_parameter_entries_may_be_dicts_files_or_parameters(tmp_path: Path) -> N
     assert (parameter.name, parameter.value) == ("a", 1)
 
 
+def test_parameters_that_are_no_list_are_refused_with_what_was_given():
+    with pytest.raises(TypeError, match=r"Expecting list of parameters, got params\.yaml"):
+        normalize_parameters("params.yaml")
+
+
 def test_allow_substs_evaluates_substitutions_in_a_file(tmp_path: Path) -> None:
     context = LaunchContext()
     context.launch_configurations["x"] = "7"

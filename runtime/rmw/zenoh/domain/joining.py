@@ -84,7 +84,7 @@ def _opened(folder: str) -> int:
 
 
 def _taken(handle: int, timeout_s: float) -> bool:
-    """Try to get the lock for up to `patience` (s); return whether it was acquired."""
+    """Try to get the lock for up to `timeout_s`; return whether it was acquired."""
     deadline, pause = time.monotonic() + timeout_s, POLL
     while True:
         if try_lock(handle):

@@ -34,7 +34,7 @@ LINK_TIMEOUT_S = 15.0
 are made in the background.
 
 Of two processes the one with the higher id waits twice as long, so that only one of them reopens its session; and each
-doubles its wait after every reopening, up to `LONGEST_GRACE`.
+doubles its wait after every reopening, up to `MAX_TIMEOUT_FACTOR` times.
 """
 
 MAX_TIMEOUT_FACTOR = 8.0

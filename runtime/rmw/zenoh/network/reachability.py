@@ -15,6 +15,7 @@ TIMEOUT_S = 3.0
 """Timeout of each step, in seconds."""
 ENCRYPTED = ("tls", "quic", "wss")
 PORT = 7447
+"""The port of a Zenoh router."""
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ import struct
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
 from xxhash import xxh3_64_intdigest, xxh3_128_intdigest
 
-GID_SIZE = 16
+GID_BYTES = 16
 _LAYOUT = struct.Struct("<qqB16s")
 _FIELDS = struct.Struct("<qqx16s")
 """The same layout, skipping the length of the id."""
@@ -32,14 +32,14 @@ Attachment = tuple[int, int, bytes]
 
 def gid_of(token: str) -> bytes:
     """Return an entity's id: a hash of its liveliness token."""
-    return xxh3_128_intdigest(token.encode()).to_bytes(GID_SIZE, "little")
+    return xxh3_128_intdigest(token.encode()).to_bytes(GID_BYTES, "little")
 
 
 def pack(number: int, time_ns: int, gid: bytes, payload: bytes | None = None) -> bytes:
     """Return the attachment as bytes; sealed if a payload is given."""
     if payload is None:
-        return _LAYOUT.pack(number, time_ns, GID_SIZE, gid)
-    return _SEALED_LAYOUT.pack(number, time_ns, GID_SIZE, gid, _SEAL, _hash(payload))
+        return _LAYOUT.pack(number, time_ns, GID_BYTES, gid)
+    return _SEALED_LAYOUT.pack(number, time_ns, GID_BYTES, gid, _SEAL, _hash(payload))
 
 
 def unpack(data: bytes | None, payload: bytes | None = None) -> Attachment:
@@ -53,11 +53,11 @@ def unpack(data: bytes | None, payload: bytes | None = None) -> Attachment:
     size = len(data)
     if size == _SEALED_SIZE:
         number, time_ns, gid_size, gid, mark, seal = _SEALED_LAYOUT.unpack(data)
-        if gid_size == GID_SIZE and mark == _SEAL:
+        if gid_size == GID_BYTES and mark == _SEAL:
             if payload is not None and seal != _hash(payload):
                 raise FormatError("it is not what was sent: the link to its sender broke during transmission")
             return number, time_ns, gid
-    if size != _LAYOUT.size or data[16] != GID_SIZE:
+    if size != _LAYOUT.size or data[16] != GID_BYTES:
         if data.startswith(_OLD):
             raise FormatError("the sender's rmw_zenoh is too old (before Jazzy 0.2.4, Humble 0.1.2): update it")
         # Without the bytes, which differ between messages: a report meant to appear once would appear for each message.

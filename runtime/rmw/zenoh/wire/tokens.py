@@ -13,6 +13,7 @@ Kind = Literal["NN", "MP", "MS", "SS", "SC"]
 
 NODE_PARTS = 9
 ENTITY_PARTS = 13
+"""The parts between slashes, of the token of a node and of those of other entities."""
 SPACE = "@ros2_lv"
 DEFAULT_QOS = WireQos()
 KINDS: tuple[str, ...] = get_args(Kind)

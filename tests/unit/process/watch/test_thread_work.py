@@ -91,7 +91,7 @@ def test_long_computation_is_busy_and_an_import_only_after_longer(machine):
     machine.state = "R"
     assert not machine.poll(10, seconds=1.0).is_busy(1.0)
     assert machine.poll(1).is_busy(1.0)
-    assert not machine.work.is_busy(1.0, timeout_s=2)
+    assert not machine.work.is_busy(1.0, stalls=2)
     other = machine.work = ThreadWork(7, 7)
     machine.importing = True
     assert not machine.poll(IMPORTING, seconds=1.0).is_busy(1.0)

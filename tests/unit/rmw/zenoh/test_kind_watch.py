@@ -68,7 +68,7 @@ def test_listener_hears_existing_new_and_leaving_tokens_of_its_topic_only(watch,
     report(there, True)
     report(other, True)
     heard: Heard = []
-    watch.poll("/a/b", hears(heard))
+    watch.watch("/a/b", hears(heard))
     report(later, True)
     report(other, False)
     report(there, False)
@@ -78,9 +78,9 @@ def test_listener_hears_existing_new_and_leaving_tokens_of_its_topic_only(watch,
 
 def test_ended_listener_hears_nothing_and_new_one_hears_what_exists(watch, report):
     heard: Heard = []
-    first = watch.poll("/t", hears([]))
+    first = watch.watch("/t", hears([]))
     report(token("/t"), True)
-    again = watch.poll("/t", hears(heard))
+    again = watch.watch("/t", hears(heard))
     first.undeclare()  # late: another listener has replaced it
     report(token("/t", 2), True)
     again.undeclare()
@@ -89,13 +89,13 @@ def test_ended_listener_hears_nothing_and_new_one_hears_what_exists(watch, repor
 
 
 def test_tokens_that_left_or_are_unwatched_are_not_kept(watch, report):
-    poll = watch.poll("/watched", hears([]))
+    watched = watch.watch("/watched", hears([]))
     for came in (True, False):
         report(token("/t"), came)
         report(token("/watched"), came)
     report("@ros2_lv/0/ab/0/1/MP", True)  # not a token of the format
     assert list(watch._rows) == ["%watched"]
-    poll.undeclare()
+    watched.undeclare()
     assert not watch._rows
 
 
