@@ -6,7 +6,6 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from rclpy.node import Node
-from rclpy.qos import QoSProfile
 
 if TYPE_CHECKING:
     from bot_console.runtime.rosidl.message import Message
@@ -31,15 +30,18 @@ class SimpleFilter:
 
 
 class Subscriber(SimpleFilter):
-    """Passes on the messages of a topic: `Subscriber(node, type, topic, **options of create_subscription)`."""
+    """Passes on the messages of a topic: `Subscriber(node, type, topic, **options of create_subscription)`.
+
+    As upstream's, it raises `TypeError` for a quality of service that is not given by its name, `qos_profile`.
+    """
 
     def __init__(self, node: Node, msg_type: type[Message], topic: str, *args: Any, **kwargs: Any) -> None:
         super().__init__()
         self.node = node
         self.topic = topic
-        if not args:
-            kwargs.setdefault("qos_profile", QoSProfile(depth=10))
-        self.sub = node.create_subscription(msg_type, topic, self.callback, *args, **kwargs)
+        kwargs.setdefault("qos_profile", 10)
+        create: Any = node.create_subscription
+        self.sub = create(msg_type, topic, *args, self.callback, **kwargs)
 
     def callback(self, msg: object) -> None:
         """Receive a message."""
@@ -59,35 +61,41 @@ class Subscriber(SimpleFilter):
 class Chain(SimpleFilter):
     """A sequence of filters: each message passes through all of them."""
 
-    def __init__(self, *filters: object) -> None:
+    def __init__(self, message_filter: SimpleFilter | None = None) -> None:
         super().__init__()
-        self.filters: list[Any] = []
-        for each in filters:
-            self.addFilter(each)
+        self.incoming_connection: int | None = None
+        self._filters: list[Any] = []
+        if message_filter is not None:
+            self.connectInput(message_filter)
 
-    def addFilter(self, new_filter: Any) -> int:
-        """Append a filter; returns its index."""
-        if self.filters:
-            self.filters[-1].registerCallback(new_filter.add)
-        self.filters.append(new_filter)
-        place = len(self.filters)
-        new_filter.registerCallback(lambda *msg: self._out(place, *msg))
-        return place - 1
+    def connectInput(self, message_filter: SimpleFilter) -> None:
+        """Connect to the output of another filter; raises `RuntimeError` for a second one."""
+        if self.incoming_connection is not None:
+            raise RuntimeError("Already connected")
+        self.incoming_connection = message_filter.registerCallback(self.add)
+
+    def addFilter(self, message_filter: Any) -> None:
+        """Append a filter."""
+        if self._filters:
+            self._filters[-1].registerCallback(message_filter.add)
+        self._filters.append(message_filter)
+        place = len(self._filters)
+        message_filter.registerCallback(lambda *msg: self._out(place, *msg))
 
     def _out(self, place: int, *msg: object) -> None:
         """Pass on the output of the filter that is now the last one."""
-        if place == len(self.filters):
+        if place == len(self._filters):
             self.signalMessage(*msg)
 
     def getFilter(self, index: int) -> Any:
-        """Return the filter with this index, None if there is none."""
-        return self.filters[index] if 0 <= index < len(self.filters) else None
+        """Return the filter with this index; raises `KeyError` if there is none."""
+        if not 0 <= index < len(self._filters):
+            raise KeyError(index)
+        return self._filters[index]
 
-    def connectInput(self, input_filter: Any) -> None:
-        """Connect to the output of another filter."""
-        input_filter.registerCallback(self.add)
-
-    def add(self, *msg: object) -> None:
-        """Add a message."""
-        if self.filters:
-            self.filters[0].add(*msg)
+    def add(self, msg: object) -> None:
+        """Add a message; without filters it is passed on."""
+        if self._filters:
+            self._filters[0].add(msg)
+        else:
+            self.signalMessage(msg)

@@ -77,8 +77,9 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
             return
         with self.lock:
             self._keep(stamp.nanoseconds, msg, my_queue)
-            mine = next(index for index, queue in enumerate(self.queues) if queue is my_queue)
-            self._pass_on(stamp.nanoseconds, mine)
+            if stamp.nanoseconds in my_queue:  # unless it was the oldest one of a full queue
+                mine = next(index for index, queue in enumerate(self.queues) if queue is my_queue)
+                self._pass_on(stamp.nanoseconds, mine)
 
     def _pass_on(self, stamp: int, mine: int) -> None:
         """Pass on the set of messages around a new one whose times are closest, if there is one."""

@@ -14,12 +14,16 @@ from rclpy.time import Time
 from tf2_py import descriptions
 from tf2_py.exceptions import InvalidArgumentException, LookupException, TransformException
 from tf2_py.frame_history import DIGEST_AFTER, Entry, FrameHistory, Unread
-from tf2_py.frame_tree import latest_common_time, transform
-from tf2_py.rigid import IDENTITY, Rigid, compose
+from tf2_py.frame_tree import LOOP, LoopError, latest_common_time, transform
+from tf2_py.rigid import IDENTITY, Rigid, compose, unit_quaternion
 
 DEFAULT_CACHE_TIME = Duration(seconds=10)
 NORM_TOLERANCE = 1e-2
 """How far the length of a rotation quaternion may be from 1."""
+OLD_DATA = (
+    "TF_OLD_DATA ignoring data from the past for frame {child} at time {time:.6f} according to authority {authority}\n"
+    "Possible reasons are listed at http://wiki.ros.org/tf/Errors%20explained"
+)
 _EMPTY = TransformStamped()
 
 
@@ -33,11 +37,12 @@ class BufferCore:
     def __init__(self, cache_time: Duration | None = None) -> None:
         self._keep = (cache_time or DEFAULT_CACHE_TIME).nanoseconds
         self._histories: dict[str, FrameHistory] = {}
-        self._parents: set[str] = set()
+        self._names: dict[str, None] = {}  # all frames in the order in which they became known
 
     def clear(self) -> None:
-        """Forget all transforms that are not static."""
-        self._histories = {name: each for name, each in self._histories.items() if each.is_static}
+        """Forget all transforms that are not static; their frames stay known."""
+        for each in list(self._histories.values()):
+            each.clear()
 
     def set_transform(self, transform: TransformStamped, authority: str) -> None:
         """Add a transform; an invalid one is ignored, and the log says why."""
@@ -82,11 +87,10 @@ class BufferCore:
             if history is None or history.is_static != is_static:
                 read = partial(self._read, child)
                 history = self._histories[child] = FrameHistory(self._keep, is_static, read)
-            self._parents.add(parent)
-            problem = history.insert(entry)
-            if problem:
-                when = f"at time {stamp / S_TO_NS:.6f} according to authority {authority}"
-                problem += f" for frame {child} (parent {parent}) {when}"
+            self._names.setdefault(child)
+            self._names.setdefault(parent)
+            if not history.insert(entry):
+                problem = OLD_DATA.format(child=child, time=stamp / S_TO_NS, authority=authority)
         if problem:
             get_logger("tf2_buffer").warning(problem)
 
@@ -96,7 +100,7 @@ class BufferCore:
 
     def lookup_transform_core(self, target_frame: str, source_frame: str, time: Time) -> TransformStamped:
         """Return the transform that takes points of `source_frame` to `target_frame` at a time."""
-        stamp, place = self._look_up(target_frame, source_frame, nanoseconds_of(time), "lookupTransform")
+        stamp, place = self._look_up(target_frame, source_frame, nanoseconds_of(time))
         return _message(target_frame, source_frame, stamp, place)
 
     def lookup_transform_full_core(
@@ -105,79 +109,109 @@ class BufferCore:
         """Return the transform from `source_frame` at one time to `target_frame` at another, via a frame that is
         fixed.
         """
+        self._check(target_frame, "lookupTransform argument target_frame")
+        self._check(source_frame, "lookupTransform argument source_frame")
         self._check(fixed_frame, "lookupTransform argument fixed_frame")
-        _, first = self._look_up(fixed_frame, source_frame, nanoseconds_of(source_time), "lookupTransform")
-        stamp, second = self._look_up(target_frame, fixed_frame, nanoseconds_of(target_time), "lookupTransform")
+        _, first = self._look_up(fixed_frame, source_frame, nanoseconds_of(source_time))
+        stamp, second = self._look_up(target_frame, fixed_frame, nanoseconds_of(target_time))
         return _message(target_frame, source_frame, stamp, compose(second, first))
 
-    def can_transform_core(self, target_frame: str, source_frame: str, time: Time) -> tuple[bool, str]:
-        """Return whether `lookup_transform_core` would succeed, and why not."""
-        try:
-            self._look_up(target_frame, source_frame, nanoseconds_of(time), "canTransform")
-        except TransformException as error:
-            return False, str(error)
-        return True, ""
+    def can_transform_core(self, target_frame: str, source_frame: str, time: Time) -> tuple[int, str]:
+        """Return 1 if `lookup_transform_core` would succeed, else 0, and why not."""
+        stamp = nanoseconds_of(time)
+        if target_frame == source_frame:
+            return 1, ""
+        return self._possible({"target": target_frame, "source": source_frame}, (target_frame, source_frame, stamp))
 
     def can_transform_full_core(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
-    ) -> tuple[bool, str]:
-        """Return whether `lookup_transform_full_core` would succeed, and why not."""
+    ) -> tuple[int, str]:
+        """Return 1 if `lookup_transform_full_core` would succeed, else 0, and why not."""
+        frames = {"target": target_frame, "source": source_frame, "fixed": fixed_frame}
+        to_target = target_frame, fixed_frame, nanoseconds_of(target_time)
+        return self._possible(frames, to_target, (fixed_frame, source_frame, nanoseconds_of(source_time)))
+
+    def _possible(self, frames: dict[str, str], *lookups: tuple[str, str, int]) -> tuple[int, str]:
+        """Check frames by their roles, then lookups; upstream answers with 1 and 0 where a truth value is expected."""
+        for role, frame in frames.items():
+            if problem := self._flaw(frame):
+                return 0, f'Invalid frame ID "{frame}" passed to canTransform argument {role}_frame - {problem}'
         try:
-            self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
+            for each in lookups:
+                self._look_up(*each)
         except TransformException as error:
-            return False, str(error)
-        return True, ""
+            return 0, str(error)
+        return 1, ""
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Time:
         """Return the newest time at which the path between two frames is known."""
-        self._check(target_frame, "getLatestCommonTime argument target_frame")
-        self._check(source_frame, "getLatestCommonTime argument source_frame")
-        return Time(nanoseconds=latest_common_time(self._histories.get, target_frame, source_frame))
+        self._check(target_frame, "get_latest_common_time")
+        self._check(source_frame, "get_latest_common_time")
+        if target_frame == source_frame:
+            return Time(nanoseconds=self._latest(target_frame))
+        try:
+            return Time(nanoseconds=latest_common_time(self._histories.get, target_frame, source_frame))
+        except TransformException as error:
+            raise TransformException(str(error)) from None  # upstream's is of no particular class
 
     def all_frames_as_string(self) -> str:
         """Return all frames with their parents, one per line."""
-        return descriptions.as_string(dict(self._histories))
+        return descriptions.as_string(self._in_order())
 
     def all_frames_as_yaml(self) -> str:
         """Return all frames with parent, broadcaster, rate and times, as YAML."""
-        return descriptions.as_yaml(dict(self._histories))
+        return descriptions.as_yaml(self._in_order())
+
+    def _in_order(self) -> dict[str, FrameHistory]:
+        histories = dict(self._histories)
+        return {name: histories[name] for name in list(self._names) if name in histories}
 
     def _frameExists(self, frame_id: str) -> bool:
-        return frame_id in self._histories or frame_id in self._parents
+        return frame_id in self._names
 
     def _getFrameStrings(self) -> list[str]:
-        return sorted({*self._histories, *self._parents})
+        return list(self._names)
 
-    def _allFramesAsDot(self, current_time: float = 0.0) -> str:
-        return descriptions.as_dot(dict(self._histories))
+    def _allFramesAsDot(self, time: object = None) -> str:
+        now = 0 if time is None else nanoseconds_of(time)
+        return descriptions.as_dot(self._in_order(), list(self._names), now)
+
+    def _flaw(self, frame: str) -> str:
+        """Return what is wrong with a frame's name, in upstream's words; nothing for a known frame."""
+        if not frame:
+            return "in tf2 frame_ids cannot be empty"
+        if frame[0] == "/":
+            return "in tf2 frame_ids cannot start with a '/'"
+        return "" if frame in self._names else "frame does not exist"
 
     def _check(self, frame: str, where: str) -> None:
         """Raise for an invalid or unknown frame name."""
-        if not frame:
-            raise InvalidArgumentException(
-                f"Invalid argument passed to {where} in tf2 frame_ids cannot be empty",
-            )
-        if frame[0] == "/":
-            raise InvalidArgumentException(
-                f"Invalid argument \"{frame}\" passed to {where} in tf2 frame_ids cannot start with a '/'"
-            )
-        if frame not in self._histories and frame not in self._parents:
+        problem = self._flaw(frame)
+        if problem.startswith("in"):
+            raise InvalidArgumentException(f'Invalid argument "{frame}" passed to {where} - {problem}')
+        if problem:
             raise LookupException(f'"{frame}" passed to {where} does not exist. ')
 
-    def _look_up(self, target: str, source: str, time: int, what: str) -> tuple[int, Rigid]:
-        """Return time (ns) and transform; `what` is the function named in an error message."""
+    def _latest(self, frame: str) -> int:
+        """Return the time (ns) of a frame's newest transform; 0 if it has none or a static one."""
+        history = self._histories.get(frame)
+        latest = None if history is None else history.latest()
+        return latest[0] if latest else 0
+
+    def _look_up(self, target: str, source: str, time: int) -> tuple[int, Rigid]:
+        """Return time (ns) and transform; a frame relative to itself need not be known."""
+        if target == source:
+            return time or self._latest(target), IDENTITY
         histories = self._histories
         if target not in histories:
-            self._check(target, f"{what} argument target_frame")
+            self._check(target, "lookupTransform argument target_frame")
         if source not in histories:
-            self._check(source, f"{what} argument source_frame")
-        find = histories.get
-        if target == source:
-            history = find(target)
-            latest = None if history is None else history.latest()
-            return time or (latest[0] if latest else 0), IDENTITY
-        time = time or latest_common_time(find, target, source)
-        return time, transform(find, target, source, time)
+            self._check(source, "lookupTransform argument source_frame")
+        try:
+            time = time or latest_common_time(histories.get, target, source)
+            return time, transform(histories.get, target, source, time)
+        except LoopError:
+            raise LookupException(f"{LOOP}\n{self.all_frames_as_string()}\n") from None
 
 
 def nanoseconds_of(time: Any) -> int:
@@ -227,5 +261,6 @@ def _message(target: str, source: str, time: int, place: Rigid) -> TransformStam
     stamp = header._stamp
     stamp._sec, stamp._nanosec = divmod(time, S_TO_NS)
     move, turn = transform._translation, transform._rotation
-    move._x, move._y, move._z, turn._x, turn._y, turn._z, turn._w = place
+    move._x, move._y, move._z = place[:3]
+    turn._x, turn._y, turn._z, turn._w = unit_quaternion(*place[3:])
     return message

@@ -46,26 +46,30 @@ class FrameHistory:
         for each in waiting:
             self._read(each)
 
-    def insert(self, entry: Entry) -> str | None:
-        """Add a transform; return why not if it is too old or repeats a known time."""
+    def clear(self) -> None:
+        """Forget all transforms, unless the frame is static."""
+        if not self.is_static:
+            self._stamps, self.waiting, self.entries = [], [], []
+
+    def insert(self, entry: Entry) -> bool:
+        """Add a transform; return whether it is recent enough. Of several with one time, the last one counts."""
         if self.is_static:
             self.entries, self._stamps = [entry], [0]
-            return None
+            return True
         stamps = self._stamps
         stamp = entry[0]
         if not stamps or stamp > stamps[-1]:
             stamps.append(stamp)
             self.entries.append(entry)
             self._prune()
-            return None
+            return True
         if stamp < stamps[-1] - self._keep:
-            return "TF_OLD_DATA ignoring data from the past"
-        place = bisect_left(stamps, stamp)
-        if stamps[place] == stamp:
-            return "TF_REPEATED_DATA ignoring data with redundant timestamp"
-        stamps.insert(place, stamp)
-        self.entries.insert(place, entry)
-        return None
+            return False
+        first, place = bisect_left(stamps, stamp), bisect_right(stamps, stamp)
+        if all(entry[:3] != each[:3] for each in self.entries[first:place]):
+            stamps.insert(place, stamp)
+            self.entries.insert(place, entry)
+        return True
 
     def _prune(self) -> None:
         """Drop many old entries at once, as removing from the front of a list takes time proportional to its length."""

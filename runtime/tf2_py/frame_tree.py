@@ -11,6 +11,12 @@ from tf2_py.rigid import IDENTITY, Rigid, compose, inverse
 MAX_DEPTH = 1000
 """Frames between a frame and the root of its tree; more are taken for a loop."""
 LOOP = "The tf tree is invalid because it contains a loop."
+
+
+class LoopError(LookupException):
+    """The frames form a loop."""
+
+
 Find = Callable[[str], FrameHistory | None]
 """Returns the history of a frame; None for one that is nobody's child."""
 
@@ -21,7 +27,7 @@ def transform(find: Find, target: str, source: str, time: int) -> Rigid:
     Raises `ConnectivityException`, `ExtrapolationException` and, for a loop, `LookupException`.
     """
     above: dict[str, Rigid] = {source: IDENTITY}
-    problem = ""
+    problem: str | None = None
     frame, place = source, IDENTITY
     while frame != target and (history := find(frame)) is not None:
         try:
@@ -30,30 +36,30 @@ def transform(find: Find, target: str, source: str, time: int) -> Rigid:
             problem = str(error)
             break
         if frame in above:
-            raise LookupException(LOOP)
+            raise LoopError(LOOP)
         above[frame] = place = step if place is IDENTITY else compose(step, place)
     if frame == target:
         return place
     return _down(find, above, target, source, time, problem)
 
 
-def _down(find: Find, above: dict[str, Rigid], target: str, source: str, time: int, problem: str) -> Rigid:
+def _down(find: Find, above: dict[str, Rigid], target: str, source: str, time: int, problem: str | None) -> Rigid:
     frame, place = target, IDENTITY
     for _ in range(MAX_DEPTH):
         if frame in above:
             return compose(inverse(place), above[frame])
         history = find(frame)
-        if history is None and not problem:
+        if history is None and problem is None:
             raise ConnectivityException(unconnected(target, source))
         try:
             if history is None:
-                raise LookupError(problem)
+                raise LookupError(problem or "")
             frame, step = history.at(time)
         except LookupError as error:
             words = f"{error}, when looking up transform from frame [{source}] to frame [{target}]"
             raise ExtrapolationException(words) from None
         place = step if place is IDENTITY else compose(step, place)
-    raise LookupException(LOOP)
+    raise LoopError(LOOP)
 
 
 def latest_common_time(find: Find, target: str, source: str) -> int:
@@ -75,7 +81,7 @@ def latest_common_time(find: Find, target: str, source: str) -> int:
         frame = latest[1]
         if frame in above:
             return _older(newest, above[frame])
-    raise LookupException(LOOP)
+    raise LoopError(LOOP)
 
 
 def _ancestors(find: Find, frame: str, up_to: str) -> dict[str, int]:
@@ -85,7 +91,7 @@ def _ancestors(find: Find, frame: str, up_to: str) -> dict[str, int]:
     while frame != up_to and (history := find(frame)) is not None and (latest := history.latest()) is not None:
         time, frame = latest
         if frame in above:
-            raise LookupException(LOOP)
+            raise LoopError(LOOP)
         above[frame] = newest = _older(newest, time)
     return above
 

@@ -80,3 +80,33 @@ def interpolate(first: Rigid, second: Rigid, ratio: float) -> Rigid:
         left * az + right * bz,
         left * aw + right * bw,
     )
+
+
+def unit_quaternion(x: float, y: float, z: float, w: float) -> tuple[float, float, float, float]:
+    """Return a rotation as upstream's lookups do, which pass it through a matrix: of unit length, and with that sign
+    for which `w` is positive, or in a turn of more than 120 degrees the greatest of the others.
+    """
+    scale = 2.0 / (x * x + y * y + z * z + w * w)
+    xs, ys, zs = x * scale, y * scale, z * scale
+    wx, wy, wz, xx, xy, xz, yy, yz, zz = w * xs, w * ys, w * zs, x * xs, x * ys, x * zs, y * ys, y * zs, z * zs
+    diagonal = 1.0 - (yy + zz), 1.0 - (xx + zz), 1.0 - (xx + yy)
+    trace = sum(diagonal)
+    if trace > 0.0:
+        root = math.sqrt(trace + 1.0)
+        half = 0.5 / root
+        return (
+            ((yz + wx) - (yz - wx)) * half,
+            ((xz + wy) - (xz - wy)) * half,
+            ((xy + wz) - (xy - wz)) * half,
+            root * 0.5,
+        )
+    sums = xy * 2.0, yz * 2.0, xz * 2.0
+    turns = wx * 2.0, wy * 2.0, wz * 2.0
+    great = diagonal.index(max(diagonal))
+    root = math.sqrt(diagonal[great] - diagonal[(great + 1) % 3] - diagonal[(great + 2) % 3] + 1.0)
+    half = 0.5 / root
+    parts = [0.0, 0.0, 0.0]
+    parts[great] = root * 0.5
+    parts[(great + 1) % 3] = sums[great] * half
+    parts[(great + 2) % 3] = sums[(great + 2) % 3] * half
+    return parts[0], parts[1], parts[2], turns[great] * half

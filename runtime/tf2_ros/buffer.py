@@ -7,14 +7,14 @@ import time as wall
 from collections.abc import Callable
 
 from geometry_msgs.msg import TransformStamped
-from rclpy.clock import ClockChange, JumpHandle, JumpThreshold, TimeJump
+from rclpy.clock import Clock, ClockChange, JumpHandle, JumpThreshold, TimeJump
 from rclpy.duration import Duration
 from rclpy.logging import get_logger
 from rclpy.node import Node
 from rclpy.task import Future
 from rclpy.time import Time
 from tf2_msgs.srv import FrameGraph
-from tf2_py import BufferCore, LookupException, TransformException
+from tf2_py import BufferCore, TransformException
 from tf2_ros.buffer_interface import NOW, BufferInterface
 
 TRANSFORM_POLL_S = 0.02
@@ -94,7 +94,7 @@ class Buffer(BufferCore, BufferInterface):
         """Return the transform that takes points of `source_frame` to `target_frame` at a time; waits up to
         `timeout`.
         """
-        if timeout is not NOW and timeout.nanoseconds:
+        if timeout is not NOW and timeout != NOW:
             self.can_transform(target_frame, source_frame, time, timeout)
         return self.lookup_transform_core(target_frame, source_frame, time)
 
@@ -115,7 +115,7 @@ class Buffer(BufferCore, BufferInterface):
         """Return the transform from `source_frame` at one time to `target_frame` at another, via a frame that is
         fixed.
         """
-        if timeout.nanoseconds:
+        if timeout != NOW:
             self.can_transform_full(target_frame, target_time, source_frame, source_time, fixed_frame, timeout)
         return self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
 
@@ -133,8 +133,10 @@ class Buffer(BufferCore, BufferInterface):
         time: Time,
         timeout: Duration = NOW,
         return_debug_tuple: bool = False,
-    ) -> bool | tuple[bool, str]:
-        """Return whether `lookup_transform` would succeed within the timeout; with the reason, if that is requested."""
+    ) -> int | tuple[int, str]:
+        """Return whether `lookup_transform` would succeed within the timeout, as 1 or 0; with the reason, if that is
+        requested.
+        """
         answer = _waited(lambda: self.can_transform_core(target_frame, source_frame, time), timeout)
         return answer if return_debug_tuple else answer[0]
 
@@ -147,7 +149,7 @@ class Buffer(BufferCore, BufferInterface):
         fixed_frame: str,
         timeout: Duration = NOW,
         return_debug_tuple: bool = False,
-    ) -> bool | tuple[bool, str]:
+    ) -> int | tuple[int, str]:
         """Return whether `lookup_transform_full` would succeed within the timeout."""
         answer = _waited(
             lambda: self.can_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame),
@@ -155,30 +157,36 @@ class Buffer(BufferCore, BufferInterface):
         )
         return answer if return_debug_tuple else answer[0]
 
-    def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Time) -> Future[bool]:
-        """Return a future that is done when `lookup_transform` would succeed."""
-        return self._when(lambda: self.can_transform_core(target_frame, source_frame, time)[0])
+    def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Time) -> Future[TransformStamped]:
+        """Return a future with the transform, done when it is known."""
+        return self._when(
+            lambda: self.can_transform_core(target_frame, source_frame, time),
+            lambda: self.lookup_transform_core(target_frame, source_frame, time),
+        )
 
     def wait_for_transform_full_async(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
-    ) -> Future[bool]:
-        """Return a future that is done when `lookup_transform_full` would succeed."""
+    ) -> Future[TransformStamped]:
+        """Return a future with the transform between two times, done when it is known."""
+        arguments = target_frame, target_time, source_frame, source_time, fixed_frame
         return self._when(
-            lambda: self.can_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)[0]
+            lambda: self.can_transform_full_core(*arguments), lambda: self.lookup_transform_full_core(*arguments)
         )
 
-    def _when(self, is_so: Callable[[], bool]) -> Future[bool]:
-        future: Future[bool] = Future()
-        if is_so():
-            future.set_result(True)
+    def _when(
+        self, ask: Callable[[], tuple[int, str]], look_up: Callable[[], TransformStamped]
+    ) -> Future[TransformStamped]:
+        future: Future[TransformStamped] = Future()
+        if ask()[0]:
+            future.set_result(look_up())
             return future
 
         def poll_again() -> None:
             try:
-                if not future.done() and is_so():
-                    future.set_result(True)
+                if not future.done() and ask()[0]:
+                    future.set_result(look_up())
             except TransformException as error:
-                future.set_exception(LookupException(f"Failed to transform: {error}"))
+                future.set_exception(error)
 
         with self._callbacks_lock:
             self._new_data_callbacks.append(poll_again)
@@ -186,11 +194,13 @@ class Buffer(BufferCore, BufferInterface):
         return future
 
 
-def _waited(ask: Callable[[], tuple[bool, str]], timeout: Duration) -> tuple[bool, str]:
+def _waited(ask: Callable[[], tuple[int, str]], timeout: Duration) -> tuple[int, str]:
     """Poll until the answer is positive or the time is over, and return the answer."""
     answer = ask()
-    deadline = wall.monotonic() + timeout.nanoseconds / 1e9
-    while not answer[0] and wall.monotonic() < deadline:
-        wall.sleep(TRANSFORM_POLL_S)
-        answer = ask()
+    if not answer[0] and timeout != NOW:
+        clock = Clock()
+        deadline = clock.now() + timeout
+        while not answer[0] and clock.now() < deadline:
+            wall.sleep(TRANSFORM_POLL_S)
+            answer = ask()
     return answer

@@ -161,7 +161,7 @@ class BufferInterface:
 
     def can_transform(
         self, target_frame: str, source_frame: str, time: Time, timeout: Duration = NOW
-    ) -> bool | tuple[bool, str]:
+    ) -> int | tuple[int, str]:
         """Return whether `lookup_transform` would succeed."""
         raise NotImplementedException
 
@@ -173,6 +173,6 @@ class BufferInterface:
         source_time: Time,
         fixed_frame: str,
         timeout: Duration = NOW,
-    ) -> bool | tuple[bool, str]:
+    ) -> int | tuple[int, str]:
         """Return whether `lookup_transform_full` would succeed."""
         raise NotImplementedException

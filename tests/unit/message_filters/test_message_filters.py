@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import itertools
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from message_filters import ApproximateTimeSynchronizer, Cache, Chain, SimpleFilter, TimeSynchronizer
+from message_filters import ApproximateTimeSynchronizer, Cache, Chain, SimpleFilter, Subscriber, TimeSynchronizer
 from rclpy.clock_type import ClockType
 from rclpy.time import Time
 from sensor_msgs.msg import JointState
@@ -118,12 +118,41 @@ def test_cache_returns_messages_by_time() -> None:
 
 def test_chain_passes_on_the_output_of_its_last_filter() -> None:
     source = SimpleFilter()
-    chain = Chain(Cache(cache_size=2), Cache(cache_size=5))
-    chain.connectInput(source)
+    chain = Chain(source)
     passed = heard(chain)
     source.signalMessage(message(1.0))
-    assert passed == [[1.0]]
-    assert isinstance(chain.getFilter(1), Cache)
+    chain.addFilter(Cache(SimpleFilter(), 2))
+    chain.addFilter(last := Cache(SimpleFilter(), 5))
+    source.signalMessage(message(2.0))
+    assert passed == [[1.0], [2.0]]
+    assert chain.getFilter(1) is last
+    with pytest.raises(KeyError):
+        chain.getFilter(2)
+    with pytest.raises(RuntimeError, match="Already connected"):
+        chain.connectInput(SimpleFilter())
+
+
+def test_late_message_that_its_full_queue_drops_is_not_passed_on() -> None:
+    one, two = SimpleFilter(), SimpleFilter()
+    sets = heard(ApproximateTimeSynchronizer([one, two], 1, 0.5))
+    two.signalMessage(message(1.0))
+    one.signalMessage(message(5.0))
+    one.signalMessage(message(1.0))
+    assert sets == []
+
+
+def test_subscriber_takes_the_quality_of_service_by_its_name_only() -> None:
+    taken: list[Any] = []
+
+    class Node:
+        def create_subscription(self, msg_type: type, topic: str, callback: Any, qos_profile: Any) -> None:
+            taken.append((msg_type, topic, qos_profile))
+
+    Subscriber(cast("Any", Node()), String, "a")
+    Subscriber(cast("Any", Node()), String, "b", qos_profile=3)
+    assert taken == [(String, "a", 10), (String, "b", 3)]
+    with pytest.raises(TypeError, match="got multiple values for argument 'qos_profile'"):
+        Subscriber(cast("Any", Node()), String, "c", 3)
 
 
 def test_stamp_may_be_a_time_object_or_a_message() -> None:

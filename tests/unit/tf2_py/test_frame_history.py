@@ -16,7 +16,7 @@ def entry(time: int, parent: str = "map") -> Entry:
 def history(*entries: Entry, is_static: bool = False) -> FrameHistory:
     found = FrameHistory(KEEP, is_static, lambda unread: found.insert(entry(unread[0])) and None)
     for each in entries:
-        assert found.insert(each) is None
+        assert found.insert(each)
     return found
 
 
@@ -28,18 +28,25 @@ def x_at(found: FrameHistory, time: int) -> float:
     return found.at(time)[1][0]
 
 
-def test_late_entries_are_sorted_in_and_duplicates_ignored() -> None:
+def test_late_entries_are_sorted_in() -> None:
     found = history(entry(100), entry(300), entry(200))
     assert [x_at(found, time) for time in (100, 150, 200, 300, 0)] == [100.0, 150.0, 200.0, 300.0, 300.0]
-    for again in (200, 300):
-        assert found.insert(entry(again)) == "TF_REPEATED_DATA ignoring data with redundant timestamp"
     assert found.latest() == (300, "map")
+
+
+@pytest.mark.parametrize("time", [200, 300])
+def test_last_one_of_several_entries_with_one_time_counts(time: int) -> None:
+    found = history(entry(200), entry(300), entry(time))
+    assert len(found.entries) == 2
+    assert found.insert((time, "odom", (7.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0), "you"))
+    assert found.at(time) == ("odom", (7.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0))
+    assert found.latest() == (300, "odom" if time == 300 else "map")
 
 
 @pytest.mark.parametrize(("time", "refused"), [(1000, False), (999, True)])
 def test_entries_older_than_the_history_are_refused(time: int, refused: bool) -> None:
     found = history(entry(2000))
-    assert (found.insert(entry(time)) == "TF_OLD_DATA ignoring data from the past") is refused
+    assert found.insert(entry(time)) is not refused
 
 
 @pytest.mark.parametrize(

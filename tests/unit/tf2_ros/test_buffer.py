@@ -17,6 +17,7 @@ from tf2_ros import (
     ExtrapolationException,
     InvalidArgumentException,
     LookupException,
+    TransformException,
     TypeException,
 )
 
@@ -70,6 +71,13 @@ def test_frame_relative_to_itself_has_its_newest_time(buffer: Buffer) -> None:
     assert buffer.lookup_transform("odom", "odom", Time()).header.stamp.sec == 3
     assert buffer.lookup_transform("odom", "odom", at(2)).header.stamp.sec == 2
     assert buffer.lookup_transform("map", "map", Time()).header.stamp == Time().to_msg()
+    assert buffer.get_latest_common_time("odom", "odom") == Time(seconds=3)
+
+
+@pytest.mark.parametrize("name", ["nobody", "", "/odom"])
+def test_frame_relative_to_itself_need_not_be_known(buffer: Buffer, name: str) -> None:
+    assert buffer.lookup_transform(name, name, at(2)).transform.rotation.w == 1.0
+    assert buffer.can_transform(name, name, at(2), return_debug_tuple=True) == (1, "")
 
 
 def test_clear_keeps_static_transforms(buffer: Buffer) -> None:
@@ -77,13 +85,83 @@ def test_clear_keeps_static_transforms(buffer: Buffer) -> None:
     assert buffer.can_transform("base", "laser", at(9)) and not buffer.can_transform("map", "odom", at(2))
 
 
+def test_frames_stay_known_when_the_buffer_is_cleared(buffer: Buffer) -> None:
+    buffer.clear()
+    with pytest.raises(ConnectivityException, match="Could not find a connection between 'map' and 'odom'"):
+        buffer.lookup_transform("map", "odom", Time())
+    with pytest.raises(ExtrapolationException, match=r"^, when looking up transform from frame \[odom\]"):
+        buffer.lookup_transform("map", "odom", at(2))
+
+
 def test_every_lookup_rejects_unknown_frames(buffer: Buffer) -> None:
-    with pytest.raises(LookupException, match='"x" passed to lookupTransform argument fixed_frame does not exist'):
-        buffer.lookup_transform_full("map", at(2), "odom", at(2), "x")
-    for names, which in ((("x", "map"), "target_frame"), (("map", "x"), "source_frame")):
-        with pytest.raises(LookupException, match=f"passed to getLatestCommonTime argument {which} does not exist"):
-            buffer.get_latest_common_time(*names)
-    assert buffer.can_transform("map", "odom", at(2), return_debug_tuple=True) == (True, "")
+    for names in (("x", "odom", "map"), ("map", "x", "odom"), ("map", "odom", "x")):
+        target, source, fixed = names
+        role = ("target", "source", "fixed")[names.index("x")]
+        with pytest.raises(
+            LookupException, match=f'"x" passed to lookupTransform argument {role}_frame does not exist'
+        ):
+            buffer.lookup_transform_full(target, at(2), source, at(2), fixed)
+        answer = buffer.can_transform_full(target, at(2), source, at(2), fixed, return_debug_tuple=True)
+        assert answer == (
+            0,
+            f'Invalid frame ID "x" passed to canTransform argument {role}_frame - frame does not exist',
+        )
+    for frames in (("x", "map"), ("map", "x")):
+        with pytest.raises(LookupException, match='"x" passed to get_latest_common_time does not exist'):
+            buffer.get_latest_common_time(*frames)
+    assert buffer.can_transform("map", "odom", at(2), return_debug_tuple=True) == (1, "")
+
+
+@pytest.mark.parametrize(
+    ("name", "problem"),
+    [
+        ("x", "frame does not exist"),
+        ("", "in tf2 frame_ids cannot be empty"),
+        ("/map", "in tf2 frame_ids cannot start with a '/'"),
+    ],
+)
+def test_can_transform_says_which_frame_is_invalid(buffer: Buffer, name: str, problem: str) -> None:
+    for frames, role in (((name, "odom"), "target"), (("odom", name), "source")):
+        words = f'Invalid frame ID "{name}" passed to canTransform argument {role}_frame - {problem}'
+        assert buffer.can_transform(*frames, Time(), return_debug_tuple=True) == (0, words)
+
+
+def test_latest_common_time_of_unconnected_frames_is_an_error_of_no_particular_class(buffer: Buffer) -> None:
+    with pytest.raises(TransformException, match="Could not find a connection") as caught:
+        buffer.get_latest_common_time("map", "palm")
+    assert type(caught.value) is TransformException
+
+
+def test_loop_is_described_with_all_frames() -> None:
+    buffer = Buffer()
+    for parent, child in (("a", "b"), ("b", "a"), ("x", "y")):
+        buffer.set_transform(frame(parent, child, 1.0), "me")
+    with pytest.raises(LookupException) as caught:
+        buffer.lookup_transform("x", "a", at(1))
+    assert str(caught.value) == (
+        "The tf tree is invalid because it contains a loop.\n"
+        "Frame b exists with parent a.\nFrame a exists with parent b.\nFrame y exists with parent x.\n\n"
+    )
+
+
+@pytest.mark.parametrize(
+    ("turn", "looked_up"),
+    [
+        ((0.0, 0.0, 0.0, -1.0), (0.0, 0.0, 0.0, 1.0)),
+        ((0.0, 0.0, -0.6, -0.8), (0.0, 0.0, 0.6, 0.8)),
+        ((0.0, -1.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0)),
+        ((0.0, 0.0, -0.96, 0.28), (0.0, 0.0, 0.96, -0.28)),
+        ((-0.8, 0.6, 0.0, 0.0), (0.8, -0.6, 0.0, 0.0)),
+        ((0.0, 0.0, 0.0, 1.004), (0.0, 0.0, 0.0, 1.0)),
+    ],
+)
+def test_rotations_have_unit_length_and_upstreams_sign(turn: tuple[float, ...], looked_up: tuple[float, ...]) -> None:
+    buffer, message = Buffer(), frame("a", "b", 1.0)
+    for axis, value in zip("xyzw", turn, strict=True):
+        setattr(message.transform.rotation, axis, value)
+    buffer.set_transform(message, "me")
+    found = buffer.lookup_transform("a", "b", Time()).transform.rotation
+    assert (found.x, found.y, found.z, found.w) == pytest.approx(looked_up, abs=1e-12)
 
 
 REFUSALS: list[tuple[tuple[Any, ...], type[Exception], str]] = [
@@ -113,13 +191,13 @@ REFUSALS: list[tuple[tuple[Any, ...], type[Exception], str]] = [
     (
         ("", "map", at(0)),
         InvalidArgumentException,
-        "Invalid argument passed to lookupTransform argument target_frame in tf2 frame_ids cannot be empty",
+        'Invalid argument "" passed to lookupTransform argument target_frame - in tf2 frame_ids cannot be empty',
     ),
     (
         ("/map", "odom", at(0)),
         InvalidArgumentException,
-        'Invalid argument "/map" passed to lookupTransform argument target_frame in tf2 frame_ids cannot start with '
-        "a '/'",
+        'Invalid argument "/map" passed to lookupTransform argument target_frame - in tf2 frame_ids cannot start '
+        "with a '/'",
     ),
 ]
 
@@ -131,7 +209,7 @@ def test_failed_lookups_raise_upstreams_errors(
     with pytest.raises(kind) as caught:
         buffer.lookup_transform(*question)
     assert str(caught.value) == words
-    assert buffer.can_transform(*question) is False
+    assert buffer.can_transform(*question) == 0
 
 
 def test_single_transform_is_valid_at_its_time_only() -> None:
@@ -168,7 +246,7 @@ def test_full_lookup_goes_between_two_times_via_a_fixed_frame(buffer: Buffer) ->
     assert found.header.stamp.sec == 3
     assert buffer.can_transform_full("odom", at(3), "odom", at(1), "map")
     answer = buffer.can_transform_full("odom", at(9), "odom", at(1), "map", return_debug_tuple=True)
-    assert answer[0] is False and answer[1].startswith("Lookup would require extrapolation into the future.")
+    assert answer[0] == 0 and answer[1].startswith("Lookup would require extrapolation into the future.")
 
 
 @pytest.mark.parametrize(
@@ -199,18 +277,24 @@ def test_quaternion_norm_has_upstreams_tolerance(
     message.transform.rotation.w = 0.0
     setattr(message.transform.rotation, axis, length)
     buffer.set_transform(message, "me")
-    assert buffer.can_transform("a", "b", Time()) is taken
+    assert bool(buffer.can_transform("a", "b", Time())) is taken
     numbers = " ".join(f"{length if each == axis else 0.0:f}" for each in "xyzw")
     words = f"because of an invalid quaternion in the transform ({numbers})"
     assert (words in capfd.readouterr().err) is not taken
 
 
-def test_repeated_transform_is_ignored_with_a_message(capfd: pytest.CaptureFixture[str], buffer: Buffer) -> None:
+def test_later_one_of_two_transforms_with_one_time_counts(buffer: Buffer) -> None:
     buffer.set_transform(frame("map", "odom", 3.0, 9.0), "you")
-    assert place(buffer.lookup_transform("map", "odom", Time()))[0] == 3.0
+    assert place(buffer.lookup_transform("map", "odom", Time()))[0] == 9.0
+
+
+def test_transform_older_than_the_buffer_is_ignored_with_a_message(capfd: pytest.CaptureFixture[str]) -> None:
+    buffer = Buffer()
+    for second in (20.0, 5.0):
+        buffer.set_transform(frame("map", "odom", second), "you")
     assert (
-        "TF_REPEATED_DATA ignoring data with redundant timestamp for frame odom (parent map) at time 3.000000 "
-        "according to authority you"
+        "TF_OLD_DATA ignoring data from the past for frame odom at time 5.000000 according to authority you\n"
+        "Possible reasons are listed at http://wiki.ros.org/tf/Errors%20explained"
     ) in capfd.readouterr().err
 
 

@@ -60,7 +60,7 @@ def test_future_is_done_when_the_transform_arrives(node: Node, serve: Serve) -> 
     buffer.set_transform(frame("map", "base", 1.0), "me")
     assert not future.done()
     buffer.set_transform(frame("map", "base", 3.0), "me")
-    assert future.done() and future.result() is True
+    assert future.done() and place(future.result()) == place(buffer.lookup_transform("map", "base", Time(seconds=2)))
     assert buffer.wait_for_transform_async("map", "base", Time()).done()
     buffer.set_transform(frame("map", "base", 4.0), "me")
     assert buffer._new_data_callbacks == []
@@ -90,7 +90,9 @@ def test_lookup_waits_until_its_timeout() -> None:
     timer = threading.Timer(0.05, lambda: buffer.set_transform(frame("map", "base", 1.0, 3.0), "me"))
     timer.start()
     assert place(buffer.lookup_transform("map", "base", Time(), timeout=Duration(seconds=20))) == (3.0, 0.0, 0.0)
-    assert buffer.can_transform("map", "moon", Time(), return_debug_tuple=True)[1].startswith('"moon" passed to')
+    assert buffer.can_transform("map", "moon", Time(), return_debug_tuple=True)[1].startswith('Invalid frame ID "moon"')
+    with pytest.raises(TypeError):
+        buffer.lookup_transform("map", "moon", Time(), timeout=1.0)  # type: ignore[arg-type] -- a usual mistake
 
 
 def test_tf2_frames_service_returns_the_tree(node: Node, serve: Serve) -> None:
