@@ -71,6 +71,14 @@ class Gate:
                 return
         query()
 
+    def run_when_open(self, work: Callable[[], object]) -> None:
+        """Do something in the console's executor, now or as soon as the system is reached, as `when_open`."""
+
+        async def run() -> None:
+            work()
+
+        self.when_open(lambda: self.run(run, lambda why: None, changes=False))
+
     def run(
         self, work: Callable[[], Coroutine[Any, Any, T]], refused: Callable[[str], T], *, changes: bool = True
     ) -> Future[T]:

@@ -45,7 +45,7 @@ class ElementRows(RowList):
     def row(self, index: int, width: int) -> list[Segment]:
         """Index and value."""
         digits = len(str(max(0, len(self.elements) - 1)))
-        dim = self.part_style("row-list--dim")
+        dim = self.row_style("dim")
         return [Segment(f" {index:>{digits}}  ", dim), Segment(sanitize(element_text(self.elements[index])))]
 
 

@@ -53,8 +53,8 @@ class SlotRows(RowList):
         slot = self.slots[index]
         longest = max(2 * each.depth + cell_len(each.name) for each in self.slots) + 4
         names = min(longest, max(8, width // 2))
-        dim = self.part_style("row-list--dim")
-        strong = self.part_style("row-list--strong")
+        dim = self.row_style("dim")
+        strong = self.row_style("strong")
         typed = slot.path in self.typed
         name = cut(f"{'● ' if typed else '  '}{'  ' * slot.depth}{sanitize(slot.name)}", names, pad=True)
         value = cut(f"{sanitize(slot.text)}{' ' + slot.unit if slot.unit and slot.text else ''}", max(0, width - names))
@@ -83,7 +83,7 @@ class ReplyRows(RowList):
     def row(self, index: int, width: int) -> list[Segment]:
         """Name and value."""
         field = self.fields[index]
-        dim = self.part_style("row-list--dim")
+        dim = self.row_style("dim")
         name = f" {'  ' * field.depth}{sanitize(field.name)}: "
         return [Segment(name, dim), Segment(sanitize(f"{field.text} {field.unit if field.text else ''}"))]
 

@@ -27,8 +27,8 @@ class OptionRows(ItemList[Option]):
         """One option."""
         option = self.rows[index]
         chosen = index == self.cursor
-        style = self.part_style("row-list--strong" if chosen else "row-list--plain")
-        dim = self.part_style("row-list--dim")
+        style = self.row_style("strong" if chosen else "plain")
+        dim = self.row_style("dim")
         return [
             Segment(f"{'▸' if chosen else ' '} {sanitize(option.title)}  ", style),
             Segment(sanitize(option.about), dim),

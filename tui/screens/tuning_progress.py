@@ -51,9 +51,9 @@ class SettingRows(RowList):
     def row(self, index: int, width: int) -> list[Segment]:
         """Rank, score, values, and what happened."""
         each = self.rows[index]
-        dim = self.part_style("row-list--dim")
-        warn = self.part_style("row-list--warn")
-        strong = self.part_style("row-list--strong")
+        dim = self.row_style("dim")
+        warn = self.row_style("warn")
+        strong = self.row_style("strong")
         score = f"{each.score:9.3f}" if math.isfinite(each.score) else "   failed"
         segments = [Segment(f"{score}  ", strong if index == 0 else None)]
         values = (value_text(value) for value in each.setting)

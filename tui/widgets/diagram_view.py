@@ -15,7 +15,7 @@ from bot_console.tui.widgets.diagram.flow_chart.model import Chart
 from bot_console.tui.widgets.diagram.graph import Digraph
 from bot_console.tui.widgets.diagram.listing import Listing, draw_listing
 from bot_console.tui.widgets.diagram.overview_map import Window, map_lines, map_size, seen
-from bot_console.tui.widgets.placeholder import NO_PLACEHOLDER, Placeholder, placeholder_lines
+from bot_console.tui.widgets.placeholder import WithPlaceholder, placeholder_lines
 from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
@@ -37,7 +37,7 @@ MARGIN_CELLS = 2
 """Cells kept free around the selected item when the picture is scrolled to it."""
 
 
-class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[reportIncompatibleMethodOverride] -- Textual's own
+class DiagramView(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  # pyright: ignore[reportIncompatibleMethodOverride] -- Textual's own
     """Shows a graph. Arrow keys select an item in that direction, linked items first."""
 
     BINDINGS = keymap.bindings("diagram")
@@ -77,15 +77,6 @@ class DiagramView(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[
     }
 
     EMPTY: ClassVar[Digraph] = Digraph()
-    placeholder = NO_PLACEHOLDER
-    """The text that is shown while nothing is drawn."""
-
-    def show_placeholder(self, placeholder: Placeholder) -> None:
-        """Change the text that is shown while nothing is drawn."""
-        if placeholder != self.placeholder:
-            self.placeholder = placeholder
-            self.refresh()
-
     selected: reactive[str] = reactive("", init=False)
     """The id of the selected item; empty if there is none."""
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from functools import lru_cache
+from itertools import groupby
 from typing import ClassVar, TypeAlias
 
 from bot_console.tui.terminal.styling import StyledByPart
-from bot_console.tui.widgets.placeholder import NO_PLACEHOLDER, Placeholder, placeholder_lines
+from bot_console.tui.widgets.placeholder import WithPlaceholder, placeholder_lines
 from rich.cells import cell_len
 from rich.segment import Segment
 from rich.style import Style
@@ -27,7 +28,12 @@ MAX_REDRAWN_CELLS = 10
 """Number of cells that cost about as much to draw as a cursor move over them."""
 
 
-class Picture(StyledByPart):
+def merged_line(cells: Iterable[Piece]) -> Line:
+    """Cells as a line, in which neighbours of the same style are one piece."""
+    return tuple(("".join(text for text, _ in run), style) for style, run in groupby(cells, lambda each: each[1]))
+
+
+class Picture(StyledByPart, WithPlaceholder):
     """Shows styled lines; `Picture.STYLES` are the style names that their pieces may use."""
 
     STYLES: ClassVar[tuple[str, ...]] = (
@@ -59,15 +65,6 @@ class Picture(StyledByPart):
     def __init__(self, *, id: str | None = None) -> None:
         super().__init__(id=id)
         self.lines: Sequence[Line] = ()
-
-    placeholder = NO_PLACEHOLDER
-    """The text that is shown while there are no lines."""
-
-    def show_placeholder(self, placeholder: Placeholder) -> None:
-        """Change the text that is shown while there are no lines."""
-        if placeholder != self.placeholder:
-            self.placeholder = placeholder
-            self.refresh()
 
     def set_lines(self, lines: Sequence[Line]) -> None:
         """Show these lines, redrawing only the cells that have changed."""

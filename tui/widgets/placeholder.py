@@ -7,6 +7,7 @@ from textwrap import wrap
 from typing import NamedTuple
 
 from bot_console.tui.text.sanitize import sanitize
+from textual.widget import Widget
 
 MARGIN_COLUMNS = 2
 """Columns left free on both sides."""
@@ -25,6 +26,18 @@ class Placeholder(NamedTuple):
 
 NO_PLACEHOLDER = Placeholder()
 FILTERED_OUT = Placeholder("Nothing matches the filter.", (("esc", "Clear the filter"), ("/", "Change it")))
+
+
+class WithPlaceholder(Widget):
+    """A widget that draws a placeholder while it has nothing else to show."""
+
+    placeholder = NO_PLACEHOLDER
+
+    def show_placeholder(self, placeholder: Placeholder) -> None:
+        """Change the placeholder."""
+        if placeholder != self.placeholder:
+            self.placeholder = placeholder
+            self.refresh()
 
 
 def placeholder_lines(placeholder: Placeholder, width: int, height: int) -> Sequence[Line]:

@@ -7,7 +7,7 @@ from typing import ClassVar
 from bot_console.tui import keymap
 from bot_console.tui.console.query import Query
 from bot_console.tui.terminal.styling import StyledByPart
-from bot_console.tui.widgets.placeholder import NO_PLACEHOLDER, Placeholder, placeholder_lines
+from bot_console.tui.widgets.placeholder import WithPlaceholder, placeholder_lines
 from rich.segment import Segment
 from rich.style import Style
 from textual.events import Click
@@ -23,7 +23,7 @@ UNCUT_CELLS = 1000
 """Cells that a row is given when it is searched, so that nothing is cut off."""
 
 
-class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[reportIncompatibleMethodOverride] -- Textual's own
+class RowList(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  # pyright: ignore[reportIncompatibleMethodOverride] -- Textual's own
     """Rows with a cursor. Subclasses define `row_count` and `row(index, width)`."""
 
     BINDINGS = keymap.bindings("list")
@@ -58,14 +58,6 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
 
     _by_person = False
     """Whether the user is moving the cursor."""
-    placeholder = NO_PLACEHOLDER
-    """The text that is shown while there are no rows."""
-
-    def show_placeholder(self, placeholder: Placeholder) -> None:
-        """Change the text that is shown while there are no rows."""
-        if placeholder != self.placeholder:
-            self.placeholder = placeholder
-            self.refresh()
 
     def row_count(self) -> int:
         """The number of rows."""
@@ -74,6 +66,10 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
     def row(self, index: int, width: int) -> list[Segment]:
         """The segments of a row; the list pads them to the width (cells) or truncates them with an ellipsis."""
         raise NotImplementedError
+
+    def row_style(self, name: str) -> Style:
+        """The style of a segment by its name, such as `dim`; see `COMPONENT_CLASSES`."""
+        return self.part_style(f"row-list--{name}")
 
     @property
     def across(self) -> int:
@@ -127,13 +123,13 @@ class RowList(ScrollView, StyledByPart, can_focus=True):  # pyright: ignore[repo
         lines = placeholder_lines(self.placeholder, width, self.size.height) if not self.row_count() else ()
         if y >= len(lines):
             return Strip.blank(width, base)
-        styles = {"": base, "dim": self.part_style("row-list--dim"), "key": self.part_style("row-list--head")}
+        styles = {"": base, "dim": self.row_style("dim"), "key": self.row_style("head")}
         segments = [Segment(text, base + styles[name]) for text, name in lines[y]]
         return Strip(segments).adjust_cell_length(width, base)
 
     def _chosen(self, style: Style | None, cursor: Style) -> Style:
         """The cursor's style for a segment; warnings keep their colour."""
-        loud = (self.part_style(f"row-list--{each}").color for each in LOUD)
+        loud = (self.row_style(each).color for each in LOUD)
         return cursor + Style(color=style.color) if style and style.color and style.color in loud else cursor
 
     def watch_cursor(self, before: int, after: int) -> None:

@@ -78,8 +78,8 @@ class NodeGraph:
         """Check which nodes respond while a requester wants it, as soon as the system is reached."""
         self._requesters = self._requesters - {requester} | ({requester} if on else set[str]())
 
-        async def watch() -> None:
+        def watch() -> None:
             if self._watch is not None:
                 self._watch.watch_nodes(bool(self._requesters))
 
-        self._gate.when_open(lambda: self._gate.run(watch, lambda why: None, changes=False))
+        self._gate.run_when_open(watch)

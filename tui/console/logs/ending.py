@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from bot_console.tui.console.model import ProcessInfo
+from bot_console.tui.console.model import ProcessInfo, logger_of
 
 
 def ends_on_purpose(processes: Iterable[ProcessInfo], arrived: int, logger: str) -> bool:
@@ -22,5 +22,5 @@ def _was_ending(process: ProcessInfo, arrived: int) -> bool:
 
 def _is_of(process: ProcessInfo, logger: str) -> bool:
     """Whether it is the logger of launch for that process, of one of its nodes, or a child of that."""
-    names = [each.strip("/").replace("/", ".") for each in process.nodes]
+    names = map(logger_of, process.nodes)
     return logger == process.label or any(f"{logger}.".startswith(f"{each}.") for each in names)

@@ -7,7 +7,7 @@ from typing import Protocol
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.calls import Calls, NoAnswer
-from bot_console.tui.console.model import LoggerLevel, Severity
+from bot_console.tui.console.model import LoggerLevel, Severity, logger_of
 from rcl_interfaces.msg import LoggerLevel as LevelMessage
 from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels
 
@@ -52,11 +52,6 @@ class LoggerLevels:
             f"{level.name} logs {severity.name} and worse" if severity else f"{level.name} logs as its parent does"
         )
         return Answer(result.successful, result.reason or message_of)
-
-
-def logger_of(node: str) -> str:
-    """The name of a node's own logger: `arm.left` for `/arm/left`."""
-    return node.strip("/").replace("/", ".")
 
 
 def severity_of(level: int) -> Severity:

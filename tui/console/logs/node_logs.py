@@ -11,7 +11,7 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.command_gate import Gate, refuse
 from bot_console.tui.console.logs.ending import ends_on_purpose
 from bot_console.tui.console.logs.port import LogFindings, LogSource, LogView
-from bot_console.tui.console.model import LaunchInfo, LogFilter, LoggerLevel, LogRecord, LogState, Severity
+from bot_console.tui.console.model import LaunchInfo, LogFilter, LoggerLevel, LogRecord, LogState, Severity, logger_of
 
 if TYPE_CHECKING:
     from bot_console.tui.console.launch.process_output import Add
@@ -96,10 +96,10 @@ class NodeLogs:
 
     def complaint(self, node: str, since: int) -> str:
         """The last warning or error that a node has logged from the record with that number on; empty without one."""
-        logger = _logger_of(node)
+        logger = logger_of(node)
         for seq in range(self.state.end - 1, since - 1, -1):
             record = self.record(seq)
-            if record is not None and record.severity >= Severity.WARN and _logger_of(record.node) == logger:
+            if record is not None and record.severity >= Severity.WARN and logger_of(record.node) == logger:
                 return record.text
         return ""
 
@@ -138,8 +138,3 @@ class NodeLogs:
         """Stop searching."""
         if self._views is not None:
             self._views.close()
-
-
-def _logger_of(node: str) -> str:
-    """The name of a node's logger."""
-    return node.strip("/").replace("/", ".")

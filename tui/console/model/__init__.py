@@ -14,7 +14,7 @@ from bot_console.tui.console.model.launch import (
     ProcessState,
     Program,
 )
-from bot_console.tui.console.model.logs import LogFilter, LoggerLevel, LogRecord, LogState, Severity
+from bot_console.tui.console.model.logs import LogFilter, LoggerLevel, LogRecord, LogState, Severity, logger_of
 from bot_console.tui.console.model.parameters import Kind, ParameterInfo, ParameterTree, Value, same
 from bot_console.tui.console.model.profiles import Profile, ProfileDifference
 from bot_console.tui.console.model.range import Range
@@ -53,5 +53,6 @@ __all__ = [
     "SetOutcome",
     "Severity",
     "Value",
+    "logger_of",
     "same",
 ]

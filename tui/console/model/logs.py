@@ -71,3 +71,8 @@ class LoggerLevel:
     node: str
     logger: str
     severity: Severity
+
+
+def logger_of(node: str) -> str:
+    """The name of a node's own logger: `arm.left` for `/arm/left`."""
+    return node.strip("/").replace("/", ".")

@@ -61,7 +61,7 @@ class NodeSensors:
 
     def watch_image(self, topic: str, columns: int, rows: int) -> None:
         """Receive the images of this topic."""
-        self._when_open(lambda: self._images.watch_image(topic, columns, rows, self._graph()))
+        self._gate.run_when_open(lambda: self._images.watch_image(topic, columns, rows, self._graph()))
 
     def picture(self) -> Picture:
         """The newest image."""
@@ -69,16 +69,8 @@ class NodeSensors:
 
     def watch_frames(self, on: bool) -> None:
         """Start or stop listening to `/tf` and `/tf_static`."""
-        self._when_open(lambda: self._frames.poll(on, self._graph()))
+        self._gate.run_when_open(lambda: self._frames.poll(on, self._graph()))
 
     def frames(self) -> Frames:
         """The frames received while listening."""
         return self._frames.frames() if self._diagnostics else self._explained()[2]
-
-    def _when_open(self, work: Callable[[], object]) -> None:
-        """Do something in the executor, as soon as the system is reached."""
-
-        async def run() -> None:
-            work()
-
-        self._gate.when_open(lambda: self._gate.run(run, lambda why: None, changes=False))

@@ -102,19 +102,11 @@ class NodeTopics:
             self._publishing.stop()
             self._goals.close()
 
-    def _later(self, work: Callable[[], object]) -> None:
-        """Run something in the executor, once the system is reached."""
-
-        async def run() -> None:
-            work()
-
-        self._gate.when_open(lambda: self._gate.run(run, lambda why: None, changes=False))
-
     def measure(self, topics: Collection[str], requester: str = "") -> None:
         """Measure these topics, and those that other requesters need."""
         self._requested[requester] = frozenset(topics)
         wanted = {topic for each in self._requested.values() for topic in each}
-        self._later(lambda: self._meters.measure(wanted, self._graph()))
+        self._gate.run_when_open(lambda: self._meters.measure(wanted, self._graph()))
 
     def measured(self) -> Mapping[str, Measure]:
         """Their measurements."""
@@ -142,7 +134,7 @@ class NodeTopics:
 
     def listen(self, topic: str, qos: RequestedQos | None = None) -> None:
         """Keep the newest message of this topic."""
-        self._later(lambda: self._listening.listen(topic, self._graph(), qos or RequestedQos()))
+        self._gate.run_when_open(lambda: self._listening.listen(topic, self._graph(), qos or RequestedQos()))
 
     def heard(self) -> LiveMessage:
         """The newest message."""
@@ -202,7 +194,7 @@ class NodeTopics:
         if wrong:
             return Answer(False, wrong)
         self._remember(topic, values)
-        self._later(lambda: self._publishing.publish(topic, type_name, values, rate, self._graph()))
+        self._gate.run_when_open(lambda: self._publishing.publish(topic, type_name, values, rate, self._graph()))
         heard = any(each.name == topic for node in self._graph().nodes for each in node.subscriptions)
         message = f"publishing to {topic} at {rate:g} Hz" if rate else f"published to {topic}"
         return Answer(True, message + ("" if heard else ", where nobody listens"))
@@ -221,7 +213,7 @@ class NodeTopics:
     def stop(self, topic: str = "") -> None:
         """Stop publishing at a rate."""
         if self._attached:
-            self._later(lambda: self._publishing.stop(topic))
+            self._gate.run_when_open(lambda: self._publishing.stop(topic))
 
     def call(self, service: str, type_name: str, values: Values) -> Future[Reply]:
         """Call a service."""
@@ -275,7 +267,7 @@ class NodeTopics:
         if wrong:
             return Answer(False, wrong)
         self._remember(action, values)
-        self._later(lambda: self._goals.send(action, type_name, values))
+        self._gate.run_when_open(lambda: self._goals.send(action, type_name, values))
         return Answer(True, f"goal sent to {action}")
 
     def goals(self) -> Mapping[str, Goal]:
@@ -287,7 +279,7 @@ class NodeTopics:
         why_not = self._gate.refusal or self._goals.why_not_cancel(action)
         if why_not:
             return Answer(False, why_not)
-        self._later(lambda: self._goals.cancel(action))
+        self._gate.run_when_open(lambda: self._goals.cancel(action))
         return Answer(True, f"asked {action} to cancel")
 
 

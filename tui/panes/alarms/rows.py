@@ -12,7 +12,6 @@ from bot_console.tui.text.figures import age_text
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment
-from rich.style import Style
 from textual.events import Click
 from textual.message import Message
 
@@ -88,19 +87,21 @@ class AlarmRows(ItemList[Row]):
         name = min(
             MAX_NAME_CELLS, max((cell_len(sanitize(each.name)) for each in self.rows), default=0), max(8, width // 3)
         )
-        loud = self._style(style)
+        loud = self.row_style(style)
         segments = [
             Segment(f"{sign} {word:<{STATE_CELLS - 2}}", loud),
-            Segment(cut(sanitize(row.name), name, pad=True) + "  ", loud if row.holds else self._style("strong")),
+            Segment(cut(sanitize(row.name), name, pad=True) + "  ", loud if row.holds else self.row_style("strong")),
         ]
         if width >= 60:
             so = age_text(row.age) if row.holds is not None else ""
-            segments.append(Segment(f"{so:<{AGE_CELLS}}", self._style("dim")))
+            segments.append(Segment(f"{so:<{AGE_CELLS}}", self.row_style("dim")))
         segments += [
-            Segment(f"{counted(row.times, 'time') if row.times else '':<9}", loud if row.holds else self._style("dim")),
-            Segment("♪ " if row.bell else "  ", self._style("dim")),
+            Segment(
+                f"{counted(row.times, 'time') if row.times else '':<9}", loud if row.holds else self.row_style("dim")
+            ),
+            Segment("♪ " if row.bell else "  ", self.row_style("dim")),
             Segment(cut(sanitize(row.value), 16, pad=True) + "  "),
-            Segment(sanitize(row.condition), self._style("dim")),
+            Segment(sanitize(row.condition), self.row_style("dim")),
         ]
         return segments
 
@@ -111,14 +112,11 @@ class AlarmRows(ItemList[Row]):
             max(cell_len(sanitize(each.condition)) for each in self.rows), max(12, width - name - SUGGESTED_VALUE)
         )
         return [
-            Segment("○ ", self._style("dim")),
-            Segment(cut(sanitize(row.name), name, pad=True) + "  ", self._style("strong")),
-            Segment(cut_name(sanitize(row.condition), condition, pad=True) + "  ", self._style("dim")),
+            Segment("○ ", self.row_style("dim")),
+            Segment(cut(sanitize(row.name), name, pad=True) + "  ", self.row_style("strong")),
+            Segment(cut_name(sanitize(row.condition), condition, pad=True) + "  ", self.row_style("dim")),
             Segment(sanitize(row.value)),
         ]
-
-    def _style(self, name: str) -> Style:
-        return self.part_style(f"row-list--{name}")
 
     def on_click(self, event: Click) -> None:
         """Select the clicked row; post `Pressed` if it was selected already."""

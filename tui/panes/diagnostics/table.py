@@ -10,7 +10,6 @@ from bot_console.tui.text.figures import age_text
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment
-from rich.style import Style
 from textual.events import Click
 from textual.message import Message
 
@@ -72,20 +71,17 @@ class StatusRows(ItemList[Row]):
         """Fold mark, name, level, age, message."""
         row = self.rows[index]
         sign, style = LEVEL_STYLES[row.level]
-        own = self._style(style)
+        own = self.row_style(style)
         fold = ("▸ " if row.folded else "▾ ") if row.count else "  "
         name = cut(f"{'  ' * row.depth}{fold}{sanitize(row.title)}", self._name_width(width), pad=True)
         quiet = row.level is Level.OK
         return [
-            Segment(name, self._style("head") if row.count else self._style("strong") if not quiet else None),
+            Segment(name, self.row_style("head") if row.count else self.row_style("strong") if not quiet else None),
             Segment(f" {sign} {row.level.name:<{LEVEL_CELLS - 1}}", own),
-            Segment(f"{age_text(row.age):>{AGE_CELLS}}  ", self._style("dim")),
+            Segment(f"{age_text(row.age):>{AGE_CELLS}}  ", self.row_style("dim")),
             Segment(sanitize(self._last_message(row)), None if quiet else own),
         ]
 
     def _last_message(self, row: Row) -> str:
         below = f"{row.count - row.bad} of {row.count} OK" if row.count else ""
         return "  ".join(each for each in (row.message, below) if each)
-
-    def _style(self, name: str) -> Style:
-        return self.part_style(f"row-list--{name}")

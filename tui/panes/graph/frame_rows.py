@@ -8,7 +8,6 @@ from bot_console.tui.text.figures import age_text
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment
-from rich.style import Style
 
 RATE_CELLS, AGE_CELLS = 9, 7
 MAX_NAME_CELLS = 44
@@ -31,17 +30,14 @@ class FrameRows(ItemList[FrameRow]):
             max(12, min(longest, MAX_NAME_CELLS, width - RATE_CELLS - AGE_CELLS)),
             pad=True,
         )
-        trouble = [Segment(f"✗ {sanitize(row.trouble)}  ", self._style("error"))] if row.trouble else []
+        trouble = [Segment(f"✗ {sanitize(row.trouble)}  ", self.row_style("error"))] if row.trouble else []
         return [
-            Segment(name, self._style("head") if row.frame is None else None),
+            Segment(name, self.row_style("head") if row.frame is None else None),
             Segment(f"{_rate(row):>{RATE_CELLS}}"),
-            Segment(f"{age_text(row.age):>{AGE_CELLS}}  ", self._style("dim")),
+            Segment(f"{age_text(row.age):>{AGE_CELLS}}  ", self.row_style("dim")),
             *trouble,
-            Segment(sanitize(row.by), self._style("dim")),
+            Segment(sanitize(row.by), self.row_style("dim")),
         ]
-
-    def _style(self, name: str) -> Style:
-        return self.part_style(f"row-list--{name}")
 
 
 def _rate(row: FrameRow) -> str:

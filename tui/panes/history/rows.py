@@ -14,7 +14,6 @@ from bot_console.tui.text.refusals import verdict_of_change
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment
-from rich.style import Style
 from rich.text import Text
 
 WHO = {
@@ -146,9 +145,6 @@ class ChangeRows(ItemList[HistoryRow]):
         """Whether a change, or one of a set, matches a filter."""
         return any(query.matches(words(each), each.node) for each in changes_of(self.rows[index]))
 
-    def _style(self, name: str) -> Style:
-        return self.part_style(f"row-list--{name}")
-
     def _widths(self, width: int) -> tuple[int, int, int]:
         """The cells of node, name and values; no node in a narrow pane."""
         node = self._node if width >= MIN_CELLS_WITH_NODE else 0
@@ -167,16 +163,16 @@ class ChangeRows(ItemList[HistoryRow]):
         if width < taken + BARS_CELLS + 2 * TAIL_CELLS:
             return []
         text = "".join(bars((change.old, change.new)))
-        return [Segment(text + " " * (BARS_CELLS - len(text)), self._style("dim" if change.accepted else "error"))]
+        return [Segment(text + " " * (BARS_CELLS - len(text)), self.row_style("dim" if change.accepted else "error"))]
 
     def _set(self, row: ChangeSet, width: int) -> list[Segment]:
         """A set: who made it, and how many values it has."""
         bad = any(not each.accepted for each in row.changes)
-        sign, loud = "▾" if row.opened else "▸", self._style("error" if bad else "warn" if row.unsafe else "dim")
+        sign, loud = "▾" if row.opened else "▸", self.row_style("error" if bad else "warn" if row.unsafe else "dim")
         return [
-            Segment(f"{_moment(row.newest):<{MOMENT_CELLS}}", self._style("dim")),
-            Segment(f"{sign} ", self._style("dim")),
-            Segment(sanitize(who(row.newest)) + GAP, self._style("strong")),
+            Segment(f"{_moment(row.newest):<{MOMENT_CELLS}}", self.row_style("dim")),
+            Segment(f"{sign} ", self.row_style("dim")),
+            Segment(sanitize(who(row.newest)) + GAP, self.row_style("strong")),
             Segment(set_text(row), loud),
             *self._after(
                 row.newest, width - MOMENT_CELLS - MARK_CELLS - cell_len(f"{who(row.newest)}{GAP}{set_text(row)}")
@@ -187,12 +183,12 @@ class ChangeRows(ItemList[HistoryRow]):
         """The effect of a change, where there is room for all of it."""
         text = self._effect(change.seq)
         fits = text and cell_len(text) + len(GAP) <= room
-        return [Segment(f"{GAP}{text}", self._style("good"))] if fits else []
+        return [Segment(f"{GAP}{text}", self.row_style("good"))] if fits else []
 
     def row(self, index: int, width: int) -> list[Segment]:
         """One change, or a set."""
         change = self.rows[index]
-        dim = self._style("dim")
+        dim = self.row_style("dim")
         if isinstance(change, ChangeSet):
             return self._set(change, width)
         of_node, of_name, of_values = self._widths(width)
@@ -205,13 +201,13 @@ class ChangeRows(ItemList[HistoryRow]):
         name = cut((INDENT if change.seq in self._members else "") + sanitize(change.name), of_name, pad=True)
         mark = MARKS[verdict_of_change(change)]
         values = cut(changed_text(change), of_values, pad=True)
-        refused = self._style("error")
+        refused = self.row_style("error")
         tail = f"{sanitize(change.reason)} ({sanitize(who(change))})" if not change.accepted else sanitize(who(change))
         segments = [
             *head,
             Segment(f"{mark} ", refused),
-            Segment(name + GAP, self._style("plain") if change.accepted else refused),
-            Segment(values + GAP, self._style("strong") if change.accepted else refused),
+            Segment(name + GAP, self.row_style("plain") if change.accepted else refused),
+            Segment(values + GAP, self.row_style("strong") if change.accepted else refused),
             *self._bars(change, width),
             Segment(tail, dim if change.accepted else refused),
         ]

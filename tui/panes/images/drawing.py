@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from itertools import groupby
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 from bot_console.tui.console.sensors.picture import Picture
-from bot_console.tui.widgets.picture import Line
+from bot_console.tui.widgets.picture import Line, merged_line
 
 Pixels = npt.NDArray[np.uint8]
 
@@ -42,7 +41,7 @@ def half_blocks(pixels: Pixels, width: int, height: int) -> list[Line]:
     """Lines of half-blocks, in the middle of so many cells."""
     packed = pixels.astype(np.uint32) @ np.array([1 << 16, 1 << 8, 1], np.uint32)
     lines = [
-        _line([_cell(*pair) for pair in zip(top, below, strict=True)])
+        merged_line([_cell(*pair) for pair in zip(top, below, strict=True)])
         for top, below in zip(packed[::2].tolist(), packed[1::2].tolist(), strict=True)
     ]
     return _in_the_middle(lines, pixels.shape[1], width, height)
@@ -71,10 +70,6 @@ def cost(new: Pixels, shown: Pixels | None, *, coloured: bool) -> int:
 
 def _cell(top: int, below: int) -> tuple[str, str]:
     return (" ", f"on #{top:06x}") if top == below else ("▀", f"#{top:06x} on #{below:06x}")
-
-
-def _line(cells: list[tuple[str, str]]) -> Line:
-    return tuple(("".join(text for text, _ in run), style) for style, run in groupby(cells, lambda each: each[1]))
 
 
 def _in_the_middle(lines: list[Line], across: int, width: int, height: int) -> list[Line]:

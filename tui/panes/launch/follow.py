@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
-from bot_console.tui.console.model import LogRecord, LogState, ProcessInfo, Severity
+from bot_console.tui.console.model import LogRecord, LogState, ProcessInfo, Severity, logger_of
 from bot_console.tui.text.cadence import is_due
 
 CPU_SAMPLE_S = 2.0
@@ -106,11 +106,6 @@ class Follower:
 
 def _same(one: LogRecord, other: LogRecord) -> bool:
     return (one.node, one.severity, one.text) == (other.node, other.severity, other.text)
-
-
-def logger_of(node: str) -> str:
-    """The name of a node's logger: `arm.zoo` for `/arm/zoo`."""
-    return node.strip("/").replace("/", ".")
 
 
 def _longest(logger: str, keys: Mapping[str, str]) -> str:

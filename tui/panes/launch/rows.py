@@ -14,7 +14,6 @@ from bot_console.tui.text.bars import strip
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment
-from rich.style import Style
 
 STATES = {
     ProcessState.STARTING: ("◌", "dim"),
@@ -168,9 +167,6 @@ class ProcessRows(ItemList[Row]):
         process = self.rows[index].process
         return process is not None and matches(process, query)
 
-    def _style(self, name: str) -> Style:
-        return self.part_style(f"row-list--{name}")
-
     def row(self, index: int, width: int) -> list[Segment]:
         """A group, or a process with state, name, pid, restarts and last exit code."""
         row = self.rows[index]
@@ -179,8 +175,8 @@ class ProcessRows(ItemList[Row]):
             arrow = "▸" if row.folded else "▾"
             summary = f"  {row.running} of {row.count} running"
             return [
-                Segment(f"{indent}{arrow} {sanitize(row.group[-1])}", self._style("head")),
-                Segment(summary, self._style("warn" if row.running < row.count else "dim")),
+                Segment(f"{indent}{arrow} {sanitize(row.group[-1])}", self.row_style("head")),
+                Segment(summary, self.row_style("warn" if row.running < row.count else "dim")),
             ]
         return self._process(row.process, indent, width)
 
@@ -204,19 +200,19 @@ class ProcessRows(ItemList[Row]):
             # Where the row is too short, it stands in place of empty columns and of what follows.
             end, nodes, problem = (end if usage.strip() else exit_code) + problem, "", ""
         columns.append(end)
-        plain = None if process.state is ProcessState.RUNNING else self._style(style)
-        loud = [Segment(name[: len(head)], self._style(style)), Segment(name[len(head) :], plain)]
+        plain = None if process.state is ProcessState.RUNNING else self.row_style(style)
+        loud = [Segment(name[: len(head)], self.row_style(style)), Segment(name[len(head) :], plain)]
         blank = " " * (count_cells - _cells_of_counts(errors, warnings))
         counts = (
-            Segment(f"  {errors}" if errors else "", self._style("error")),
-            Segment(f"  {warnings}" if warnings else "", self._style("warn")),
+            Segment(f"  {errors}" if errors else "", self.row_style("error")),
+            Segment(f"  {warnings}" if warnings else "", self.row_style("warn")),
             Segment(blank),
         )
         return [
             *loud,
             Segment("".join(columns), plain),
             *counts,
-            Segment(nodes, self._style("dim")),
+            Segment(nodes, self.row_style("dim")),
             Segment(problem, plain),
         ]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.model import GraphInfo, logger_of
 
 
 class NodeNames:
@@ -20,7 +20,7 @@ class NodeNames:
         if graph is self._graph:
             return False
         self._graph, before = graph, len(self._names)
-        self._names.update({each.name.strip("/").replace("/", "."): each.name for each in graph.nodes})
+        self._names.update({logger_of(each.name): each.name for each in graph.nodes})
         self.longest = max(map(len, self._names.values()), default=0)
         return len(self._names) > before
 

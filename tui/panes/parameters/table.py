@@ -112,21 +112,18 @@ class ParameterRows(ItemList[Row]):
             return self._head(row)
         return self._parameter(row, row.parameter, width)
 
-    def _style(self, name: str) -> Style:
-        return self.part_style(f"row-list--{name}")
-
     def _head(self, row: Row) -> list[Segment]:
         arrow, indent = "▸" if row.folded else "▾", "  " * row.depth
         if row.name:
             count = f"  {row.count}" if row.folded else ""
-            return [Segment(f"{indent}{arrow} {sanitize(row.name)}{count}", self._style("dim"))]
+            return [Segment(f"{indent}{arrow} {sanitize(row.name)}{count}", self.row_style("dim"))]
         if row.ended:
             text = f"{indent}  {sanitize(row.title or row.node)}  {sanitize(row.problem)}"
-            return [Segment(text, self._style("dim"))]
-        head = Segment(f"{indent}{arrow} {sanitize(row.title or row.node)}", self._style("head"))
+            return [Segment(text, self.row_style("dim"))]
+        head = Segment(f"{indent}{arrow} {sanitize(row.title or row.node)}", self.row_style("head"))
         if row.problem:
-            return [head, Segment(f"  {sanitize(row.problem)}", self._style("warn"))]
-        return [head, Segment(f"  {row.count}", self._style("dim"))]
+            return [head, Segment(f"  {sanitize(row.problem)}", self.row_style("warn"))]
+        return [head, Segment(f"  {row.count}", self.row_style("dim"))]
 
     def _parameter(self, row: Row, parameter: ParameterInfo, width: int) -> list[Segment]:
         own = columns(self._measures, width, self.split)
@@ -135,9 +132,11 @@ class ParameterRows(ItemList[Row]):
         name = cut("  " * row.depth + sanitize(row.name), taken, pad=True)
         key = (parameter.node, parameter.name)
         mark = "".join(sign if here else " " for sign, here in self.signs(parameter))
-        segments = [Segment(f"{mark}{name}{' ' * GAP_CELLS}", self._style("strong" if parameter.changed else "plain"))]
+        segments = [
+            Segment(f"{mark}{name}{' ' * GAP_CELLS}", self.row_style("strong" if parameter.changed else "plain"))
+        ]
         left = max(0, width - MARKS_CELLS - taken - GAP_CELLS)
-        value, dim = shown_value(row), self._style("dim")
+        value, dim = shown_value(row), self.row_style("dim")
         refused, late, staged = self._edits.refused.get(key), self._edits.late, self._edits.staging.marked
         if refused or key in late:
             waits = f"… {sanitize(value_text(late[key]))}: not answered yet" if key in late else ""
@@ -145,12 +144,12 @@ class ParameterRows(ItemList[Row]):
             cells = min(own.value, left)
             if left - cells - GAP_CELLS < len(note):  # the column is as wide as the longest value, which is another one
                 cells = min(cells, len(value))
-            output = Segment(cut(note, max(0, left - cells - GAP_CELLS)), self._style("warn" if waits else "error"))
+            output = Segment(cut(note, max(0, left - cells - GAP_CELLS)), self.row_style("warn" if waits else "error"))
             return [*segments, Segment(cut(value, cells, pad=True) + " " * GAP_CELLS), output]
         if key in staged:
             unit = f" {parameter.unit}" if parameter.unit else ""
             text = f"{sanitize(value_text(parameter.value))} → {sanitize(value_text(staged[key]))}{unit}"
-            return [*segments, Segment(cut(text, left), self._style("good"))]
+            return [*segments, Segment(cut(text, left), self.row_style("good"))]
         slider = bar(parameter, own.bar) if own.bar and not over else ""
         has_room = left >= max(own.value, len(value)) + GAP_CELLS + len(READ_ONLY)
         tail = slider or (READ_ONLY if parameter.read_only and has_room else "")
@@ -175,8 +174,8 @@ class ParameterRows(ItemList[Row]):
         """A value in its column if something stands beside it and it fits, else in all the room there is."""
         text = cut(value, column, pad=True) if more and len(value) <= column else cut(value, left)
         if (parameter.node, parameter.name) in self.flashing:
-            return Segment(text, self._style("good") + Style(reverse=True))
-        return Segment(text, self._style("dim") if parameter.read_only else None)
+            return Segment(text, self.row_style("good") + Style(reverse=True))
+        return Segment(text, self.row_style("dim") if parameter.read_only else None)
 
     def on_click(self, event: Click) -> None:
         """A click chooses the row; on the slider it sets the value, on what is chosen it opens or edits."""

@@ -184,15 +184,15 @@ class ComparisonRows(ItemList[ComparedValue]):
         """Name, unit, and for each profile its value, a bar and a mark."""
         row = self.rows[index]
         names, across, nodes = self._columns(width)
-        dim = self.part_style("row-list--dim")
+        dim = self.row_style("dim")
         parts = [
             Segment(cut(self._label(row), names - 1, pad=True) + " "),
             Segment(cut(sanitize(row.unit), UNIT_CELLS - 1, pad=True) + " ", dim),
         ]
-        marks = {"⚠": self.part_style("row-list--warn"), "✗": self.part_style("row-list--error")}
+        marks = {"⚠": self.row_style("warn"), "✗": self.row_style("error")}
         for at, cell in enumerate(row.cells):
             text = cut(sanitize(value_text(cell.value)), across - 5)
-            chosen = self.part_style("row-list--strong") if at == self.comparison.shown else None
+            chosen = self.row_style("strong") if at == self.comparison.shown else None
             style = marks.get(cell.mark, dim if cell.stays else chosen)
             parts += [
                 Segment(" " * (across - 5 - cell_len(text)) + text + " ", style),

@@ -14,7 +14,6 @@ from bot_console.tui.text.refusals import verdict
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment
-from rich.style import Style
 
 MAX_NAME_CELLS = 16
 """Cells of the profile column, unless the names need less."""
@@ -65,11 +64,11 @@ class ProfileRows(ItemList[Profile]):
         longest = max(cell_len(sanitize(each.name)) for each in self.rows) + 4
         room = min(max(longest, MAX_NAME_CELLS), max(MAX_NAME_CELLS, width // 2))
         name = cut(f"{mark} {sanitize(profile.name)}", room - 2)
-        style = self.part_style("row-list--warn" if profile.problem else "row-list--dim")
+        style = self.row_style("warn" if profile.problem else "dim")
         changed = f"{self.changes} changed  " if self.changes and profile.name == self.active else ""
         return [
             Segment(name + " " * (room - cell_len(name))),
-            Segment(changed, self.part_style("row-list--strong")),
+            Segment(changed, self.row_style("strong")),
             Segment(sanitize(profile.problem or profile.title), style),
         ]
 
@@ -93,18 +92,18 @@ class DifferenceRows(ItemList[Entry]):
 
     can_focus = False
 
-    def _style(self, name: str) -> Style:
-        return self.part_style(f"row-list--{name}")
-
     def row(self, index: int, width: int) -> list[Segment]:
         """A node, or `name  now → then` with a note."""
         entry = self.rows[index]
         change = entry.difference
         if entry.reason:
-            return [Segment(" " * REASON_INDENT_CELLS + entry.reason, self._style("error"))]
+            return [Segment(" " * REASON_INDENT_CELLS + entry.reason, self.row_style("error"))]
         if change is None:
             message, style = entry.message
-            return [Segment(f"{sanitize(entry.node)}  ", self._style("head")), Segment(message, self._style(style))]
+            return [
+                Segment(f"{sanitize(entry.node)}  ", self.row_style("head")),
+                Segment(message, self.row_style(style)),
+            ]
         longest = max(cell_len(sanitize(each.difference.name)) for each in self.rows if each.difference) + 4
         names = max(min(max(longest, MAX_PARAMETER_CELLS), width - NOTE_CELLS - 3 * VALUE_CELLS), 12)
         now = cut(sanitize(value_text(change.now)), VALUE_CELLS) if change.now is not None else "?"
@@ -112,9 +111,9 @@ class DifferenceRows(ItemList[Entry]):
         note, style = _note(entry, change)
         return [
             Segment(cut(f"  {sanitize(change.name)}", names - 2, pad=True) + "  "),
-            Segment(" " * (VALUE_CELLS - cell_len(now)) + now + " → ", self._style("dim")),
-            Segment(then + " " * (VALUE_CELLS - cell_len(then)), self._style("strong")),
-            Segment(f"  {note}", self._style(style)),
+            Segment(" " * (VALUE_CELLS - cell_len(now)) + now + " → ", self.row_style("dim")),
+            Segment(then + " " * (VALUE_CELLS - cell_len(then)), self.row_style("strong")),
+            Segment(f"  {note}", self.row_style(style)),
         ]
 
 

@@ -9,7 +9,6 @@ from bot_console.tui.format import cut, sanitize
 from bot_console.tui.widgets.row_list import RowList
 from rich.cells import cell_len
 from rich.segment import Segment
-from rich.style import Style
 
 
 def unfolded(fields: Sequence[Field], closed: frozenset[str], opened: frozenset[str]) -> list[Field]:
@@ -92,13 +91,10 @@ class MessageRows(RowList):
         name = cut(f"{'  ' * line.depth}{arrow}{sanitize(line.name)}", names, pad=True)
         unit = line.unit if line.text else ""
         value = cut(f"{sanitize(line.text)}{' ' if unit else ''}{unit}", max(0, width - names))
-        segments = [Segment(name, self._style("dim") if line.depth and line.holds else None), Segment(value)]
+        segments = [Segment(name, self.row_style("dim") if line.depth and line.holds else None), Segment(value)]
         room = width - names - cell_len(value) - 2
         if line.type and room >= cell_len(line.type):
             segments.append(
-                Segment("  " + " " * (room - cell_len(line.type)) + sanitize(line.type), self._style("dim"))
+                Segment("  " + " " * (room - cell_len(line.type)) + sanitize(line.type), self.row_style("dim"))
             )
         return segments
-
-    def _style(self, name: str) -> Style:
-        return self.part_style(f"row-list--{name}")

@@ -13,7 +13,6 @@ from bot_console.tui.text.figures import age_text, amount_text, rate_text, span_
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment
-from rich.style import Style
 
 ENDS_CELLS, RATE_CELLS, AMOUNT_CELLS, AGE_CELLS, LATENCY_CELLS = 6, 6, 8, 7, 8
 """Cells of the columns of figures, their gaps included."""
@@ -190,36 +189,33 @@ class TopicRows(ItemList[Row]):
         """Mark, name, publishers and subscribers, figures, newest value, type, QoS."""
         row, shown = self.rows[index], self.columns(width)
         late = self._is_row_late(row)
-        style = self._style("warn") if row.problem or late else None
+        style = self.row_style("warn") if row.problem or late else None
         mark = self._mark(row.name)
-        name = self._style("head") if row.name == self.opened or row.members else None
+        name = self.row_style("head") if row.name == self.opened or row.members else None
         segments = [
-            Segment(mark, self._style("good")),
+            Segment(mark, self.row_style("good")),
             Segment("!" if row.problem or late else " ", style),
             Segment(cut_name(_label(row), shown.name - 2, pad=True), style or name),
         ]
         if row.members:
             count = f"{len(row.members)} {self.kind.value}" if row.is_folded else ""
-            return [*segments, Segment(f"  {count}", self._style("dim"))]
+            return [*segments, Segment(f"  {count}", self.row_style("dim"))]
         ends = f"{len(row.gives)}/{len(row.takes)}"
-        segments.append(Segment(f"{ends:>{ENDS_CELLS}}", style or (self._style("dim") if not row.takes else None)))
+        segments.append(Segment(f"{ends:>{ENDS_CELLS}}", style or (self.row_style("dim") if not row.takes else None)))
         if shown.figures:
             figures = self._figures(row.name, amounts=shown.amounts, latency=shown.latency)
             rates = RATE_CELLS + AMOUNT_CELLS * shown.amounts
-            dim = self._style("dim") if self.measure_of(row.name).provisional else style if late else None
+            dim = self.row_style("dim") if self.measure_of(row.name).provisional else style if late else None
             segments += [Segment(figures[:rates], dim), Segment(figures[rates:])]
         if shown.value:
             value = sanitize(self._values.get(row.name, ""))
             segments.append(Segment("  " + cut(value, shown.value - 2, pad=True)))
         if shown.type:
             kind = _type_text(row.type, shown.type - 2)
-            segments.append(Segment(cut("  " + kind, shown.type, pad=True), self._style("dim")))
+            segments.append(Segment(cut("  " + kind, shown.type, pad=True), self.row_style("dim")))
         if shown.qos:
-            segments.append(Segment(cut("  " + sanitize(row.qos), shown.qos), self._style("dim")))
+            segments.append(Segment(cut("  " + sanitize(row.qos), shown.qos), self.row_style("dim")))
         return segments
-
-    def _style(self, name: str) -> Style:
-        return self.part_style(f"row-list--{name}")
 
 
 def _steady(before: Measure | None, now: Measure) -> Measure:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -10,7 +9,7 @@ import numpy.typing as npt
 from bot_console.tui.console.robot.robot_model import Drawing, Turtle, TurtleField
 from bot_console.tui.panes.world.view import arrow
 from bot_console.tui.widgets.braille import BITS
-from bot_console.tui.widgets.picture import Line
+from bot_console.tui.widgets.picture import Line, merged_line
 
 SIDE_M = 499 / 45
 """Width and height of a field (m)."""
@@ -40,7 +39,7 @@ class FieldDrawing:
         cells = [list(row) for row in self._cells]
         for turtle in field.turtles:
             _put(cells, turtle, width, height, with_name=len(field.turtles) > 1)
-        return [_line(row) for row in cells]
+        return [merged_line(row) for row in cells]
 
 
 def _of_trails(field: TurtleField) -> Drawing:
@@ -98,8 +97,3 @@ def _put(cells: list[list[Cell]], turtle: Turtle, width: int, height: int, *, wi
             behind = cells[row][at][1].rpartition("on #")[2]
             light = sum(bytes.fromhex(behind)) > 3 * 128
             cells[row][at] = (character, f"bold #{'000000' if light else 'ffffff'} on #{behind}")
-
-
-def _line(cells: list[Cell]) -> Line:
-    """Cells of the same style as one piece."""
-    return tuple(("".join(text for text, _ in run), style) for style, run in groupby(cells, lambda each: each[1]))
