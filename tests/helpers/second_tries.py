@@ -3,6 +3,9 @@
 On a busy machine a part of what a test waits for may come too late, and a test may stumble over what another has left
 in its process. The summary counts what needed its second try (`rerun`) and shows what failed in the first; a fault of
 the code fails both.
+
+Only the second try explains the values of an assertion: pytest rewrites the assertions of a file to do so, which took a
+third of what it costs the workers to start.
 """
 
 import json
@@ -15,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from _pytest.assertion.rewrite import AssertionRewritingHook
 
 MAX_SECOND_TRIES = 20
 """More failures than these are not chance: they are reported as they are."""
@@ -25,6 +29,12 @@ _place = os.environ.pop(TRIES, None)
 
 _first_tries: dict[str, list[pytest.TestReport]] = {}
 """The failures of first tries, by test."""
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Let a worker import the tests as they are."""
+    if hasattr(config, "workerinput"):
+        sys.meta_path[:] = [each for each in sys.meta_path if not isinstance(each, AssertionRewritingHook)]
 
 
 @pytest.hookimpl(wrapper=True)

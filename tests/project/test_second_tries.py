@@ -40,25 +40,35 @@ def test_stumbles(stumbling):
 ALWAYS = """
 
 def test_is_wrong():
-    assert 1 == 2
+    assert len(tried.parts) == 2
 """
+EXPLAINED = "where 1 = len(('tried',))"
 
 
 def test_only_what_fails_in_both_tries_is_a_failure(tmp_path: Path) -> None:
     tests = tmp_path / "test_it.py"
     tests.write_text(TESTS)
-    assert run(tmp_path, "1") == (0, "4 passed, 3 rerun")
+    assert run(tmp_path, "1")[:2] == (0, "4 passed, 3 rerun")
     cases = ElementTree.parse(tmp_path / "junit.xml").iter("testcase")
     assert not [each for each in cases if each.find("failure") is not None or each.find("error") is not None]
     tests.write_text(TESTS + ALWAYS)
-    assert run(tmp_path, "0") == (1, "1 failed, 4 passed, 2 rerun")
+    assert run(tmp_path, "0")[:2] == (1, "1 failed, 4 passed, 2 rerun")
 
 
-def run(folder: Path, workers: str) -> tuple[int, str]:
+def test_second_try_explains_what_a_worker_does_not(tmp_path: Path) -> None:
+    (tmp_path / "test_it.py").write_text(TESTS + ALWAYS)
+    code, counts, shown = run(tmp_path, "1", "-k", "is_wrong")
+    assert (code, counts) == (1, "1 failed, 1 rerun")
+    assert shown.count(">   " + ALWAYS.splitlines()[-1]) == 2, "each try is shown"
+    assert shown.count(EXPLAINED) == 1
+
+
+def run(folder: Path, workers: str, *more: str) -> tuple[int, str, str]:
+    """The exit code, the counts of the last line, and all that is shown."""
     (folder / "conftest.py").write_text('pytest_plugins = ["second_tries"]\n')
     done = subprocess.run(
-        [sys.executable, "-m", "pytest", "-q", "-n", workers, "--junitxml=junit.xml", "-p", "no:cacheprovider", "."],
+        [sys.executable, "-m", "pytest", "-q", "-n", workers, "--junitxml=junit.xml", "-p", "no:cacheprovider", *more],
         cwd=folder, env={**os.environ, "PYTHONPATH": str(HELPERS), **ONLY_XDIST},
         capture_output=True, text=True, check=False,
     )  # fmt: skip
-    return done.returncode, done.stdout.splitlines()[-1].strip("= ").rpartition(" in ")[0]
+    return done.returncode, done.stdout.splitlines()[-1].strip("= ").rpartition(" in ")[0], done.stdout
