@@ -139,11 +139,13 @@ class Navigator(Node):
     def _path(self, points: Sequence[Point]) -> Path:
         path = Path()
         path.header.stamp, path.header.frame_id = self.get_clock().now().to_msg(), "map"
+        poses: list[PoseStamped] = []
         for (x, y), (to_x, to_y) in zip(points, [*points[1:], points[-1]], strict=True):
             pose = PoseStamped(header=path.header)
             pose.pose.position.x, pose.pose.position.y = x, y
             pose.pose.orientation = quaternion(math.atan2(to_y - y, to_x - x))
-            path.poses = [*path.poses, pose]
+            poses.append(pose)
+        path.poses = poses
         return path
 
     def _on_goal_pose(self, message: PoseStamped) -> None:

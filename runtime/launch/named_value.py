@@ -1,4 +1,4 @@
-"""Base class of actions that set a named value: an environment variable or a launch configuration."""
+"""Base classes of actions on an environment variable or a launch configuration."""
 
 from __future__ import annotations
 
@@ -15,26 +15,39 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
 
 
-class NamedValue(Action):
-    """An action with a name and a value, in Python and as attributes."""
+class Named(Action):
+    """An action on what has a name, in Python and as an attribute."""
 
-    def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Condition | None) -> None:
+    def __init__(self, name: SomeSubstitutionsType, **kwargs: Condition | None) -> None:
         super().__init__(**kwargs)
         self.__name = normalize_to_list_of_substitutions(name)
-        self.__value = normalize_to_list_of_substitutions(value)
 
     @classmethod
-    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[NamedValue], dict[str, object]]:
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Named], dict[str, object]]:
         """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
-        kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))
         return cls, kwargs
 
     @property
     def name(self) -> list[Substitution]:
         """The name of the variable or configuration."""
         return self.__name
+
+
+class NamedValue(Named):
+    """An action that also has a value."""
+
+    def __init__(self, name: SomeSubstitutionsType, value: SomeSubstitutionsType, **kwargs: Condition | None) -> None:
+        super().__init__(name, **kwargs)
+        self.__value = normalize_to_list_of_substitutions(value)
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser) -> tuple[type[NamedValue], dict[str, object]]:
+        """Parse the element in XML or YAML."""
+        _, kwargs = super().parse(entity, parser)
+        kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))
+        return cls, kwargs
 
     @property
     def value(self) -> list[Substitution]:

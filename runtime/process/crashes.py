@@ -7,7 +7,7 @@ from collections.abc import Callable
 Explain = Callable[[BaseException], "str | None"]
 """Returns the cause of an exception and how to fix it, or None for an unknown one."""
 
-HINT = "mend"
+HINT = "bot_console_hint"
 """Attribute of an exception that holds its own explanation: the cause and how to fix it, as a text."""
 
 _explainers: list[Explain] = []

@@ -9,7 +9,8 @@ import contextlib
 import os
 import signal
 import time
-from pathlib import Path
+
+from .watch.processor_time import ENDED_STATES, state_and_seconds
 
 EXIT_TIMEOUT_S = 1.0
 """Seconds that they get after SIGTERM, and again after SIGKILL."""
@@ -42,11 +43,9 @@ def _members(session: int) -> set[int]:
 
 def _runs_in(session: int, pid: int) -> bool:
     try:
-        return os.getsid(pid) == session and not _is_zombie(pid)
+        if os.getsid(pid) != session:
+            return False
     except OSError:  # it has ended
         return False
-
-
-def _is_zombie(pid: int) -> bool:
-    state = Path(f"/proc/{pid}/stat").read_bytes().rpartition(b")")[2].split()[0]
-    return state in (b"Z", b"X")
+    reported = state_and_seconds(str(pid))
+    return reported is not None and reported[0] not in ENDED_STATES

@@ -19,7 +19,7 @@ from bot_console.runtime.programs.python_file_check import QT
 from bot_console.runtime.rosidl.names import KINDS
 from bot_console.runtime.rosidl.sources import EXAMPLES
 from bot_console.runtime.rosidl.stubs import package_stubs
-from bot_console.runtime.rosidl.texts import PREFIX
+from bot_console.runtime.rosidl.texts import PREFIX, standard_packages
 
 WINDOWS = '''\
 """A package of desktop ROS 2: bot-console cannot run it, since it opens windows. Known here for the editor only."""
@@ -79,7 +79,7 @@ def _fill_with_version(folder: Path) -> None:
     package = folder / "bot_console"  # Only what the others import: the editor need not offer the rest.
     package.mkdir()
     _link(Path(RUNTIME), package / "runtime")
-    for name in sorted(each.name for each in (PREFIX / "share").iterdir()):
+    for name in standard_packages():
         _write_stubs(folder / name, name, PREFIX / "share" / name)
     for name in QT:
         for module in ("__init__", *QT_MODULES.get(name, ())):
@@ -87,7 +87,7 @@ def _fill_with_version(folder: Path) -> None:
 
 
 def _fill_with_workspace(folder: Path) -> None:
-    standard = {each.name for each in (PREFIX / "share").iterdir()} - EXAMPLES
+    standard = set(standard_packages()) - EXAMPLES
     for name, place in interface_folders().items():
         if name not in standard:
             _write_stubs(folder / name, name, place)

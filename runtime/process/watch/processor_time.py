@@ -1,4 +1,4 @@
-"""The CPU time of threads, if the operating system tells it (Linux)."""
+"""The state and the processor time of processes and threads, if the operating system tells them (Linux)."""
 
 from __future__ import annotations
 
@@ -10,14 +10,21 @@ if TYPE_CHECKING:
     from ..roles import NodeThread
 
 
+ENDED_STATES = ("Z", "X")
+"""Of a process that has ended and was not reaped yet."""
+
+
 def state_and_seconds(task: str) -> tuple[str, float] | None:
-    """Return state (`R`, `S`, `D` ..., see proc(5)) and processor time (s) of `/proc/<task>`; None if unknown."""
+    """Return state (`R`, `S`, `D` ..., see proc(5)) and processor time (s) of `/proc/<task>`; None if unknown.
+
+    That is a process by its pid, or a thread.
+    """
     try:
         with open(f"/proc/{task}/stat", "rb") as stat_file:
             fields = stat_file.read().rpartition(b")")[2].split()
-    except OSError:  # it has ended, or the system has no such folder
+        return fields[0].decode(), (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+    except (OSError, IndexError):  # it has ended, or the system has no such folder
         return None
-    return fields[0].decode(), (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
 
 def thread_seconds(native_id: int) -> float | None:

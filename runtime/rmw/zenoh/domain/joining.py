@@ -7,6 +7,7 @@ import os
 import time
 from collections.abc import Generator
 
+from bot_console.runtime.process.watch.processor_time import state_and_seconds
 from bot_console.runtime.rmw.zenoh.domain.file_lock import FOLDER_HOLDS_LOCKS, open_lock, try_lock
 from bot_console.runtime.rmw.zenoh.domain.sockets import is_stopped, live_sockets
 
@@ -49,7 +50,7 @@ class _Behind:
 
     def __init__(self) -> None:
         self._holder: int | None = None
-        self._used = 0
+        self._used = 0.0
         self._since = self._idle_since = time.monotonic()
 
     def hangs(self, holder: int | None) -> bool:
@@ -95,14 +96,10 @@ def _taken(handle: int, timeout_s: float) -> bool:
         pause = min(pause * 1.3, MAX_POLL_S)
 
 
-def _time_used(pid: int | None) -> int:
-    """The processor time that a process has used, in clock ticks; 0 if unknown."""
-    try:
-        with open(f"/proc/{pid}/stat", "rb") as file:
-            fields = file.read().rpartition(b")")[2].split()
-        return int(fields[11]) + int(fields[12])
-    except (OSError, IndexError, ValueError):
-        return 0
+def _time_used(pid: int | None) -> float:
+    """The processor time (s) that a process has used; 0 if unknown."""
+    reported = state_and_seconds(str(pid))
+    return reported[1] if reported else 0.0
 
 
 def _holder(handle: int) -> int | None:

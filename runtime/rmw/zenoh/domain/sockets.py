@@ -12,6 +12,7 @@ import re
 from typing import NamedTuple
 
 from bot_console.runtime.process.unpatched import getpid
+from bot_console.runtime.process.watch.processor_time import ENDED_STATES, state_and_seconds
 from bot_console.runtime.rmw.zenoh.domain import loopback
 from bot_console.runtime.rmw.zenoh.domain.debugger_note import remove_note
 from bot_console.runtime.rmw.zenoh.domain.file_lock import open_lock, try_lock
@@ -98,7 +99,8 @@ def _ending() -> str:
 
 def is_stopped(pid: int) -> bool:
     """Whether a process is frozen; False if the system does not tell."""
-    return _state(pid) in (b"T", b"t")
+    reported = state_and_seconds(str(pid))
+    return reported is not None and reported[0] in ("T", "t")
 
 
 def lives(pid: int) -> bool:
@@ -114,13 +116,5 @@ def lives(pid: int) -> bool:
         return False
     except PermissionError:
         pass
-    return _state(pid) not in (b"Z", b"X")
-
-
-def _state(pid: int) -> bytes:
-    """The system's letter for a process's state; empty if unknown."""
-    try:
-        with open(f"/proc/{pid}/stat", "rb") as file:
-            return file.read().rpartition(b")")[2].split()[0]
-    except (OSError, IndexError):
-        return b""
+    reported = state_and_seconds(str(pid))
+    return reported is None or reported[0] not in ENDED_STATES
