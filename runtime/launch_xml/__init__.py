@@ -1,7 +1,7 @@
 """Launch files in XML."""
 
 from launch_xml.entity import Entity
+from launch_xml.launch_description_sources import XMLLaunchDescriptionSource
 from launch_xml.parser import Parser
-from launch_xml.source import XMLLaunchDescriptionSource
 
 __all__ = ["Entity", "Parser", "XMLLaunchDescriptionSource"]

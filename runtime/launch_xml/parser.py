@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TextIO
+from typing import Any, TextIO
+from xml.etree import ElementTree
+from xml.parsers import expat
 
 from launch.frontend import Parser as BaseParser
 from launch_xml.entity import Entity
-from launch_xml.read_xml import read_xml
+
+Lines = dict[ElementTree.Element, int]
 
 
 class Parser(BaseParser):
@@ -21,10 +24,31 @@ class Parser(BaseParser):
                 text = stream.read()
         else:
             text = file.read()
-        root, lines = read_xml(text)
+        root, lines = _read(text)
         return Entity(root, lines=lines), cls()
 
     @classmethod
     def get_file_extensions(cls) -> set[str]:
         """Endings of its files."""
         return {"launch.xml", "xml", "launch"}
+
+
+def _read(text: str) -> tuple[ElementTree.Element, Lines]:
+    """The root element and the line on which each element begins; raises `ElementTree.ParseError`."""
+    builder = ElementTree.TreeBuilder()
+    parser: Any = expat.ParserCreate()
+    lines: Lines = {}
+
+    def start(tag: str, attributes: dict[str, str]) -> None:
+        lines[builder.start(tag, attributes)] = parser.CurrentLineNumber
+
+    parser.StartElementHandler = start
+    parser.EndElementHandler = builder.end
+    parser.CharacterDataHandler = builder.data
+    try:
+        parser.Parse(text, True)
+    except expat.ExpatError as error:
+        reported = ElementTree.ParseError(str(error))
+        reported.code, reported.position = error.code, (error.lineno, error.offset)
+        raise reported from error
+    return builder.close(), lines

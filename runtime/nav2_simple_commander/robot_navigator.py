@@ -6,6 +6,7 @@ Contract: the methods and log lines of upstream's `nav2_simple_commander` for Ja
 from __future__ import annotations
 
 import time
+from enum import Enum
 from typing import Any
 
 import rclpy
@@ -13,12 +14,23 @@ from action_msgs.msg import GoalStatus
 from builtin_interfaces.msg import Duration
 from geometry_msgs.msg import Point, PoseStamped, PoseWithCovarianceStamped
 from lifecycle_msgs.srv import GetState
-from nav2_simple_commander.task_result import TaskResult
 from nav2_simple_commander.tasks import ACTIONS, SERVICES
 from rclpy.action import ActionClient
 from rclpy.duration import Duration as RclpyDuration
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
+
+__all__ = ["BasicNavigator", "TaskResult"]
+
+
+class TaskResult(Enum):
+    """The outcome of a task, numbered as upstream."""
+
+    UNKNOWN = 0
+    SUCCEEDED = 1
+    CANCELED = 2
+    FAILED = 3
+
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 ENDED = {
@@ -26,7 +38,6 @@ ENDED = {
     GoalStatus.STATUS_ABORTED: TaskResult.FAILED,
     GoalStatus.STATUS_CANCELED: TaskResult.CANCELED,
 }
-__all__ = ["BasicNavigator", "TaskResult"]
 
 
 class BasicNavigator(Node):

@@ -14,7 +14,7 @@ from rclpy.impl.event_handlers import (
     MatchedHandler,
     MissedHandler,
 )
-from rclpy.impl.event_types import QoSPublisherEventType, QoSSubscriptionEventType
+from rclpy.impl.named_enum import NamedIntEnum
 from rclpy.impl.qos_policies import QoSPolicyKind
 from rclpy.impl.reexports import reexporting
 from rclpy.qos import LivelinessPolicy, QoSProfile
@@ -48,6 +48,27 @@ __all__ = [
 Callback = Callable[[Any], object]
 INFINITE_NS = 2**63 - 2
 """Durations from here on stand for no limit."""
+
+
+class QoSPublisherEventType(NamedIntEnum):
+    """Events of publishers, with rcl's numbers."""
+
+    RCL_PUBLISHER_OFFERED_DEADLINE_MISSED = 0
+    RCL_PUBLISHER_LIVELINESS_LOST = 1
+    RCL_PUBLISHER_OFFERED_INCOMPATIBLE_QOS = 2
+    RCL_PUBLISHER_INCOMPATIBLE_TYPE = 3
+    RCL_PUBLISHER_MATCHED = 4
+
+
+class QoSSubscriptionEventType(NamedIntEnum):
+    """Events of subscriptions, with rcl's numbers."""
+
+    RCL_SUBSCRIPTION_REQUESTED_DEADLINE_MISSED = 0
+    RCL_SUBSCRIPTION_LIVELINESS_CHANGED = 1
+    RCL_SUBSCRIPTION_REQUESTED_INCOMPATIBLE_QOS = 2
+    RCL_SUBSCRIPTION_MESSAGE_LOST = 3
+    RCL_SUBSCRIPTION_INCOMPATIBLE_TYPE = 4
+    RCL_SUBSCRIPTION_MATCHED = 5
 
 
 class QoSIncompatibleInfo(NamedTuple):

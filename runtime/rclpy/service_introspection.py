@@ -73,7 +73,7 @@ class ServiceEvents:
         info.event_type = kind
         info.stamp = self._clock.now().to_msg()
         info.sequence_number = number
-        info.client_gid[:] = list(client_gid(client))
+        info.client_gid[:] = list(client.gid)
         if self.state == ServiceIntrospectionState.CONTENTS:
             event.request = [] if request is None else [request]
             event.response = [] if response is None else [response]
@@ -83,11 +83,6 @@ class ServiceEvents:
         """Stop publishing."""
         self.state = ServiceIntrospectionState.OFF
         self._node.destroy_publisher(self._publisher)
-
-
-def client_gid(client: ClientEndpoint) -> bytes:
-    """Sixteen bytes that identify a client."""
-    return client.gid
 
 
 def configure(entity: Introspected, clock: Clock, qos_profile: QoSProfile, state: ServiceIntrospectionState) -> None:

@@ -1,5 +1,18 @@
 """Launch files in XML as sources."""
 
-from launch_xml.source import XMLLaunchDescriptionSource
+from __future__ import annotations
 
-__all__ = ["XMLLaunchDescriptionSource"]
+from typing import TYPE_CHECKING
+
+from launch.launch_description_sources import FrontendLaunchDescriptionSource
+from launch_xml.parser import Parser
+
+if TYPE_CHECKING:
+    from launch.some_substitutions_type import SomeSubstitutionsType
+
+
+class XMLLaunchDescriptionSource(FrontendLaunchDescriptionSource):
+    """Reads a launch file in XML."""
+
+    def __init__(self, launch_file_path: SomeSubstitutionsType) -> None:
+        super().__init__(launch_file_path, parser=Parser, method="interpreted XML launch file")

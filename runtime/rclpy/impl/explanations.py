@@ -14,7 +14,6 @@ from bot_console.runtime.process.stack_frames import is_shipped, line_outside
 from bot_console.runtime.programs.hints import at, is_read, read_before_declared, wrong_type
 from bot_console.runtime.rmw.parameter_places import place_of
 from rclpy.impl.callables import is_coroutine
-from rclpy.impl.written_values import literal_text
 
 WRONG_PARAMETER = (
     "Parameter is imported from rcl_interfaces.msg here, where it is the message class: it has no Parameter.Type and "
@@ -107,7 +106,7 @@ def _wrong_type(exception: Any) -> str:
         return ""
     found = _EXPECTED.search(str(exception.args[0]))
     given = exception.param
-    return wrong_type(given.name, literal_text(given.value), found[1], given.type_.name) if found else ""
+    return wrong_type(given.name, _in_yaml(given.value), found[1], given.type_.name) if found else ""
 
 
 def _refused_value(exception: object) -> str:
@@ -151,3 +150,8 @@ def _users_line(exception: BaseException) -> str:
             found = f"{name}:{trace.tb_lineno}: "
         trace = trace.tb_next
     return found
+
+
+def _in_yaml(value: object) -> str:
+    """A parameter's value as written in YAML."""
+    return str(value).lower() if isinstance(value, bool) else str(value)
