@@ -203,10 +203,6 @@ def _shown(value: object) -> Any:
     return int(value) if isinstance(value, QoSPolicyEnum) else value
 
 
-def _reliable(depth: int) -> QoSProfile:
-    return QoSProfile(depth=depth)
-
-
 def _all(kind: str, depth: int, history: HistoryPolicy, duration: Duration) -> QoSProfile:
     return QoSProfile(
         history=history,
@@ -220,12 +216,12 @@ def _all(kind: str, depth: int, history: HistoryPolicy, duration: Duration) -> Q
 
 
 qos_profile_unknown = _all("UNKNOWN", 0, HistoryPolicy.UNKNOWN, Duration())
-qos_profile_default = _reliable(DEFAULT_DEPTH)
+qos_profile_default = QoSProfile(depth=DEFAULT_DEPTH)
 qos_profile_system_default = _all("SYSTEM_DEFAULT", 0, HistoryPolicy.SYSTEM_DEFAULT, Duration())
 qos_profile_sensor_data = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
-qos_profile_services_default = _reliable(DEFAULT_DEPTH)
-qos_profile_parameters = _reliable(1000)
-qos_profile_parameter_events = _reliable(1000)
+qos_profile_services_default = QoSProfile(depth=DEFAULT_DEPTH)
+qos_profile_parameters = QoSProfile(depth=1000)
+qos_profile_parameter_events = QoSProfile(depth=1000)
 qos_profile_best_available = _all("BEST_AVAILABLE", DEFAULT_DEPTH, HistoryPolicy.KEEP_LAST, DeadlineBestAvailable)
 qos_profile_action_status_default = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 

@@ -13,6 +13,7 @@ def readme(name: str, place: Path, executables: Iterable[str]) -> str:
     """Return the text for the package that was written to `place`."""
     files = {each.stem.removesuffix("_config"): each for each in sorted((place / "config").glob("*.yaml"))}
     profiles = list(files)
+    commands = "\n".join(f"- `ros2 run {name} {each}`" for each in sorted(executables))
     launch_files = sorted(each.name for each in (place / "launch").iterdir())
     return f"""# {name}
 
@@ -35,7 +36,7 @@ Launch files: {", ".join(launch_files)}.
 
 ## Nodes
 
-{_lines(f"- `ros2 run {name} {each}`" for each in sorted(executables))}
+{commands}
 
 ## Parameters
 
@@ -46,14 +47,10 @@ with the reason. These are the values of the profiles in `config/`:
 """
 
 
-def _lines(texts: Iterable[str]) -> str:
-    return "\n".join(texts)
-
-
 def _table(names: list[str], profiles: list[Mapping[str, object]]) -> str:
     keys = list(dict.fromkeys(key for values in profiles for key in values))
     head = [f"| parameter | {' | '.join(names)} |", "|" + " --- |" * (len(names) + 1)]
-    return _lines(
+    return "\n".join(
         [*head, *(f"| `{key}` | {' | '.join(str(each.get(key, '')) for each in profiles)} |" for key in keys)]
     )
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ros2cli.verbs import pkg_cmake_templates as texts
+from ros2cli.verbs.pkg_templates import PACKAGE_XML
 
 
 def files(
@@ -20,7 +21,7 @@ def files(
         "build_type": build_type,
         "tests": texts.LINTERS if ament else "",
     }
-    made = {"package.xml": texts.PACKAGE_XML.substitute(filled)}
+    made = {"package.xml": PACKAGE_XML.substitute(filled)}
     more = {
         "name": name,
         "macro": name.upper(),

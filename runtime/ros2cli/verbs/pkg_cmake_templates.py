@@ -4,21 +4,6 @@ from __future__ import annotations
 
 from string import Template
 
-PACKAGE_XML = Template("""\
-<?xml version="1.0"?>
-<?xml-model href="http://download.ros.org/schema/package_format$format.xsd" schematypens="http://www.w3.org/2001/XMLSchema"?>
-<package format="$format">
-  <name>$name</name>
-  <version>0.0.0</version>
-  <description>$description</description>
-  <maintainer email="$email">$maintainer</maintainer>
-  <license>$license</license>
-
-$buildtool$dependencies$tests  <export>
-    <build_type>$build_type</build_type>
-  </export>
-</package>
-""")
 LINTERS = """\
   <test_depend>ament_lint_auto</test_depend>
   <test_depend>ament_lint_common</test_depend>

@@ -127,7 +127,8 @@ def _write(folder: str, arguments: argparse.Namespace, email: str) -> None:
     """Create the folders and files, and print a line for each."""
     name, words = arguments.package_name, _words(arguments, email)
     _folder(folder)
-    _file(folder, "package.xml", texts.PACKAGE_XML.substitute(words))
+    manifest = texts.PACKAGE_XML.substitute(words, buildtool="", tests=texts.PYTHON_TESTS, build_type="ament_python")
+    _file(folder, "package.xml", manifest)
     print("creating source folder")
     source = _folder(folder, name)
     _file(folder, "setup.py", texts.SETUP_PY.substitute(words))

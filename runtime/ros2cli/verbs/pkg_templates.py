@@ -1,4 +1,4 @@
-"""Templates for the files of a new Python package."""
+"""Templates for the manifest of a new package, and for the other files of one in Python."""
 
 from __future__ import annotations
 
@@ -14,16 +14,18 @@ PACKAGE_XML = Template("""\
   <maintainer email="$email">$maintainer</maintainer>
   <license>$license</license>
 
-$dependencies  <test_depend>ament_copyright</test_depend>
+$buildtool$dependencies$tests  <export>
+    <build_type>$build_type</build_type>
+  </export>
+</package>
+""")
+PYTHON_TESTS = """\
+  <test_depend>ament_copyright</test_depend>
   <test_depend>ament_flake8</test_depend>
   <test_depend>ament_pep257</test_depend>
   <test_depend>python3-pytest</test_depend>
 
-  <export>
-    <build_type>ament_python</build_type>
-  </export>
-</package>
-""")
+"""
 SETUP_PY = Template("""\
 from setuptools import find_packages, setup
 
