@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Only the simulated robot, for nodes that are started elsewhere; also under a TurtleBot's topic names."""
+"""Only the simulated robot, for nodes that are started elsewhere; also with a TurtleBot's frames, speed and laser."""
 
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch.conditions import IfCondition
@@ -12,7 +12,7 @@ from launch import LaunchDescription
 PACKAGE = "bot_console_robot"
 ALL_AROUND = 6.265732014659643
 """The field of view (rad) of a TurtleBot's laser, in which beam 359 does not coincide with beam 0."""
-MODELS = {
+MODEL_SETTINGS = {
     "plain": ("indoor", 5.0, 3.141592653589793),
     "turtlebot3": ("arena", 0.22, ALL_AROUND),
     "turtlebot4": ("arena", 0.31, ALL_AROUND),
@@ -37,8 +37,8 @@ def generate_launch_description():
             DeclareLaunchArgument(
                 "model",
                 default_value="plain",
-                choices=list(MODELS),
-                description="Robot whose topic names, speed and laser are simulated",
+                choices=list(MODEL_SETTINGS),
+                description="Robot whose frames, speed and laser are simulated",
             ),
             DeclareLaunchArgument("stamped", default_value="false", description="Accept TwistStamped on cmd_vel"),
             DeclareLaunchArgument(
@@ -65,7 +65,7 @@ def stamped():
 def make_simulator(context):
     """The simulator, configured for the chosen model."""
     model = LaunchConfiguration("model").perform(context)
-    world, speed, view = MODELS[model]
+    world, speed, view = MODEL_SETTINGS[model]
     return [
         Node(
             package=PACKAGE,

@@ -2,7 +2,8 @@
 
     python tools/compare_programs.py REAL_PYTHON [--record] [NAME ...]
 
-`REAL_PYTHON` is the interpreter of an environment with `ros-jazzy-rclpy`; `--record` keeps its outcomes.
+The differences that are accepted are in `tests/contract/live/programs.yaml`. `REAL_PYTHON` is the interpreter of an
+environment with `ros-jazzy-rclpy`; `--record` keeps its outcomes.
 """
 
 from __future__ import annotations

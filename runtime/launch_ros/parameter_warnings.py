@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import launch.logging
 import yaml
+from bot_console.runtime.rmw.parameter_node_keys import key_matches
 from bot_console.runtime.rmw.parameter_places import node_keys
-from bot_console.runtime.rmw.parameter_precedence import key_matches
 from bot_console.runtime.rmw.parameter_scalars import INT64_MAX, INT64_MIN, scalar_value
 from bot_console.runtime.rmw.parameter_types import word_of
 from launch.utilities import perform_substitutions

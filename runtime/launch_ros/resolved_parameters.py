@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from bot_console.runtime.rmw.parameter_precedence import ALL_NODES, ParameterTable, ParameterYamlError
+from bot_console.runtime.rmw.parameter_node_keys import ALL_NODES
+from bot_console.runtime.rmw.parameter_precedence import ParameterTable, ParameterYamlError
 from bot_console.runtime.rmw.parameter_types import word_of
 from launch_ros.descriptions.parameter_file import PREFIX
 from launch_ros.parameter_arguments import ParameterArgument

@@ -9,12 +9,11 @@ from typing import Any
 
 from bot_console.runtime.files.remote_address import is_remote
 from bot_console.runtime.programs import hints
-from bot_console.runtime.rmw.names import validate_namespace, validate_node_name
+from bot_console.runtime.rmw.parameter_node_keys import check_node_key
 from bot_console.runtime.rmw.parameter_overrides import NodeOverrides, ParameterOverrides, ParameterYamlError
 from bot_console.runtime.rmw.parameter_value import ValueWriter, yaml_events
 
 KEYWORD = "ros__parameters"
-_WILDCARDS = ("*", "**")
 
 
 def read_parameter_file(path: str, overrides: ParameterOverrides) -> None:
@@ -164,7 +163,7 @@ class _Reader:
         key = self._node_levels.path
         if key is None:
             raise ParameterYamlError(f"There are no node names before {KEYWORD} at line {self.line}")
-        _check_node_key(key)
+        check_node_key(key)
         self._node = self._overrides.node(key)
         self._node_levels.remove()
         self._in_parameters = True
@@ -215,26 +214,6 @@ class _Reader:
 
     def alias(self, event: object) -> None:
         raise ParameterYamlError(f"Will not support aliasing at line {self.line}\n")
-
-
-def _check_node_key(key: str) -> None:
-    """Raise `ParameterYamlError` for a key that cannot be a node's name, wildcards aside."""
-    namespace, slash, node = key.rpartition("/")
-    if slash:
-        namespace = f"{namespace}/"
-        namespace = namespace if namespace.startswith("/") else f"/{namespace}"
-        for token in namespace.split("/")[1:-1]:
-            if not token:
-                raise ParameterYamlError(f"{namespace} contains repeated forward slash")
-            if token not in _WILDCARDS:
-                _refuse(validate_namespace(f"/{token}"))
-    if node not in _WILDCARDS:
-        _refuse(validate_node_name(node))
-
-
-def _refuse(problem: tuple[str, int] | None) -> None:
-    if problem is not None:
-        raise ParameterYamlError(problem[0])
 
 
 Find = Callable[[str], str]

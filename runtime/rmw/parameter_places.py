@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from functools import lru_cache
 from typing import Any
 
+from bot_console.runtime.rmw.parameter_node_keys import key_matches
 from bot_console.runtime.rmw.parameter_overrides import COMMAND_LINE
-from bot_console.runtime.rmw.parameter_precedence import key_matches
 
 KEYWORD = "ros__parameters"
 FROM_LAUNCH = "# from "

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any
 
+from bot_console.runtime.rmw.parameter_node_keys import key_matches
 from bot_console.runtime.rmw.parameter_overrides import COMMAND_LINE as COMMAND_LINE
 from bot_console.runtime.rmw.parameter_overrides import ParameterOverrides
 from bot_console.runtime.rmw.parameter_overrides import ParameterYamlError as ParameterYamlError
-
-ALL_NODES = "/**"
-"""The key of values for every node, such as those of a plain `-p name:=value`."""
 
 
 class ParameterTable(ParameterOverrides):
@@ -48,16 +45,3 @@ class ParameterTable(ParameterOverrides):
             if key_matches(key, fully_qualified_name):
                 found.update(zip(node.names, node.sources, strict=True))
         return found
-
-
-def key_matches(key: str, fully_qualified_name: str) -> bool:
-    """Whether a node key, with `*` for one name and `**` for any number of them, matches a node."""
-    if key == ALL_NODES:
-        return True
-    key = key if key.startswith("/") else f"/{key}"
-    if "*" not in key:
-        return key == fully_qualified_name
-    # As in rcl, one replacement handles both wildcards: `/*` becomes a group that matches one name, and the second star
-    # of `/**` stays behind as a quantifier of that group, which then matches any number of names, including none.
-    pattern = key.replace("/*", r"(/\w+)")
-    return re.fullmatch(pattern, fully_qualified_name) is not None

@@ -33,7 +33,7 @@ report(before)
 """
 FIRST_FRAME = """
 import asyncio
-from bot_console.tui.cli import screen
+from bot_console.tui.cli import open_console
 from bot_console.tui.cli.arguments import parse
 from bot_console.tui.session.live import Session
 

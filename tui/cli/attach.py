@@ -24,7 +24,7 @@ def run(words: Sequence[str]) -> int:
         return kind.code
     if kind.ros is not None:
         return _needs_terminal() or _ros(options, str(kind.ros))
-    from bot_console.tui.cli.screen import run as show
+    from bot_console.tui.cli.open_console import run as show
 
     return show(options.appearance)
 

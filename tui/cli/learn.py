@@ -92,7 +92,7 @@ def _new(folder: Path) -> int:
 
 
 def _show(lesson: CourseLesson, workspace: Path) -> int:
-    from bot_console.tui.cli.screen import run as show
+    from bot_console.tui.cli.open_console import run as show
     from bot_console.tui.panes.lesson.pane import LessonPane
 
     def pane() -> type[LessonPane]:

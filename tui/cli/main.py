@@ -99,7 +99,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     from bot_console.tui.cli.interpreter import without_collector
 
     with without_collector():
-        from bot_console.tui.cli.screen import run as show
+        from bot_console.tui.cli.open_console import run as show
 
         return show(options)
 

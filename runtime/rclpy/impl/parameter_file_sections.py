@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple, cast
 
-from bot_console.runtime.rmw.parameter_precedence import key_matches
+from bot_console.runtime.rmw.parameter_node_keys import key_matches
 
 KEYWORD = "ros__parameters"
 MISSING = object()

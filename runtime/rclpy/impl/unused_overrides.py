@@ -15,8 +15,9 @@ from typing import TYPE_CHECKING, Protocol
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
 from bot_console.runtime.programs.hints import at, is_read, key_of_another_node, nearest, not_declared
+from bot_console.runtime.rmw.parameter_node_keys import key_matches
 from bot_console.runtime.rmw.parameter_places import place_of, place_of_key
-from bot_console.runtime.rmw.parameter_precedence import COMMAND_LINE, key_matches
+from bot_console.runtime.rmw.parameter_precedence import COMMAND_LINE
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 
 PING_PERIOD_S = 0.4
 """Interval between pings, in seconds."""
-SILENCE_TIMEOUT_S = 5.0
+DISTRUST_AFTER_S = 5.0
 """After so many seconds without an answer, the next answer is not trusted: after ten, Zenoh gives up a link and ends
 all queries as if they were answered.
 """
@@ -93,7 +93,7 @@ class LinkProbe:
     def _take(self, asked: float) -> None:
         """Accept an answer, unless its ping was pending during a long silence."""
         now = self._clock()
-        if now - self._came > SILENCE_TIMEOUT_S:
+        if now - self._came > DISTRUST_AFTER_S:
             self._believed = now
         self._came = now
         if asked >= self._believed:

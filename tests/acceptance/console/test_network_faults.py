@@ -17,7 +17,7 @@ from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.settings import Serving
 from bot_console.tui.console.model import Severity
 from bot_console.tui.panes.steering.state import Steering
-from bot_console.tui.session.embedded.link import LinkWords
+from bot_console.tui.session.embedded.link_state import LinkWords
 from processes.bad_link import BadLink
 from processes.ports import free_port
 from rclpy.publisher import Publisher

@@ -6,7 +6,8 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import yaml
-from bot_console.runtime.rmw.parameter_precedence import ParameterTable, key_matches
+from bot_console.runtime.rmw.parameter_node_keys import key_matches
+from bot_console.runtime.rmw.parameter_precedence import ParameterTable
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -5,7 +5,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from bot_console.runtime.rmw.parameter_precedence import ParameterTable, ParameterYamlError, key_matches
+from bot_console.runtime.rmw.parameter_node_keys import key_matches
+from bot_console.runtime.rmw.parameter_precedence import ParameterTable, ParameterYamlError
 from bot_console.runtime.rmw.parameter_value import read_parameter_value
 
 NAN = "nan"

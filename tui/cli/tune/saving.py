@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from bot_console.tui.cli.tune.pool import is_file, profile_yaml
 from bot_console.tui.console.parameters.file.patch import patched
-from bot_console.tui.console.parameters.profile_names import profile_name_problem
+from bot_console.tui.console.parameters.profile_name_check import profile_name_problem
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
 from bot_console.tui.tuning.job import SettingResult

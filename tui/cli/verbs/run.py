@@ -47,7 +47,7 @@ def run(words: list[str]) -> int:
         from bot_console.tui.cli.headless.run import run as run_headless
 
         return run_headless(options)
-    from bot_console.tui.cli.screen import run as show
+    from bot_console.tui.cli.open_console import run as show
 
     return show(options)
 

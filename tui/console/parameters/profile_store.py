@@ -14,7 +14,7 @@ from urllib.parse import urlsplit
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ParameterTree, Profile
 from bot_console.tui.console.parameters.file.saving import save
-from bot_console.tui.console.parameters.profile_names import profile_name_problem
+from bot_console.tui.console.parameters.profile_name_check import profile_name_problem
 from bot_console.tui.console.parameters.profiles import find, load
 from bot_console.tui.files.save_file import NotSaved, typed_path
 

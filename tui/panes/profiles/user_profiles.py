@@ -11,7 +11,7 @@ from typing import Any
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ConsoleSnapshot, Profile
-from bot_console.tui.console.parameters.profile_names import profile_name_problem
+from bot_console.tui.console.parameters.profile_name_check import profile_name_problem
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.widgets.prompt.question import Confirmation, Line, Question
 

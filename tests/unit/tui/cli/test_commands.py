@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.cli import main as program
-from bot_console.tui.cli import screen
+from bot_console.tui.cli import open_console
 
 
 @pytest.mark.parametrize("place", sorted({*program._COMMANDS.values(), *program._ROS2.values()}))
@@ -25,6 +25,6 @@ def test_rqt_program_starts_no_robot_unless_asked(line: str, attached: bool, mon
     shown: list[str] = []
     monkeypatch.setattr(program, "others_take_part", lambda: False)
     monkeypatch.setattr(program, "_attach", lambda words: shown.append("attached") or 0)
-    monkeypatch.setattr(screen, "run", lambda options: shown.append("own") or 0)
+    monkeypatch.setattr(open_console, "run", lambda options: shown.append("own") or 0)
     assert program.main(line.split()) == 0
     assert shown == ["attached" if attached else "own"]

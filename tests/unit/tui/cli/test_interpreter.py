@@ -6,7 +6,7 @@ import gc
 import sys
 
 import pytest
-from bot_console.tui.cli import main, screen
+from bot_console.tui.cli import main, open_console
 from bot_console.tui.cli.interpreter import (
     SWITCH_INTERVAL_S,
     collect_from_now_on,
@@ -56,7 +56,7 @@ def test_console_starts_without_the_collector(monkeypatch: pytest.MonkeyPatch) -
         seen.append(gc.isenabled())
         return 0
 
-    monkeypatch.setattr(screen, "run", run)
+    monkeypatch.setattr(open_console, "run", run)
     assert main.main([]) == 0 and seen == [False] and gc.isenabled()
 
 

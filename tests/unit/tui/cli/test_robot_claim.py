@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 import pytest
 from bot_console.runtime.rmw.zenoh.domain.file_lock import try_lock
-from bot_console.tui.cli import robot_claim, screen
+from bot_console.tui.cli import open_console, robot_claim
 from bot_console.tui.cli.arguments import parse
 from bot_console.tui.cli.headless import run as headless
 from bot_console.tui.cli.robot_claim import NAME, RobotClaim
@@ -183,9 +183,9 @@ def test_console_started_beside_another_shows_its_robot(tmp_path, monkeypatch, c
         "is_in_range": lambda: True, "others_take_part": lambda: False, "robot_there": lambda: next(polls),
         "robot_claim": lambda: RobotClaim(tmp_path),
     }.items():  # fmt: skip
-        monkeypatch.setattr(screen, name, value)
+        monkeypatch.setattr(open_console, name, value)
     monkeypatch.setattr("builtins.input", lambda question: "y")
-    assert screen.run(parse([])) == 0 and shown[0].attach
+    assert open_console.run(parse([])) == 0 and shown[0].attach
     assert "Another bot-console is starting a robot" in capsys.readouterr().err
     first.release()
     assert RobotClaim(tmp_path).held, "who attached claims nothing"

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.programs.exit_messages import run_and_report
-from bot_console.tui.cli import screen
+from bot_console.tui.cli import open_console
 from bot_console.tui.cli.arguments import parse
 from bot_console.tui.cli.main import main
 from bot_console.tui.cli.tune.pool import profile_yaml
@@ -41,8 +41,8 @@ def deleted_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_console_needs_no_home(no_home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     logs: list[Path] = []
-    monkeypatch.setattr(screen, "start_host", lambda words, log: logs.append(log))
-    screen._host(parse([]))
+    monkeypatch.setattr(open_console, "start_host", lambda words, log: logs.append(log))
+    open_console._host(parse([]))
     assert logs == [Path(os.devnull)]
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from bot_console.runtime.rmw.zenoh.network.client import CONFIG_VARIABLE, OVERRIDE_VARIABLE, Way, with_environment
 from bot_console.runtime.rmw.zenoh.network.reachability import Tls
-from bot_console.tui.cli import screen
+from bot_console.tui.cli import open_console
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.attach_options import AttachOptions
 from bot_console.tui.session import network
@@ -44,8 +44,8 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[tuple[Any, ...]]:
         def run(self) -> int:
             return 0
 
-    monkeypatch.setattr(screen, "Session", Started)
-    monkeypatch.setattr(screen, "_refusal", lambda _: "")
+    monkeypatch.setattr(open_console, "Session", Started)
+    monkeypatch.setattr(open_console, "_refusal", lambda _: "")
     monkeypatch.setattr(network, "AttachedSession", Started)
     monkeypatch.setattr(network, "connect", lambda _: Closed())
     monkeypatch.setattr(network, "choose", lambda _: None)
@@ -77,7 +77,7 @@ def test_network_console_starts_no_nodes_that_would_not_reach_its_robot(
 
 def test_programs_that_a_console_in_the_domain_starts_stay_there(started: list[tuple[Any, ...]]) -> None:
     os.environ[CONNECT_VARIABLE] = ROBOT
-    assert screen.run(Options(attach=True)) == 0
+    assert open_console.run(Options(attach=True)) == 0
     assert named_routers() == []
     assert any(ROBOT in each for each in started[0][1].args[1]), "the log of the console says so"
 

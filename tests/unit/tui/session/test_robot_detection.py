@@ -67,11 +67,11 @@ def test_names_are_those_of_our_launch_file():
 
 @pytest.mark.parametrize(("typed", "attached"), [("", True), ("n", False)])
 def test_console_asks_before_it_adds_a_second_node_of_one_name(monkeypatch, capsys, typed, attached):
-    from bot_console.tui.cli import screen
+    from bot_console.tui.cli import attach_question
 
     asked = []
     monkeypatch.setattr("builtins.input", lambda question: asked.append(question) or typed)
-    assert screen._attach_instead(["/robot_navigator"], robot=False) is attached
+    assert attach_question.wants_to_attach(["/robot_navigator"], robot=False) is attached
     reported = capsys.readouterr().out
     assert "Nodes named like our robot's run in ROS domain" in reported and "/robot_navigator" in reported
     assert "bot-console --launch bot_console_robot simulator.launch.py" in reported

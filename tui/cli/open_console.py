@@ -1,4 +1,4 @@
-"""`bot-console` with a screen: what it shows, and whether it starts a robot."""
+"""Opens the console: what it shows, and whether it starts a robot."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bot_console.tui.cli.arguments import Options
+from bot_console.tui.cli.attach_question import wants_to_attach
 from bot_console.tui.cli.machine_limits import too_few_files, too_little_address_space, too_small_files
 from bot_console.tui.console.model import Severity
 from bot_console.tui.files.folders import state_folder
@@ -63,7 +64,7 @@ def run(options: Options) -> int:
                 _prepare(options)
                 robot = claim.seen(robot_there, report_of_other_start)
                 there = robot or same_names_there(options.launch_arguments)
-                if there and not _attach_instead(there, robot=bool(robot)):
+                if there and not wants_to_attach(there, robot=bool(robot)):
                     return 1
                 if there:
                     claim.release()  # Once that robot is gone, another console may start one.
@@ -134,30 +135,3 @@ def _host(options: Options) -> Host:
     if size := read_settings().kept:
         words += ["--keep-seconds", str(size.seconds), "--keep-bytes", str(size.bytes)]
     return start_host(words, log=log)
-
-
-def _attach_instead(there: list[str], *, robot: bool) -> bool:
-    """Ask whether to attach to a running robot, or to nodes that have names of ours.
-
-    Two robots in one domain would obey each other's commands, and two nodes of one name share their parameters and log.
-    """
-    from bot_console.runtime.workspace.builtin_package import NAME
-    from bot_console.tui.session.embedded.workspaces import NAVIGATOR
-
-    number = domain()
-    if robot:
-        print(f"A robot is already running in ROS domain {number}: {', '.join(there)}.")
-        print(f"`ROS_DOMAIN_ID={number + 1} bot-console` starts another one in isolation.")
-        question = "Attach the console to the running one? [Y/n] "
-    else:
-        print(f"Nodes named like our robot's run in ROS domain {number}: {', '.join(there)}.")
-        if there == [NAVIGATOR]:
-            print("`bot-console navigator:=false` starts our robot without its navigator,")
-        print(f"`bot-console --launch {NAME} simulator.launch.py` adds only a robot,")
-        print(f"`ROS_DOMAIN_ID={number + 1} bot-console` starts ours in isolation from them.")
-        question = "Attach the console to them, without a robot? [Y/n] "
-    try:
-        return input(question).strip().lower() in ("", "y", "yes")
-    except (EOFError, KeyboardInterrupt):
-        print()
-        return False

@@ -1,4 +1,4 @@
-"""The state of the link to a robot's router, for the status line."""
+"""The state of the link to a robot's router, for the status line: its delay, and since when it is silent."""
 
 from __future__ import annotations
 
@@ -7,6 +7,9 @@ import time
 from bot_console.runtime.rmw.zenoh.link_probe import LinkState
 from bot_console.runtime.rmw.zenoh.network.network_bus import NetworkBuses
 from bot_console.tui.console.model import LinkInfo
+
+NO_ANSWER_AFTER_S = 1
+"""Seconds without an answer after which the status line counts them."""
 
 
 class LinkWords:
@@ -29,6 +32,7 @@ def words_of(state: LinkState, now: float) -> LinkInfo:
     calm.
     """
     silent = 0 if state.heard is None else int(now - state.heard)
+    silent = silent if silent >= NO_ANSWER_AFTER_S else 0
     delay = None if state.delay is None else max(1, round(state.delay * 1000))
     if delay is not None and delay > 20:
         delay = round(delay, -1)
