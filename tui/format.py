@@ -9,15 +9,8 @@ from shlex import quote
 
 from bot_console.tui.console.model import ConsoleSnapshot, Kind, ParameterInfo, Range, Severity, Value
 from bot_console.tui.console.parameter_types import ARRAYS
-from bot_console.tui.text.sanitize import brief as brief
-from bot_console.tui.text.sanitize import counted as counted
-from bot_console.tui.text.sanitize import cut as cut
-from bot_console.tui.text.sanitize import cut_name as cut_name
 from bot_console.tui.text.sanitize import sanitize
-from bot_console.tui.text.value_text import exact_number as exact_number
-from bot_console.tui.text.value_text import number_text as number_text
-from bot_console.tui.text.value_text import value_text as value_text
-from bot_console.tui.text.value_text import yaml_text as yaml_text
+from bot_console.tui.text.value_text import number_text, value_text, yaml_text
 from bot_console.tui.text.yaml_flow import in_quotes, items, quoted, unquoted
 
 SEVERITY_CHARACTERS = {

@@ -15,10 +15,11 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.command_line import CommandLine, Stream
 from bot_console.tui.console.model import ChangeSource, SetOutcome
 from bot_console.tui.console.protocol import Console
-from bot_console.tui.format import sanitize, value_text
 from bot_console.tui.safety.line_risk import risk_of
 from bot_console.tui.screens.output import OutputScreen
 from bot_console.tui.text.refusals import of_one
+from bot_console.tui.text.sanitize import sanitize
+from bot_console.tui.text.value_text import value_text
 
 STAMP = "%Y_%m_%d-%H_%M_%S"
 """Time stamp in the name of a bag's folder, as in `ros2 bag record`."""

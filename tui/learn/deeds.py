@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from bot_console.tui.console.model import RESTARTED, Change, ConsoleSnapshot, ParameterInfo
-from bot_console.tui.format import value_text
 from bot_console.tui.learn.command_log import Command
+from bot_console.tui.text.value_text import value_text
 
 MAX_STEP_M = 1.0
 """A greater distance between two snapshots is a robot that was moved elsewhere."""

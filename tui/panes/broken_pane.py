@@ -6,8 +6,8 @@ from typing import Any, ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.format import sanitize
 from bot_console.tui.panes.pane import Pane
+from bot_console.tui.text.sanitize import sanitize
 from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import BindingType

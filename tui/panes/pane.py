@@ -13,10 +13,10 @@ from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from bot_console.tui.files.state_store import MemoryStore, StateStore
-from bot_console.tui.format import counted, sanitize
 from bot_console.tui.keys.key import NO_MODE, Mode
 from bot_console.tui.panes.time_cursor import TimeCursor
 from bot_console.tui.screens.question_screens import screen_for
+from bot_console.tui.text.sanitize import counted, sanitize
 from bot_console.tui.tuning.specification import TuningSpecification
 from bot_console.tui.tuning.tunable import Setting
 from bot_console.tui.widgets.lazy_parts import LazyParts

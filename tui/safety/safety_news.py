@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from bot_console.tui.console.model import Change, ChangeSource, ConsoleSnapshot, same
 from bot_console.tui.console.parameters.port import Parameters
 from bot_console.tui.console.parameters.safety import takes_safety
-from bot_console.tui.format import value_text
+from bot_console.tui.text.value_text import value_text
 
 BACK = {ChangeSource.EDIT: "u", ChangeSource.REDO: "u", ChangeSource.UNDO: "U"}
 """The sources of changes that are announced, with the key that takes each back; for others, a question is asked

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, ProcessInfo
 from bot_console.tui.console.robot.robot_model import DriveInfo, RobotStop
-from bot_console.tui.format import counted, sanitize
+from bot_console.tui.text.sanitize import counted, sanitize
 from bot_console.tui.widgets.prompt.question import Confirmation
 
 HOLDS_AGAIN = "What persons have requested holds it again as soon as it is back; ! and bot-console release end that."

@@ -9,8 +9,9 @@ from typing import ClassVar, TypeAlias
 from bot_console.tui import keymap
 from bot_console.tui.console.model import Kind, Value
 from bot_console.tui.console.query import Query, parse
-from bot_console.tui.format import counted, element_text, parse_element, sanitize
+from bot_console.tui.format import element_text, parse_element
 from bot_console.tui.screens.question import QuestionScreen
+from bot_console.tui.text.sanitize import counted, sanitize
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.prompt.filtered import Findable
 from bot_console.tui.widgets.prompt.line import Prompt, open_prompt

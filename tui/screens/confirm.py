@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.format import sanitize
 from bot_console.tui.screens.box import Boxed
 from bot_console.tui.screens.question import QuestionScreen
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.prompt.question import Confirmation
 from rich.cells import cell_len
 from rich.text import Text

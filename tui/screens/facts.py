@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from bot_console.tui.format import sanitize
 from bot_console.tui.screens.overlay import Overlay
+from bot_console.tui.text.sanitize import sanitize
 from rich.console import RenderableType
 from rich.text import Text
 

@@ -6,8 +6,8 @@ from typing import ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import LaunchArgument
-from bot_console.tui.format import sanitize
 from bot_console.tui.screens.question import QuestionScreen
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.prompt.question import Form
 from rich.text import Text

@@ -9,8 +9,9 @@ from typing import ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.console.topics.port import Field, Goal, Payload, Reply, Slot
-from bot_console.tui.format import cut, parse_number, sanitize
+from bot_console.tui.format import parse_number
 from bot_console.tui.screens.question import QuestionScreen
+from bot_console.tui.text.sanitize import cut, sanitize
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Fill, Line

@@ -6,9 +6,9 @@ from collections.abc import Iterable
 from typing import ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.format import sanitize
 from bot_console.tui.screens.box import Boxed
 from bot_console.tui.terminal.dimmed_screen import DimmedScreen
+from bot_console.tui.text.sanitize import sanitize
 from rich.console import RenderableType
 from rich.text import Text
 from textual.app import ComposeResult

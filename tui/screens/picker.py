@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.format import sanitize
 from bot_console.tui.screens.question import QuestionScreen
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.item_list import ItemList
 from bot_console.tui.widgets.prompt.question import Choice, Option

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bot_console.tui.console.model import Change, SetOutcome
-from bot_console.tui.format import sanitize, value_text
+from bot_console.tui.text.sanitize import sanitize
+from bot_console.tui.text.value_text import value_text
 
 BY = {"descriptor": "by its descriptor", "callback": "by the node", "console": "here"}
 """Who refused, in the words of the detail."""

@@ -6,8 +6,8 @@ from typing import ClassVar, Protocol
 
 from bot_console.tui.commanding.completing import Completion, extended, split
 from bot_console.tui.commanding.history import LineHistory
-from bot_console.tui.format import sanitize
 from bot_console.tui.keymap import bindings
+from bot_console.tui.text.sanitize import sanitize
 from rich.cells import cell_len
 from rich.text import Text
 from textual.binding import BindingType

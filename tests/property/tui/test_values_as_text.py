@@ -9,7 +9,8 @@ import pytest
 from bot_console.tui.console.model import Kind, ParameterInfo, Value
 from bot_console.tui.console.parameter_types import ARRAYS
 from bot_console.tui.console.parameters.file.patch import same
-from bot_console.tui.format import command_of, field_text, guess, parse_number, parse_value, value_text
+from bot_console.tui.format import command_of, field_text, guess, parse_number, parse_value
+from bot_console.tui.text.value_text import value_text
 from bot_console.tui.text.yaml_flow import quoted
 from hypothesis import example, given
 from hypothesis import strategies as st

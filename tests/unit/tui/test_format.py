@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.console.model import Kind, ParameterInfo
-from bot_console.tui.format import brief, cut, cut_name, parse_value
+from bot_console.tui.format import parse_value
+from bot_console.tui.text.sanitize import brief, cut, cut_name
 from rich.cells import cell_len
 
 

@@ -16,7 +16,7 @@ from bot_console.tui.console.bags.definitions import class_of, definition
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.bags.together import BagsTogether
 from bot_console.tui.console.bags.writer import BagWriter, Writing
-from bot_console.tui.format import sanitize
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.text.yaml_faults import UNREADABLE
 
 PLUGINS: Mapping[str, tuple[str, ...]] = {

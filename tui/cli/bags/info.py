@@ -9,7 +9,7 @@ from typing import Any
 
 from bot_console.tui.cli.bags.play import report_repaired
 from bot_console.tui.cli.bags.record_arguments import SERVICE_EVENTS
-from bot_console.tui.format import sanitize
+from bot_console.tui.text.sanitize import sanitize
 
 
 def info(given: argparse.Namespace) -> int:

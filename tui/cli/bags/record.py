@@ -12,7 +12,7 @@ from bot_console.tui.cli.bags.keyboard import keys_read
 from bot_console.tui.cli.bags.record_arguments import NOT_NEEDED, wanted_topics, wrong_record
 from bot_console.tui.console.bags.definitions import class_of
 from bot_console.tui.files.save_file import NotSaved
-from bot_console.tui.format import sanitize
+from bot_console.tui.text.sanitize import sanitize
 
 if TYPE_CHECKING:
     from bot_console.tui.console.bags.recorder import Recorder

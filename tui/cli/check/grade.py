@@ -8,10 +8,10 @@ import sys
 from pathlib import Path
 
 from bot_console.runtime.importer import install
-from bot_console.tui.format import sanitize
 from bot_console.tui.learn.course import CourseError, find_course, read_course
 from bot_console.tui.learn.grading import RowResult, as_json, as_junit, grade, row_text, sum_text
 from bot_console.tui.learn.sandbox import NoSandboxError
+from bot_console.tui.text.sanitize import sanitize
 
 
 def run_grading(given: argparse.Namespace) -> int:

@@ -13,9 +13,9 @@ from bot_console.tui.cli.check.runner import Outcome, Runner
 from bot_console.tui.cli.check.script import ScriptError, Step, read
 from bot_console.tui.cli.check.stepped import StartError, read_start, run_stepped
 from bot_console.tui.cli.numbers import seconds, seed
-from bot_console.tui.format import counted, sanitize
 from bot_console.tui.session.embedded.workspaces import choose
 from bot_console.tui.session.reached_console import known, reached_console
+from bot_console.tui.text.sanitize import counted, sanitize
 
 MAX_SCRIPT_BYTES = 1_000_000
 """The largest script that is accepted."""

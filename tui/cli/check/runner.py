@@ -13,8 +13,9 @@ from bot_console.tui.cli.check.script import Step
 from bot_console.tui.console.model import LogFilter, ParameterInfo, SetOutcome
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.console.topics.port import Measure
-from bot_console.tui.format import parse_value, value_text
+from bot_console.tui.format import parse_value
 from bot_console.tui.panes.alarms.alarm import Alarm, AlarmText
+from bot_console.tui.text.value_text import value_text
 
 T = TypeVar("T")
 POLL_S = 0.05

@@ -7,8 +7,8 @@ import shlex
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from bot_console.tui.format import cut
 from bot_console.tui.panes.alarms.condition import read as read_condition
+from bot_console.tui.text.sanitize import cut
 
 DEFAULT_TIMEOUT_S = 5.0
 """Seconds that an expectation waits unless the script says otherwise."""

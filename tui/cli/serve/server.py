@@ -16,7 +16,7 @@ from pathlib import Path
 import textual_serve
 from aiohttp import web
 from bot_console.tui.cli.serve.terminal import Terminal
-from bot_console.tui.format import sanitize
+from bot_console.tui.text.sanitize import sanitize
 
 PAGE = Path(__file__).resolve().parent / "page"
 FONT_SIZE_PX = 14

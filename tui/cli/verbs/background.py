@@ -27,7 +27,6 @@ from bot_console.tui.cli.verbs.router import add_serving_options, serving_of, wa
 from bot_console.tui.cli.verbs.stop import holders
 from bot_console.tui.files.folders import OVERRIDE, state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
-from bot_console.tui.format import sanitize
 from bot_console.tui.session.embedded.domain import (
     domain,
     frozen,
@@ -44,6 +43,7 @@ from bot_console.tui.session.embedded.reaching import named_routers, reach_syste
 from bot_console.tui.session.embedded.start_lock import start_lock
 from bot_console.tui.session.launch_host.address import ADDRESS_SUFFIX
 from bot_console.tui.session.system_log import new_log
+from bot_console.tui.text.sanitize import sanitize
 
 SYSTEM_MODULE = "bot_console.tui.session.background_system"
 """The program of a background system."""

@@ -17,9 +17,9 @@ from bot_console.tui.console.bags.damage import NoBag
 from bot_console.tui.console.bags.missing_packages import Missing
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.files.save_file import NotSaved
-from bot_console.tui.format import sanitize
 from bot_console.tui.session.machine.console_needs import provide_missing
 from bot_console.tui.session.machine.machine_ros import find_machine_ros, how_to_install
+from bot_console.tui.text.sanitize import sanitize
 
 
 def run(words: Sequence[str]) -> int:

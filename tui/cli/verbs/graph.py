@@ -15,9 +15,9 @@ from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.console.topics.port import Measure
-from bot_console.tui.format import sanitize
 from bot_console.tui.session.reached_console import reached_console, settled
 from bot_console.tui.settings.settings import read_settings
+from bot_console.tui.text.sanitize import sanitize
 
 PARAMETERS_TIMEOUT_S = 15.0
 """Seconds to wait for the parameters of all nodes."""

@@ -12,8 +12,9 @@ from typing import TypeVar
 from bot_console.tui.cli.verbs.stop import ask
 from bot_console.tui.console.model import ConsoleSnapshot, Value
 from bot_console.tui.console.ros_console import RosConsole
-from bot_console.tui.format import counted, sanitize, value_text
 from bot_console.tui.session.reached_console import known, reached_console
+from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.value_text import value_text
 
 T = TypeVar("T")
 ANSWER_TIMEOUT_S = 10.0

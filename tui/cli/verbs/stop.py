@@ -11,9 +11,9 @@ from bot_console.runtime.importer import install
 from bot_console.runtime.programs.exit_messages import ended_code, place_fault
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.console.robot.stop_holders import with_gone
-from bot_console.tui.format import sanitize
 from bot_console.tui.session.embedded.reaching import reach_system
 from bot_console.tui.session.reached_stop import ReachedStop
+from bot_console.tui.text.sanitize import sanitize
 
 if TYPE_CHECKING:
     from bot_console.tui.console.robot.stop_link import StopInfo

@@ -12,10 +12,10 @@ import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from bot_console.tui.format import cut
 from bot_console.tui.text.expression.numbers import value_of
 from bot_console.tui.text.expression.parse import Reader
 from bot_console.tui.text.expression.tree import Span, Tree, paths_of, walk
+from bot_console.tui.text.sanitize import cut
 
 MAX_CHARACTERS = 400
 """Maximum characters of a condition."""

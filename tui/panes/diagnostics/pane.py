@@ -11,12 +11,13 @@ from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.console.sensors.diagnostics import Diagnostics, Level, Status
-from bot_console.tui.format import clock_text, counted, sanitize
+from bot_console.tui.format import clock_text
 from bot_console.tui.panes.diagnostics.table import LEVEL_STYLES, StatusRows
 from bot_console.tui.panes.diagnostics.tree import Row, matches, rows
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.screens.facts import FactsScreen, Section
 from bot_console.tui.text.cadence import is_due
+from bot_console.tui.text.sanitize import counted, sanitize
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.row_list import RowList

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from bot_console.tui.console.query import Query
 from bot_console.tui.console.sensors.diagnostics import Level
-from bot_console.tui.format import cut, sanitize
 from bot_console.tui.panes.diagnostics.tree import Row, matches
 from bot_console.tui.text.figures import age_text
+from bot_console.tui.text.sanitize import cut, sanitize
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment

@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 
 from bot_console.tui.console.graph.findings import SILENT, debugger_text
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
-from bot_console.tui.format import counted, sanitize
 from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, SPACE, TOPIC
+from bot_console.tui.text.sanitize import counted, sanitize
 
 
 def summary(info: GraphInfo, item: str, hides_name: Callable[[str], bool]) -> str:

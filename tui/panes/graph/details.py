@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from bot_console.tui.console.graph.findings import GraphFinding, findings
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo
-from bot_console.tui.format import value_text
 from bot_console.tui.panes.graph.about import ends_of, node_of, server_types, types_of
 from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, TOPIC
+from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.prompt.question import Option
 
 ITEM, DETAIL, PANE, TYPE = "item ", "detail ", "pane ", "type "

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from bot_console.tui.format import cut, sanitize
 from bot_console.tui.panes.graph.frame_tree import FrameRow
 from bot_console.tui.text.figures import age_text
+from bot_console.tui.text.sanitize import cut, sanitize
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment

@@ -7,12 +7,12 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo, NodeInfo
-from bot_console.tui.format import counted, cut, sanitize
 from bot_console.tui.panes.graph.about import ends_of, node_of, summary
 from bot_console.tui.panes.graph.bundles import LINE, LOOP
 from bot_console.tui.panes.graph.namespaces import SPACE, TOPIC
 from bot_console.tui.panes.graph.rates import IDLE
 from bot_console.tui.panes.graph.view import GraphView, Shown
+from bot_console.tui.text.sanitize import counted, cut, sanitize
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from rich.cells import cell_len
 

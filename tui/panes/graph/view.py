@@ -11,11 +11,11 @@ from types import MappingProxyType
 from bot_console.tui.console.graph.connections import TOOL_NAMES, connections, is_hidden, unconnected
 from bot_console.tui.console.model import GraphInfo, NodeInfo
 from bot_console.tui.console.query import Query
-from bot_console.tui.format import counted, sanitize
 from bot_console.tui.panes.graph.bundles import Bundles, bundled, state_mark
 from bot_console.tui.panes.graph.filtering import filtered
 from bot_console.tui.panes.graph.focus_history import Focus, around
 from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, SPACE, TOPIC, box_of, folded_edges, is_link
+from bot_console.tui.text.sanitize import counted, sanitize
 from bot_console.tui.widgets.diagram.flow_chart.model import Chart
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
 from bot_console.tui.widgets.diagram.listing import Listing

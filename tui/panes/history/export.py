@@ -11,9 +11,9 @@ from pathlib import Path
 
 from bot_console.tui.console.model import Change, Value
 from bot_console.tui.files.save_file import NotSaved, save_file
-from bot_console.tui.format import value_text
 from bot_console.tui.panes.history.rows import command, who
 from bot_console.tui.text.refusals import verdict_of_change
+from bot_console.tui.text.value_text import value_text
 from bot_console.tui.text.yaml_flow import quoted
 
 COLUMNS = ("time", "node", "parameter", "old", "new", "who", "accepted", "reason")

@@ -13,7 +13,6 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import Change, ChangeSource, ConsoleSnapshot, JournalState, SetOutcome, Value
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.console.query import Query, parse
-from bot_console.tui.format import counted, sanitize, value_text
 from bot_console.tui.panes.history.effect import Effects
 from bot_console.tui.panes.history.export import FORMS, export
 from bot_console.tui.panes.history.revert import Return, returns, values_at
@@ -22,6 +21,8 @@ from bot_console.tui.panes.history.sets import ChangeSet, changes_of, grouped
 from bot_console.tui.panes.history.strip import time_strip
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.text.refusals import of_many
+from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt

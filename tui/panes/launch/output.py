@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from bot_console.tui.console.model import Severity
-from bot_console.tui.format import SEVERITY_CHARACTERS, clock_text, cut, sanitize
+from bot_console.tui.format import SEVERITY_CHARACTERS, clock_text
 from bot_console.tui.panes.launch.follow import OutputLine
+from bot_console.tui.text.sanitize import cut, sanitize
 from bot_console.tui.widgets.picture import Line, Picture
 
 STYLES = {Severity.WARN: "warn", Severity.ERROR: "error", Severity.FATAL: "error"}

@@ -22,7 +22,7 @@ from bot_console.tui.console.model import (
 )
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.files.folders import expanded_path
-from bot_console.tui.format import clock_text, counted, cut, sanitize
+from bot_console.tui.format import clock_text
 from bot_console.tui.panes.launch.follow import Follower
 from bot_console.tui.panes.launch.output import STYLES, ProcessOutput
 from bot_console.tui.panes.launch.rows import ProcessRows, Row, matches, rows
@@ -33,6 +33,7 @@ from bot_console.tui.safety.stop_wording import stops_of_ending
 from bot_console.tui.screens.facts import FactsScreen
 from bot_console.tui.text.cadence import is_due
 from bot_console.tui.text.endings import ending_text
+from bot_console.tui.text.sanitize import counted, cut, sanitize
 from bot_console.tui.widgets.picture import Line, Picture
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt

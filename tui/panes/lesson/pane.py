@@ -8,10 +8,10 @@ from typing import Any, ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.format import sanitize
 from bot_console.tui.learn.lesson_view import Lesson, LessonView, OnScreen
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.screens.facts import FactsScreen
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.static_text import StaticText
 from rich.text import Text
 from textual.app import ComposeResult

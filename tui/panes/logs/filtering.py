@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 from bot_console.tui.console.model import LogFilter, Severity
-from bot_console.tui.format import counted
 from bot_console.tui.panes.logs.rules import RuleBook
+from bot_console.tui.text.sanitize import counted
 
 LEVELS = (Severity.UNSET, Severity.INFO, Severity.WARN, Severity.ERROR, Severity.FATAL)
 

@@ -11,9 +11,10 @@ from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import GraphInfo, LoggerLevel, Severity
 from bot_console.tui.console.protocol import Console
-from bot_console.tui.format import SEVERITY_CHARACTERS, cut, sanitize
+from bot_console.tui.format import SEVERITY_CHARACTERS
 from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.terminal.dimmed_screen import DimmedScreen
+from bot_console.tui.text.sanitize import cut, sanitize
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.item_list import ItemList
 from bot_console.tui.widgets.static_text import StaticText

@@ -13,7 +13,7 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.logs.port import LogFindings, LogSource, LogView
 from bot_console.tui.console.model import ConsoleSnapshot, LogFilter, LogState, Severity
 from bot_console.tui.files.save_file import save_file
-from bot_console.tui.format import SEVERITY_CHARACTERS, sanitize
+from bot_console.tui.format import SEVERITY_CHARACTERS
 from bot_console.tui.panes.logs.filtering import Filtering
 from bot_console.tui.panes.logs.levels_screen import LevelsScreen
 from bot_console.tui.panes.logs.line_pane import LinePane
@@ -25,6 +25,7 @@ from bot_console.tui.panes.logs.rules_screen import RulesScreen
 from bot_console.tui.panes.logs.severity_strip import SeverityStrip
 from bot_console.tui.panes.logs.similar_lines import options_like
 from bot_console.tui.panes.logs.source import LiveLog
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.common import wrong_filter, wrong_path

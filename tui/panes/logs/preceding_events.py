@@ -7,8 +7,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from bot_console.tui.console.model import Change, LaunchEvent
-from bot_console.tui.format import value_text
 from bot_console.tui.text.refusals import verdict_of_change
+from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.prompt.question import Option
 
 MAX_EVENTS = 20

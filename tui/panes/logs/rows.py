@@ -7,9 +7,10 @@ from typing import ClassVar
 
 from bot_console.tui.console.logs.port import LogNumbers, LogSource
 from bot_console.tui.console.model import LogRecord, Severity
-from bot_console.tui.format import SEVERITY_CHARACTERS, clock_text, cut, sanitize
+from bot_console.tui.format import SEVERITY_CHARACTERS, clock_text
 from bot_console.tui.panes.logs.names import NodeNames
 from bot_console.tui.panes.logs.rules import COLOURS, RuleBook
+from bot_console.tui.text.sanitize import cut, sanitize
 from bot_console.tui.widgets.row_list import RowList
 from rich.segment import Segment
 

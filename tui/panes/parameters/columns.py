@@ -11,8 +11,9 @@ from functools import lru_cache
 
 from bot_console.tui.console.model import Value
 from bot_console.tui.console.parameters.described_unit import unit_in_description
-from bot_console.tui.format import sanitize, value_text
 from bot_console.tui.panes.parameters.rows import Row
+from bot_console.tui.text.sanitize import sanitize
+from bot_console.tui.text.value_text import value_text
 from rich.cells import cell_len
 
 BAR_CELLS, MIN_BAR_CELLS = 12, 6

@@ -7,8 +7,10 @@ from collections.abc import Sequence
 from bot_console.tui.console.model import ParameterInfo, SetOutcome, Value
 from bot_console.tui.console.parameters.descriptor_faults import NO_DESCRIPTION, faults
 from bot_console.tui.console.parameters.safety import risky_change
-from bot_console.tui.format import command_of, range_text, sanitize, value_text
+from bot_console.tui.format import command_of, range_text
 from bot_console.tui.text.refusals import in_detail
+from bot_console.tui.text.sanitize import sanitize
+from bot_console.tui.text.value_text import value_text
 from rich.text import Text
 
 

@@ -10,12 +10,13 @@ from bot_console.tui.console.parameter_types import ARRAYS
 from bot_console.tui.console.parameters.edits import ParameterEdits
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.console.parameters.staging import SETS, Key
-from bot_console.tui.format import field_text, value_text
+from bot_console.tui.format import field_text
 from bot_console.tui.keys.key import Mode
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.parameters import editing, tuning_questions
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.text.refusals import of_many
+from bot_console.tui.text.value_text import value_text
 from bot_console.tui.tuning.port import NO_TUNER
 from bot_console.tui.tuning.tunable import Setting, Tunable, find_tunables
 from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Elements, Line

@@ -6,9 +6,10 @@ import math
 
 from bot_console.tui.console.model import Kind, ParameterInfo, Value
 from bot_console.tui.console.model.range import free_step, rounded
-from bot_console.tui.format import cut, parse_value, range_text
+from bot_console.tui.format import parse_value, range_text
 from bot_console.tui.text.expression.numbers import evaluate
 from bot_console.tui.text.expression.parse import NUMBER
+from bot_console.tui.text.sanitize import cut
 from bot_console.tui.text.typed_units import factor, split_unit
 
 NUMBERS = (Kind.INTEGER, Kind.DOUBLE)

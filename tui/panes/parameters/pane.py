@@ -14,13 +14,15 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import ConsoleSnapshot, ParameterTree, same
 from bot_console.tui.console.query import parse
 from bot_console.tui.files.state_store import LAST_FILE
-from bot_console.tui.format import command_of, counted, sanitize, value_text
+from bot_console.tui.format import command_of
 from bot_console.tui.panes.parameters.absences import Absences
 from bot_console.tui.panes.parameters.details import details
 from bot_console.tui.panes.parameters.edit_pane import EditPane
 from bot_console.tui.panes.parameters.rows import Row, TreeRows, View, folds_at_start, namesake, opened, worth_changing
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.panes.parameters.view_state import At, Left, left_of
+from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Option

@@ -8,7 +8,6 @@ from bot_console.tui.console.model import ChangeSource, ParameterInfo
 from bot_console.tui.console.parameters.edits import ParameterEdits
 from bot_console.tui.console.parameters.origin import SET_BY
 from bot_console.tui.console.query import Query
-from bot_console.tui.format import cut, sanitize, value_text
 from bot_console.tui.panes.parameters.columns import (
     GAP_CELLS,
     MARKS_CELLS,
@@ -20,6 +19,8 @@ from bot_console.tui.panes.parameters.columns import (
 )
 from bot_console.tui.panes.parameters.rows import Row, matches
 from bot_console.tui.text.refusals import beside_row
+from bot_console.tui.text.sanitize import cut, sanitize
+from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.item_list import ItemList
 from rich.segment import Segment
 from rich.style import Style

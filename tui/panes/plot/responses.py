@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 
 from bot_console.tui.console.model import Change
 from bot_console.tui.console.plot.port import Plots
-from bot_console.tui.format import sanitize
 from bot_console.tui.panes.plot.curves import Curve
 from bot_console.tui.panes.plot.step_response import Figures, Response, figures, figures_text, moments, response, score
 from bot_console.tui.panes.plot.view import Axes, framed
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.picture import Line
 
 HOW = "No responses yet: mark values in the Parameters pane (m), then A there sends set B, and again set A."

@@ -8,12 +8,12 @@ from collections.abc import Sequence
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import Change
 from bot_console.tui.console.plot.port import Plots
-from bot_console.tui.format import value_text
 from bot_console.tui.panes.plot.curves import Curve
 from bot_console.tui.panes.plot.formulas.computed import Computed
 from bot_console.tui.panes.plot.formulas.formula import Formula, read
 from bot_console.tui.panes.plot.thresholds import first_crossed
 from bot_console.tui.panes.plot.view import Axes, Mark
+from bot_console.tui.text.value_text import value_text
 
 WINDOWS_S = (1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0)
 """Lengths of the time window, s."""

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from bot_console.tui.format import sanitize
 from bot_console.tui.panes.plot.curves import Curve, Reach, reach
 from bot_console.tui.panes.plot.thresholds import first_crossed
 from bot_console.tui.panes.plot.window_facts import window_facts
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.braille import BrailleCanvas, layered
 from bot_console.tui.widgets.picture import Line
 

@@ -9,8 +9,9 @@ from dataclasses import dataclass, replace
 from bot_console.tui.console.model import ConsoleSnapshot, ParameterInfo, Profile, ProfileDifference, Value
 from bot_console.tui.console.parameters.described_unit import unit_in_description
 from bot_console.tui.console.parameters.safety import importance
-from bot_console.tui.format import cut, sanitize, value_text
 from bot_console.tui.text.bars import bars
+from bot_console.tui.text.sanitize import cut, sanitize
+from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.item_list import ItemList
 from bot_console.tui.widgets.picture import Line
 from rich.cells import cell_len

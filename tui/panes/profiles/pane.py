@@ -22,7 +22,6 @@ from bot_console.tui.console.parameters.file.node_keys import means
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.files.save_file import typed_path
 from bot_console.tui.files.state_store import LAST_FILE
-from bot_console.tui.format import counted, value_text
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.panes.profiles.comparison import ComparisonRows, compared
@@ -32,6 +31,8 @@ from bot_console.tui.panes.profiles.replacement import Replacement
 from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries, outcome_text
 from bot_console.tui.panes.profiles.user_profiles import OwnProfiles
 from bot_console.tui.safety.stop_wording import stops_of_ending
+from bot_console.tui.text.sanitize import counted
+from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.placeholder import NO_PLACEHOLDER, Placeholder
 from bot_console.tui.widgets.prompt.common import wrong_path

@@ -10,8 +10,8 @@ from functools import partial
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.protocol import Console
-from bot_console.tui.format import sanitize
 from bot_console.tui.panes.pane import answer_of
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Line, Option, Question
 
 LIST, CHANGE = "std_srvs/srv/Trigger", "diagnostic_msgs/srv/AddDiagnostics"

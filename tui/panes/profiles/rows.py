@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from textwrap import wrap
 
 from bot_console.tui.console.model import Profile, ProfileDifference, SetOutcome, Value
-from bot_console.tui.format import counted, cut, sanitize, value_text
 from bot_console.tui.panes.profiles.dry_run import Asking
 from bot_console.tui.text.refusals import verdict
+from bot_console.tui.text.sanitize import counted, cut, sanitize
+from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment

@@ -8,10 +8,10 @@ from dataclasses import replace
 from itertools import zip_longest
 
 from bot_console.tui.console.robot.robot_model import DriveInfo
-from bot_console.tui.format import sanitize
 from bot_console.tui.panes.steering.plane import ASKED, ROBOT, plane
 from bot_console.tui.panes.steering.state import RATE_HZ, Steering, stands_after_steering
 from bot_console.tui.safety.stop_wording import held_by, may_move, sending_key, stop_key
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.picture import Line
 
 BAR_CELLS = 10

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bot_console.tui.console.topics.port import Field, LiveMessage
-from bot_console.tui.format import cut, sanitize
+from bot_console.tui.text.sanitize import cut, sanitize
 from bot_console.tui.widgets.row_list import RowList
 from rich.cells import cell_len
 from rich.segment import Segment

@@ -12,7 +12,6 @@ from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo, RateCheck
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.console.topics.port import LiveMessage, RequestedQos
 from bot_console.tui.files.save_file import typed_path
-from bot_console.tui.format import counted
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.topics.message import MessageRows
 from bot_console.tui.panes.topics.qos_form import changed_qos, qos_fields, unheard, wrong_qos
@@ -20,6 +19,7 @@ from bot_console.tui.panes.topics.rows import Kind, Row, folds_at_start, grouped
 from bot_console.tui.panes.topics.table import TopicRows, heading
 from bot_console.tui.text.cadence import is_due
 from bot_console.tui.text.figures import age_text, rate_text
+from bot_console.tui.text.sanitize import counted
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.common import wrong_path
 from bot_console.tui.widgets.prompt.line import Prompt

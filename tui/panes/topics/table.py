@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 from bot_console.tui.console.model import RateCheck
 from bot_console.tui.console.topics.port import Goal, Measure, Repeated
-from bot_console.tui.format import cut, cut_name, sanitize
 from bot_console.tui.panes.topics.rows import Kind, Row
 from bot_console.tui.text.figures import age_text, amount_text, rate_text, span_text, steady
+from bot_console.tui.text.sanitize import cut, cut_name, sanitize
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.robot.robot_model import Pose, TurtleField, WorldInfo
-from bot_console.tui.format import clock_text, figure, sanitize
+from bot_console.tui.format import clock_text, figure
 from bot_console.tui.panes.pane import Pane
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.live_figures import LiveFigures
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.placeholder import Placeholder

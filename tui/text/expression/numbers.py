@@ -7,10 +7,10 @@ import re
 from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
 
-from bot_console.tui.format import cut
 from bot_console.tui.text.expression.parse import Incomplete, parse
 from bot_console.tui.text.expression.tree import Call, Minus, Name, Path, Tree, Two
 from bot_console.tui.text.expression.tree import Number as Typed
+from bot_console.tui.text.sanitize import cut
 
 Number: TypeAlias = "int | float"
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from typing import NoReturn
 
-from bot_console.tui.format import cut
 from bot_console.tui.text.expression.tree import (
     OF_ARRAYS,
     RATE,
@@ -19,6 +18,7 @@ from bot_console.tui.text.expression.tree import (
     Two,
     rate_path,
 )
+from bot_console.tui.text.sanitize import cut
 
 MAX_CHARACTERS = 400
 """The maximum length of an expression."""

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.format import sanitize
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.prompt.question import Line, Requester
 from rich.cells import cell_len

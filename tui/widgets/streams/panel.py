@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 from bot_console.tui.console.command_line import Stream
-from bot_console.tui.format import sanitize
+from bot_console.tui.text.sanitize import sanitize
 from rich.text import Text
 from textual.events import Click
 from textual.message import Message

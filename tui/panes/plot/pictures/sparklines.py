@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from bot_console.tui.format import cut, sanitize
 from bot_console.tui.panes.plot.curves import Curve
 from bot_console.tui.panes.plot.view import Axes, canvas, legend_value, limits, reach_of, short_number, style_of
 from bot_console.tui.panes.plot.window_facts import WindowFacts, window_facts
+from bot_console.tui.text.sanitize import cut, sanitize
 from bot_console.tui.widgets.braille import layered
 from bot_console.tui.widgets.picture import Line
 

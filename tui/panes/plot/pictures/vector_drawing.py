@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from datetime import datetime
 
 import numpy as np
-from bot_console.tui.format import sanitize
 from bot_console.tui.panes.plot.curves import Curve, Reach
 from bot_console.tui.panes.plot.view import Axes, Mark, limits, reach_of, short_number, tick_step
+from bot_console.tui.text.sanitize import sanitize
 
 WIDTH_PX, HEIGHT_PX = 1000, 560
 LEFT_PX, RIGHT_PX, TOP_PX, BOTTOM_PX = 70, 70, 20, 40
