@@ -8,6 +8,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
+from bot_console.tui.pane_table import PANES
+
 
 class Verb(NamedTuple):
     """The form of a condition: its usage, how many words it takes, and whether once seen is enough."""
@@ -45,9 +47,7 @@ VERBS: Mapping[str, Verb] = {
     "expect-no-findings": Verb("expect-no-findings PATTERN (of lint)", 1, 1, False),
 }
 """The words that a condition may begin with. `saw-` is a deed, `expect-` a state of the workspace."""
-PANE_WORDS = frozenset(
-    ("overview", "parameters", "logs", "graph", "plot", "world", "steering", "profiles", "launch", "topics", "history")
-)
+PANE_WORDS = frozenset(("overview", *(each.id for each in PANES)))
 PLUGIN = "plugin_"
 """The beginning of the name of a pane of another package."""
 

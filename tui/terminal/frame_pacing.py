@@ -40,7 +40,7 @@ class AnswerGate:
         self._asked: deque[tuple[float, float]] = deque()
         self._answers = False
         self._allowed = MAX_IN_FLIGHT
-        self._disappointed = 0
+        self._missing_answers = 0
         self._drawn = self._pressed = float("-inf")
         self._merged: deque[float] = deque(maxlen=100)
 
@@ -49,7 +49,7 @@ class AnswerGate:
         now = self._clock()
         while self._asked and now >= self._asked[0][1]:
             self._asked.popleft()
-            self._disappointed += 1
+            self._missing_answers += 1
         # Held back only if it has ever answered: many terminals and recorders never do.
         if self._answers and len(self._asked) >= self._allowed:
             return self._asked[0][1] - now
@@ -65,7 +65,7 @@ class AnswerGate:
     def asked(self, size: int) -> None:
         """Record that a query was written, after that many bytes."""
         now = self._clock()
-        timeout_s = (FRAME_TIMEOUT_S + size / MIN_BYTES_PER_S) * 2 ** min(self._disappointed, 10)
+        timeout_s = (FRAME_TIMEOUT_S + size / MIN_BYTES_PER_S) * 2 ** min(self._missing_answers, 10)
         self._asked.append((now, now + min(timeout_s, MAX_FRAME_TIMEOUT_S)))
 
     def drawn(self) -> None:
@@ -75,7 +75,7 @@ class AnswerGate:
     def answered(self) -> None:
         """Record that the terminal has answered the oldest query."""
         self._answers = True
-        self._disappointed = 0
+        self._missing_answers = 0
         if self._asked:
             began, _ = self._asked.popleft()
             self._allowed = 1 if self._clock() - began > SLOW_ANSWER_S else MAX_IN_FLIGHT

@@ -1,9 +1,11 @@
-"""With `guard` and `styling` all that hangs on private parts of Textual (8.2); others draw as Textual does.
+"""Sends the terminal only the cells that have changed, and no faster than it accepts them.
 
 Every frame comes through `App._display`. There it is reduced to the cells that differ from what the terminal shows, and
 followed by a question (`CSI 6n`, where is the cursor). While the terminal owes answers nothing more is drawn: what is
 dirty stays dirty and merges into one later frame, so that a slow link shows fewer frames, not late ones, and a stalled
 one never blocks the event loop.
+
+This file uses private parts of Textual 8.2; with another version (see `SUPPORTED`) the app draws as Textual does.
 """
 
 from __future__ import annotations

@@ -28,7 +28,7 @@ it.
 
 @dataclass(frozen=True)
 class OtherHosts:
-    """How hosts of other programs are found: `doors` lists the sockets of all hosts, `enter` connects to one.
+    """How hosts of other programs are found: `addresses` lists the sockets of all hosts, `enter` connects to one.
 
     `enter` returns None if the host is gone. The search begins as soon as `ready`, which may block, has returned.
     """

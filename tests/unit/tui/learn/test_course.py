@@ -5,8 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from bot_console.tui.learn.conditions import read_condition
 from bot_console.tui.learn.course import CourseError, find_course, names, read_course
 from bot_console.tui.learn.skeleton import write_skeleton
+from bot_console.tui.pane_table import PANES
 
 CHAPTER = "# One\n\nAbout.\n\n## First\n\nWhy.\n\n```console\nls\n```\n\n```step\nsaw-node * with speed as node\n```\n"
 
@@ -85,6 +87,11 @@ def test_bundled_course_is_valid_and_has_rows(name: str) -> None:
     found = read_course(find_course(name))
     assert len(found.steps()) > 10
     assert found.rows()
+
+
+@pytest.mark.parametrize("pane", [each.id for each in PANES])
+def test_step_may_wait_for_any_pane(pane: str) -> None:
+    assert read_condition(f"saw-pane {pane}").words == (pane,)
 
 
 def test_skeleton_is_a_valid_course(tmp_path: Path) -> None:
