@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from bot_console.tui.cli.check.script import Step
-from bot_console.tui.console.model import LogFilter, ParameterInfo, SetOutcome
+from bot_console.tui.console.model import LogFilter, ParameterInfo, SetOutcome, parameter_in
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.console.topics.port import Measure
 from bot_console.tui.format import parse_value
@@ -149,8 +149,7 @@ class Runner:
             return str(error)
 
         def poll() -> str:
-            tree = self._console.snapshot().parameters.get(node)
-            now = tree.get(name) if tree else None
+            now = parameter_in(self._console.snapshot().parameters, node, name)
             same = now is not None and now.value == wanted
             return "" if same is (sign == "==") else f"it is {value_text(now.value if now else None)}"
 

@@ -26,6 +26,7 @@ from bot_console.tui.console.model import (
     JournalState,
     LaunchInfo,
     LinkInfo,
+    parameter_in,
 )
 from bot_console.tui.console.parameters.node_parameters import NodeParameters
 from bot_console.tui.console.parameters.node_profiles import NodeProfiles
@@ -106,8 +107,7 @@ class BagPlots:
 
     def _parameter(self, path: str) -> Samples:
         node, _, name = path.partition(":")
-        tree = self._contents.trees.get(node)
-        last = tree.get(name) if tree else None
+        last = parameter_in(self._contents.trees, node, name)
         if last is None:
             raise NotPlottable(f"the recording contains no values of {path}")
         mine = [each for each in self._contents.changes if (each.node, each.name) == (node, name)]

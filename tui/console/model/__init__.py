@@ -15,7 +15,7 @@ from bot_console.tui.console.model.launch import (
     Program,
 )
 from bot_console.tui.console.model.logs import LogFilter, LoggerLevel, LogRecord, LogState, Severity, logger_of
-from bot_console.tui.console.model.parameters import Kind, ParameterInfo, ParameterTree, Value, same
+from bot_console.tui.console.model.parameters import Kind, ParameterInfo, ParameterTree, Value, parameter_in, same
 from bot_console.tui.console.model.profiles import Profile, ProfileDifference
 from bot_console.tui.console.model.range import Range
 from bot_console.tui.console.model.rates import RateCheck
@@ -54,5 +54,6 @@ __all__ = [
     "Severity",
     "Value",
     "logger_of",
+    "parameter_in",
     "same",
 ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import TypeAlias
@@ -87,3 +88,9 @@ class ParameterTree:
     def get(self, name: str) -> ParameterInfo | None:
         """The parameter with that name; None if the node has none."""
         return next((each for each in self.parameters if each.name == name), None)
+
+
+def parameter_in(trees: Mapping[str, ParameterTree], node: str, name: str) -> ParameterInfo | None:
+    """A parameter of one of several nodes; None if there is no such node, or if it has none of that name."""
+    tree = trees.get(node)
+    return tree.get(name) if tree else None

@@ -18,6 +18,7 @@ from bot_console.tui.console.model import (
     ParameterTree,
     SetOutcome,
     Value,
+    parameter_in,
     same,
 )
 from bot_console.tui.console.parameters.pending_sets import PendingSets
@@ -103,8 +104,7 @@ class ParameterEdits:
         return self.late != before
 
     def _parameter(self, key: Key) -> ParameterInfo | None:
-        tree = self._trees().get(key[0])
-        return tree.get(key[1]) if tree else None
+        return parameter_in(self._trees(), *key)
 
     def now(self, parameter: ParameterInfo) -> Value:
         """The value from which a step continues: the staged one, else one on its way, else the present one."""

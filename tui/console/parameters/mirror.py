@@ -19,6 +19,7 @@ from bot_console.tui.console.model import (
     ParameterInfo,
     ParameterTree,
     Value,
+    parameter_in,
     same,
 )
 from bot_console.tui.console.parameters.origin import START, origin_text
@@ -84,8 +85,7 @@ class ParameterMirror:
 
     def get(self, node: str, name: str) -> ParameterInfo | None:
         """A parameter's last known state."""
-        tree = self.trees.get(node)
-        return tree.get(name) if tree else None
+        return parameter_in(self.trees, node, name)
 
     def follow(self, graph: GraphInfo) -> None:
         """Query nodes that have appeared, and forget nodes that have left.

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from bot_console.tui.console.model import ParameterTree, Value
+from bot_console.tui.console.model import ParameterTree, Value, parameter_in
 
 Key: TypeAlias = "tuple[str, str]"
 Values: TypeAlias = "dict[Key, Value]"
@@ -38,9 +38,7 @@ class Staging:
         """
         before: Values = {}
         for key in values:
-            tree = trees.get(key[0])
-            parameter = tree.get(key[1]) if tree else None
-            if parameter is not None:
+            if (parameter := parameter_in(trees, *key)) is not None:
                 before[key] = parameter.value
         self.sets = (before, {key: values[key] for key in before})
         self.live = 0

@@ -10,7 +10,15 @@ from typing import Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.model import Change, ChangeSource, ConsoleSnapshot, JournalState, SetOutcome, Value
+from bot_console.tui.console.model import (
+    Change,
+    ChangeSource,
+    ConsoleSnapshot,
+    JournalState,
+    SetOutcome,
+    Value,
+    parameter_in,
+)
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.panes.history.effect import Effects
@@ -124,9 +132,8 @@ class HistoryPane(ListPane):
         return not self._query.terms or self._query.matches(words(change), change.node)
 
     def _is_unsafe(self, change: Change) -> bool:
-        tree = self.console.snapshot().parameters.get(change.node)
-        parameter = tree.get(change.name) if tree and change.accepted else None
-        return parameter is not None and bool(takes_safety(parameter, change.old, change.new))
+        parameter = parameter_in(self.console.snapshot().parameters, change.node, change.name)
+        return parameter is not None and change.accepted and bool(takes_safety(parameter, change.old, change.new))
 
     def _describe(self) -> None:
         row = self._list.current
@@ -247,8 +254,7 @@ class HistoryPane(ListPane):
         self.ask(Confirmation(question, lambda _: self._go(found), reasons="\n".join(lines)))
 
     def _line(self, each: Return) -> str:
-        tree = self.console.snapshot().parameters.get(each.node)
-        parameter = tree.get(each.name) if tree else None
+        parameter = parameter_in(self.console.snapshot().parameters, each.node, each.name)
         unsafe = takes_safety(parameter, each.now, each.then) if parameter else ""
         text = f"{each.node} {each.name}  {value_text(each.now)} → {value_text(each.then)}"
         return f"⚠ {text}: {unsafe}" if unsafe else f"  {text}"
