@@ -11,7 +11,8 @@ from typing import Any, Protocol
 
 from bot_console.tui.arrangement.opening import RQT_PANES, Opening, is_rqt, rqt_opening
 from bot_console.tui.commanding.verbs import VERBS, curves_of, places, setting_of, wrong_bag, wrong_use
-from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.answer import Answer, answer_of
+from bot_console.tui.console.command_gate import done
 from bot_console.tui.console.command_line import CommandLine, Stream
 from bot_console.tui.console.model import ChangeSource, SetOutcome
 from bot_console.tui.console.protocol import Console
@@ -125,10 +126,10 @@ class LineRunner:
         *before, begun = words
         if before and before[0] in VERBS:
             snapshot, layouts, paths = self._console.snapshot(), self._host.layouts, self._console.plots.plottable
-            return _done(places(before, snapshot, layouts, paths))
+            return done(places(before, snapshot, layouts, paths))
         own = [] if before else [*VERBS, "ros2", *RQT_PANES]
         if not before and not begun:
-            return _done([*own, *self._lines.commands()])
+            return done([*own, *self._lines.commands()])
         return self._lines.complete(words, self._console.snapshot())
 
     def run(self, line: str) -> None:
@@ -229,12 +230,5 @@ class LineRunner:
         answer.add_done_callback(lambda done: self._host.call_later(self._report, done))
 
     def _report(self, done: Future[Answer]) -> None:
-        error = done.exception()
-        answer = Answer(False, str(error)) if error else done.result()
+        answer = answer_of(done)
         self._host.notify(answer.text, severity="information" if answer.ok else "error")
-
-
-def _done(names: Sequence[str]) -> Future[Sequence[str]]:
-    future: Future[Sequence[str]] = Future()
-    future.set_result(names)
-    return future

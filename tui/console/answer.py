@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import Future
 from dataclasses import dataclass
 
 
@@ -11,3 +12,9 @@ class Answer:
 
     ok: bool
     text: str = ""
+
+
+def answer_of(done: Future[Answer]) -> Answer:
+    """The answer of a command that has ended, be it by a fault."""
+    error = done.exception()
+    return Answer(False, str(error)) if error else done.result()

@@ -8,7 +8,7 @@ from concurrent.futures import Future
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
-from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.answer import Answer, answer_of
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.files.save_file import NotSaved, typed_path
@@ -260,9 +260,3 @@ class Pane(LazyParts):
     def focus_target(self) -> None:
         """Take the keyboard for what the pane shows: focus the part of the pane that the keys are for."""
         next((each for each in self.query(Widget) if each.focusable), self).focus()
-
-
-def answer_of(done: Future[Answer]) -> Answer:
-    """The answer of a call that has ended, be it by a fault."""
-    error = done.exception()
-    return Answer(False, str(error)) if error else done.result()

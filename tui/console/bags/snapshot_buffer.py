@@ -17,6 +17,7 @@ from bot_console.tui.console.bags.recording_sinks import RingSink
 from bot_console.tui.console.bags.snapshot_ring import Ring
 from bot_console.tui.console.bags.snapshot_size import SnapshotSize
 from bot_console.tui.console.bags.writer import BagWriter
+from bot_console.tui.console.in_background import in_background
 from bot_console.tui.files.save_file import NotSaved, typed_path
 
 TURN_S = 0.25
@@ -65,9 +66,7 @@ class SnapshotBuffer:
 
     def keep(self, folder: str) -> Future[Answer]:
         """Save the kept messages as a new bag, and continue keeping."""
-        outcome: Future[Answer] = Future()
-        threading.Thread(target=lambda: outcome.set_result(self._pour(folder)), daemon=True).start()
-        return outcome
+        return in_background(lambda: self._pour(folder), "keep")
 
     def close(self) -> None:
         """Stop keeping messages."""

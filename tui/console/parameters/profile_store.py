@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import threading
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from dataclasses import replace
@@ -12,6 +11,8 @@ from pathlib import Path, PurePosixPath
 from urllib.parse import urlsplit
 
 from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.command_gate import done
+from bot_console.tui.console.in_background import in_background
 from bot_console.tui.console.model import ParameterTree, Profile
 from bot_console.tui.console.parameters.file.saving import save
 from bot_console.tui.console.parameters.profile_name_check import profile_name_problem
@@ -86,23 +87,19 @@ class ProfileStore:
 
     def fetch(self, address: str) -> Future[Answer]:
         """Download a parameter file and add it; the answer's text is that of `open`."""
-        answer: Future[Answer] = Future()
         fetch = self._fetch
         if fetch is None:
-            answer.set_result(Answer(False, "this console cannot download profiles; give the path of a file"))
-            return answer
+            return done(Answer(False, "this console cannot download profiles; give the path of a file"))
 
-        def work() -> None:
+        def work() -> Answer:
             try:
                 path = fetch(address)
             except OSError as error:
-                answer.set_result(Answer(False, str(error)))
-                return
+                return Answer(False, str(error))
             self._addresses[path] = address
-            answer.set_result(self.open(str(path)))
+            return self.open(str(path))
 
-        threading.Thread(target=work, name="fetch", daemon=True).start()
-        return answer
+        return in_background(work, "fetch")
 
     def open(self, path: str) -> Answer:
         """Add a file; the answer's text is the name it gets, or why it cannot be used."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 
 from bot_console.tui.console.graph.findings import GraphFinding, findings
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo
@@ -119,13 +119,3 @@ def _item_of(info: GraphInfo, finding: GraphFinding) -> str:
     services = {each.name for node in info.nodes for each in (*node.services, *node.clients)}
     actions = {each.name for node in info.nodes for each in (*node.action_servers, *node.action_clients)}
     return (ACTION if subject in actions else SERVICE if subject in services else TOPIC) + subject
-
-
-def narrowed(options: Sequence[Option]) -> Callable[[str], Sequence[Option]]:
-    """A search for the options that contain all typed words."""
-
-    def find(typed: str) -> Sequence[Option]:
-        words = typed.lower().split()
-        return [each for each in options if all(word in f"{each.title} {each.about}".lower() for word in words)]
-
-    return find

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -24,7 +25,6 @@ from bot_console.tui.panes.graph.details import (
     details,
     finding_options,
     line_options,
-    narrowed,
 )
 from bot_console.tui.panes.graph.export import exported
 from bot_console.tui.panes.graph.filtering import completed, matches
@@ -51,7 +51,7 @@ from bot_console.tui.widgets.diagram.flow_chart.drawing import MIN_WIDE_COLUMNS
 from bot_console.tui.widgets.diagram_view import MIN_THREADED_ITEMS, DiagramView
 from bot_console.tui.widgets.prompt.filtered import Narrowed
 from bot_console.tui.widgets.prompt.line import Prompt
-from bot_console.tui.widgets.prompt.question import Choice, Line, Option
+from bot_console.tui.widgets.prompt.question import Choice, Line, Option, narrowed
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
 from rich.text import Text
@@ -299,7 +299,11 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self._offer("Findings", finding_options(self._info or GraphInfo()), "There are no findings.")
 
     def _offer(self, title: str, options: Sequence[Option], empty: str) -> None:
-        self.ask(Choice(title, self._go, find=narrowed(options), hint="type to filter, Enter jumps there", empty=empty))
+        self.ask(
+            Choice(
+                title, self._go, find=partial(narrowed, options), hint="type to filter, Enter jumps there", empty=empty
+            )
+        )
 
     def _go(self, where: str) -> None:
         """Go where an option leads."""

@@ -37,7 +37,7 @@ from bot_console.tui.text.sanitize import counted, cut, sanitize
 from bot_console.tui.widgets.picture import Line, Picture
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
-from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Form, Option
+from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Form, Option, narrowed
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
@@ -279,14 +279,11 @@ class LaunchPane(ListPane):
         """All launch events, the newest first; one of them is the moment to look at."""
         events = {str(each.seq): each for each in reversed((self._info or LaunchInfo()).timeline)}
 
-        def find(typed: str) -> Sequence[Option]:
-            options = [Option(event_text(each), value=seq) for seq, each in events.items()]
-            return [each for each in options if typed.strip().lower() in each.title.lower()]
-
         def poll(seq: str) -> None:
             self.time_cursor.move(events[seq].stamp, self)
             self.time_moved(events[seq].stamp)
 
+        find = partial(narrowed, [Option(event_text(each), value=seq) for seq, each in events.items()])
         hint = "type to filter, Enter shows that moment in Logs, Plot and World"
         self.ask(Choice("Launch events", poll, find=find, hint=hint, empty="No event matches."))
 

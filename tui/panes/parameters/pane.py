@@ -25,7 +25,7 @@ from bot_console.tui.text.sanitize import counted, sanitize
 from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
-from bot_console.tui.widgets.prompt.question import Choice, Option
+from bot_console.tui.widgets.prompt.question import Choice, Option, narrowed
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
 from rich.text import Text
@@ -385,10 +385,7 @@ class ParametersPane(EditPane):
         if self.words and 1 < len(shown) < every:
             choices[f"the {len(shown)} nodes that are shown"] = (tuple(shown), False)
         choices |= {f"{each}, only what differs": (nodes, True) for each, (nodes, _) in tuple(choices.items())}
-
-        def find(typed: str) -> list[Option]:
-            return [Option(each) for each in choices if typed.lower() in each.lower()]
-
+        find = partial(narrowed, [Option(each) for each in choices])
         self.ask(Choice("Save", lambda chosen: self._save_what(*choices[chosen]), find=find))
 
     def _save_what(self, nodes: tuple[str, ...], only_changed: bool) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
 
@@ -15,7 +14,7 @@ from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.plot.formulas.formula import split
 from bot_console.tui.panes.plot.thresholds import thresholds_of, thresholds_text, wrong_thresholds
 from bot_console.tui.panes.plot.time_window import Timeline, limits_of, wrong_limits, zoomed
-from bot_console.tui.widgets.prompt.question import Choice, Option
+from bot_console.tui.widgets.prompt.question import Choice, Option, narrowed
 from bot_console.tui.widgets.prompt.question import Line as Asked
 
 STAMP = re.compile(r"[/.](?:nano)?sec$")
@@ -184,9 +183,7 @@ class PlotQuestions(Pane):
             self.notify("No curves have been saved; w saves those that are shown.")
             return
 
-        def find(typed: str) -> Sequence[Option]:
-            return [Option(each) for each in names if typed.strip().lower() in each.lower()]
-
+        find = partial(narrowed, [Option(each) for each in names])
         self.ask(Choice("Curves", self.show_kept, find=find, hint="name", empty="No saved curves have this name."))
 
     def show_kept(self, name: str) -> None:

@@ -7,11 +7,10 @@ from concurrent.futures import Future
 from dataclasses import dataclass, field
 from functools import partial
 
-from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.answer import Answer, answer_of
 from bot_console.tui.console.model import ConsoleSnapshot, ParameterTree, ProfileDifference, Value
 from bot_console.tui.console.parameters.dry_run import SERVICE, TYPE, can_be_asked, question
 from bot_console.tui.console.protocol import Console
-from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.text.sanitize import counted
 
 Asked = tuple[ParameterTree, Mapping[str, Value]]

@@ -9,7 +9,7 @@ from functools import partial
 from typing import Any
 
 from bot_console.tui import keymap
-from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.answer import Answer, answer_of
 from bot_console.tui.console.model import (
     ConsoleSnapshot,
     ProcessInfo,
@@ -23,7 +23,6 @@ from bot_console.tui.console.query import Query, parse
 from bot_console.tui.files.save_file import typed_path
 from bot_console.tui.files.state_store import LAST_FILE
 from bot_console.tui.panes.list_pane import ListPane
-from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.panes.profiles.comparison import ComparisonRows, compared
 from bot_console.tui.panes.profiles.dry_run import Asking
 from bot_console.tui.panes.profiles.presets import PresetMenu

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 from functools import partial
 
-from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.answer import Answer, answer_of
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.protocol import Console
-from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.text.sanitize import sanitize
-from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Line, Option, Question
+from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Line, Option, Question, narrowed
 
 LIST, CHANGE = "std_srvs/srv/Trigger", "diagnostic_msgs/srv/AddDiagnostics"
 """The types of `list`, and of `apply`, `save` and `delete`."""
@@ -65,8 +64,9 @@ class PresetMenu:
                 self.report(Answer(False, f"{each}: {listed.text}"))
         offers = self._offers()
         if offers:
+            options = [option for option, _ in offers.values()]
             self.ask(
-                Choice("Presets", lambda chosen: offers[chosen][1](), find=partial(_narrowed, offers), hint="words")
+                Choice("Presets", lambda chosen: offers[chosen][1](), find=partial(narrowed, options), hint="words")
             )
 
     def _offers(self) -> dict[str, tuple[Option, Callable[[], object]]]:
@@ -110,10 +110,3 @@ class PresetMenu:
 
 def _unnamed(text: str) -> str:
     return "" if text.strip() else "a preset needs a name"
-
-
-def _narrowed(offers: Mapping[str, tuple[Option, object]], typed: str) -> Sequence[Option]:
-    """The options that contain every typed word."""
-    words = typed.lower().split()
-    options = [option for option, _ in offers.values()]
-    return [each for each in options if all(word in f"{each.title} {each.about}".lower() for word in words)]

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 
-from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.answer import Answer, answer_of
 from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.model import Profile
 
@@ -33,8 +33,7 @@ class Replacement:
             self.launcher.stop(key).add_done_callback(self._stopped)
 
     def _stopped(self, done: Future[Answer]) -> None:
-        error = done.exception()
-        answer = Answer(False, str(error)) if error else done.result()
+        answer = answer_of(done)
         with self._lock:
             self._left -= 1
             if not answer.ok:
@@ -49,7 +48,6 @@ class Replacement:
         self.launcher.launch(self.profile.launch, self.profile.arguments).add_done_callback(self._launched)
 
     def _launched(self, done: Future[Answer]) -> None:
-        error = done.exception()
-        answer = Answer(False, str(error)) if error else done.result()
+        answer = answer_of(done)
         text = answer.text or self.profile.launch
         self.report(Answer(answer.ok, f"{self.profile.name}: {text}" if answer.ok else f"not launched: {text}"))

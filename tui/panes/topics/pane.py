@@ -23,7 +23,7 @@ from bot_console.tui.text.sanitize import counted
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.common import wrong_path
 from bot_console.tui.widgets.prompt.line import Prompt
-from bot_console.tui.widgets.prompt.question import Choice, Fill, Form, Line, Option
+from bot_console.tui.widgets.prompt.question import Choice, Fill, Form, Line, Option, narrowed
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
@@ -408,9 +408,8 @@ class TopicsPane(ListPane):
             if not paths:
                 self.notify(f"{row.name} has no number that could be plotted.", severity="warning")
             else:
-                self.ask(
-                    Choice(f"Plot {row.name}", self._plot, find=partial(_paths, paths), hint="type part of a field")
-                )
+                find = partial(narrowed, [Option(each) for each in paths])
+                self.ask(Choice(f"Plot {row.name}", self._plot, find=find, hint="type part of a field"))
 
     def _plot(self, path: str) -> None:
         self.post_message(self.PlotWanted(path))
@@ -477,12 +476,6 @@ def _wrong_or_none(text: str) -> str:
 def _next(kind: Kind) -> Kind:
     kinds = list(Kind)
     return kinds[(kinds.index(kind) + 1) % len(kinds)]
-
-
-def _paths(paths: list[str], typed: str) -> list[Option]:
-    """The paths that have all the words typed."""
-    words = typed.lower().split()
-    return [Option(each) for each in paths if all(word in each.lower() for word in words)]
 
 
 def _empty(kind: Kind) -> Placeholder:

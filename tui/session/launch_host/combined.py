@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.command_gate import done
+from bot_console.tui.console.in_background import in_background
 from bot_console.tui.console.launch.launcher import CLOSED
 from bot_console.tui.console.launch.process_verbs import ProcessVerbs
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo
@@ -110,16 +111,14 @@ class CombinedLauncher(ProcessVerbs):
             return done(Answer(False, CLOSED))
         if (free := self._free(use=True)) is not None:
             return free.launch(path, arguments)
-        outcome: Future[Answer] = Future()
 
-        def start() -> None:
+        def start() -> Answer:
             try:
-                outcome.set_result(self._host(use=True).launch(path, arguments).result())
-            except Exception as error:  # the thread's outermost frame
-                outcome.set_result(Answer(False, str(error)))
+                return self._host(use=True).launch(path, arguments).result()
+            except Exception as error:  # whatever kept the host from starting
+                return Answer(False, str(error))
 
-        threading.Thread(target=start, name="launch host", daemon=True).start()
-        return outcome
+        return in_background(start, "launch host")
 
     def arguments(self, path: str) -> Sequence[LaunchArgument]:
         """The arguments a launch file declares; raises `ValueError` when it cannot be read."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
@@ -78,6 +78,12 @@ class Option:
 
     value: str = ""
     """The answer; empty: the title."""
+
+
+def narrowed(options: Iterable[Option], typed: str) -> list[Option]:
+    """The options that contain all typed words, in the title or after it."""
+    words = typed.lower().split()
+    return [each for each in options if all(word in f"{each.title} {each.about}".lower() for word in words)]
 
 
 @dataclass(frozen=True)
