@@ -32,17 +32,17 @@ def learned_folders() -> Mapping[str, Path]:
     return _folders
 
 
-def learn(type_name: str, type_hash: str, reported: Any) -> str:
+def learn(type_name: str, type_hash: str, response: Any) -> str:
     """Learn from the response of a node's `get_type_description`; the type can be imported afterwards.
 
     Returns why it cannot be learned, as a sentence whose omitted subject is the node; empty on success.
     """
     from bot_console.runtime.rosidl.parse import DefinitionError
 
-    refused = refusal(reported)
+    refused = refusal(response)
     if refused:
         return refused
-    texts = {each.type_name: each.raw_file_contents for each in reported.type_sources if each.encoding in KINDS}
+    texts = {each.type_name: each.raw_file_contents for each in response.type_sources if each.encoding in KINDS}
     try:
         if not all(re.fullmatch(TYPE_NAME, each) for each in (type_name, *texts)):
             raise DefinitionError("an invalid type name")
@@ -55,11 +55,11 @@ def learn(type_name: str, type_hash: str, reported: Any) -> str:
     return "" if here == type_hash else "has definitions of its nested types that differ from those here"
 
 
-def refusal(reported: Any) -> str:
+def refusal(response: Any) -> str:
     """Return why a response of `get_type_description` is useless; empty if it is not."""
-    if reported is None:
+    if response is None:
         return "has not described it"
-    return "" if reported.successful else f"does not describe it: {reported.failure_reason}"
+    return "" if response.successful else f"does not describe it: {response.failure_reason}"
 
 
 def _has_hash(type_name: str, type_hash: str, texts: Mapping[str, str]) -> bool:

@@ -47,11 +47,11 @@ def inquiry(type_name: str, hashes: Mapping[str, str]) -> Generator[Question, An
         return learn(type_name, hashes[type_name], (yield type_name, hashes[type_name]))
     parts: list[Any] = []
     for name in _types_in_graph(type_name):
-        reported = yield name, hashes[name]
-        refused = refusal(reported)
+        response = yield name, hashes[name]
+        refused = refusal(response)
         if refused:
             return refused
-        parts.append(plain_description(reported.type_description))
+        parts.append(plain_description(response.type_description))
         if text_of_description(parts[-1]) != hashes[name]:
             return f"{FALSE} {hashes[name]}"
     try:

@@ -60,17 +60,17 @@ class ForkServer:
         """
         if not os.path.isdir(job.cwd):
             raise FileNotFoundError(2, os.strerror(2), job.cwd)
-        report, reported = os.pipe()
+        report, theirs = os.pipe()
         given = (stdin, stdout, stderr, data) if channel is None else (stdin, stdout, stderr, data, channel)
         try:
             with self._lock:
-                wire.send(self._connection, job.to_bytes(), (*given, reported))
+                wire.send(self._connection, job.to_bytes(), (*given, theirs))
         except BaseException:
             os.close(report)
             raise
         finally:
             # The server has its own copy; while ours stays open, the report would never reach its end.
-            os.close(reported)
+            os.close(theirs)
         return report
 
     def close(self) -> None:

@@ -93,12 +93,12 @@ class GilHolder:
     def __init__(self, pid: int) -> None:
         self._pid = pid
         self._path = ""
-        self._polls = 0
+        self._file_checks = 0
 
     def held_in(self) -> str:
         """Return the line in which its GIL is held; empty if it is not held, or unknown."""
-        if not self._path and self._polls < MAX_FILE_CHECKS:
-            self._polls += 1
+        if not self._path and self._file_checks < MAX_FILE_CHECKS:
+            self._file_checks += 1
             self._path = _file_of(self._pid)
         if not self._path:
             return ""

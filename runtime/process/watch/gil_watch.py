@@ -1,7 +1,7 @@
 """Detect that C code holds the GIL: then no other thread of this process runs, including ours.
 
 One thread of the interpreter (`faulthandler`) needs no GIL: when the beat here fails to come, it writes the stacks of
-all threads into an in-memory file. The next beat reads that; until then, other processes can (`held_lock`).
+all threads into an in-memory file. The next beat reads that; until then, other processes can (`gil_holder`).
 """
 
 from __future__ import annotations

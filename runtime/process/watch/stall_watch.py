@@ -66,9 +66,9 @@ class StallWatch:
         busy = work.is_busy(self._stall_s)
         if not busy and not work.is_blocked():
             return
-        reported = self._scheduler.detach(task, turns, lambda task: self._report(task, busy))
-        if reported is not None:
-            reported()
+        report = self._scheduler.detach(task, turns, lambda task: self._report(task, busy))
+        if report is not None:
+            report()
 
     def _inspect_starting(self) -> None:
         """Let time go on if all nodes for whose start it stands still hang."""

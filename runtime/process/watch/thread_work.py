@@ -14,8 +14,8 @@ from .processor_time import state_and_seconds
 
 CHECKS_PER_STALL = 4
 """How many checks in a row must find a thread blocked before it counts as blocked."""
-MAX_BLOCKED_CHECKS = 30
-"""Factor on that if the thread may be waiting for a slow disk, or if the system tells too little."""
+SLOW_DISK_FACTOR = 30
+"""Factor on that number if the thread may be waiting for a slow disk, or if the system tells too little."""
 COMPUTING = 10
 """Processor time that a thread may use between two waits, in stalls."""
 IMPORTING = 60
@@ -36,7 +36,7 @@ class ThreadWork:
         self._computed = 0.0
         self._imported = 0.0
         self._blocked = 0
-        self._checks_left = 1
+        self._factor = 1
 
     def poll(self) -> None:
         """Check again; to be called at even intervals."""
@@ -50,14 +50,14 @@ class ThreadWork:
         else:
             self._computed += used
         if reported is None:
-            blocked, self._checks_left = used == 0.0, 2 * MAX_BLOCKED_CHECKS
+            blocked, self._factor = used == 0.0, 2 * SLOW_DISK_FACTOR
         else:
             blocked = state == SLEEPING and self._is_blocked(importing)
         self._blocked = self._blocked + 1 if blocked else 0
 
     def is_blocked(self, stalls: int = 1) -> bool:
         """Whether it has been waiting in the kernel for that many stalls."""
-        return self._blocked >= CHECKS_PER_STALL * self._checks_left * stalls
+        return self._blocked >= CHECKS_PER_STALL * self._factor * stalls
 
     def is_busy(self, stall_s: float, stalls: int = 1) -> bool:
         """Whether it has computed for that many stalls of `stall_s` seconds, or imported for many more."""
@@ -73,7 +73,7 @@ class ThreadWork:
         switches, place = self._read("status").partition("\nvoluntary_ctxt_switches:")[2], self._read("wchan")
         still, self._switches = switches == self._switches, switches
         on_lock = place in ("", "0") or place.startswith("futex")
-        self._checks_left = MAX_BLOCKED_CHECKS if importing and not on_lock else 1
+        self._factor = SLOW_DISK_FACTOR if importing and not on_lock else 1
         return (still or not (on_lock or importing)) and not self._family_works()
 
     def _family_works(self) -> bool:

@@ -151,7 +151,7 @@ class LockstepSession(Session):
         """Return no ids: the coordinator reports truly who is there."""
         return set()
 
-    def is_reported_truly(self, zid: str, pid: int | None) -> bool:
+    def is_really_gone(self, zid: str, pid: int | None) -> bool:
         """Return True: no link is lost but by the end of its process."""
         return True
 

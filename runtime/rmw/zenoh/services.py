@@ -113,7 +113,7 @@ class Asking:
 
         def ended() -> bool:
             return bool(sessions) and all(
-                zid not in self._servers and self._session.is_reported_truly(zid, pid) for zid, pid in sessions.items()
+                zid not in self._servers and self._session.is_really_gone(zid, pid) for zid, pid in sessions.items()
             )
 
         return ended

@@ -324,7 +324,7 @@ class Session(Lifetime):
         """The process of another session; None if it is unknown or on another machine."""
         return None
 
-    def is_reported_truly(self, zid: str, pid: int | None) -> bool:
+    def is_really_gone(self, zid: str, pid: int | None) -> bool:
         """Whether what another session has withdrawn is gone, rather than the link to it lost for a moment.
 
         `pid` is what `pid_of` has returned before.

@@ -44,8 +44,8 @@ def domain_folder(domain: int) -> str:
     room = MAX_PATH_BYTES - MAX_NAME_BYTES - 1
     length = len(os.fsencode(folder))
     if length > room and not loopback.is_chosen():
-        reported = f"the path {folder} has {length} bytes, and with more than {room} no socket can be made in it"
-        raise FolderRefusedError(f"{reported}: set {BASE_VARIABLE} to a shorter folder")
+        problem = f"the path {folder} has {length} bytes, and with more than {room} no socket can be made in it"
+        raise FolderRefusedError(f"{problem}: set {BASE_VARIABLE} to a shorter folder")
     _private_folder(base)
     _private_folder(folder)
     return folder

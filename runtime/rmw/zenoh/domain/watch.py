@@ -87,7 +87,7 @@ class Watch:
         self._session = session
         self._clock = clock
         self._ended = threading.Event()
-        self._last_poll: tuple[int, int] | None = None
+        self._folder_state: tuple[int, int] | None = None
         self._next_poll = 0.0
         self._is_calm = False
         self._cut: set[str] = set()
@@ -132,8 +132,8 @@ class Watch:
         now = self._clock()
         if now < self._next_poll:
             return False
-        before, self._last_poll = self._last_poll, (state.st_ino, state.st_mtime_ns)
-        if self._is_calm and not self._cut and self._last_poll == before:
+        before, self._folder_state = self._folder_state, (state.st_ino, state.st_mtime_ns)
+        if self._is_calm and not self._cut and self._folder_state == before:
             return False
         self._next_poll = now + PROCESSES_POLL_S
         found = sockets(os.path.dirname(own.path))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from bot_console.runtime.process.watch import thread_work
-from bot_console.runtime.process.watch.thread_work import CHECKS_PER_STALL, IMPORTING, MAX_BLOCKED_CHECKS, ThreadWork
+from bot_console.runtime.process.watch.thread_work import CHECKS_PER_STALL, IMPORTING, SLOW_DISK_FACTOR, ThreadWork
 
 FUTEX = "futex_do_wait"
 
@@ -71,7 +71,7 @@ def test_only_sleep_without_wakeups_counts_if_the_system_hides_the_place(machine
 
 def test_import_from_a_slow_disk_gets_more_time(machine):
     machine.place, machine.importing = "request_wait_answer", True
-    assert not machine.poll(CHECKS_PER_STALL * MAX_BLOCKED_CHECKS).is_blocked()
+    assert not machine.poll(CHECKS_PER_STALL * SLOW_DISK_FACTOR).is_blocked()
     assert machine.poll(1).is_blocked()
 
 
@@ -102,9 +102,9 @@ def test_system_without_statistics_gets_the_longest_timeout(monkeypatch):
     monkeypatch.setattr(thread_work, "state_and_seconds", lambda task: None)
     monkeypatch.setattr(thread_work.time, "process_time", lambda: 1.0)
     work = ThreadWork(7, 7)
-    for _ in range(CHECKS_PER_STALL * MAX_BLOCKED_CHECKS):
+    for _ in range(CHECKS_PER_STALL * SLOW_DISK_FACTOR):
         work.poll()
     assert not work.is_blocked()
-    for _ in range(CHECKS_PER_STALL * MAX_BLOCKED_CHECKS):
+    for _ in range(CHECKS_PER_STALL * SLOW_DISK_FACTOR):
         work.poll()
     assert work.is_blocked()

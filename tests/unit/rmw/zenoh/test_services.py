@@ -65,7 +65,7 @@ def server(zid):
 class Links:
     """A session with the links and processes of others, as far as they are known."""
 
-    is_reported_truly = Session.is_reported_truly
+    is_really_gone = Session.is_really_gone
 
     def __init__(self):
         self.ids, self.pids = {"a", "b"}, {"a": os.getpid(), "b": None}
