@@ -15,7 +15,7 @@ import launch.logging
 from launch_testing.junitxml import TimedResult, write_report
 from launch_testing.test_run import DESCRIPTION, TestRun, test_runs
 from ros2cli.launch_file import parse_launch_arguments
-from ros2cli.launch_show_args import print_arguments
+from ros2cli.launch_print import argument_lines
 
 
 def main(words: Sequence[str] | None = None) -> int:
@@ -32,7 +32,8 @@ def main(words: Sequence[str] | None = None) -> int:
         if not runs:
             raise AttributeError(f"module '{path.stem}' has no attribute '{DESCRIPTION}'")
         if given.show_args:
-            print_arguments(runs[0].describe()[0])
+            for line in argument_lines(runs[0].describe()[0]):
+                print(line)
             return 0
         return _run(runs, dict(parse_launch_arguments(given.launch_arguments)), given)
     except Exception as error:  # a test file is a program: its exceptions are reported as command-line errors

@@ -1,33 +1,63 @@
-"""`ros2 launch --print`."""
+"""`ros2 launch --print` and `--show-args`: the tree and the arguments of a launch file, which is not run."""
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from typing import Any
 
 from launch.launch_description_sources import get_launch_description_from_any_launch_file
 from launch.launch_introspector import LaunchIntrospector
-from launch_ros.resolved_description import resolve_description
 
 
 def print_resolved(path: str, arguments: Mapping[str, str]) -> int:
     """Print the tree of a launch file with everything evaluated; returns 1 if the launch would fail."""
-    try:
-        for line in resolve_description(path, arguments):
-            print(line)
-    except Exception as error:  # a launch file is a program: its exceptions are reported without a traceback
-        print(f"{type(error).__name__}: {error}", file=sys.stderr)
-        return 1
-    return 0
+    from launch_ros.resolved_description import resolve_description
+
+    return _print(resolve_description(path, arguments))
 
 
 def print_description(path: str) -> int:
     """Print the tree of a launch file; returns 1 if the file cannot be read."""
-    try:
-        description = get_launch_description_from_any_launch_file(path)
-        text = LaunchIntrospector().format_launch_description(description)
-    except Exception as error:  # a launch file is a program: its exceptions are reported without a traceback
-        print(f"{type(error).__name__}: {error}", file=sys.stderr)
-        return 1
-    print(text)
-    return 0
+    return _print(_tree(path))
+
+
+def show_args(path: str) -> int:
+    """Print the arguments of a launch file with their defaults; returns 1 if the file cannot be read."""
+    return _print(_arguments(path))
+
+
+def _print(lines: Iterator[str]) -> int:
+    """Print lines as they are found; a launch file is a program: its exceptions are reported without a traceback."""
+    while True:
+        try:
+            line = next(lines, None)
+        except Exception as error:
+            print(f"{type(error).__name__}: {error}", file=sys.stderr)
+            return 1
+        if line is None:
+            return 0
+        print(line)
+
+
+def _tree(path: str) -> Iterator[str]:
+    yield LaunchIntrospector().format_launch_description(get_launch_description_from_any_launch_file(path))
+
+
+def _arguments(path: str) -> Iterator[str]:
+    yield from argument_lines(get_launch_description_from_any_launch_file(path))
+
+
+def argument_lines(description: Any) -> Iterator[str]:
+    """Yield the arguments of a launch description with their defaults; raises what included files raise."""
+    yield "Arguments (pass arguments as '<name>:=<value>'):"
+    arguments = description.get_launch_arguments()
+    if not arguments:
+        yield "\n  No arguments."
+    for each in arguments:
+        star = "*" if each._conditionally_included else ""
+        yield f"\n    '{each.name}':{star}\n        {each.description}"
+        if each.default_value is not None:
+            yield f"        (default: {' + '.join(part.describe() for part in each.default_value)})"
+    if any(each._conditionally_included for each in arguments):
+        yield "\n* argument(s) which are only used if specific conditions occur"

@@ -118,16 +118,14 @@ def _list_launch_files(package: str) -> Result:
 
 
 def _act(arguments: argparse.Namespace, path: str, words: list[str]) -> Result:
-    if arguments.show_args:
-        from ros2cli.launch_show_args import show_args
+    if arguments.show_args or arguments.print:
+        from ros2cli.launch_print import print_description, print_resolved, show_args
 
-        return show_args(path)
-    if arguments.resolved and not arguments.print:
-        return "--resolved goes with --print"
-    if arguments.print:
-        from ros2cli.launch_print import print_description, print_resolved
-
+        if arguments.show_args:
+            return show_args(path)
         return print_resolved(path, parse_launch_arguments(words)) if arguments.resolved else print_description(path)
+    if arguments.resolved:
+        return "--resolved goes with --print"
     given = parse_launch_arguments(words)
     if arguments.launch_prefix_filter is not None and arguments.launch_prefix is None:
         return "--launch-prefix must be specified if --launch-prefix-filter is provided"

@@ -6,12 +6,13 @@ import errno
 import io
 import os
 import signal
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 
 import pytest
 from ros2cli.command_line import main
-from ros2cli.launch_show_args import show_args
+from ros2cli.launch_print import print_description, print_resolved, show_args
 
 LISTED = """
 from launch import LaunchDescription
@@ -191,8 +192,9 @@ def test_invalid_options_show_usage(capsys: pytest.CaptureFixture[str]) -> None:
         assert message in err
 
 
-def test_write_error_of_show_args_is_not_blamed_on_the_launch_file(
-    monkeypatch: pytest.MonkeyPatch, folder: Path
+@pytest.mark.parametrize("show", [show_args, print_description, partial(print_resolved, arguments={})])
+def test_write_error_is_not_blamed_on_the_launch_file(
+    monkeypatch: pytest.MonkeyPatch, folder: Path, show: Callable[[str], int]
 ) -> None:
     class Full(io.StringIO):
         def write(self, _: str) -> int:
@@ -200,7 +202,7 @@ def test_write_error_of_show_args_is_not_blamed_on_the_launch_file(
 
     monkeypatch.setattr("sys.stdout", Full())
     with pytest.raises(OSError):
-        show_args("says.launch.py")
+        show("says.launch.py")
 
 
 def test_prefix_filter_needs_a_prefix(capsys: pytest.CaptureFixture[str]) -> None:
