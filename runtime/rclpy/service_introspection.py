@@ -86,8 +86,10 @@ class ServiceEvents:
 
 
 def configure(entity: Introspected, clock: Clock, qos_profile: QoSProfile, state: ServiceIntrospectionState) -> None:
-    """Make a service or client publish its events, or stop it with OFF; raises `ValueError` for an invalid state."""
-    state = ServiceIntrospectionState(state)
+    """Make a service or client publish its events, or stop it with OFF; raises `TypeError` for what is no state."""
+    _ = clock.handle, qos_profile.get_c_qos_profile  # what is no clock or profile, such as a depth, fails as upstream
+    if not isinstance(state, ServiceIntrospectionState):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's
+        raise TypeError(f"configure_introspection(): incompatible function arguments: {state!r} is no state")
     entity.use()
     events = entity.events
     if events is None and state != ServiceIntrospectionState.OFF:

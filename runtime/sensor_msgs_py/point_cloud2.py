@@ -33,17 +33,17 @@ def read_points(
     uvs: Iterable[Any] | None = None,
     reshape_organized_cloud: bool = False,
 ) -> np.ndarray:
-    """Return the points as a structured array: all or some fields, optionally without NaN, at some pixels `(u, v)`."""
+    """Return the points as a structured array: all or some fields, without NaN, and of those by number."""
+    assert isinstance(cloud, PointCloud2), "Cloud is not a sensor_msgs.msg.PointCloud2"
     points = _points(cloud)
     if field_names is not None:
         missing = set(field_names) - set(points.dtype.names or ())
         assert not missing, f"Requests field is not in the fields of the PointCloud: {', '.join(sorted(missing))}"
         points = points[list(field_names)]
-    if uvs is not None:
-        columns, rows = np.asarray(list(uvs), dtype=np.intp).reshape(-1, 2).T
-        points = points[rows * cloud.width + columns]
     if skip_nans and not cloud.is_dense:
         points = points[~_with_nan(points)]
+    if uvs is not None:
+        points = points[uvs if isinstance(uvs, np.ndarray) else np.fromiter(uvs, int)]
     if reshape_organized_cloud and cloud.height > 1:
         points = points.reshape(cloud.width, cloud.height)
     return points
@@ -137,6 +137,10 @@ def create_cloud(
     if step is None and isinstance(points, np.ndarray) and points.dtype.names is not None:
         step = points.dtype.itemsize
     dtype = dtype_from_fields(fields, step)
+    if isinstance(points, np.ndarray) and points.dtype.names is None:
+        assert all(each.datatype == fields[0].datatype for each in fields[1:]), (
+            "All fields need to have the same datatype. Pass a structured NumPy array with multiple dtypes otherwise."
+        )
     points = _structured(points, dtype)
     assert points.dtype == dtype, (
         "PointFields and structured NumPy array dtype do not match for all fields! "

@@ -93,7 +93,7 @@ class ForLoop(Action):
         **kwargs: Condition | None,
     ) -> None:
         super().__init__(**kwargs)
-        self._length = normalize_to_list_of_substitutions(str(length) if isinstance(length, int) else length)
+        self._length = normalize_to_list_of_substitutions(length)
         self._function = function
         self._name = name
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, cast
 
 from launch.action import Action
+from launch.utilities import ensure_argument_type
 
 if TYPE_CHECKING:
     from launch.condition import Condition
@@ -25,6 +26,10 @@ class OpaqueFunction(Action):
         **left_over_kwargs: Condition | None,
     ) -> None:
         super().__init__(**left_over_kwargs)
+        if not callable(function):
+            raise TypeError(f"OpaqueFunction expected a callable for 'function', got '{type(function)}'")
+        ensure_argument_type(args, (Iterable, type(None)), "args", "OpaqueFunction")
+        ensure_argument_type(kwargs, (dict, type(None)), "kwargs", "OpaqueFunction")
         self.__function = function
         self.__args = () if args is None else args
         self.__kwargs: Mapping[str, object] = {} if kwargs is None else kwargs

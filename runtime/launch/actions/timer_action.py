@@ -16,7 +16,8 @@ from launch.event_handler import EventHandler
 from launch.event_handlers import OnShutdown
 from launch.events import TimerEvent
 from launch.frontend.expose import expose_action
-from launch.utilities import create_future, normalize_to_list_of_substitutions
+from launch.some_substitutions_type import SomeSubstitutionsType_types_tuple
+from launch.utilities import create_future, ensure_argument_type, normalize_to_list_of_substitutions
 from launch.utilities.type_utils import normalize_typed_substitution, perform_typed_substitution
 
 if TYPE_CHECKING:
@@ -45,10 +46,11 @@ class TimerAction(Action):
         **kwargs: Condition | None,
     ) -> None:
         super().__init__(**kwargs)
+        ensure_argument_type(period, (*SomeSubstitutionsType_types_tuple, float), "period", "TimerAction")
+        ensure_argument_type(actions, Iterable, "actions", "TimerAction")
         if isinstance(period, str):
             warnings.warn(
-                "The parameter 'period' must be a float or substitution, "
-                "passing a string literal was deprecated in Galactic",
+                "The parameter 'period' must be a float or substitution,passing a string literal was deprecated",
                 stacklevel=2,
             )
             period = normalize_to_list_of_substitutions(period)

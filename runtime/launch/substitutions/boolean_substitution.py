@@ -53,7 +53,8 @@ def _values(context: LaunchContext, *operands: list[Substitution]) -> list[bool]
 class AndSubstitution(TwoSided):
     """Whether both operands are true."""
 
-    _name = "and"
+    def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
+        super().__init__(left, right)  # errors name this class
 
     def perform(self, context: LaunchContext) -> str:
         """Evaluate to `true` or `false`."""
@@ -64,7 +65,8 @@ class AndSubstitution(TwoSided):
 class OrSubstitution(TwoSided):
     """Whether at least one operand is true."""
 
-    _name = "or"
+    def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
+        super().__init__(left, right)  # errors name this class
 
     def perform(self, context: LaunchContext) -> str:
         """Evaluate to `true` or `false`."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from launch.frontend.expose import expose_substitution
 from launch.substitutions.joined import TwoSided, word
 from launch.utilities import perform_substitutions
+from launch.utilities.type_utils import is_substitution
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -16,13 +17,13 @@ if TYPE_CHECKING:
 TRUTH = {"true": True, "1": True, "false": False, "0": False}
 
 
-def _operand(value: SomeSubstitutionsType | float | None) -> SomeSubstitutionsType:
-    """A boolean, number or None as text, as a launch file would write it; None becomes the empty text."""
+def _operand(value: object) -> SomeSubstitutionsType:
+    """What contains no substitution as text: a boolean as a launch file would write it, None as the empty text."""
+    if is_substitution(value):
+        return cast("SomeSubstitutionsType", value)
     if value is None:
         return ""
-    if isinstance(value, bool):
-        return str(value).lower()
-    return str(value) if isinstance(value, (int, float)) else value
+    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def _number(text: str) -> float | None:
@@ -46,9 +47,7 @@ def _equal(left: str, right: str) -> bool:
 class EqualsSubstitution(TwoSided):
     """Whether two values are equal: as booleans, else as numbers, else as texts."""
 
-    _name = "equals"
-
-    def __init__(self, left: SomeSubstitutionsType | float | None, right: SomeSubstitutionsType | float | None) -> None:
+    def __init__(self, left: object, right: object) -> None:
         super().__init__(_operand(left), _operand(right))
 
     def equal(self, context: LaunchContext) -> bool:

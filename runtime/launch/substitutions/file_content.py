@@ -31,7 +31,7 @@ class FileContent(Substitution):
     def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[FileContent], dict[str, object]]:
         """Parse `$(file-content path)`."""
         if len(data) != 1:
-            raise AttributeError("file-content substitution expects 1 argument")
+            raise AttributeError("file content substitutions expect 1 argument")
         return cls, {"path": data[0]}
 
     @property

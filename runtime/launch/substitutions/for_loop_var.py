@@ -48,7 +48,9 @@ class ForEachVar(Substitution):
         if name in values:
             return str(values[name])
         if self._default is None:
-            raise SubstitutionFailure(f"No local variable '{name}' and no default value provided")
+            raise SubstitutionFailure(
+                f"No value available for {type(self).__name__} '{name}' and no default value provided"
+            )
         return perform_substitutions(context, self._default)
 
 

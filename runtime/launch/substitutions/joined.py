@@ -37,9 +37,6 @@ def word(value: bool) -> str:
 class TwoSided(Substitution):
     """Base of substitutions with two operands."""
 
-    _name = ""
-    """In launch files, such as `and`."""
-
     def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
         super().__init__()
         self.__left = normalize_to_list_of_substitutions(left)
@@ -49,7 +46,7 @@ class TwoSided(Substitution):
     def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[TwoSided], dict[str, object]]:
         """Parse two arguments, as of `$(and left right)`."""
         if len(data) != 2:
-            raise TypeError(f"{cls._name} substitution expects 2 arguments")
+            raise TypeError("and substitution expects 2 arguments")  # whatever it is, as upstream
         return cls, {"left": data[0], "right": data[1]}
 
     @property

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 class NotEqualsSubstitution(EqualsSubstitution):
     """Whether two values differ."""
 
-    _name = "not-equals"
-
     def perform(self, context: LaunchContext) -> str:
         """Evaluate to `true` or `false`."""
         return word(not self.equal(context))

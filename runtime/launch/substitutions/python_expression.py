@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions.joined import described
-from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -22,6 +22,9 @@ class PythonExpression(Substitution):
 
     def __init__(self, expression: SomeSubstitutionsType, python_modules: object = ("math",)) -> None:
         super().__init__()
+        kinds = str, Substitution, Iterable
+        ensure_argument_type(expression, kinds, "expression", "PythonExpression")
+        ensure_argument_type(python_modules, kinds, "python_modules", "PythonExpression")
         self.__expression = normalize_to_list_of_substitutions(expression)
         self.__modules = [normalize_to_list_of_substitutions(each) for each in _each(python_modules)]
 

@@ -27,7 +27,7 @@ class StringJoinSubstitution(Substitution):
     def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[StringJoinSubstitution], dict[str, object]]:
         """Parse `$(string-join delimiter a b c)`."""
         if len(data) < 2:
-            raise TypeError("string-join substitution expects at least 2 arguments")
+            raise TypeError("string-join substitution expects at least 2 arguments: 1 delimiter + at least 1 component")
         return cls, {"delimiter": data[0], "substitutions": list(data[1:])}
 
     @property

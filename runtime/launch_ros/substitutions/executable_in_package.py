@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
 
 
+@expose_substitution("exec-in-package")
 @expose_substitution("exec-in-pkg")
 class ExecutableInPackage(Substitution):
     """The path of a package's executable; if it was never built, where its build would install it."""
@@ -34,7 +35,7 @@ class ExecutableInPackage(Substitution):
     def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[ExecutableInPackage], dict[str, object]]:
         """From `$(exec-in-pkg executable package)`."""
         if len(data) != 2:
-            raise AttributeError("exec-in-pkg substitution expects 2 arguments")
+            raise AttributeError("exec-in-package substitution expects 2 arguments")
         return cls, {"executable": data[0], "package": data[1]}
 
     @property

@@ -48,17 +48,21 @@ def action_names(node: Node, action: str, side: str) -> ActionNames:
 
     `side` is "client" or "server".
     """
+    failed = f"Failed to create action {side}"
+    invalid = f"{failed} due to invalid topic name '{action}' :" + (" :" if side == "server" else "")
     if not action:
-        raise ValueError(f"Failed to create action {side}: invalid empty action name")
+        empty = f"{invalid} invalid empty action name"
+        raise ValueError(empty if side == "server" else f"{failed}: failed to get goal service name")
     try:
+        checked(node, f"{action}/_action/{GOAL}")  # first as a topic, as which rcl describes what is wrong
         services = (checked(node, f"{action}/_action/{part}", service=True) for part in (GOAL, CANCEL, RESULT))
         topics = (checked(node, f"{action}/_action/{part}") for part in (FEEDBACK, STATUS))
         return ActionNames(*services, *topics)
-    except (InvalidServiceNameException, InvalidTopicNameException):
-        why = "topic name is invalid"
+    except (InvalidServiceNameException, InvalidTopicNameException) as error:
+        why = error.error_msg
     except ValueError as error:
-        why = str(error)
-    raise ValueError(f"Failed to create action {side} due to invalid topic name '{action}' : {why}")
+        why = str(error).rpartition(" is invalid: ")[2]
+    raise ValueError(f"{invalid} {why}")
 
 
 class ServerEndpoints:

@@ -105,7 +105,10 @@ class ActionServer(ActionEntity):
             self.register_execute_callback(execute_callback)
         self._check("server")
         names = action_names(node, action_name, "server")
-        self._goals = Goals(int(result_timeout * S_TO_NS))
+        kept_ns = int(result_timeout * S_TO_NS)
+        if kept_ns < 0:
+            raise ValueError("Failed to create action server: timer period must be non-negative")
+        self._goals = Goals(kept_ns)
         self._logger = node.get_logger().get_child("action_server")
         if execute_callback is None and handle_accepted_callback in (None, default_handle_accepted_callback):
             self._logger.warning("Not handling nor executing the goal, this server will do nothing")

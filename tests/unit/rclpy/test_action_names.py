@@ -70,21 +70,38 @@ def test_services_and_topics_are_remapped_individually(ros: Any) -> None:
 
 
 @pytest.mark.parametrize(
-    ("name", "words"),
+    ("name", "why"),
     [
-        ("", "Failed to create action {}: invalid empty action name"),
-        ("a b", "Failed to create action {} due to invalid topic name 'a b' : topic name is invalid"),
-        ("1st", "Failed to create action {} due to invalid topic name '1st' : topic name is invalid"),
+        ("a b", "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}'"),
+        ("1st", "topic name token must not start with a number"),
+        ("a/", "topic name must not contain repeated '/'"),
+        ("{x}", "unknown substitution: {x}"),
     ],
 )
-def test_invalid_names_are_rejected(ros: Any, name: str, words: str) -> None:
+def test_invalid_names_are_rejected_with_upstreams_reasons(ros: Any, name: str, why: str) -> None:
     node = ros.node()
     with pytest.raises(ValueError, match="Failed") as error:
         ActionServer(node, Fibonacci, name, succeed)
-    assert str(error.value) == words.format("server")
+    assert str(error.value) == f"Failed to create action server due to invalid topic name '{name}' : : {why}"
     with pytest.raises(ValueError, match="Failed") as error:
         ActionClient(node, Fibonacci, name)
-    assert str(error.value) == words.format("client")
+    assert str(error.value) == f"Failed to create action client due to invalid topic name '{name}' : {why}"
+    assert get_action_names_and_types(node) == []
+
+
+def test_empty_names_are_rejected(ros: Any) -> None:
+    node = ros.node()
+    with pytest.raises(ValueError, match=r"server due to invalid topic name '' : : invalid empty action name$"):
+        ActionServer(node, Fibonacci, "", succeed)
+    with pytest.raises(ValueError, match=r"client: failed to get goal service name$"):
+        ActionClient(node, Fibonacci, "")
+    assert get_action_names_and_types(node) == []
+
+
+def test_negative_result_timeout_is_rejected(ros: Any) -> None:
+    node = ros.node()
+    with pytest.raises(ValueError, match="Failed to create action server: timer period must be non-negative"):
+        ActionServer(node, Fibonacci, "fib", succeed, result_timeout=-1)
     assert get_action_names_and_types(node) == []
 
 

@@ -85,3 +85,18 @@ def test_introspection_can_be_switched_off(scene: Scene) -> None:
 def test_nothing_is_published_by_default(scene: Scene) -> None:
     scene.call()
     assert scene.node.count_publishers("flip/_service_event") == 0
+
+
+@pytest.mark.parametrize(
+    ("wrong", "kind", "words"),
+    [
+        ({"clock": "now"}, AttributeError, "'str' object has no attribute 'handle'"),
+        ({"qos": 10}, AttributeError, "'int' object has no attribute 'get_c_qos_profile'"),
+        ({"state": 2}, TypeError, r"configure_introspection\(\): incompatible function arguments"),
+    ],
+)
+def test_wrong_arguments_are_refused(scene: Scene, wrong: dict[str, Any], kind: type[Exception], words: str) -> None:
+    right = {"clock": scene.node.get_clock(), "qos": qos_profile_system_default, "state": State.OFF}
+    for each in (scene.service, scene.client):
+        with pytest.raises(kind, match=words):
+            each.configure_introspection(*{**right, **wrong}.values())

@@ -32,7 +32,12 @@ def test_points_are_read_as_arrays_or_lists(cloud: PointCloud2) -> None:
     assert points.dtype.names == ("x", "y", "z", "ring")
     assert points["ring"].tolist() == [4, 5, 6]
     assert point_cloud2.read_points(cloud, ["ring", "x"], skip_nans=True).tolist() == [(4, 1.0), (6, 7.0)]
-    assert point_cloud2.read_points(cloud, ["x"], uvs=[(2, 0), (0, 0)])["x"].tolist() == [7.0, 1.0]
+    assert point_cloud2.read_points(cloud, ["x"], uvs=[2, 0])["x"].tolist() == [7.0, 1.0]
+    assert point_cloud2.read_points(cloud, ["x"], True, np.array([1]))["x"].tolist() == [7.0], "of those without NaN"
+    with pytest.raises(AssertionError, match=r"Cloud is not a sensor_msgs\.msg\.PointCloud2"):
+        point_cloud2.read_points(Header())  # type: ignore[arg-type] -- a usual mistake
+    with pytest.raises(AssertionError, match="All fields need to have the same datatype"):
+        point_cloud2.create_cloud(Header(), FIELDS, np.zeros((2, 4)))
     assert point_cloud2.read_points_numpy(cloud, ["x", "y", "z"], skip_nans=True).tolist() == [[1, 2, 3], [7, 8, 9]]
     first = point_cloud2.read_points_list(cloud)[0]
     assert (first.x, first.ring) == (1.0, 4)
