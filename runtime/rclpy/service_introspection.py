@@ -85,10 +85,10 @@ class ServiceEvents:
         self._node.destroy_publisher(self._publisher)
 
 
-def configure(entity: Introspected, clock: Clock, qos_profile: QoSProfile, state: ServiceIntrospectionState) -> None:
+def configure(entity: Introspected, clock: Clock, qos_profile: QoSProfile, state: object) -> None:
     """Make a service or client publish its events, or stop it with OFF; raises `TypeError` for what is no state."""
     _ = clock.handle, qos_profile.get_c_qos_profile  # what is no clock or profile, such as a depth, fails as upstream
-    if not isinstance(state, ServiceIntrospectionState):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's
+    if not isinstance(state, ServiceIntrospectionState):
         raise TypeError(f"configure_introspection(): incompatible function arguments: {state!r} is no state")
     entity.use()
     events = entity.events

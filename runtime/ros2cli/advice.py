@@ -12,6 +12,10 @@ from bot_console.runtime.programs.hints import wrong_type as _written
 
 FEW = 8
 """Names that fit a hint of one line or two."""
+ABOUT_DDS = {"multicast", "security"}
+"""Commands of ROS 2 that have no meaning here."""
+NEEDS_TYPE = {("topic", "pub"): "topic", ("service", "call"): "service", ("action", "send_goal"): "action"}
+"""Verbs that take a name and its type, and the command that tells the type."""
 _WRONG_TYPE = r"Wrong parameter type, expected 'Type\.(\w+)' got 'Type\.(\w+)'"
 
 
@@ -54,7 +58,11 @@ def wrong_type(name: str, value: str, reason: str) -> str:
 
 
 def usage(words: Sequence[str]) -> str:
-    """The replacement for options that only other releases of ROS 2 have; empty for all other command lines."""
+    """What replaces an option or a command that is not there, or how to find a missing type; else empty."""
+    if words and words[0] in ABOUT_DDS:
+        return f"bot-console has no `ros2 {words[0]}`: it is about DDS, which bot-console does not use"
+    if len(words) == 3 and not words[2].startswith("-") and (of := NEEDS_TYPE.get((words[0], words[1]))):
+        return f"the type is missing after {words[2]}; `ros2 {of} type {words[2]}` prints it"
     if list(words[:2]) == ["param", "dump"] and "--output-dir" in words[:-1]:
         folder = words[words.index("--output-dir") + 1].rstrip("/") or "/"
         node = next((each for each in words[2:] if each.startswith("/")), "/node")

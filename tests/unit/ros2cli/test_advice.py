@@ -59,6 +59,24 @@ def test_mistyped_node_name_gets_a_hint(
     assert asked.exit == silent.exit == 1
 
 
+@pytest.mark.parametrize(
+    ("line", "reported"),
+    [
+        ("topic pub /chat", "the type is missing after /chat; `ros2 topic type /chat` prints it"),
+        ("service call /flip", "the type is missing after /flip; `ros2 service type /flip` prints it"),
+        ("action send_goal /fib", "the type is missing after /fib; `ros2 action type /fib` prints it"),
+        ("topic pub --nonsense", ""),
+        ("topic pub /chat std_msgs/String --nonsense", ""),
+        ("multicast send", "bot-console has no `ros2 multicast`: it is about DDS, which bot-console does not use"),
+    ],
+)
+def test_incomplete_command_line_gets_a_hint(ros, monkeypatch: pytest.MonkeyPatch, line: str, reported: str) -> None:
+    assert advice.usage(line.split()) == reported
+    monkeypatch.setattr(advice, "is_read", lambda: True)
+    asked = ros.ask(*line.split())
+    assert asked.exit == 2 and (asked.stderr.endswith(f"{reported}\n") if reported else "error:" in asked.stderr)
+
+
 def test_hint_says_if_no_node_runs() -> None:
     assert advice.no_node("/robot", []) == "no node runs in this ROS domain"
     assert advice.no_node("/robot", [f"/{each}" for each in range(99)]) == "no node /robot runs"
