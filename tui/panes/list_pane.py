@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from bot_console.tui.console.query import parse
+from bot_console.tui.console.query import Query, parse
 from bot_console.tui.keys.key import NO_MODE, Mode
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.prompt.filtered import Narrowed
@@ -19,9 +19,12 @@ FILTERED = Mode(
 
 
 class ListPane(Pane, Narrowed):
-    """A pane whose first `RowList` has a filter. Subclasses define `filter_is` and compose a `Prompt`."""
+    """A pane whose first `RowList` has a filter. Subclasses define `_arrange` and compose a `Prompt`."""
 
     SCOPES: ClassVar[tuple[str, ...]] = ("find", "narrowed", "list")
+
+    _query = Query()
+    """The filter, as it was understood."""
 
     @property
     def mode(self) -> Mode:
@@ -32,6 +35,15 @@ class ListPane(Pane, Narrowed):
         """Set the filter, and show its keys."""
         super().set_filter(words)
         self.keys_changed()
+
+    def filter_is(self, words: str) -> None:
+        """Show the rows that pass."""
+        self._query = parse(words)
+        self._arrange()
+
+    def _arrange(self) -> None:
+        """Show what passes `_query`."""
+        raise NotImplementedError
 
     def ask_words(self, line: Line) -> None:
         """Ask for search words at the bottom of the pane."""

@@ -10,7 +10,6 @@ from typing import Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, RateCheck
-from bot_console.tui.console.query import Query, parse
 from bot_console.tui.panes.alarms.alarm import Alarm, AlarmText, texts_of
 from bot_console.tui.panes.alarms.condition import read
 from bot_console.tui.panes.alarms.rows import AlarmRows, row_of, row_of_check, row_of_suggestion
@@ -67,7 +66,6 @@ class AlarmsPane(ListPane):
         self._alarms: list[Alarm] = []
         self._holding: list[str] = []
         """The names of those that hold, as they were told last."""
-        self._query = Query()
         self._waiting: dict[str, str] = {}
         """Paths that cannot be watched now, and why."""
         self._checks: Sequence[RateCheck] = ()
@@ -207,11 +205,6 @@ class AlarmsPane(ListPane):
         """Edit the alarm whose selected row was clicked."""
         event.stop()
         self.action_edit()
-
-    def filter_is(self, words: str) -> None:
-        """Show the alarms that pass."""
-        self._query = parse(words)
-        self._arrange()
 
     def action_add(self) -> None:
         """Ask for a new alarm."""

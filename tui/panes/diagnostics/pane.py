@@ -9,7 +9,6 @@ from typing import Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.query import Query, parse
 from bot_console.tui.console.sensors.diagnostics import Diagnostics, Level, Status
 from bot_console.tui.format import clock_text
 from bot_console.tui.panes.diagnostics.table import LEVEL_STYLES, StatusRows
@@ -57,7 +56,6 @@ class DiagnosticsPane(ListPane):
         super().__init__(*args, **kwargs)
         self._info = Diagnostics()
         self._problem = ""
-        self._query = Query()
         self._bad_only = False
         self._folded: frozenset[str] = frozenset()
         self._polled = 0.0
@@ -142,11 +140,6 @@ class DiagnosticsPane(ListPane):
             self.action_fold(not row.folded)
         else:
             self.action_open()
-
-    def filter_is(self, words: str) -> None:
-        """Show what passes."""
-        self._query = parse(words)
-        self._arrange()
 
     def action_clear_filter(self) -> None:
         """Show everything again."""

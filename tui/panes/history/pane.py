@@ -20,7 +20,6 @@ from bot_console.tui.console.model import (
     parameter_in,
 )
 from bot_console.tui.console.parameters.safety import takes_safety
-from bot_console.tui.console.query import Query, parse
 from bot_console.tui.panes.history.effect import Effects
 from bot_console.tui.panes.history.export import FORMS, export
 from bot_console.tui.panes.history.revert import Return, returns, values_at
@@ -71,7 +70,6 @@ class HistoryPane(ListPane):
         super().__init__(*args, **kwargs)
         self._journal = JournalState()
         self._every: list[Change] = []
-        self._query = Query()
         self._only_refused = False
         self._problem = ""
         self._effects = Effects()
@@ -182,11 +180,6 @@ class HistoryPane(ListPane):
         else:
             self._only_refused = False
             self.set_filter("")
-
-    def filter_is(self, words: str) -> None:
-        """Show the changes that pass."""
-        self._query = parse(words)
-        self._arrange()
 
     def action_refused(self) -> None:
         """Only refusals, or all."""

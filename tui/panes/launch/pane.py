@@ -84,7 +84,6 @@ class LaunchPane(ListPane):
         self._problem = ""
         self._read = ""
         self._folded: frozenset[tuple[str, ...]] = frozenset()
-        self._query = Query()
         self._follower = Follower()
         self._has_news = False
         """Whether the follower has gathered something that is not shown yet."""
@@ -164,11 +163,6 @@ class LaunchPane(ListPane):
         self.report_filter(len(there), len(info.processes))
         self._report()
         self._show_events()
-
-    def filter_is(self, words: str) -> None:
-        """Show the processes that pass."""
-        self._query = parse(words)
-        self._arrange()
 
     def _show_events(self) -> None:
         info = self._info or LaunchInfo()

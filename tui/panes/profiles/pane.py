@@ -19,7 +19,7 @@ from bot_console.tui.console.model import (
     SetOutcome,
 )
 from bot_console.tui.console.parameters.file.node_keys import means
-from bot_console.tui.console.query import Query, parse
+from bot_console.tui.console.query import parse
 from bot_console.tui.files.save_file import typed_path
 from bot_console.tui.files.state_store import LAST_FILE
 from bot_console.tui.panes.list_pane import ListPane
@@ -79,7 +79,6 @@ class ProfilesPane(ListPane):
         self._held = False
         self._comparing = False
         """Whether the user wants the comparison even where there is something to preview."""
-        self._query = Query()
         self._own = OwnProfiles(self.console, self._later, self.ask, self.report)
         self._asking = Asking(self.console, self._later, self._compare)
 

@@ -9,7 +9,6 @@ from typing import Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo, RateCheck
-from bot_console.tui.console.query import Query, parse
 from bot_console.tui.console.topics.port import LiveMessage, RequestedQos
 from bot_console.tui.files.save_file import typed_path
 from bot_console.tui.panes.list_pane import ListPane
@@ -61,7 +60,6 @@ class TopicsPane(ListPane):
         self._problem = ""
         self._checks: Sequence[RateCheck] = ()
         self._kind = Kind.TOPICS
-        self._query = Query()
         self._every = self._listed = 0
         self._hidden = False
         self._folded: frozenset[str] | None = None
@@ -392,8 +390,8 @@ class TopicsPane(ListPane):
 
     def filter_is(self, words: str) -> None:
         """Show what passes."""
-        self._query, self._folded_matches = parse(words), frozenset()
-        self._arrange()
+        self._folded_matches = frozenset()
+        super().filter_is(words)
 
     def action_plot(self) -> None:
         """Plot the field at the cursor; in the list, one of the topic's fields."""
