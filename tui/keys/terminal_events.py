@@ -43,12 +43,7 @@ Notice = Callable[[events.Key, bool], None]
 class TerminalEvents:
     """Converts bytes to events; an invalid sequence affects nothing else."""
 
-    def __init__(
-        self,
-        debug: bool = False,
-        stops: Callable[[events.Key], bool] = lambda _: False,
-        notice: Notice = lambda _, __: None,
-    ) -> None:
+    def __init__(self, debug: bool, stops: Callable[[events.Key], bool], notice: Notice) -> None:
         """`notice` receives each key that `stops`, as soon as possible, and whether it came alone."""
         self._splitter = Splitter()
         self._parser: Any = EscapeParser(debug)

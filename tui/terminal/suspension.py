@@ -28,7 +28,7 @@ ASLEEP = "bot-console was put to sleep (Ctrl-Z)"
 class Leaving:
     """Leaves the terminal and comes back to it."""
 
-    def __init__(self, app: App[None], console: Console, redraw: Callable[[], None], *, holds: bool = True) -> None:
+    def __init__(self, app: App[None], console: Console, redraw: Callable[[], None], *, holds: bool) -> None:
         """`holds`: whether to hold the robot while the console is suspended; only a console that may release it may
         hold it.
         """

@@ -212,7 +212,7 @@ class DiagramView(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  #
         """The rows below the drawing."""
         return max(0, self.size.height - len(self.drawing.rows))
 
-    def set_footer(self, lines: Sequence[str], legend: str = "") -> None:
+    def set_footer(self, lines: Sequence[str], legend: str) -> None:
         """Write lines into the last of the free rows, below a rule; the first line is a heading.
 
         The legend stands above them if there is another free row.

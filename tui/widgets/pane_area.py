@@ -52,8 +52,8 @@ class PaneArea(Container):
             self.tree = tree
             self.first = first
 
-    def __init__(self, *children: Widget, id: str | None = None) -> None:
-        super().__init__(*children, id=id)
+    def __init__(self, *, id: str) -> None:
+        super().__init__(id=id)
         self._places = TreeLayout()
         self._dragged: tuple[Border, Tree, int] | None = None
         self._moved = 0

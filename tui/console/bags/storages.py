@@ -52,7 +52,7 @@ class Storage(Protocol):
 class McapStorage:
     """An MCAP file that a killed program leaves readable up to its last flush."""
 
-    def __init__(self, path: Path, *, compressed: bool = False, crc: bool = True) -> None:
+    def __init__(self, path: Path, *, compressed: bool, crc: bool) -> None:
         from mcap.writer import CompressionType, Writer
 
         self._file = path.open("xb")

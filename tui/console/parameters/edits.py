@@ -43,8 +43,8 @@ class ParameterEdits:
         parameters: Parameters,
         trees: Callable[[], Mapping[str, ParameterTree]],
         later: Later,
-        changed: Callable[[], object] = lambda: None,
-        failed: Callable[[str, Outcomes], object] = lambda error, outcomes: None,
+        changed: Callable[[], object],
+        failed: Callable[[str, Outcomes], object],
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         """`trees` returns all parameters as they are now. `changed` is called when there is something to draw.

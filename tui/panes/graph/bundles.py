@@ -46,9 +46,9 @@ def bundled(
     nodes: Iterable[str],
     edges: Iterable[Pair],
     members: Mapping[str, int],
-    faults: frozenset[tuple[str, str, str]] = frozenset(),
-    rates: Mapping[str, str] = MappingProxyType({}),
-    states: Mapping[str, str] = MappingProxyType({}),
+    faults: frozenset[tuple[str, str, str]],
+    rates: Mapping[str, str],
+    states: Mapping[str, str],
 ) -> Bundles:
     """The chart of boxes and of edges between boxes and links (topics, services, actions).
 

@@ -81,7 +81,7 @@ def command(change: Change, value: Value) -> str:
     return command_of(ParameterInfo(change.node, change.name, kind, value), value)
 
 
-def details(change: Change, effect: str = "") -> Text:
+def details(change: Change, effect: str) -> Text:
     """All that is known of a change."""
     text = Text(no_wrap=False, overflow="fold")
     if not change.accepted:
@@ -116,7 +116,7 @@ def set_details(row: ChangeSet) -> Text:
 class ChangeRows(ItemList[HistoryRow]):
     """Changes, and sets of changes, the newest first."""
 
-    def __init__(self, effect: Callable[[int], str] = lambda _: "") -> None:
+    def __init__(self, effect: Callable[[int], str]) -> None:
         """`effect`: what came after the change with a number."""
         super().__init__()
         self._effect = effect

@@ -31,7 +31,7 @@ class Filtering:
         only = self.rules.highlighted if self.only_highlighted else ()
         return LogFilter(self.minimum, self.words, self.rules.hidden, only, self.folded)
 
-    def narrowed_to(self, words: str = "", minimum: Severity = Severity.UNSET) -> LogFilter:
+    def narrowed_to(self, words: str, minimum: Severity) -> LogFilter:
         """The filter narrowed to lines that also match these words, and with repeats not folded."""
         which = self.which()
         both = " ".join(each for each in (which.words, words) if each)

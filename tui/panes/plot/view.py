@@ -202,7 +202,7 @@ def short_number(value: float, step: float = 0.0) -> str:
     return next(form for form in forms if len(form) <= 7 or form is forms[-1])
 
 
-def _time_axis(marks: Sequence[Mark], axes: Axes, across: int, beyond: Sequence[int] = ()) -> list[Line]:
+def _time_axis(marks: Sequence[Mark], axes: Axes, across: int, beyond: Sequence[int]) -> list[Line]:
     """The axis with ticks and marks, `!` where a threshold is crossed, and labels: seconds before the right edge."""
     span = axes.end - axes.start
     step = tick_step(span, max(2, across // 12))

@@ -36,7 +36,7 @@ def bundled_names() -> list[str]:
     return sorted(path.stem for path in BUNDLED.glob("*.yaml"))
 
 
-def profile_names(folders: Sequence[Path] = ()) -> list[str]:
+def profile_names(folders: Sequence[Path]) -> list[str]:
     """The profiles that can be named without a path: the robot's, those of the given folders, and the user's own."""
     return sorted({*bundled_names(), *(path.stem for folder in _folders(folders) for path in _files(folder))})
 

@@ -18,9 +18,9 @@ def wrong_filter(text: str) -> str:
     return ""
 
 
-def filter_line(words: str, apply: Callable[[str], object], then: Callable[[str], object] | None = None) -> Line:
+def filter_line(words: str, apply: Callable[[str], object], then: Callable[[str], object]) -> Line:
     """Ask for a filter, applied while it is typed; `then` gets the last one; cancelling removes it."""
-    return Line("filter", then or apply, given_up=lambda: apply(""), text=words, check=wrong_filter, typed=apply)
+    return Line("filter", then, given_up=lambda: apply(""), text=words, check=wrong_filter, typed=apply)
 
 
 def file_line(label: str, name: str, then: Callable[[str], object]) -> Line:
