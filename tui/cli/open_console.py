@@ -95,7 +95,7 @@ def _connect(options: Options, warnings: list[str], own: Host | None, start: Cal
     _prepare(options)
     from bot_console.tui.session.composition import attached, embedded, hosted, overhear
     from bot_console.tui.session.connected import Connected
-    from bot_console.tui.session.launch_host.hosted_snapshot_buffer import HostedSnapshotBuffer
+    from bot_console.tui.session.launch_host.proxy import HostedSnapshotBuffer
 
     message = [(Severity.WARN, each) for each in warnings]
     if options.attach:

@@ -48,13 +48,12 @@ from bot_console.tui.session.launch_host.child import Host
 from bot_console.tui.session.launch_host.combined import CombinedLauncher, OtherHosts
 from bot_console.tui.session.launch_host.host import LaunchHost, Printed
 from bot_console.tui.session.launch_host.launch_lines import launch_variables, notifier
-from bot_console.tui.session.launch_host.proxy import HostedLauncher
+from bot_console.tui.session.launch_host.proxy import HostedLauncher, HostedSnapshotBuffer
 from bot_console.tui.settings.settings import read_settings
 
 if TYPE_CHECKING:
     from bot_console.tui.console.bags.snapshot_buffer import SnapshotBuffer
     from bot_console.tui.console.ros_console import RosConsole
-    from bot_console.tui.session.launch_host.hosted_snapshot_buffer import HostedSnapshotBuffer
 
 CONNECT_TIMEOUT_S = 20.0
 """Seconds after which other hosts are searched for even though the console has not connected."""

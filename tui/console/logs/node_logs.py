@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from concurrent.futures import Future
 from functools import partial
 from typing import TYPE_CHECKING
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.command_gate import Gate, refuse
-from bot_console.tui.console.logs.ending import ends_on_purpose
 from bot_console.tui.console.logs.port import LogFindings, LogSource, LogView
-from bot_console.tui.console.model import LaunchInfo, LogFilter, LoggerLevel, LogRecord, LogState, Severity, logger_of
+from bot_console.tui.console.model import (
+    LaunchInfo,
+    LogFilter,
+    LoggerLevel,
+    LogRecord,
+    LogState,
+    ProcessInfo,
+    Severity,
+    logger_of,
+)
 
 if TYPE_CHECKING:
     from bot_console.tui.console.launch.process_output import Add
@@ -88,7 +96,7 @@ class NodeLogs:
     def discount_errors_of_ending(self, launch: LaunchInfo) -> None:
         """Do not count errors that processes logged or printed while they were being ended on purpose."""
         if self._store is not None and any(each.end_requested for each in launch.processes):
-            self._store.discount_errors(partial(ends_on_purpose, launch.processes))
+            self._store.discount_errors(partial(_ends_on_purpose, launch.processes))
 
     def record(self, seq: int) -> LogRecord | None:
         """The record with that number."""
@@ -138,3 +146,22 @@ class NodeLogs:
         """Stop searching."""
         if self._views is not None:
             self._views.close()
+
+
+def _ends_on_purpose(processes: Iterable[ProcessInfo], arrived: int, logger: str) -> bool:
+    """Whether a line of that logger, which `arrived` (ns since the epoch), is of a process whose end was requested.
+
+    A process that has started again since is judged by its new run.
+    """
+    return any(_was_ending(each, arrived) and _is_of(each, logger) for each in processes)
+
+
+def _was_ending(process: ProcessInfo, arrived: int) -> bool:
+    again = process.started if process.started > process.end_requested else None
+    return 0 < process.end_requested <= arrived and (again is None or arrived < again)
+
+
+def _is_of(process: ProcessInfo, logger: str) -> bool:
+    """Whether it is the logger of launch for that process, of one of its nodes, or a child of that."""
+    names = map(logger_of, process.nodes)
+    return logger == process.label or any(f"{logger}.".startswith(f"{each}.") for each in names)

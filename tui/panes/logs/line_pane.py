@@ -6,9 +6,9 @@ from functools import partial
 from typing import Any
 
 from bot_console.tui.panes.list_pane import ListPane
+from bot_console.tui.panes.logs.message_screen import LogMessageScreen
 from bot_console.tui.panes.logs.preceding_events import options_of, preceding_events
 from bot_console.tui.panes.logs.rows import LogRows
-from bot_console.tui.screens.detail import DetailScreen
 from bot_console.tui.widgets.prompt.question import Choice
 
 
@@ -28,7 +28,7 @@ class LinePane(ListPane):
         """Show the whole message."""
         record = self._list.named_record
         if record is not None:
-            self.host.push_screen(DetailScreen(record))
+            self.host.push_screen(LogMessageScreen(record))
 
     def action_instant(self) -> None:
         """Show the moment of the line in the plot and all other panes with a time axis."""

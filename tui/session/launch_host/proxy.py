@@ -1,4 +1,4 @@
-"""A launcher in another process, as the console sees it."""
+"""A launcher in another process, and the last minutes that it keeps in memory, as the console sees them."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from dataclasses import replace
 from typing import Any
 
 from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.command_gate import done
 from bot_console.tui.console.launch.launcher import CLOSED
 from bot_console.tui.console.launch.process import ENDED
 from bot_console.tui.console.launch.process_output import Add
@@ -199,6 +200,20 @@ class HostedLauncher(ProcessVerbs):
                 self._printed(Severity.ERROR, "launch", GONE)
         for each in left:
             each.set_result({"error": why})
+
+
+class HostedSnapshotBuffer:
+    """The last minutes of the system's traffic, kept in memory by the launch host of a console."""
+
+    def __init__(self, kept_s: float) -> None:
+        self.kept_s = kept_s
+        self.host: HostedLauncher | None = None
+
+    def keep(self, folder: str) -> Future[Answer]:
+        """Save it as a new bag."""
+        if self.host is not None:
+            return self.host.keep(folder)
+        return done(Answer(False, "nothing has been started yet"))
 
 
 def _with_its_host(process: ProcessInfo) -> ProcessInfo:

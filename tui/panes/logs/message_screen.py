@@ -1,4 +1,4 @@
-"""A complete log message."""
+"""The screen with one complete log message."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from rich.console import RenderableType
 from rich.text import Text
 
 
-class DetailScreen(Overlay):
-    """Shows all details of one log line."""
+class LogMessageScreen(Overlay):
+    """Shows one log line with all that is known of it."""
 
     def __init__(self, record: LogRecord) -> None:
         super().__init__("Message")
