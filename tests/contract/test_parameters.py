@@ -74,7 +74,7 @@ def test_a_refusal_says_who_and_why_and_changes_nothing(rig: Rig, node: str, nam
     assert (change.name, change.new, change.accepted, change.reason) == (name, value, False, outcome.reason)
     assert change.answered is (who != "node")
     assert rig.console.snapshot().parameters[ROBOT] == before
-    assert not rig.console.snapshot().journal.can_undo
+    assert not rig.console.snapshot().journal.undoes
 
 
 def test_the_reason_of_the_nodes_own_callback_is_reported_verbatim(rig: Rig) -> None:
@@ -92,7 +92,7 @@ def test_values_set_in_a_burst_are_undone_one_by_one(rig: Rig) -> None:
     for value in (1.2, 1.1, 1.0):
         assert rig.console.parameters.undo().result(TIMEOUT_S).ok
         shown(rig, "speed", value)
-    assert not rig.console.snapshot().journal.can_undo
+    assert not rig.console.snapshot().journal.undoes
     until(lambda: len(rig.console.parameters.changes()) == 6, "the journal")
     assert [(each.old, each.new) for each in rig.console.parameters.changes()] == [
         *((1.0, 1.1), (1.1, 1.2), (1.2, 1.3)),
@@ -151,7 +151,7 @@ def test_values_of_two_nodes_are_set_together_and_reverted_by_one_undo(rig: Rig)
     assert {each.by for each in rig.console.parameters.changes()} == {"a set"}
     assert rig.console.parameters.undo().result(TIMEOUT_S).ok
     until(lambda: both(rig) == (1.0, 1.0), "the values of both nodes")
-    assert not rig.console.snapshot().journal.can_undo
+    assert not rig.console.snapshot().journal.undoes
 
 
 @pytest.mark.parametrize("rule", ["descriptor", "callback"])
@@ -170,7 +170,7 @@ def test_values_refused_by_one_node_are_set_on_none(rig: Rig, rule: str) -> None
     until(lambda: both(rig) == (1.0, 1.0), "the values before")
     assert parameter(rig, "count").value == 3
     snapshot = rig.console.snapshot()
-    assert not snapshot.journal.can_undo and snapshot.journal.unsaved == ()
+    assert not snapshot.journal.undoes and snapshot.journal.unsaved == ()
 
 
 def test_a_profile_refused_by_the_second_node_leaves_the_first_unchanged(rig: Rig) -> None:
@@ -179,7 +179,7 @@ def test_a_profile_refused_by_the_second_node_leaves_the_first_unchanged(rig: Ri
     assert {each.node for each in outcomes} == {ARM, ROBOT} and not any(each.accepted for each in outcomes)
     until(lambda: both(rig) == (1.0, 1.0), "the values before")
     assert rig.console.snapshot().active_profile == ""
-    assert not rig.console.snapshot().journal.can_undo
+    assert not rig.console.snapshot().journal.undoes
 
 
 def test_undo_and_redo_restore_values_and_say_which(rig: Rig) -> None:
@@ -191,14 +191,14 @@ def test_undo_and_redo_restore_values_and_say_which(rig: Rig) -> None:
         shown(rig, "gains", value)
         until(lambda source=source: rig.console.parameters.changes()[-1].source is source, "the journal")
         journal = rig.console.snapshot().journal
-        assert (journal.can_undo, journal.can_redo) == (ask == "redo", ask == "undo")
+        assert (bool(journal.undoes), bool(journal.redoes)) == (ask == "redo", ask == "undo")
 
 
 def test_a_new_change_discards_redoable_steps(rig: Rig) -> None:
     setting(rig, {"speed": 1.5})
     assert rig.console.parameters.undo().result(TIMEOUT_S).ok
     setting(rig, {"count": 9})
-    assert not rig.console.snapshot().journal.can_redo
+    assert not rig.console.snapshot().journal.redoes
     assert not rig.console.parameters.redo().result(TIMEOUT_S).ok
 
 
@@ -213,7 +213,7 @@ def test_a_change_made_elsewhere_is_shown_and_cannot_be_undone_here(rig: Rig) ->
     shown(rig, "mode", "brave")
     until(rig.console.parameters.changes, "the journal")
     assert rig.console.parameters.changes()[-1].source is ChangeSource.OTHER
-    assert not rig.console.snapshot().journal.can_undo
+    assert not rig.console.snapshot().journal.undoes
 
 
 def test_the_origin_of_a_value_says_who_has_set_it(rig: Rig) -> None:
@@ -300,7 +300,7 @@ def test_an_undo_refused_by_one_node_is_reported_and_keeps_the_closer_profile(ri
     until(lambda: rig.console.snapshot().profile_changes == 1, "the arm's value")
     snapshot = rig.console.snapshot()
     assert snapshot.active_profile == "careful"
-    assert (snapshot.journal.can_undo, snapshot.journal.can_redo) == (True, True)
+    assert (bool(snapshot.journal.undoes), bool(snapshot.journal.redoes)) == (True, True)
     assert parameter(rig, "speed").value == 0.5
 
 

@@ -275,7 +275,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
         state = self._steps.state
         active = next((each for each in self.current.profiles if each.name == self.current.active_profile), None)
         self.change(
-            journal=replace(state, first=0, end=self._end, dropped=0),
+            journal=replace(state, first=0, end=self._end),
             profile_changes=len(differences(active, self.current.parameters)) if active else 0,
         )
 

@@ -64,20 +64,18 @@ class Change:
 
 @dataclass(frozen=True, slots=True)
 class JournalState:
-    """The change journal as a whole, numbered like the log, and whether there is anything to undo or redo.
+    """The change journal as a whole: changes `first` to `end` - 1 are kept, and what can be undone and redone.
 
     Changes of earlier runs have negative numbers.
     """
 
     first: int = 0
     end: int = 0
-    dropped: int = 0
-    can_undo: bool = False
-    can_redo: bool = False
     unsaved: tuple[tuple[str, str], ...] = ()
     """Node and name of each value that was set from this console and is in no file, so that it would be lost."""
     problem: str = ""
     """Why changes are not kept for later runs; empty if they are, or if that was not requested."""
     undoes: tuple[tuple[str, str], ...] = ()
-    """Node and name of each value that the next undo takes back; `redoes`: that the next redo sets again."""
+    """Node and name of each value that the next undo takes back; empty if there is nothing to undo."""
     redoes: tuple[tuple[str, str], ...] = ()
+    """The same for the next redo."""

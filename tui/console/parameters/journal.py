@@ -213,9 +213,8 @@ class Journal:
 
     def _renew(self) -> None:
         first = self._end - len(self._changes)
-        steps = bool(self._undo), bool(self._redo)
-        next_ones = (_keys(self._undo[-1]) if self._undo else (), _keys(self._redo[-1]) if self._redo else ())
-        self._state = JournalState(first, self._end, first, *steps, self._unsaved.names, self._problem, *next_ones)
+        undoes, redoes = (_keys(steps[-1]) if steps else () for steps in (self._undo, self._redo))
+        self._state = JournalState(first, self._end, self._unsaved.names, self._problem, undoes, redoes)
 
 
 def _keys(step: Step) -> tuple[tuple[str, str], ...]:

@@ -48,7 +48,7 @@ class NodeParameters:
     _setter: ParameterSetter
     """There from `attach` on, and used only by what has passed the gate."""
 
-    def __init__(self, gate: Gate, provenance: Provenance, on_value: OnValue) -> None:
+    def __init__(self, gate: Gate, provenance: Provenance, on_value: OnValue | None = None) -> None:
         self._gate = gate
         self._provenance = provenance
         self._on_value = on_value
@@ -96,7 +96,8 @@ class NodeParameters:
             self._setter.profile = to
 
     def _changed(self, node: str, name: str, old: Value, new: Value) -> ChangeSource:
-        self._on_value(node, name, new)
+        if self._on_value is not None:
+            self._on_value(node, name, new)
         source = self._setter.announced(node, name, old, new)
         self._warn_if_unsafe(node, name, old, new)
         return source

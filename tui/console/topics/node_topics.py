@@ -55,7 +55,7 @@ class NodeTopics:
     _calls: Calls
     """There from `attach` on."""
 
-    def __init__(self, gate: Gate, graph: Callable[[], GraphInfo], types: TypeSource | None) -> None:
+    def __init__(self, gate: Gate, graph: Callable[[], GraphInfo], types: TypeSource | None = None) -> None:
         """`types` builds types that this program does not have; without it they stay unknown."""
         self._gate = gate
         self._graph = graph

@@ -8,9 +8,6 @@ from bot_console.tui.panes.steering.plane import velocity_at
 from bot_console.tui.panes.steering.view import BUTTONS
 from bot_console.tui.widgets.picture import Line
 
-SLIDER_END_CELLS = 7
-"""Cells of the left end of a slider: its value and the bracket."""
-
 
 def button(lines: Sequence[Line], x: int, y: int) -> tuple[int, int] | None:
     """The axis (0 linear, 1 angular) and step (1 faster or left, 0 zero, -1 slower or right) of the button at a

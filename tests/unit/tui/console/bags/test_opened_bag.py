@@ -86,7 +86,7 @@ def test_log_parameter_changes_and_world_come_from_the_bag(console: OpenedBag) -
     assert line is not None and (line.text, line.stamp) == ("too fast", (BEGIN + 5) * SECOND)
     (change,) = console.parameters.changes()
     assert (change.node, change.name, change.old, change.new) == ("/nav", "max_speed", 1.0, 2.5)
-    assert change.stamp == (BEGIN + 4) * SECOND and now.journal.end == 1 and not now.journal.can_undo
+    assert change.stamp == (BEGIN + 4) * SECOND and now.journal.end == 1 and not now.journal.undoes
     assert now.world.map is not None and now.world.map.width == 2 and len(now.world.trail) == 10
     assert console.drive.pose_at((BEGIN + 3) * SECOND + 1) == Pose(3.0, 0.0, 0.0)
     assert "10 s" in now.link.to and console.snapshot() is now
