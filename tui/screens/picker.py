@@ -44,6 +44,8 @@ class PickerScreen(QuestionScreen[str]):
     PickerScreen Box { width: 90%; max-width: 110; height: 70%; }
     PickerScreen Input { border: none; height: 1; padding: 0; background: $panel; margin-bottom: 1; }
     PickerScreen Input:focus { border: none; }
+    PickerScreen StaticText { text-wrap: wrap; }
+    PickerScreen StaticText.wrong { color: $warning; }
     """
 
     def __init__(self, choice: Choice) -> None:
@@ -78,14 +80,25 @@ class PickerScreen(QuestionScreen[str]):
         self.query_one(Box).border_subtitle = f"{len(found)} of {self._every} · Enter OK · Esc Cancel"
         shown.cursor = 0
         shown.exchange(found, stay=False)
-        self.query_one(StaticText).show_text("" if found else self._choice.empty)
+        self._explain("" if found else self._choice.empty, wrong=False)
+
+    def _explain(self, text: str, *, wrong: bool) -> None:
+        line = self.query_one(StaticText)
+        line.show_whole(text, 3)
+        line.set_class(wrong, "wrong")
 
     def on_input_submitted(self, event: Input.Submitted) -> None:
         """Take the option at the cursor."""
         event.stop()
         option = self._list.current
-        if option is not None:
-            self.answer(option.value or option.title)
+        if option is None:
+            return
+        answer = option.value or option.title
+        wrong = self._choice.attempt(answer) if self.poll() else ""
+        if wrong:
+            self._explain(wrong, wrong=True)
+        else:
+            self.answer(answer)
 
     def action_move(self, step: int) -> None:
         """Move to another option."""

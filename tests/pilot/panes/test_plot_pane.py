@@ -13,6 +13,7 @@ from bot_console.tui.panes.plot.pane import PlotPane
 from fakes.console import START
 from piloting import Session, run
 from samples import LIMIT, NEAREST, SPEED, empty, faulty, live
+from textual.widgets import Input
 
 
 def plot(session: Session) -> PlotPane:
@@ -55,6 +56,22 @@ def test_unplottable_path_is_rejected_with_a_reason() -> None:
         assert "/scan" not in plot(session).paths
 
     run(live(), play, (120, 40))
+
+
+@pytest.mark.parametrize("typed", [f"{LIMIT} +", "sine(/a/x)", f"{NEAREST}, nonsense"])
+def test_wrong_expression_stays_to_be_corrected(typed: str) -> None:
+    async def play(session: Session) -> None:
+        await session.press("4", "a")
+        await session.type(typed)
+        await session.press("enter")
+        assert session.app.screen.query_one(Input).value == typed
+        assert len(session.app._notifications) == 0, "the reason stands in the box"
+        await session.press("ctrl+u")
+        await session.type(f"{SPEED} * 2")
+        await session.press("enter")
+        assert f"{SPEED} * 2" in plot(session).paths and len(session.app.screen_stack) == 1
+
+    run(live(), play)
 
 
 def test_a_parameter_is_plotted_from_the_parameter_pane() -> None:

@@ -50,31 +50,36 @@ class PlotQuestions(Pane):
         self.ask(
             Choice(
                 "Plot",
-                self._add_all,
+                lambda _: None,
+                attempt=self._add_all,
                 find=partial(suggested, known),
                 hint="type part of a path, or an expression such as /a/x - /b/x or mean(/a/x, 1 s)",
                 empty="Nothing that can be plotted matches.",
             )
         )
 
-    def _add_all(self, paths: str) -> None:
-        for path in split(paths):
-            self.add(path)
+    def _add_all(self, paths: str) -> str:
+        return next((wrong for path in split(paths) if (wrong := self._added(path))), "")
 
     def add(self, path: str) -> bool:
         """Plot a path or an expression, or say why not."""
+        wrong = self._added(path)
+        if wrong:
+            self.notify(wrong, title="Not plotted", severity="warning", markup=False)
+        return not wrong
+
+    def _added(self, path: str) -> str:
+        """Plot a path or an expression; returns why it cannot be plotted."""
         self._touched = True
         path = path.strip()
         if not path or path in self.paths:
-            return True
+            return ""
         answer = self._timeline.add(path)
         if answer.ok:
             self._chosen = len(self.paths) - 1
             self._hint_at_parameters(path)
-        else:
-            self.notify(answer.text, title="Not plotted", severity="warning", markup=False)
         self.take_in(force=True)
-        return answer.ok
+        return "" if answer.ok else answer.text
 
     def _hint_at_parameters(self, path: str) -> None:
         """Say how a parameter is plotted if a topic, such as `/parameter_events`, has no numbers but its stamps."""

@@ -90,6 +90,9 @@ def narrowed(options: Iterable[Option], typed: str) -> list[Option]:
 class Choice(Question[str]):
     """One of several options, narrowed by typing."""
 
+    attempt: Callable[[str], str] = _all_well
+    """Acts on an answer before `then`, or returns why it cannot; the question stays open in that case."""
+
     find: Callable[[str], Sequence[Option]] = _none
     """The options for what was typed, the best first."""
 
