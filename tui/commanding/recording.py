@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable
 from concurrent.futures import Future
-from pathlib import Path
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.port import Recording
+from bot_console.tui.files.save_file import typed_path
 from bot_console.tui.panes.pane import Pane
+from bot_console.tui.widgets.prompt.common import wrong_path
+from bot_console.tui.widgets.prompt.question import Line
 
 
 class BagRecording:
@@ -34,8 +37,12 @@ class BagRecording:
             pane.report_later(self._bags.keep(""))
 
     def _ask(self, pane: Pane, label: str, ending: str, order: Callable[[str], Future[Answer]]) -> None:
-        def write(path: Path) -> Answer:
-            pane.report_later(order(str(path)))
-            return Answer(True)
+        name = f"rosbag2_{time.strftime('%Y_%m_%d-%H_%M_%S')}{ending}"
+        pane.ask(
+            Line(label, lambda text: pane.report_later(order(str(typed_path(text)))), text=name, check=_wrong_folder)
+        )
 
-        pane.ask_file(label, f"rosbag2_{time.strftime('%Y_%m_%d-%H_%M_%S')}{ending}", write)
+
+def _wrong_folder(text: str) -> str:
+    """Why a bag cannot be written there: no bag replaces what exists."""
+    return wrong_path(text) or (f"{text.strip()} exists already" if os.path.lexists(typed_path(text)) else "")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
 from bot_console.tui.console.bags.port import RecordingInfo
 from piloting import Session, run
 from samples import live
@@ -25,6 +26,23 @@ def test_same_key_starts_and_stops_recording(tmp_path: Path) -> None:
         assert ("end", "") in session.console.asked and "REC" not in session.text()
 
     run(live(), play, (120, 40))
+
+
+@pytest.mark.parametrize("key", ["R", "Z"])
+def test_bag_does_not_offer_to_replace_what_exists(key: str, tmp_path: Path) -> None:
+    async def play(session: Session) -> None:
+        (tmp_path / "taken").write_text("notes")
+        session.console.change(recording=RecordingInfo(kept_s=120.0))
+        await session.press("5", key)
+        session.app.focused.value = str(tmp_path / "taken")
+        await session.press("enter")
+        assert "taken exists already" in " ".join(session.text().split())
+        assert not [each for each in session.console.asked if each[0] in ("record", "keep")]
+        session.app.focused.value = str(tmp_path / "free")
+        await session.press("enter")
+        assert [each[1] for each in session.console.asked if each[0] in ("record", "keep")] == [str(tmp_path / "free")]
+
+    run(live(), play, (200, 50))
 
 
 def test_last_minutes_are_saved_or_their_absence_reported(tmp_path: Path) -> None:
