@@ -5,6 +5,9 @@ Keys are chosen to survive SSH, tmux and browsers' terminals: letters, digits, E
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
+
 from bot_console.tui.keys.key import Key
 from textual.binding import Binding, BindingType
 
@@ -538,6 +541,19 @@ TABLE: dict[str, tuple[Key, ...]] = {
         Key("form.choice_back", "pageup", "choice(-1)", "Previous choice", priority=True),
     ),
 }
+
+CHANGING: Mapping[str, str] = MappingProxyType(
+    dict.fromkeys(
+        (
+            *("parameters.edit", "parameters.more", "parameters.less", "parameters.undo"),
+            *("profiles.apply", "profiles.world", "history.back", "history.before", "topics.fill"),
+            *("launch.open", "launch.start", "launch.stop", "launch.restart", "launch.kill"),
+            *(f"steering.{each}" for each in ("arm", "stop", "faster", "slower", "left", "right")),
+        ),
+        "",
+    )
+)
+"""No word for the keys that a console which changes nothing does not name."""
 
 
 def stops(key: str) -> bool:

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, cast
 
 from bot_console.tui.console.model import ConsoleSnapshot
+from bot_console.tui.keymap import CHANGING
 from bot_console.tui.keys.key import NO_MODE
 from bot_console.tui.layout.current_layout import Arrangement
 from bot_console.tui.layout.named import OVERVIEW
@@ -45,6 +46,8 @@ class Stage:
         self._extent = Size(80, 24)
         self._panes: list[Pane] = []
         self._unused = UnusedPanes()
+        self._changes = True
+        """Whether this console changes anything; otherwise the keys for that are not named."""
         self.plugins: list[PaneEntry] = []
         """Panes from other packages."""
         self.arrangement = arrangement
@@ -75,6 +78,10 @@ class Stage:
 
     def observe(self, snapshot: ConsoleSnapshot) -> None:
         """Pass a snapshot to all panes, for what even hidden ones must not miss."""
+        changes = not snapshot.capabilities.change
+        if changes != self._changes:
+            self._changes = changes
+            self.show_keys()
         for pane in self.panes():
             if not pane.is_ending:
                 pane.observe(snapshot)
@@ -227,6 +234,7 @@ class Stage:
             screen, pane = self._app.screen_stack[0], self.current()
             scopes, typing = pane.scopes if pane else (self._focused,), isinstance(screen.focused, Input)
             words, mode = (pane.key_words, pane.mode) if pane else (NO_OTHERS, NO_MODE)
+            words = words if self._changes else {**words, **CHANGING}
             screen.query_one(KeyBar).show(scopes, typing, self._primary(), self._extent.width, words, mode)
 
     def recolour(self) -> None:

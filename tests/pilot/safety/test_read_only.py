@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from bot_console.tui.console.command_gate import READ_ONLY
 from bot_console.tui.console.model import Capabilities, Kind
+from bot_console.tui.keymap import CHANGING, TABLE
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.widgets.prompt.line import Prompt
 from piloting import Session, run
-from samples import with_array
+from samples import live, with_array
 
 KEYS = {
     "a value": ("1", "slash", *"max_speed", "enter", "enter"),
@@ -17,6 +18,36 @@ KEYS = {
     "an end": ("8", "down", "K"),
     "a launch file": ("8", "o"),
 }
+
+
+def test_key_bar_of_a_read_only_console_names_only_keys_that_it_obeys() -> None:
+    async def play(session: Session) -> None:
+        assert "More" in session.lines()[-1]
+        session.console.change(capabilities=Capabilities(change=READ_ONLY))
+        session.app.pull()
+        await session.settle()
+        for pane in ("1", "6", "7", "8", "9", "H"):
+            await session.press(pane)
+            words = session.lines()[-1].split()
+            for word in (
+                "Edit",
+                "More",
+                "Less",
+                "Undo",
+                "Apply",
+                "Arm",
+                "Kill",
+                "Restart",
+                "Publish",
+                "Back",
+                "Faster",
+            ):
+                assert word not in words, (pane, word)
+            assert {"?", "!"} <= {*words}, "help and stop are named"
+        ids = {key.id for keys in TABLE.values() for key in keys}
+        assert CHANGING.keys() <= ids
+
+    run(live(), play, (200, 50))
 
 
 def test_read_only_console_refuses_before_asking() -> None:
