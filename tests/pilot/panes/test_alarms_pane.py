@@ -145,6 +145,7 @@ def test_alarms_are_suggested_with_live_values_and_enter_watches_one() -> None:
         await later(session, 0.5)
         row = next(line for line in session.lines() if "close to something" in line)
         assert "min(/scan/ranges) < 0.3" in row and "now 0.85" in row
+        assert "enter Watch" in session.lines()[-1] and "Delete" not in session.lines()[-1]
         assert "Nothing is watched yet" in session.text() and session.app.state_store.get("alarms") is None
         session.console.series["/scan/ranges.min()"] = ([1.0, 2.0], [0.85, 0.7])
         session.console.change(drive=DriveInfo())
@@ -157,6 +158,7 @@ def test_alarms_are_suggested_with_live_values_and_enter_watches_one() -> None:
         await session.press("enter")
         assert session.app.state_store.get("alarms") == [{"name": "no scan", "condition": "rate(/scan) < 1"}]
         await later(session, 0.5)
+        assert "enter Edit  d Delete  b Bell" in session.lines()[-1]
         assert "○ quiet" in session.text() and "close to something" not in session.text()
         session.console.series["rate(/scan)"] = ([1.0, 2.0], [9.8, 0.0])
         await later(session, 0.5)

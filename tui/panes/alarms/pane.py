@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -35,6 +35,8 @@ EXAMPLE = "/battery/percentage < 0.2"
 NAMED = re.compile(r"([^/<>=()]+?):\s+(.+)")
 """A name, a colon and blanks, a condition."""
 
+UNNAMED: Mapping[str, str] = {"alarms.edit": "", "alarms.delete": "", "alarms.bell": ""}
+SUGGESTED_KEYS: Mapping[str, str] = {**UNNAMED, "alarms.edit": "Watch"}
 NO_ALARM = "This is an expected rate, not an alarm."
 EXPECTED = "Expected by a file, a profile or a monitor; E in Topics names the file."
 
@@ -90,6 +92,14 @@ class AlarmsPane(ListPane):
     @property
     def _list(self) -> AlarmRows:
         return self.query_one(AlarmRows)
+
+    @property
+    def key_words(self) -> Mapping[str, str]:
+        """No key for what the row at the cursor does not allow; Enter watches a suggestion."""
+        row = self._list.current if self.has_parts else None
+        if row is not None and row.suggested:
+            return SUGGESTED_KEYS
+        return {} if row is not None and not row.expected else UNNAMED
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Redraw the list when expected rates or suggestions are others; all else in it changes with time."""
@@ -185,6 +195,7 @@ class AlarmsPane(ListPane):
             values = "  ".join(f"{each} = {alarm.values[each]:.4g}" for each in alarm.paths if each in alarm.values)
             text = alarm.problem or values or "no value yet"
         self.query_one("#alarms-status", StaticText).show_text(text)
+        self.keys_changed()
 
     @property
     def _current(self) -> Alarm | None:
