@@ -169,9 +169,6 @@ class HostedLauncher(ProcessVerbs):
         elif "record" in message:
             stamp, severity, name, text, site = message["record"]
             self._record(stamp, severity, name, text, (site[0], site[1], site[2]))
-        elif "printed" in message:
-            severity, name, text = message["printed"]
-            self._printed(severity, name, text)
         elif "fact" in message:
             self._learn(*message["fact"])
         elif "dropped" in message:

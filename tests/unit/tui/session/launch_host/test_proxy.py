@@ -1,11 +1,16 @@
-"""A console reports that its own launch host ended unrequested, even if the host had started nothing."""
+"""What a console learns from a launch host: its end, even before it has started anything, and earlier lines."""
 
 from __future__ import annotations
 
 import socket
 import threading
+import time
+from types import SimpleNamespace
+from typing import Any
 
-from bot_console.tui.console.model import Severity
+import pytest
+from bot_console.tui.console.model import LaunchInfo, Severity
+from bot_console.tui.session.launch_host.host import LaunchHost
 from bot_console.tui.session.launch_host.proxy import GONE, HostedLauncher
 
 TIMEOUT_S = 240.0
@@ -51,3 +56,29 @@ def test_a_frozen_host_is_resumed_so_that_it_can_end() -> None:
     launcher.close()
     assert thawed == [True]
     theirs.close()
+
+
+def test_a_console_that_connects_later_gets_earlier_lines_with_their_own_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    service: Any = SimpleNamespace(info=LaunchInfo, close=lambda: None)
+    host = LaunchHost(lambda record, printed: service)
+    monkeypatch.setattr(time, "time_ns", lambda: 1_000)
+    host.printed(Severity.INFO, "talker-1", "process started with pid [7]")
+    host.noticed(Severity.WARN, "talker-1", "it waits for itself")
+    monkeypatch.setattr(time, "time_ns", lambda: 2_000)
+    ours, theirs = socket.socketpair()
+    got, both = list[tuple[object, ...]](), threading.Event()
+
+    def record(*line: object) -> None:
+        got.append(line)
+        if len(got) == 2:
+            both.set()
+
+    launcher = HostedLauncher(ours, record, lambda *line: None, owner=False)
+    host.connect(theirs)
+    assert both.wait(TIMEOUT_S)
+    launcher.close()
+    host.close()
+    assert sorted(got) == [
+        (1_000, Severity.INFO, "talker-1", "process started with pid [7]", ("", "", 0)),
+        (1_000, Severity.WARN, "talker-1", "it waits for itself", ("", "", 0)),
+    ]
