@@ -6,6 +6,7 @@ import contextlib
 import os
 from collections.abc import Generator, Iterable, Sequence
 
+from bot_console.runtime.programs.hints import did_you_mean, is_read
 from bot_console.runtime.workspace.choices import launch_file_names
 from ros2cli.advice import launch_files
 
@@ -65,12 +66,28 @@ def of_package(named: str) -> Generator[None]:
     except PackageNotFoundError as error:
         raise LaunchFileError(f"Package '{named}' not found: {error}") from None
     except ValueError as error:
-        # Upstream's output for a mistyped path, with an explanation in between.
-        kind = "a folder" if os.path.isdir(named) else "not a file here"
-        raise LaunchFileError(
-            f"Traceback (most recent call last):\n  {named} is {kind}, so it was read as a package name\n"
-            f"ValueError: {error}"
-        ) from None
+        raise LaunchFileError(_no_file(named) if is_read() else _as_upstream(named, error)) from None
+
+
+def _no_file(named: str) -> str:
+    """The message for a person whose path is no file."""
+    if os.path.isdir(named):
+        return f"{named} is a folder; name a launch file in it, or a package and its launch file"
+    folder, name = os.path.split(named)
+    try:
+        near = did_you_mean(name, os.listdir(folder or "."), similarity=0.85)  # endings are alike
+    except OSError:
+        near = ""
+    return f"there is no launch file {named}{near}"
+
+
+def _as_upstream(named: str, error: ValueError) -> str:
+    """Upstream's output for such a path, with an explanation in between."""
+    kind = "a folder" if os.path.isdir(named) else "not a file here"
+    return (
+        f"Traceback (most recent call last):\n  {named} is {kind}, so it was read as a package name\n"
+        f"ValueError: {error}"
+    )
 
 
 def parse_launch_arguments(words: Iterable[str]) -> dict[str, str]:

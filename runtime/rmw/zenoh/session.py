@@ -102,7 +102,9 @@ class Session(Lifetime):
             for path, value in (*(leaves(settings) if file else ()), *last):
                 config.insert_json5(path, value)
         except (zenoh.ZError, OSError) as error:
-            raise SettingsError(f"Zenoh rejects these settings: {_first_line(error)}") from None
+            if file and not os.path.isfile(file):
+                raise SettingsError(f"there is no file {file}") from None
+            raise SettingsError(f"Zenoh rejects {file or 'these settings'}: {_first_line(error)}") from None
         try:
             self._zenoh = zenoh.open(config)
         except zenoh.ZError as error:

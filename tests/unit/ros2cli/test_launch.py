@@ -11,6 +11,7 @@ from functools import partial
 from pathlib import Path
 
 import pytest
+from bot_console.runtime.programs.hints import SHOW
 from ros2cli.command_line import main
 from ros2cli.launch_print import print_description, print_resolved, show_args
 
@@ -179,6 +180,22 @@ def test_mistyped_path_is_reported_as_invalid_package_name(capsys: pytest.Captur
     code, _, err = launched(capsys, path)
     assert code == 1
     assert err.splitlines()[-1] == f"ValueError: '{path}' is not a valid package name"
+
+
+@pytest.mark.parametrize(
+    ("path", "told"),
+    [
+        ("./other.launch.xml", "there is no launch file ./other.launch.xml"),
+        ("sayz.launch.py", "there is no launch file sayz.launch.py; did you mean says.launch.py?"),
+        ("no/says.launch.py", "there is no launch file no/says.launch.py"),
+        ("share/", "share/ is a folder; name a launch file in it, or a package and its launch file"),
+    ],
+)
+def test_mistyped_path_is_one_line_for_a_person(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, path: str, told: str
+) -> None:
+    monkeypatch.setenv(SHOW, "1")
+    assert launched(capsys, path) == (1, "", f"{told}\n")
 
 
 def test_invalid_options_show_usage(capsys: pytest.CaptureFixture[str]) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bot_console.runtime.rmw.zenoh.congestion_control import ROOM_OF_A_NETWORK, SMALL_BATCH
-from bot_console.runtime.rmw.zenoh.session import Session, SessionError
+from bot_console.runtime.rmw.zenoh.session import Session, SessionError, SettingsError
 from bot_console.runtime.rmw.zenoh.settings import Serving, network_link
 
 
@@ -34,5 +34,7 @@ class Router(Session):
         super().__init__(0)
         try:
             self._open(router_settings(self.zid, serving), file)
+        except SettingsError:
+            raise
         except SessionError as error:
             raise SessionError(f"cannot listen on {', '.join(serving.endpoints)}: {error}") from None

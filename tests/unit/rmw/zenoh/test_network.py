@@ -309,3 +309,15 @@ def test_questions_asked_before_a_silence_ended_are_not_believed(link):
     link.pass_time(1.0, 0.25)
     link.pass_time(1.0, 0.25)
     assert link.silent <= 0.5
+
+
+@pytest.mark.parametrize(
+    ("content", "told"), [(None, "there is no file {}"), ("mode:", "Zenoh rejects {}: .+")], ids=["missing", "broken"]
+)
+def test_unusable_configuration_of_a_router_is_not_said_to_be_a_matter_of_its_port(tmp_path, content, told):
+    file = tmp_path / "router.json5"
+    if content is not None:
+        file.write_text(content)
+    with pytest.raises(SessionError) as raised:
+        Router(Serving((f"tcp/127.0.0.1:{free_port()}",)), str(file))
+    assert re.fullmatch(told.format(file), str(raised.value))
