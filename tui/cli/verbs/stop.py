@@ -111,7 +111,11 @@ def holders(to_find: float = 1.0, to_hear: float = HOLDER_TIMEOUT_S) -> list[str
 
 
 def _last_message(info: StopInfo) -> list[str]:
-    return [f"{each.who}: {each.reason}" for each in with_gone(info.stops)]
+    """Who holds the robot and why; all locks of a robot may say the same."""
+    holders: dict[str, list[str]] = {}
+    for each in with_gone(info.stops):
+        holders.setdefault(each.reason, []).append(each.who)
+    return [f"{', '.join(who)}: {reason}" for reason, who in holders.items()]
 
 
 def _to_release(info: StopInfo, everybody: bool) -> list[RobotStop]:
