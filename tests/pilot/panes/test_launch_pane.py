@@ -5,10 +5,17 @@ from __future__ import annotations
 from dataclasses import replace
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.model import Endpoint, LaunchEvent, LaunchInfo, ProcessInfo, ProcessState, Severity
-from bot_console.tui.console.robot.robot_model import RobotStop
+from bot_console.tui.console.model import (
+    Endpoint,
+    LaunchEvent,
+    LaunchInfo,
+    ProcessInfo,
+    ProcessState,
+    Severity,
+)
+from bot_console.tui.console.robot.robot_model import DriveInfo, RobotStop
 from bot_console.tui.panes.graph.pane import GraphPane
-from bot_console.tui.panes.launch.pane import LaunchPane
+from bot_console.tui.panes.launch.pane import NEWS_S, LaunchPane
 from bot_console.tui.panes.launch.rows import ProcessRows
 from bot_console.tui.screens.confirm import ConfirmScreen
 from bot_console.tui.screens.launch_arguments import ArgumentsScreen
@@ -388,6 +395,33 @@ def test_warnings_and_output_of_the_process_at_the_cursor_are_shown() -> None:
             session.pane(LaunchPane).query_one(ProcessRows),
         )
         assert rows.size.height == rows.row_count() and output.size.height > 15, "free rows show what was printed"
+
+    run(live(), play, (120, 40))
+
+
+def test_line_after_a_silence_is_shown_at_once_and_more_of_them_every_two_seconds() -> None:
+    async def play(session: Session) -> None:
+        pane, clock = session.pane(LaunchPane), Clock()
+        pane.clock = clock
+        await session.press("8")
+        process = next(each for each in session.console.current.launch.processes if each.nodes)
+        pane.go_to(process.nodes[0])
+
+        async def shows(text: str, after_s: float) -> bool:
+            clock.now += after_s
+            session.console.show_text(Severity.INFO, process.nodes[0].strip("/"), text)
+            session.app.pull()
+            pane.tick()
+            await session.settle()
+            return text in session.text()
+
+        clock.now += NEWS_S
+        session.console.change(drive=DriveInfo())
+        session.app.pull()  # its turn, in which there is only CPU usage to show
+        assert await shows("line one", 0.3)
+        assert not await shows("line two", 0.3), "what prints all the time is drawn no more often than before"
+        assert not await shows("line three", 0.3)
+        assert await shows("line four", NEWS_S) and "line two" in session.text()
 
     run(live(), play, (120, 40))
 

@@ -51,7 +51,7 @@ MIN_ROWS_FOR_OUTPUT = 19
 
 ALIVE = (ProcessState.RUNNING, ProcessState.STARTING, ProcessState.STOPPING)
 NEWS_S = 2.0
-"""Seconds between two looks at what the processes have printed and used."""
+"""Seconds between two looks at what processes have printed and used; a line after such a silence is shown at once."""
 
 EMPTY = Placeholder(
     "Processes that launch files started, with keys to stop and start each: none was launched yet.",
@@ -85,9 +85,9 @@ class LaunchPane(ListPane):
         self._read = ""
         self._folded: frozenset[tuple[str, ...]] = frozenset()
         self._follower = Follower()
-        self._has_news = False
-        """Whether the follower has gathered something that is not shown yet."""
-        self._news_at = float("-inf")
+        self._has_lines = self._has_usage = False
+        """Whether the follower has gathered lines, or CPU usage, that are not shown yet."""
+        self._news_at = self._lines_at = float("-inf")
 
     def compose(self) -> ComposeResult:
         """The tree, a line on the process at the cursor, the newest events."""
@@ -127,7 +127,7 @@ class LaunchPane(ListPane):
             self._arrange()
             self._show_output()
         self.observe(snapshot)  # which is not called before the first parts are made
-        self._has_news |= self._follower.read(snapshot.logs, self.console.logs.record)
+        self._has_lines |= self._follower.read(snapshot.logs, self.console.logs.record)
         self._show_news()
 
     def observe(self, snapshot: ConsoleSnapshot) -> None:
@@ -136,13 +136,16 @@ class LaunchPane(ListPane):
             return
         processes = snapshot.launch.processes
         self._follower.know(processes)
-        self._has_news |= self._follower.sample(processes, self.clock())
+        self._has_usage |= self._follower.sample(processes, self.clock())
 
     def _show_news(self) -> None:
         """Show what the processes have printed and used since the last time, at most every `NEWS_S`."""
         now = self.clock()
-        if self._has_news and is_due(self._news_at, now, NEWS_S):
-            self._has_news, self._news_at = False, now
+        after_silence = self._has_lines and now - self._lines_at >= NEWS_S
+        if after_silence or ((self._has_lines or self._has_usage) and is_due(self._news_at, now, NEWS_S)):
+            self._news_at = now
+            self._lines_at = now if self._has_lines else self._lines_at
+            self._has_lines = self._has_usage = False
             self._list.follow()
             self._show_output()
 

@@ -87,7 +87,7 @@ class LaunchHost:
     def printed(self, severity: int, name: str, text: str) -> None:
         """Send a line to all consoles."""
         self._also_notified(severity, name, text)
-        self._line(_said_now(severity, name, text))
+        self._line(_stamped(severity, name, text))
 
     def learn(self, kind: str, facts: Mapping[str, Any]) -> None:
         """Send a fact about a program or a launch to all consoles."""
@@ -96,7 +96,7 @@ class LaunchHost:
     def noticed(self, severity: int, name: str, text: str) -> None:
         """Send a notice about a process, which a flood of its output cannot displace."""
         self._also_notified(severity, name, text)
-        self._pass_on(_said_now(severity, name, text), self._facts, spare=False)
+        self._pass_on(_stamped(severity, name, text), self._facts, spare=False)
 
     def _also_notified(self, severity: int, name: str, text: str) -> None:
         if self._also is not None:
@@ -183,6 +183,6 @@ class LaunchHost:
             each.channel.close()
 
 
-def _said_now(severity: int, name: str, text: str) -> Message:
+def _stamped(severity: int, name: str, text: str) -> Message:
     """A line with the time of now, which a console that connects later shows, too."""
     return {"record": [time.time_ns(), severity, name, text, ["", "", 0]]}
