@@ -406,6 +406,7 @@ def test_line_after_a_silence_is_shown_at_once_and_more_of_them_every_two_second
         await session.press("8")
         process = next(each for each in session.console.current.launch.processes if each.nodes)
         pane.go_to(process.nodes[0])
+        await session.settle()
 
         async def shows(text: str, after_s: float) -> bool:
             clock.now += after_s
