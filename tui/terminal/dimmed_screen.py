@@ -14,6 +14,7 @@ from bot_console.tui.terminal.compositor import PartwiseCompositor
 from bot_console.tui.terminal.output import SUPPORTED
 from rich.segment import Segment
 from rich.style import Style
+from textual.await_complete import AwaitComplete
 from textual.color import Color
 from textual.geometry import Region
 from textual.renderables.background_screen import BackgroundScreen
@@ -24,10 +25,29 @@ from textual.strip import Strip
 class DimmedScreen(ModalScreen[None]):
     """A modal screen that composes only changes, and takes the screen below as lines."""
 
+    _is_over = False
+    """Whether it was to be left while it was not in front."""
+
     def __init__(self) -> None:
         super().__init__()
         if SUPPORTED:
             self._compositor = PartwiseCompositor()
+
+    def dismiss(self, result: None = None) -> AwaitComplete:
+        """Leave the screen, once: Textual takes whatever is in front off the stack, each time.
+
+        Clicks and keys that were on their way still reach a screen that has been left; and one that is over while
+        another lies in front of it is left as soon as that is gone.
+        """
+        if self.is_active:
+            return super().dismiss(result)
+        self._is_over = True
+        return AwaitComplete()
+
+    def on_screen_resume(self) -> None:
+        """Leave the screen if it is over."""
+        if self._is_over:
+            self.dismiss()
 
     def render_lines(self, crop: Region) -> list[Strip]:
         """The lines of a region of the screen's background, without its widgets."""

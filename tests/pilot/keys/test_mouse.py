@@ -6,11 +6,13 @@ import pytest
 from bot_console.tui.pane_table import PANES
 from bot_console.tui.panes.logs.pane import LogsPane
 from bot_console.tui.panes.topics.table import TopicRows
+from bot_console.tui.screens.arrange_mode import ArrangeScreen
 from bot_console.tui.screens.confirm import ConfirmScreen
 from bot_console.tui.screens.picker import PickerScreen
 from bot_console.tui.widgets.row_list import RowList
 from piloting import Session, run
 from samples import live
+from textual.events import Click
 
 NAVIGATOR = "/robot_navigator"
 
@@ -59,6 +61,19 @@ def test_a_question_is_answered_by_mouse(answer: str, set_: bool) -> None:
         assert any(each[0] == "apply" for each in session.console.asked) is set_
 
     run(live(), play, (200, 40))
+
+
+def test_clicks_that_are_on_their_way_when_a_box_closes_do_nothing() -> None:
+    async def play(session: Session) -> None:
+        await session.press("V", "question_mark")
+        box = session.app.screen
+        for _ in range(3):
+            box.post_message(Click(box, 0, 0, 0, 0, 1, False, False, False, 0, 0))
+        await session.settle()
+        await session.settle()
+        assert isinstance(session.app.screen, ArrangeScreen) and session.app._exception is None
+
+    run(live(), play)
 
 
 def test_click_chooses_option_and_key_bar_stops_the_robot() -> None:

@@ -128,3 +128,42 @@ def test_only_lines_that_are_drawn_are_asked_for() -> None:
             assert (left.asked, right.asked) == ([2], [2]), "they lie beneath the box"
 
     asyncio.run(main())
+
+
+def test_screen_that_is_left_twice_takes_no_other_screen_with_it() -> None:
+    async def main() -> None:
+        app = Panes()
+        async with app.run_test(size=SIZE) as pilot:
+            below, above = Box("below"), Box("above")
+            app.push_screen(below)
+            app.push_screen(above)
+            await pilot.pause()
+            above.dismiss()
+            above.dismiss()
+            await pilot.pause()
+            assert app.screen is below
+            below.dismiss()
+            below.dismiss()
+            await pilot.pause()
+            assert len(app.screen_stack) == 1 and app._exception is None
+
+    asyncio.run(main())
+
+
+def test_screen_that_is_over_while_another_is_in_front_is_left_afterwards() -> None:
+    async def main() -> None:
+        app = Panes()
+        async with app.run_test(size=SIZE) as pilot:
+            below, above = Box("below"), Box("above")
+            app.push_screen(below)
+            app.push_screen(above)
+            await pilot.pause()
+            below.dismiss()
+            await pilot.pause()
+            assert app.screen is above
+            above.dismiss()
+            await pilot.pause()
+            await pilot.pause()
+            assert len(app.screen_stack) == 1
+
+    asyncio.run(main())
