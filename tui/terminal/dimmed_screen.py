@@ -11,6 +11,7 @@ from functools import lru_cache
 from typing import Any, cast
 
 from bot_console.tui.terminal.compositor import PartwiseCompositor
+from bot_console.tui.terminal.mouse_targets import MouseTargets
 from bot_console.tui.terminal.output import SUPPORTED
 from rich.segment import Segment
 from rich.style import Style
@@ -22,7 +23,7 @@ from textual.screen import ModalScreen
 from textual.strip import Strip
 
 
-class DimmedScreen(ModalScreen[None]):
+class DimmedScreen(MouseTargets, ModalScreen[None]):
     """A modal screen that composes only changes, and takes the screen below as lines."""
 
     _is_over = False

@@ -26,6 +26,7 @@ from bot_console.tui.terminal.compositor import PartwiseCompositor
 from bot_console.tui.terminal.difference import ShownScreen
 from bot_console.tui.terminal.frame_pacing import AnswerGate
 from bot_console.tui.terminal.late_answers import takes_late_answers
+from bot_console.tui.terminal.mouse_targets import MouseTargets
 from bot_console.tui.terminal.suspension import leaves_an_empty_screen, takes_up_again
 from bot_console.tui.terminal.terminal_file import TerminalFile
 from rich.color import ColorSystem
@@ -264,7 +265,7 @@ class SparingApp(App[None]):
             await super()._shutdown()
 
 
-class HoldingScreen(Screen[None]):
+class HoldingScreen(MouseTargets, Screen[None]):
     """A screen that composes nothing while nothing may be drawn; dirty regions stay dirty."""
 
     def __init__(self) -> None:

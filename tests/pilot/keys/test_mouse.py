@@ -12,7 +12,8 @@ from bot_console.tui.screens.picker import PickerScreen
 from bot_console.tui.widgets.row_list import RowList
 from piloting import Session, run
 from samples import live
-from textual.events import Click
+from textual.events import Click, MouseDown
+from textual.widgets._toast import Toast
 
 NAVIGATOR = "/robot_navigator"
 
@@ -72,6 +73,23 @@ def test_clicks_that_are_on_their_way_when_a_box_closes_do_nothing() -> None:
         await session.settle()
         await session.settle()
         assert isinstance(session.app.screen, ArrangeScreen) and session.app._exception is None
+
+    run(live(), play)
+
+
+@pytest.mark.parametrize("keys", [(), ("question_mark",)], ids=["panes", "box"])
+def test_button_that_goes_down_where_a_notification_was_removed_ends_nothing(keys: tuple[str, ...]) -> None:
+    async def play(session: Session) -> None:
+        await session.press(*keys)
+        session.app.notify("gone soon")
+        await session.settle()
+        screen = session.app.screen
+        toast = screen.query_one(Toast)
+        at = toast.region.offset
+        toast.remove()  # it is in what was composed until the next frame
+        session.app.post_message(MouseDown(None, at.x, at.y, 0, 0, 1, False, False, False, at.x, at.y))
+        await session.settle()
+        assert session.app._exception is None and session.app.is_running
 
     run(live(), play)
 
