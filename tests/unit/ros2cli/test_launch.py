@@ -183,7 +183,7 @@ def test_mistyped_path_is_reported_as_invalid_package_name(capsys: pytest.Captur
 
 
 @pytest.mark.parametrize(
-    ("path", "told"),
+    ("path", "expected"),
     [
         ("./other.launch.xml", "there is no launch file ./other.launch.xml"),
         ("sayz.launch.py", "there is no launch file sayz.launch.py; did you mean says.launch.py?"),
@@ -192,10 +192,10 @@ def test_mistyped_path_is_reported_as_invalid_package_name(capsys: pytest.Captur
     ],
 )
 def test_mistyped_path_is_one_line_for_a_person(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, path: str, told: str
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, path: str, expected: str
 ) -> None:
     monkeypatch.setenv(SHOW, "1")
-    assert launched(capsys, path) == (1, "", f"{told}\n")
+    assert launched(capsys, path) == (1, "", f"{expected}\n")
 
 
 def test_invalid_options_show_usage(capsys: pytest.CaptureFixture[str]) -> None:

@@ -312,12 +312,14 @@ def test_questions_asked_before_a_silence_ended_are_not_believed(link):
 
 
 @pytest.mark.parametrize(
-    ("content", "told"), [(None, "there is no file {}"), ("mode:", "Zenoh rejects {}: .+")], ids=["missing", "broken"]
+    ("content", "expected"),
+    [(None, "there is no file {}"), ("mode:", "Zenoh rejects {}: .+")],
+    ids=["missing", "broken"],
 )
-def test_unusable_configuration_of_a_router_is_not_said_to_be_a_matter_of_its_port(tmp_path, content, told):
+def test_unusable_configuration_of_a_router_names_its_file_and_not_the_port(tmp_path, content, expected):
     file = tmp_path / "router.json5"
     if content is not None:
         file.write_text(content)
     with pytest.raises(SessionError) as raised:
         Router(Serving((f"tcp/127.0.0.1:{free_port()}",)), str(file))
-    assert re.fullmatch(told.format(file), str(raised.value))
+    assert re.fullmatch(expected.format(file), str(raised.value))

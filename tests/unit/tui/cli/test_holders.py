@@ -69,7 +69,7 @@ def test_release_after_which_a_node_holds_the_robot_names_the_node(capsys: pytes
     assert capsys.readouterr().err == "not released: it did not answer\n"
 
 
-def test_reason_that_all_locks_give_is_said_once(capsys: pytest.CaptureFixture[str]) -> None:
+def test_reason_that_all_locks_give_is_printed_once(capsys: pytest.CaptureFixture[str]) -> None:
     full = [RobotStop(who, who, "no space left", by_node=True) for who in ("safety_monitor", "simulator")]
     info = StopInfo(stopped=True, locks=2, stops=(*full, RobotStop("a", "anna", "lunch")))
     stop._report("release", False, info)
