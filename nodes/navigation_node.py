@@ -16,8 +16,8 @@ import nav2_msgs.action  # pyright: ignore[reportMissingImports] -- made when it
 import nav2_msgs.msg  # pyright: ignore[reportMissingImports] -- made when it is imported
 from bot_console_robot.common.parameters import fixed, number
 from bot_console_robot.common.running import run
+from bot_console_robot.navigation.action_goal import Goal, run_goal
 from bot_console_robot.navigation.driving import Point
-from bot_console_robot.navigation.goals import Goal, run_goal
 from bot_console_robot.navigation.planner import NoWay
 from bot_console_robot.navigation.tasks import Spin, Straight, Task, Wait, Way
 from bot_console_robot.navigation.world_model import WorldModel

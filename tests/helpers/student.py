@@ -17,8 +17,8 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
+from bot_console.tui.learn.condition_check import with_names
 from bot_console.tui.learn.course import Course, Step, read_course
-from bot_console.tui.learn.judging import with_names
 from bot_console.tui.learn.lesson import CourseLesson
 from helpers.emulator import Emulator
 from helpers.shells import environment, make_home

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from bot_console.tui.learn.conditions import Condition, read_condition
+from bot_console.tui.learn.condition_syntax import Condition, read_condition
 from bot_console.tui.learn.grade_row import GradeRow, read_grade_row
 
 COURSES = Path(__file__).parent / "courses"

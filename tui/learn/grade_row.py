@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from bot_console.tui.cli.check.script import read as read_script
 from bot_console.tui.cli.check.stepped import USAGE
-from bot_console.tui.learn.conditions import VERBS, Condition, read_condition
+from bot_console.tui.learn.condition_syntax import VERBS, Condition, read_condition
 
 STARTERS = ("run", "launch")
 """The commands with which a line that starts something begins."""

@@ -12,11 +12,11 @@ from typing import Any, cast
 from xml.etree import ElementTree
 
 from bot_console.tui.cli.check.stepped import NOT_REACHED
+from bot_console.tui.learn.condition_check import NO_PACKAGE, missing, with_names
 from bot_console.tui.learn.course import Course
 from bot_console.tui.learn.deeds import Deeds
 from bot_console.tui.learn.files import WorkspaceFiles
 from bot_console.tui.learn.grade_row import Drive, GradeRow
-from bot_console.tui.learn.judging import NO_PACKAGE, missing, with_names
 from bot_console.tui.learn.sandbox import Finished, Sandbox, make_sandbox
 
 ROW_TIMEOUT_S = 90.0

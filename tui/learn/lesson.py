@@ -8,11 +8,11 @@ from pathlib import Path
 
 from bot_console.tui.console.model import Change, ConsoleSnapshot
 from bot_console.tui.learn.command_log import read_log
-from bot_console.tui.learn.conditions import Condition
+from bot_console.tui.learn.condition_check import missing, with_names
+from bot_console.tui.learn.condition_syntax import Condition
 from bot_console.tui.learn.course import Course, Step
 from bot_console.tui.learn.deeds import Deeds
 from bot_console.tui.learn.files import WorkspaceFiles
-from bot_console.tui.learn.judging import missing, with_names
 from bot_console.tui.learn.lesson_view import LessonView, OnScreen
 from bot_console.tui.learn.progress import Progress, read_progress
 from bot_console.tui.learn.wording import held_text

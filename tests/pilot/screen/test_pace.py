@@ -9,7 +9,7 @@ from unittest.mock import patch
 import pytest
 from bot_console.tui.console.robot.robot_model import DriveInfo, Pose, WorldInfo
 from bot_console.tui.panes.plot.pane import PlotPane
-from bot_console.tui.panes.world.view import WorldDrawing, following, visible_content
+from bot_console.tui.panes.world.map_drawing import WorldDrawing, following, visible_content
 from bot_console.tui.widgets.live_figures import LiveFigures
 from piloting import Clock, Session, run
 from samples import SPEED, live

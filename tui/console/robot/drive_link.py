@@ -11,6 +11,7 @@ from functools import partial
 from typing import Any
 
 from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.robot.arbiter_report import Velocity, Verdict
 from bot_console.tui.console.robot.command_topics import (
     ASKED,
     FINAL,
@@ -27,7 +28,6 @@ from bot_console.tui.console.robot.stop_link import STATUS, StopLink, is_lock
 from bot_console.tui.console.robot.stop_means.configured import ConfiguredMeans
 from bot_console.tui.console.robot.stop_means.means import means_of
 from bot_console.tui.console.robot.stop_means.sequence import StopSequence
-from bot_console.tui.console.robot.verdict import Velocity, Verdict
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist, TwistStamped
 from rclpy.node import Node

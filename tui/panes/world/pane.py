@@ -21,8 +21,8 @@ from rich.cells import cell_len
 from textual.app import ComposeResult
 
 if TYPE_CHECKING:
-    from bot_console.tui.panes.world.field import FieldDrawing
-    from bot_console.tui.panes.world.view import WorldDrawing
+    from bot_console.tui.panes.world.map_drawing import WorldDrawing
+    from bot_console.tui.panes.world.turtle_field import FieldDrawing
 
 ZOOMS = (1.0, 2.0, 4.0, 8.0)
 
@@ -98,7 +98,7 @@ class WorldMap(Picture):
             return
         if self.field:
             self._reported = None
-            from bot_console.tui.panes.world.field import FieldDrawing
+            from bot_console.tui.panes.world.turtle_field import FieldDrawing
 
             self._field_drawing = self._field_drawing or FieldDrawing()
             self.set_lines(self._field_drawing.rows(self.field, width, height))
@@ -108,7 +108,7 @@ class WorldMap(Picture):
             self.set_lines(())
             return
         # NumPy is imported after the first frame: it is a third of the start-up time.
-        from bot_console.tui.panes.world.view import WorldDrawing, following, scale_text, visible_content
+        from bot_console.tui.panes.world.map_drawing import WorldDrawing, following, scale_text, visible_content
 
         self._drawing = self._drawing or WorldDrawing()
         window = following(self._world, width, height, self.zoom)

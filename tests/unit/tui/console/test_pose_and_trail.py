@@ -7,7 +7,7 @@ from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo, 
 from bot_console.tui.console.robot.drive_link import DriveLink
 from bot_console.tui.console.robot.pose_and_trail import WorldWatch, grid_of
 from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
-from bot_console.tui.panes.world.view import Window, WorldDrawing, fitting, following, scale_text
+from bot_console.tui.panes.world.map_drawing import Window, WorldDrawing, fitting, following, scale_text
 from bot_console.tui.widgets.status_bar import drive_figures, status_text
 from domains import unused_domain
 from geometry_msgs.msg import Point, Pose

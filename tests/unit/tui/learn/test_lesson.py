@@ -16,11 +16,11 @@ from bot_console.tui.console.model import (
 from bot_console.tui.console.robot.robot_model import Pose, WorldInfo
 from bot_console.tui.learn import command_log
 from bot_console.tui.learn.command_log import SETTLING_S, Command, read_log, record
-from bot_console.tui.learn.conditions import Condition, read_condition
+from bot_console.tui.learn.condition_check import missing
+from bot_console.tui.learn.condition_syntax import Condition, read_condition
 from bot_console.tui.learn.course import Course, Step, find_course, read_course
 from bot_console.tui.learn.deeds import Deeds, Launched
 from bot_console.tui.learn.files import WorkspaceFiles
-from bot_console.tui.learn.judging import missing
 from bot_console.tui.learn.lesson import CourseLesson
 from bot_console.tui.learn.lesson_view import OnScreen
 from helpers.lessons import change, launched, parameter, refused, seen, snapshot

@@ -9,9 +9,9 @@ from typing import Any, NamedTuple
 import pytest
 from bot_console.tui.console.model import Change, ParameterInfo
 from bot_console.tui.learn.command_log import Command
+from bot_console.tui.learn.condition_check import missing, with_names
 from bot_console.tui.learn.course import find_course, read_course
 from bot_console.tui.learn.files import WorkspaceFiles
-from bot_console.tui.learn.judging import missing, with_names
 from helpers.lessons import change, parameter, refused, seen
 
 COURSE = read_course(find_course("week6"))

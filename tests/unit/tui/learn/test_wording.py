@@ -6,11 +6,11 @@ import re
 from pathlib import Path
 
 import pytest
-from bot_console.tui.learn.conditions import VERBS, Condition, read_condition
+from bot_console.tui.learn.condition_check import missing
+from bot_console.tui.learn.condition_syntax import VERBS, Condition, read_condition
 from bot_console.tui.learn.course import COURSES, read_course
 from bot_console.tui.learn.deeds import Deeds
 from bot_console.tui.learn.files import WorkspaceFiles
-from bot_console.tui.learn.judging import missing
 from bot_console.tui.learn.wording import command_text, held_text
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from bot_console.tui.console.robot.robot_model import Drawing, Pose, Turtle, TurtleField
-from bot_console.tui.panes.world.field import SIDE_M, FieldDrawing
+from bot_console.tui.panes.world.turtle_field import SIDE_M, FieldDrawing
 from bot_console.tui.widgets.picture import Line
 
 WIDTH, HEIGHT = 40, 20

@@ -11,7 +11,7 @@ from bot_console.tui.cli.lint.run import lint_files
 from bot_console.tui.console.parameters.file.text import sections
 from bot_console.tui.console.parameters.file.yaml_tree import Scalar
 from bot_console.tui.console.parameters.file.yaml_tree import Sequence as YamlSequence
-from bot_console.tui.learn.conditions import Condition
+from bot_console.tui.learn.condition_syntax import Condition
 from bot_console.tui.learn.deeds import Deeds, Launched, names_of
 from bot_console.tui.learn.files import WorkspaceFiles
 from bot_console.tui.learn.wording import command_text, launch_text, node_text, pane_text

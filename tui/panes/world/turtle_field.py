@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from bot_console.tui.console.robot.robot_model import Drawing, Turtle, TurtleField
-from bot_console.tui.panes.world.view import arrow
+from bot_console.tui.panes.world.map_drawing import arrow
 from bot_console.tui.widgets.braille import BITS
 from bot_console.tui.widgets.picture import Line, merged_line
 
