@@ -1,4 +1,4 @@
-"""The conditions of a step: one per line, each a verb with its words. Parsed here, checked by `condition_check.py`. Pure."""
+"""The conditions of a step: one per line, a verb with its words. Parsed here, checked by `condition_check.py`. Pure."""
 
 from __future__ import annotations
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from bot_console.tui.learn.conditions import read_condition
+from bot_console.tui.learn.condition_syntax import read_condition
 from bot_console.tui.learn.course import CourseError, find_course, names, read_course
 from bot_console.tui.learn.skeleton import write_skeleton
 from bot_console.tui.pane_table import PANES
