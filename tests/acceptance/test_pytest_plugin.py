@@ -94,7 +94,8 @@ def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def start(words: tuple[str, ...], folder: Path, env: Mapping[str, str]) -> subprocess.Popen[str]:
     line = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *words]
-    return subprocess.Popen(line, cwd=folder, env=dict(env), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    env = {**env, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}  # those of the tests' own environment take a second to import
+    return subprocess.Popen(line, cwd=folder, env=env, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
 @pytest.mark.parametrize(

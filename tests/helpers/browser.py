@@ -5,8 +5,9 @@ from __future__ import annotations
 import asyncio
 import base64
 import shutil
-from collections.abc import AsyncIterator, Callable
-from contextlib import asynccontextmanager
+import subprocess
+from collections.abc import AsyncIterator, Callable, Iterator
+from contextlib import asynccontextmanager, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -110,24 +111,27 @@ class Page:
         await self.ask("Debugger.pause")
 
 
-@asynccontextmanager
-async def browser(folder: Path) -> AsyncIterator[Callable[[], Any]]:
-    """A browser with a profile of its own; yields what opens a tab."""
+@contextmanager
+def browser(folder: Path) -> Iterator[str]:
+    """A browser with a profile of its own; yields the address at which it takes commands."""
     line = [CHROMIUM, *OPTIONS, f"--user-data-dir={folder}", "about:blank"]
-    process = await asyncio.create_subprocess_exec(*line, stderr=asyncio.subprocess.PIPE)
-    assert process.stderr is not None
-    async with ClientSession() as session:
+    with subprocess.Popen(line, stderr=subprocess.PIPE) as process:
+        assert process.stderr is not None
         try:
-            while b"DevTools listening on" not in (row := await process.stderr.readline()):
+            while b"DevTools listening on" not in (row := process.stderr.readline()):
                 assert row, "the browser has ended"
-            http = row.decode().split()[-1].replace("ws://", "http://").partition("/devtools")[0]
-
-            async def page() -> Page:
-                async with session.put(f"{http}/json/new?about:blank") as answer:
-                    found = await answer.json()
-                return Page(await session.ws_connect(found["webSocketDebuggerUrl"], max_msg_size=0))
-
-            yield page
+            yield row.decode().split()[-1].replace("ws://", "http://").partition("/devtools")[0]
         finally:
             process.kill()
-            await process.wait()
+
+
+@asynccontextmanager
+async def new_page(address: str) -> AsyncIterator[Page]:
+    """A new tab of the browser at an address, closed in the end."""
+    async with ClientSession() as session:
+        async with session.put(f"{address}/json/new?about:blank") as answer:
+            found = await answer.json()
+        try:
+            yield Page(await session.ws_connect(found["webSocketDebuggerUrl"], max_msg_size=0))
+        finally:
+            await session.get(f"{address}/json/close/{found['id']}")

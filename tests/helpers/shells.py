@@ -30,9 +30,10 @@ def make_home(folder: Path) -> Path:
 
 
 def environment(home: Path, extra: Mapping[str, str] | None = None) -> dict[str, str]:
-    """The environment of a new login there: nothing of the tests' own, except for the folder in which programs meet."""
+    """The environment of a new login there: nothing of the tests' own but where programs meet, and what is compiled."""
     path = os.pathsep.join([str(home / "bin"), os.defpath])
-    kept = {name: os.environ[name] for name in ("BOT_CONSOLE_SOCKET_DIR", "ROS_DOMAIN_ID") if name in os.environ}
+    shared = ("BOT_CONSOLE_SOCKET_DIR", "ROS_DOMAIN_ID", "PYTHONPYCACHEPREFIX")
+    kept = {name: os.environ[name] for name in shared if name in os.environ}
     return {"PATH": path, "HOME": str(home), "XDG_CONFIG_HOME": str(home / "config"), **kept, **(extra or {})}
 
 

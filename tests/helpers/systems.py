@@ -234,7 +234,7 @@ def system() -> Iterator[System]:
 
 def environment_of_programs() -> dict[str, str]:
     """The environment of each program: that of the test, in a terminal of 80 columns."""
-    return {**os.environ, "COLUMNS": "80"}
+    return os.environ.copy() | {"COLUMNS": "80"}
 
 
 def _folders() -> list[str]:

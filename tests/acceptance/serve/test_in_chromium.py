@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import asyncio
 import os
+import subprocess
 import sys
-from collections.abc import AsyncIterator, Awaitable, Callable
-from contextlib import asynccontextmanager
+from collections.abc import Awaitable, Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 from urllib.parse import parse_qs, urlsplit
 
 import pytest
-from browser import CHROMIUM, Page, browser
+from browser import CHROMIUM, Page, browser, new_page
 from emulator import Emulator
 
 pytestmark = pytest.mark.skipif(not CHROMIUM, reason="there is no Chromium")
@@ -69,32 +70,49 @@ class Tab:
             await self.page.picture(Path(PICTURES, f"{name}.png"))
 
 
-@asynccontextmanager
-async def serving(*words: str) -> AsyncIterator[tuple[str, asyncio.subprocess.Process]]:
+@contextmanager
+def serving(*words: str) -> Iterator[tuple[str, int]]:
     """`bot-console serve` on a free port: its address, and its process."""
     line = [sys.executable, "-m", "bot_console.tui", "serve", "--port", "0", *words]
-    process = await asyncio.create_subprocess_exec(*line, stdout=asyncio.subprocess.PIPE)
-    assert process.stdout is not None
-    try:
-        yield (await process.stdout.readline()).decode().strip(), process
-    finally:
-        process.kill()
-        await process.wait()
+    with subprocess.Popen(line, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        try:
+            yield process.stdout.readline().strip(), process.pid
+        finally:
+            process.kill()
 
 
-def consoles_of(process: asyncio.subprocess.Process) -> list[int]:
+@pytest.fixture(scope="module")
+def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+    """One browser for all tests of this file."""
+    with browser(tmp_path_factory.mktemp("profile")) as address:
+        yield address
+
+
+@pytest.fixture
+def watched() -> Iterator[tuple[str, int]]:
+    """A server of consoles that watch."""
+    with serving() as place:
+        yield place
+
+
+def consoles_of(process: int) -> list[int]:
     """The consoles that a server runs; a Linux kernel lists the children of a thread."""
-    return [int(each) for each in Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()]
+    return [int(each) for each in Path(f"/proc/{process}/task/{process}/children").read_text().split()]
 
 
 def run(work: Callable[[], Awaitable[Any]]) -> None:
     asyncio.run(asyncio.wait_for(work(), TIMEOUT_S))  # type: ignore[arg-type]
 
 
-def test_watching_console_takes_keys_mouse_and_touch_and_its_stop_works(tmp_path: Path) -> None:
+def test_watching_console_takes_keys_mouse_and_touch_and_its_stop_works(
+    chromium: str, watched: tuple[str, int]
+) -> None:
+    address, server = watched
+
     async def work() -> None:
-        async with serving() as (address, server), browser(tmp_path) as new:
-            tab = Tab(await new())
+        async with new_page(chromium) as page:
+            tab = Tab(page)
             await tab.open(address, 1280, 800)
             assert await tab.page.value("location.search + document.cookie") == ""
             await tab.shows("DRIVING")
@@ -118,10 +136,12 @@ def test_watching_console_takes_keys_mouse_and_touch_and_its_stop_works(tmp_path
     run(work)
 
 
-def test_tablet_has_a_stop_button(tmp_path: Path) -> None:
+def test_tablet_has_a_stop_button(chromium: str, watched: tuple[str, int]) -> None:
+    address, _ = watched
+
     async def work() -> None:
-        async with serving() as (address, _), browser(tmp_path) as new:
-            tab = Tab(await new())
+        async with new_page(chromium) as page:
+            tab = Tab(page)
             await tab.open(address, 768, 1024, touch=True)
             await tab.shows("DRIVING")
             await tab.page.until(bool, ABOVE_STOP)
@@ -133,10 +153,10 @@ def test_tablet_has_a_stop_button(tmp_path: Path) -> None:
     run(work)
 
 
-def test_silent_browser_ends_a_console_that_steers(tmp_path: Path) -> None:
-    async def work() -> None:
-        async with serving("--control", "--pane", "steering") as (address, server), browser(tmp_path) as new:
-            tab = Tab(await new())
+def test_silent_browser_ends_a_console_that_steers(chromium: str) -> None:
+    async def work(address: str, server: int) -> None:
+        async with new_page(chromium) as page:
+            tab = Tab(page)
             await tab.open(address, 1280, 800)
             await tab.shows("DRIVING")
             await tab.page.press("Enter")
@@ -146,4 +166,5 @@ def test_silent_browser_ends_a_console_that_steers(tmp_path: Path) -> None:
             while consoles_of(server):  # The page's sockets are still open, as behind a tunnel.
                 await asyncio.sleep(0.05)
 
-    run(work)
+    with serving("--control", "--pane", "steering") as place:
+        run(lambda: work(*place))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Collection, Mapping
+from functools import cache
 from pathlib import Path
 
 import yaml
@@ -25,6 +26,7 @@ def recorded_areas() -> dict[str, list[str]]:
     return areas
 
 
+@cache
 def differing_on_purpose(kind: str) -> dict[str, str]:
     """The ids of cases of a kind (`rclpy`, `launch`, `cli`) that differ on purpose, with the reason for each."""
     listed: dict[str, dict[str, str]] = yaml.safe_load(DIFFERS.read_text("utf-8"))

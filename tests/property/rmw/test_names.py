@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import string
+
 from bot_console.runtime.rmw import names, remapping
 from hypothesis import given
 from hypothesis import strategies as st
 
-tokens = st.from_regex(r"[A-Za-z_][A-Za-z0-9_]{0,7}", fullmatch=True)
+LETTERS = f"{string.ascii_letters}_"
+tokens = st.builds(str.__add__, st.sampled_from(LETTERS), st.text(LETTERS + string.digits, max_size=7))
 paths = st.lists(tokens, min_size=1, max_size=4).map("/".join)
 namespaces = st.one_of(st.just("/"), paths.map(lambda path: f"/{path}"))
 typed = st.one_of(
