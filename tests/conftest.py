@@ -4,6 +4,7 @@ import atexit
 import gc
 import itertools
 import os
+import re
 import shutil
 import signal
 import sys
@@ -72,6 +73,13 @@ def socket_folder(monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
     yield name
     shutil.rmtree(name, ignore_errors=True)
     shutil.rmtree(f"{name}-user", ignore_errors=True)
+
+
+@pytest.fixture
+def tmp_path(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder of the test's own, as that of pytest, which lists all earlier ones to find the next number."""
+    name = re.sub(r"\W", "_", request.node.name)[:30]
+    return tmp_path_factory.mktemp(f"{name}{next(_folders)}", numbered=False)
 
 
 @pytest.fixture(autouse=True)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import os
 import signal
-import subprocess
-import sys
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -13,8 +11,8 @@ from typing import Any
 import pytest
 from helpers.processes.mesh import eventually
 from helpers.recorded.commands import COURSE, Row, filled, normal, rows, usage_of_other_interpreter
+from processes.typed import Typed
 
-PROGRAM = "from bot_console.tui.cli.main import program; program()"
 ENDLESS = 30.0
 """Seconds after which a command that ends by itself counts as hanging."""
 
@@ -37,7 +35,7 @@ class Terminals:
         self._folder = folder
         self.history: list[Words] = []
         """The commands so far that may have changed the system."""
-        self._programs = [self._start(words, subprocess.DEVNULL) for words in programs]
+        self._programs = [self._start(words) for words in programs]
         if not eventually(lambda: len(self._run(["ros2", "node", "list", "--all"], None)[0].split()) > len(programs)):
             self.close()
             raise AssertionError("the programs have not come up")
@@ -53,35 +51,23 @@ class Terminals:
         self.history.append(words)
 
     def _run(self, words: Words, stop_after: float | None) -> tuple[str, str, int]:
-        process = self._start(words, subprocess.PIPE)
-        try:
-            out, err = process.communicate(timeout=stop_after or ENDLESS)
-        except subprocess.TimeoutExpired:
-            process.send_signal(signal.SIGINT)
-            out, err = process.communicate(timeout=ENDLESS)
-        return out, err, process.returncode
+        process = self._start(words)
+        ends = process.has_ended(stop_after or ENDLESS)
+        done = process.end(None if ends else signal.SIGINT)
+        return done.stdout, done.stderr, done.returncode
 
-    def _start(self, words: Words, output: int) -> subprocess.Popen[str]:
+    def _start(self, words: Words) -> Typed:
         words = filled(words, self._folder)
         if words[1] == "-c":
             (self._folder / "program.py").write_text(words[2], "utf-8")
             words = ["python", str(self._folder / "program.py"), *words[3:]]
         arguments = words[1:] if words[0] == "ros2" else ["run", *words[1:]]
-        return subprocess.Popen(
-            [sys.executable, "-c", PROGRAM, *arguments],
-            stdin=subprocess.DEVNULL,
-            stdout=output,
-            stderr=output,
-            text=True,
-            cwd=COURSE,
-            env={**os.environ, "COLUMNS": "80"},
-        )
+        return Typed(*arguments, cwd=COURSE, env={**os.environ, "COLUMNS": "80"})
 
     def close(self) -> None:
         """End the programs."""
         for each in self._programs:
-            each.kill()
-            each.wait()
+            each.end(signal.SIGKILL)
 
 
 def in_order(of_system: Sequence[Row]) -> list[Row]:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
+
+from processes.typed import typed
 
 LAUNCH = """\
 from launch import LaunchDescription
@@ -19,7 +19,6 @@ def generate_launch_description():
 def test_course_is_listed_in_workspace_with_launch_files(tmp_path: Path) -> None:
     (tmp_path / "launch").mkdir()
     (tmp_path / "launch" / "one.launch.py").write_text(LAUNCH, encoding="utf-8")
-    words = [sys.executable, "-m", "bot_console.tui", "learn", "--list"]
-    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=False)
+    done = typed("learn", "--list", cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
     assert "0 of 60 done" in done.stdout

@@ -43,11 +43,15 @@ class Typed:
         """Send it a signal."""
         os.kill(self.pid, number)
 
+    def has_ended(self, timeout_s: float) -> bool:
+        """Whether it ends within this time."""
+        return bool(select.select([self._reports], [], [], timeout_s)[0])
+
     def end(self, number: int | None = None) -> subprocess.CompletedProcess[str]:
         """Send it a signal, if one is given, and wait for its end."""
         if number is not None:
             self.send_signal(number)
-        if not select.select([self._reports], [], [], TIMEOUT_S)[0]:
+        if not self.has_ended(TIMEOUT_S):
             self.send_signal(signal.SIGKILL)
             raise TimeoutError(self.args, self._written())
         code = os.waitstatus_to_exitcode(int(self._reports.readline()))
