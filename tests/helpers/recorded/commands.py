@@ -7,6 +7,7 @@ import os
 import re
 import sys
 from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ COURSE = Path(os.environ.get("BOT_CONSOLE_COURSE", "")).absolute()
 Row = dict[str, Any]
 
 
+@cache
 def rows() -> list[Row]:
     """All recorded commands, file by file; empty if there are no recordings."""
     if not (os.environ.get("BOT_CONSOLE_ORACLE") and os.environ.get("BOT_CONSOLE_COURSE")):
