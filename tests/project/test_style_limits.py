@@ -37,7 +37,8 @@ def test_no_file_exceeds_the_limit(folder):
 @pytest.mark.parametrize("folder", (*SOURCES, "tests/helpers"))
 def test_no_function_exceeds_the_limit(folder):
     long = {}
-    for path in (path for path in FILES if path.is_relative_to(ROOT / folder)):
+    inside = (path for path in FILES if path.is_relative_to(ROOT / folder))
+    for path in (path for path in inside if path.read_bytes().count(b"\n") > FUNCTION_LIMIT):
         for node in statements(path):
             if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
                 lines = (node.end_lineno or node.lineno) - node.lineno + 1

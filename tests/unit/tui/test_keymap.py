@@ -116,7 +116,10 @@ def test_a_pane_names_the_scopes_that_act_in_it_and_overrides_no_key_of_them(eac
 def outside_of_table(path: Path) -> list[str]:
     """The places in a file that bind keys without the table."""
     found: list[str] = []
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    text = path.read_text(encoding="utf-8")
+    if not re.search(rf"Binding|BINDINGS|event\s*\.\s*key|{'|'.join(HANDLERS)}", text):  # quicker than to parse it
+        return found
+    for node in ast.walk(ast.parse(text)):
         match node:
             case ast.Call(func=ast.Name(id="Binding") | ast.Attribute(attr="Binding")):
                 found.append(f"{path.name}:{node.lineno} makes a binding")
