@@ -77,8 +77,11 @@ def socket_folder(monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
 
 @pytest.fixture
 def tmp_path(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder of the test's own, as that of pytest, which lists all earlier ones to find the next number."""
-    name = re.sub(r"\W", "_", request.node.name)[:30]
+    """A folder of the test's own, as that of pytest, which lists all earlier ones to find the next number.
+
+    Its path is no longer than there, as some tests have sockets in it.
+    """
+    name = re.sub(r"\W", "_", request.node.name)[:26]
     return tmp_path_factory.mktemp(f"{name}{next(_folders)}", numbered=False)
 
 
