@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Mapping, Sequence
+from functools import cache
 from pathlib import Path
 
 from bot_console.tui.cli.verbs import setup
@@ -32,9 +33,13 @@ def make_home(folder: Path) -> Path:
 def environment(home: Path, extra: Mapping[str, str] | None = None) -> dict[str, str]:
     """The environment of a new login there: nothing of the tests' own but where programs meet, and what is compiled."""
     path = os.pathsep.join([str(home / "bin"), os.defpath])
-    shared = ("BOT_CONSOLE_SOCKET_DIR", "ROS_DOMAIN_ID", "PYTHONPYCACHEPREFIX")
-    kept = {name: os.environ[name] for name in shared if name in os.environ}
-    return {"PATH": path, "HOME": str(home), "XDG_CONFIG_HOME": str(home / "config"), **kept, **(extra or {})}
+    return {"PATH": path, "HOME": str(home), "XDG_CONFIG_HOME": str(home / "config"), **_shared(), **(extra or {})}
+
+
+def _shared() -> dict[str, str]:
+    """What such a login has in common with the tests."""
+    names = ("BOT_CONSOLE_SOCKET_DIR", "ROS_DOMAIN_ID", "PYTHONPYCACHEPREFIX")
+    return {name: os.environ[name] for name in names if name in os.environ}
 
 
 def in_shell(
@@ -54,6 +59,11 @@ def in_shell(
 
 def set_up(home: Path) -> dict[str, str]:
     """The environment that a shell has after the setup."""
+    return {**_set_up(home), **_shared()}
+
+
+@cache
+def _set_up(home: Path) -> dict[str, str]:
     done = in_shell("bash", home, f"{setup.evaluation('bash')}\nexport -p | grep -v SHLVL >/dev/null; env -0")
     return dict(each.split("=", 1) for each in done.stdout.split("\0") if "=" in each)
 

@@ -17,10 +17,12 @@ ROOT = Path(__file__).resolve().parents[3]
 # The stand-in is ours, which replays them in another test.
 RECORDINGS_OF_RCLPY = "tests/contract/test_live_recordings.py"
 SOME = "refusal or commands or series_is_read"
+ONLY_XDIST = {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "PYTEST_PLUGINS": "xdist.plugin"}
+"""The only plug-in that it needs: the others take their time to import."""
 
 
 def on_the_stand_in(folder: Path, *words: str, **variables: str) -> None:
-    environment = {**make_standin(folder), "BOT_CONSOLE_TESTS_ON": "ros", **variables}
+    environment = {**make_standin(folder), "BOT_CONSOLE_TESTS_ON": "ros", **ONLY_XDIST, **variables}
     line = [sys.executable, "-m", "pytest", "-q", "-rs", "-n", "0", "-m", "ros", *words]
     done = subprocess.run(line, cwd=ROOT, env=environment, capture_output=True, text=True, timeout=900, check=False)
     assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-1000:]

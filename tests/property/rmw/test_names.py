@@ -8,8 +8,8 @@ from bot_console.runtime.rmw import names, remapping
 from hypothesis import given
 from hypothesis import strategies as st
 
-LETTERS = f"{string.ascii_letters}_"
-tokens = st.builds(str.__add__, st.sampled_from(LETTERS), st.text(LETTERS + string.digits, max_size=7))
+INITIALS = f"{string.ascii_letters}_"
+tokens = st.builds(str.__add__, st.sampled_from(INITIALS), st.text(INITIALS + string.digits, max_size=7))
 paths = st.lists(tokens, min_size=1, max_size=4).map("/".join)
 namespaces = st.one_of(st.just("/"), paths.map(lambda path: f"/{path}"))
 typed = st.one_of(
