@@ -39,8 +39,8 @@ class Request:
 class Latch:
     """One node's lock, and who holds the steering. Methods return whether anything has changed; times are steady ns."""
 
-    def __init__(self, lock: Lock | None = None) -> None:
-        self._lock = lock or Lock()
+    def __init__(self) -> None:
+        self._lock = Lock()
         self._challenge = new_id()
         self._steering = SteeringHolders()
 

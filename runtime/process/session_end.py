@@ -17,18 +17,18 @@ EXIT_TIMEOUT_S = 1.0
 EXIT_POLL_S = 0.02
 
 
-def end_session(session: int, grace: float = EXIT_TIMEOUT_S) -> None:
+def end_session(session: int) -> None:
     """Send SIGTERM, then SIGKILL, to all other processes of a session until none is left, or time is up.
 
-    `session` is the pid of the process that began it; `grace` is in seconds.
+    `session` is the pid of the process that began it.
     """
     for number in (signal.SIGTERM, signal.SIGKILL):
-        deadline, reported = time.monotonic() + grace, set[int]()
+        deadline, signalled = time.monotonic() + EXIT_TIMEOUT_S, set[int]()
         while (left := _members(session)) and time.monotonic() < deadline:
-            for pid in left - reported:
+            for pid in left - signalled:
                 with contextlib.suppress(OSError):  # it has ended, or belongs to another user
                     os.kill(pid, number)
-            reported |= left
+            signalled |= left
             time.sleep(EXIT_POLL_S)
 
 

@@ -26,7 +26,8 @@ def stop_file(text: str) -> None:
 
     path = file(text, "stops.json")
     kept = StopFile(str(path), "/").merge(Lock())
-    latch = Latch(kept)
+    latch = Latch()
+    latch.follow(kept)
     latch.stop("node", "why")
     assert latch.lock.held and kept.ids <= latch.lock.ids
     assert state_of(state_message(State(latch.lock, "1"), "n")).lock == latch.lock

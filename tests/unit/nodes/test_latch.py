@@ -157,7 +157,8 @@ def test_restarted_lock_does_not_bring_back_released_stops() -> None:
     here.request(ANNA, 0)
     there.follow(here.lock)
     release(here, "a1")
-    again = Latch(there.lock)  # It had not received the release.
+    again = Latch()
+    again.follow(there.lock)  # It had not received the release.
     assert again.lock.held
     assert not here.follow(again.lock) and not here.lock.held
     assert again.follow(here.lock) and not again.lock.held
