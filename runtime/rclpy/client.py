@@ -14,27 +14,23 @@ from bot_console.runtime.rmw.endpoints import ClientEndpoint
 from rclpy.constants import S_TO_NS
 from rclpy.deadlock import wait_until_settled
 from rclpy.impl.callback_order import CLIENT
-from rclpy.impl.destroyable import Destroyable
-from rclpy.impl.entity import Entity
 from rclpy.impl.graph_wait import require_valid, wait_until_there
 from rclpy.impl.reexports import reexporting
+from rclpy.service_end import ServiceEnd
 from rclpy.task import Future
 
 if TYPE_CHECKING:
     from bot_console.runtime.rosidl.message import Message, ServiceType
     from rclpy.callback_groups import CallbackGroup
-    from rclpy.clock import Clock
     from rclpy.node_parts.base import NodeBase
     from rclpy.qos import QoSProfile
-    from rclpy.service_introspection import ServiceEvents, ServiceIntrospectionState
 
 
-class Client(Entity):
+class Client(ServiceEnd):
     """Calls a service; made by `Node.create_client`."""
 
     KIND = CLIENT
-    events: ServiceEvents | None = None
-    """Publishes the client's events while introspection is on."""
+    endpoint: ClientEndpoint
 
     def __init__(
         self,
@@ -44,32 +40,11 @@ class Client(Entity):
         qos_profile: QoSProfile,
         callback_group: CallbackGroup,
     ) -> None:
-        super().__init__(callback_group)
-        self._node = node
-        self.srv_type = srv_type
-        self.srv_name = srv_name
-        self.qos_profile = qos_profile
+        super().__init__(node, srv_type, srv_name, qos_profile, callback_group)
         self.context = node.context
-        self.endpoint: ClientEndpoint
         self._pending_requests: dict[int, Future[Any]] = {}
         self._number = 0
         self._lock = threading.Lock()
-
-    @property
-    def handle(self) -> Destroyable:
-        """The client's handle, as upstream's client has one."""
-        return Destroyable(self, self.use)
-
-    @property
-    def service_name(self) -> str:
-        """The fully qualified name, remapped."""
-        self.use()
-        return self.endpoint.name
-
-    @property
-    def logger_name(self) -> str:
-        """The name of the node's logger."""
-        return self._node.get_logger().name
 
     def call(self, request: Message, timeout_sec: float | None = None) -> Any:
         """Send a request and wait for the response, received by another thread; None after the time-out (s).
@@ -125,10 +100,6 @@ class Client(Entity):
         """Whether a future is that of a request that was not answered yet."""
         return future in tuple(self._pending_requests.values())
 
-    def pending(self) -> bool:
-        """Whether a response has arrived."""
-        return bool(self.endpoint.queue) and not self.destroyed
-
     def run(self) -> object:
         """Take one response and settle its future."""
         try:
@@ -152,26 +123,6 @@ class Client(Entity):
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
         """Block until a server is available; False after the time-out (s). Raises `RCLError` once the context ends."""
         return wait_until_there(self._node, self.service_is_ready, timeout_sec)
-
-    def configure_introspection(
-        self, clock: Clock, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
-    ) -> None:
-        """Publish the client's activity on a topic next to the service."""
-        from rclpy.service_introspection import configure
-
-        configure(self, clock, service_event_qos_profile, introspection_state)
-
-    def destroy(self) -> None:
-        """Destroy the client."""
-        self.destroyed = True
-        self._node._ros_bus.remove(self.endpoint)
-        self.detach()
-
-    def __enter__(self) -> Client:
-        return self
-
-    def __exit__(self, kind: object, error: object, trace: object) -> None:
-        self.destroy()
 
 
 __getattr__ = reexporting(

@@ -10,28 +10,22 @@ from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.rmw.endpoints import ServiceEndpoint
 from rclpy.impl.callback_order import SERVICE
-from rclpy.impl.destroyable import Destroyable
-from rclpy.impl.entity import Entity
 from rclpy.impl.reexports import reexporting
+from rclpy.service_end import ServiceEnd
 
 if TYPE_CHECKING:
-    from types import TracebackType
-
     from bot_console.runtime.rmw.endpoints import ClientEndpoint
     from bot_console.runtime.rosidl.message import Message, ServiceType
     from rclpy.callback_groups import CallbackGroup
-    from rclpy.clock import Clock
     from rclpy.node_parts.base import NodeBase
     from rclpy.qos import QoSProfile
-    from rclpy.service_introspection import ServiceEvents, ServiceIntrospectionState
 
 
-class Service(Entity):
+class Service(ServiceEnd):
     """Serves requests; made by `Node.create_service`. The callback takes (request, response) and returns a response."""
 
     KIND = SERVICE
-    events: ServiceEvents | None = None
-    """Publishes the service's events while introspection is on."""
+    endpoint: ServiceEndpoint
 
     def __init__(
         self,
@@ -42,33 +36,8 @@ class Service(Entity):
         callback_group: CallbackGroup,
         qos_profile: QoSProfile,
     ) -> None:
-        super().__init__(callback_group)
-        self._node = node
-        self.srv_type = srv_type
-        self.srv_name = srv_name
+        super().__init__(node, srv_type, srv_name, qos_profile, callback_group)
         self.callback = callback
-        self.qos_profile = qos_profile
-        self.endpoint: ServiceEndpoint
-
-    @property
-    def handle(self) -> Destroyable:
-        """The service's handle, as upstream's service has one."""
-        return Destroyable(self, self.use)
-
-    @property
-    def service_name(self) -> str:
-        """The fully qualified name, remapped."""
-        self.use()
-        return self.endpoint.name
-
-    @property
-    def logger_name(self) -> str:
-        """The name of the node's logger."""
-        return self._node.get_logger().name
-
-    def pending(self) -> bool:
-        """Whether a request has arrived."""
-        return bool(self.endpoint.queue) and not self.destroyed
 
     def run(self) -> object:
         """Take one request, run the callback and respond."""
@@ -96,28 +65,6 @@ class Service(Entity):
         self._node._ros_bus.respond(header[0], header[1], response)
         if self.events is not None:
             self.events.report(2, header[0], header[1], response=response)
-
-    def configure_introspection(
-        self, clock: Clock, service_event_qos_profile: QoSProfile, introspection_state: ServiceIntrospectionState
-    ) -> None:
-        """Publish the service's activity on a topic next to it."""
-        from rclpy.service_introspection import configure
-
-        configure(self, clock, service_event_qos_profile, introspection_state)
-
-    def destroy(self) -> None:
-        """Destroy the service."""
-        self.destroyed = True
-        self._node._ros_bus.remove(self.endpoint)
-        self.detach()
-
-    def __enter__(self) -> Service:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.destroy()
 
 
 __getattr__ = reexporting(
