@@ -38,6 +38,8 @@ for number in (signal.SIGINT, *(getattr(signal, name) for name in ("SIGQUIT", "S
     if signal.getsignal(number) is signal.SIG_IGN:
         signal.signal(number, signal.default_int_handler if number is signal.SIGINT else signal.SIG_DFL)
 
+gc.set_threshold(50_000, 20, 50)  # most of what a test makes is gone by then; while collecting it saves a sixth
+
 _sockets = tempfile.mkdtemp(prefix="bc-", dir="/tmp")
 _folders = itertools.count(1)
 os.environ["BOT_CONSOLE_SOCKET_DIR"] = os.path.join(_sockets, "0")
@@ -129,7 +131,6 @@ def pytest_collection_finish() -> None:
     """What was imported and collected stays: to look it through took a quarter of the time of a screen's test."""
     gc.collect()
     gc.freeze()
-    gc.set_threshold(50_000, 20, 50)
 
 
 @pytest.fixture
