@@ -16,10 +16,16 @@ from textual.widgets._toast import Toast
 SIZES = [(60, 20), (80, 24), (100, 30), (120, 40), (170, 45), (200, 50), (250, 80)]
 
 
+def lines_of(session: Session, size: tuple[int, int]) -> list[str]:
+    """The lines on the screen, which fill it."""
+    strips = session.app.screen._compositor.render_strips()
+    assert len(strips) == size[1]
+    assert {strip.cell_length for strip in strips} == {size[0]}
+    return [strip.text for strip in strips]
+
+
 def check(session: Session, size: tuple[int, int]) -> None:
-    lines = session.lines()
-    assert len(lines) == size[1]
-    assert {strip.cell_length for strip in session.app.screen._compositor.render_strips()} == {size[0]}
+    lines = lines_of(session, size)
     whole = session.app.screen.region
     for pane in session.app.visible_panes():
         assert whole.contains_region(pane.region), pane.id
@@ -58,10 +64,9 @@ def test_below_the_minimum_size_only_a_message_is_shown() -> None:
             await session.press(digit)
             await session.pilot.resize_terminal(*size)
             await session.settle()
-            assert len(session.lines()) == size[1]
-            assert {strip.cell_length for strip in session.app.screen._compositor.render_strips()} == {size[0]}
-            assert f"{size[0]}x{size[1]} is too small" in session.text()
-            assert all(word in session.text() for word in ("60x20", "! stops it", "q quits"))
+            text = "\n".join(lines_of(session, size))
+            assert f"{size[0]}x{size[1]} is too small" in text
+            assert all(word in text for word in ("60x20", "! stops it", "q quits"))
 
     run(live(), play)
 
