@@ -14,11 +14,11 @@ def get_search_paths() -> list[str]:
     return [each for each in os.environ.get(PREFIX_VARIABLE, "").split(os.pathsep) if each and os.path.isdir(each)]
 
 
-class InvalidResourceTypeNameError(Exception):
+class InvalidResourceTypeNameError(ValueError):
     """An invalid resource type: it is empty, or leads to another folder."""
 
 
-class InvalidResourceNameError(Exception):
+class InvalidResourceNameError(ValueError):
     """An invalid resource name: it is empty, or leads to another folder."""
 
 
@@ -66,13 +66,7 @@ def has_resource(resource_type: str, resource_name: str) -> str | bool:
     return get_resources(resource_type).get(resource_name, False)
 
 
-def get_resource_types() -> dict[str, set[str]]:
-    """Return the resource types, each with the prefixes that have some."""
-    found: dict[str, set[str]] = {}
-    for prefix in get_search_paths():
-        folder = Path(prefix) / INDEX
-        if folder.is_dir():
-            for each in folder.iterdir():
-                if each.is_dir():
-                    found.setdefault(each.name, set()).add(prefix)
-    return found
+def get_resource_types() -> set[str]:
+    """Return the resource types of all prefixes."""
+    folders = [Path(prefix) / INDEX for prefix in get_search_paths()]
+    return {each.name for folder in folders if folder.is_dir() for each in folder.iterdir() if each.is_dir()}

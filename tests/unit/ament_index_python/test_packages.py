@@ -82,7 +82,7 @@ def test_resources_are_found_by_type_and_name(prefixes: list[Path]) -> None:
     assert get_resources("packages") == {"both": first, "second": second}
     assert has_resource("packages", "second") == second
     assert not has_resource("packages", "none")
-    assert get_resource_types() == {"packages": {first, second}}
+    assert get_resource_types() == {"packages"}
     with pytest.raises(LookupError):
         get_resource("packages", "none")
 
@@ -93,6 +93,7 @@ def test_resource_names_with_path_separators_are_rejected(name: str) -> None:
         get_resources(name)
     with pytest.raises(InvalidResourceNameError):
         get_resource("packages", name)
+    assert issubclass(InvalidResourceTypeNameError, ValueError) and issubclass(InvalidResourceNameError, ValueError)
 
 
 def test_empty_resource_names_are_rejected() -> None:
