@@ -16,8 +16,9 @@ from bot_console.tui.widgets.picture import Line
 
 BAR_CELLS = 10
 """Cells of a bar."""
-MAX_PLANE_CELLS = (53, 19)
-"""Cells of the plane of both velocities at most, odd so that it has a middle."""
+MAX_PLANE_CELLS, LARGE_PLANE_CELLS = (53, 19), (101, 37)
+"""Cells of the plane of both velocities at most, odd so that it has a middle; and from `MIN_LARGE_CELLS` on."""
+MIN_LARGE_CELLS = 160
 CELLS_PER_ROW = 3
 """The greatest width of the plane, for each of its rows: it shall not look flat."""
 NARROW_PLANE_CELLS = 27
@@ -78,11 +79,12 @@ def same_but_velocities(one: DriveInfo, other: DriveInfo) -> bool:
 
 def _plane_size(width: int, rows: int) -> tuple[int, int] | None:
     """The cells of the plane beside the bars; None if there is no room."""
-    room, down = width - FRAME_CELLS - GAP_CELLS - BARS_CELLS, min(MAX_PLANE_CELLS[1], rows)
+    most = LARGE_PLANE_CELLS if width >= MIN_LARGE_CELLS else MAX_PLANE_CELLS
+    room, down = width - FRAME_CELLS - GAP_CELLS - BARS_CELLS, min(most[1], rows)
     across = (
         NARROW_PLANE_CELLS
         if width < MIN_WIDE_CELLS
-        else max(NARROW_PLANE_CELLS, min(MAX_PLANE_CELLS[0], room, CELLS_PER_ROW * down))
+        else max(NARROW_PLANE_CELLS, min(most[0], room, CELLS_PER_ROW * down))
     )
     if rows < MIN_ROWS or room < across:
         return None
