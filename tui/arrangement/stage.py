@@ -210,7 +210,7 @@ class Stage:
         self._tabs(shown)
         if small:
             screen.set_focus(None)  # keys do what the notice says, and nothing that is hidden
-        elif not self.typing():
+        elif not isinstance(screen.focused, Input):  # whatever lies over the panes has its own focus
             self._focus()
         self.show_keys()
 

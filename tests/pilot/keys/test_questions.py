@@ -6,6 +6,7 @@ from dataclasses import replace
 from types import MappingProxyType
 
 import pytest
+from bot_console.tui.panes.launch.pane import LaunchPane
 from bot_console.tui.panes.logs.rows import LogRows
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
@@ -241,5 +242,22 @@ def test_all_stop_acts_where_a_text_field_is_hidden_and_the_field_has_the_keys_a
         assert session.app.stage.typing() and "esc Cancel" in session.lines()[-1]
         await session.press("escape")
         assert not session.app.stage.typing()
+
+    run(live(), play)
+
+
+@pytest.mark.parametrize("opens", ["ctrl+p", "question_mark"])
+def test_pane_has_the_keys_after_a_box_that_was_open_while_the_terminal_was_too_small(opens: str) -> None:
+    async def play(session: Session) -> None:
+        await session.press("8", opens)
+        for size in ((20, 5), (80, 24)):
+            await session.pilot.resize_terminal(*size)
+            await session.settle()
+        await session.press("escape")
+        await session.settle()
+        assert len(session.app.screen_stack) == 1
+        assert "o Open  s Start" in session.lines()[-1]
+        focused = session.app.focused
+        assert focused is not None and session.pane(LaunchPane) in focused.ancestors_with_self
 
     run(live(), play)
