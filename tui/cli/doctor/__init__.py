@@ -119,7 +119,7 @@ def _ros(seconds: float | None, report: Callable[[Sequence[DoctorFinding]], None
         return
     report([DoctorFinding(Level.OK, "network", network_use(os.environ))])
     try:
-        from bot_console.tui.cli.doctor.nodes import DDS_DISCOVERY_S, node_findings
+        from bot_console.tui.cli.doctor.graph_checks import DDS_DISCOVERY_S, node_findings
 
         hint = IN_NETWORK if discovery_range(os.environ) == "SUBNET" else BEYOND_RANGE
         report(node_findings(alone_hint=hint, settle=DDS_DISCOVERY_S if seconds is None else seconds))

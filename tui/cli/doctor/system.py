@@ -11,7 +11,7 @@ from bot_console.runtime.rmw.zenoh.domain.roll_call import await_answers
 from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session, with_environment
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
-from bot_console.tui.cli.doctor.nodes import node_findings
+from bot_console.tui.cli.doctor.graph_checks import node_findings
 from bot_console.tui.cli.doctor.wire import captured, watch_wire, wire_findings
 from bot_console.tui.session.embedded.connecting import connect
 from bot_console.tui.session.embedded.domain import domain, take_part

@@ -7,9 +7,10 @@ import sys
 
 import pytest
 from bot_console.tui.cli import doctor
+from bot_console.tui.cli.doctor.command_timeout import base_finding
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level, exit_code
+from bot_console.tui.cli.doctor.graph_checks import pair_findings, type_findings
 from bot_console.tui.cli.doctor.machine import domain_finding, python_finding, rclpy_finding, sockets_findings
-from bot_console.tui.cli.doctor.nodes import base_finding, pair_findings, type_findings
 from bot_console.tui.cli.doctor.system import link_finding
 from bot_console.tui.cli.doctor.terminal import characters_finding, colours_finding, size_finding
 from bot_console.tui.cli.doctor.terminal import terminal_link_finding as terminal_link
@@ -27,7 +28,7 @@ from std_msgs.msg import String
 
 @pytest.fixture
 def node(monkeypatch):
-    monkeypatch.setattr("bot_console.tui.cli.doctor.nodes._spin", lambda *a, **k: None)
+    monkeypatch.setattr("bot_console.tui.cli.doctor.command_timeout.spin_for", lambda *a, **k: None)
     context = Context()
     context.init([], domain_id=unused_domain())
     made = Node("base", context=context)
@@ -111,7 +112,7 @@ def test_names_of_time_outs_are_recognised_and_values_reported(node, monkeypatch
         while not until():
             executor.spin_once(timeout_sec=0)
 
-    monkeypatch.setattr("bot_console.tui.cli.doctor.nodes._spin", serve)
+    monkeypatch.setattr("bot_console.tui.cli.doctor.command_timeout.spin_for", serve)
     node.create_subscription(Twist, "/cmd_vel", lambda message: None, 10)
     node.declare_parameter(name, value)
     found = base_finding(node)
@@ -130,7 +131,7 @@ def test_mismatched_pairs_and_unknown_types_are_reported(node) -> None:
 
 
 def test_types_that_nodes_describe_are_learned_and_others_unknown(node, monkeypatch) -> None:
-    monkeypatch.setattr("bot_console.tui.cli.doctor.nodes.own_hash", lambda type_name: None)
+    monkeypatch.setattr("bot_console.tui.cli.doctor.graph_checks.own_hash", lambda type_name: None)
     node.create_publisher(String, "/words", 1)
     found = type_findings(node, lambda type_name: type_name.startswith("std_msgs/"))
     levels = {each.level: each.text for each in found}

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 
 import pytest
+from bot_console.tui.cli.doctor.command_timeout import base_finding
 from bot_console.tui.cli.doctor.finding import Level
-from bot_console.tui.cli.doctor.nodes import base_finding
 from bot_console.tui.console.robot.stop_link import LATCHED
 from bot_console_robot.safety.emergency_stop import ARBITER, BASE, REQUESTS, EmergencyStop
 from bot_console_robot.safety.stop_messages import request_of
@@ -67,7 +67,7 @@ class Bench:
 @pytest.fixture
 def bench(monkeypatch: pytest.MonkeyPatch) -> Iterator[Bench]:
     made = Bench()
-    monkeypatch.setattr("bot_console.tui.cli.doctor.nodes._spin", made.spin)
+    monkeypatch.setattr("bot_console.tui.cli.doctor.command_timeout.spin_for", made.spin)
     yield made
     for each in made.nodes:
         each.destroy_node()

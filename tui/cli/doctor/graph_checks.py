@@ -1,34 +1,22 @@
-"""Checks of the graph through rclpy's public API, on every middleware: blocked messages, and what stops the robot."""
+"""Checks of the graph through rclpy's public API, on every middleware: messages that are blocked, types, the base."""
 
 from __future__ import annotations
 
 import importlib
-import re
-import time
 from collections.abc import Callable
-from typing import Any
 
 import rclpy
 from bot_console.runtime.rosidl import type_hash
+from bot_console.tui.cli.doctor.command_timeout import base_finding
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
-from bot_console.tui.cli.doctor.locks import ask_locks, find_locks, lock_finding
-from bot_console.tui.console.graph.full_name import node_name_of
+from bot_console.tui.cli.doctor.spinning import spin_for
 from bot_console.tui.console.graph.pairs import hash_of, unheard
-from rcl_interfaces.srv import GetParameters, ListParameters
 from rclpy.node import Node
-from rclpy.parameter import parameter_value_to_python
 
-TWISTS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
-TIMEOUT = re.compile(r"(cmd|command|vel|twist|input|watchdog).*time_?out|time_?out.*(cmd|command|vel)|watchdog", re.I)
-"""Names of the parameters that stop a base or controller when commands cease."""
-DISCOVERY_S, TIMEOUT_S = 1.5, 3.0
-"""Seconds for discovery, and for a node to list its parameters."""
+DISCOVERY_S = 1.5
+"""Seconds for discovery."""
 DDS_DISCOVERY_S = 4.0
 """Seconds for discovery over a network: Fast DDS repeats every three seconds what was lost at the start."""
-HOW = (
-    "let the base stop by itself when commands cease (ros2_controllers: cmd_vel_timeout; or the emergency "
-    "stop of docs/safety.md; the timeout of twist_mux sends no zero): a console that has lost its link cannot stop it"
-)
 
 
 def node_findings(
@@ -41,18 +29,12 @@ def node_findings(
     rclpy.init(args=[])
     node = rclpy.create_node("_bot_console_doctor", enable_rosout=False, start_parameter_services=False)
     try:
-        _spin(node, settle)
+        spin_for(node, settle)
         counted = [others_finding(node, alone_hint)] if alone_hint else []
         return [*counted, *pair_findings(node), *type_findings(node, can_learn), base_finding(node)]
     finally:
         node.destroy_node()
         rclpy.try_shutdown()
-
-
-def _spin(node: Node, seconds: float, until: Callable[[], bool] = lambda: False) -> None:
-    end = time.monotonic() + seconds
-    while time.monotonic() < end and not until():
-        rclpy.spin_once(node, timeout_sec=0.05)
 
 
 def others_finding(node: Node, alone_hint: str) -> DoctorFinding:
@@ -120,54 +102,3 @@ def own_hash(type_name: str) -> str | None:
         return type_hash.text(kind)
     except (AttributeError, TypeError, KeyError):  # A class of a real ROS 2, which checks that itself.
         return ""
-
-
-def base_finding(node: Node) -> DoctorFinding:
-    """Whether the robot stops by itself when commands cease."""
-    bases = {
-        node_name_of(each)
-        for topic, types in node.get_topic_names_and_types()
-        if any(kind in TWISTS for kind in types)
-        for each in node.get_subscriptions_info_by_topic(topic)
-        if not str(each.node_name).startswith("_")
-    }
-    if not bases:
-        return DoctorFinding(Level.NOTE, "time-out", "no node subscribes to velocity commands")
-    if locks := find_locks(node):
-        return lock_finding(ask_locks(node, locks, _spin))
-    named = [(base, name, value) for base in sorted(bases) for name, value in time_outs(node, base).items()]
-    if not named:
-        return DoctorFinding(Level.WARN, "time-out", f"none was found in {', '.join(sorted(bases))}", HOW)
-    listed = ", ".join(f"{base} {name} {value:g}" for base, name, value in named[:3])
-    if all(value <= 0 for _, _, value in named):
-        return DoctorFinding(Level.WARN, "time-out", f"{listed}: it is switched off", HOW)
-    return DoctorFinding(Level.OK, "time-out", f"{listed}: make sure that it is short (0.5 s)")
-
-
-def time_outs(node: Node, base: str) -> dict[str, float]:
-    """The numeric parameters of a node whose names suggest command time-outs."""
-    listed = _answer(node, ListParameters, f"{base}/list_parameters", ListParameters.Request())
-    names = [each for each in listed.result.names if TIMEOUT.search(each)] if listed else []
-    reported = (
-        _answer(node, GetParameters, f"{base}/get_parameters", GetParameters.Request(names=names)) if names else None
-    )
-    values = [parameter_value_to_python(each) for each in reported.values] if reported else []
-    return {
-        name: float(value)
-        for name, value in zip(names, values, strict=False)
-        if isinstance(value, (int, float)) and not isinstance(value, bool)
-    }
-
-
-def _answer(node: Node, kind: Any, service: str, request: Any) -> Any:
-    """The response of a service; None if there is none."""
-    client = node.create_client(kind, service)
-    try:
-        _spin(node, TIMEOUT_S, client.service_is_ready)
-        if not client.service_is_ready():
-            return None
-        answer = client.call_async(request)
-        _spin(node, TIMEOUT_S, answer.done)
-        return answer.result() if answer.done() else None
-    finally:
-        node.destroy_client(client)
