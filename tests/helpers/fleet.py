@@ -25,7 +25,7 @@ from bot_console.tui.console.model import (
     Severity,
 )
 from bot_console.tui.console.robot.robot_model import DriveInfo
-from bot_console.tui.console.sensors.diagnostics import Diagnostics, Level
+from bot_console.tui.console.sensors.diagnostic_status import Diagnostics, Level
 from bot_console.tui.console.sensors.picture import IMAGE, Picture
 from bot_console.tui.console.topics.port import Measure
 from fakes.console import START, FakeConsole

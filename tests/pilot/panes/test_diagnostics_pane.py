@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from bot_console.tui.console.sensors.diagnostics import Diagnostics, Level
+from bot_console.tui.console.sensors.diagnostic_status import Diagnostics, Level
 from bot_console.tui.panes.diagnostics.pane import DiagnosticsPane
 from bot_console.tui.panes.diagnostics.table import StatusRows
 from fakes.sensors import status

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from bot_console.tui.console.model import GraphInfo
-from bot_console.tui.console.sensors.diagnostics import Diagnostics, Level, ReportedStatus, Status
+from bot_console.tui.console.sensors.diagnostic_status import Diagnostics, Level, ReportedStatus, Status
 from bot_console.tui.console.topics.offered_topics import offered_qos, offered_types_of
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from rclpy.node import Node

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from bot_console.tui.console.sensors.diagnostics import Diagnostics
+from bot_console.tui.console.sensors.diagnostic_status import Diagnostics
 from bot_console.tui.console.sensors.frames import Frames
 from bot_console.tui.console.sensors.picture import Picture
 

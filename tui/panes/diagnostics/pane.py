@@ -9,7 +9,7 @@ from typing import Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.sensors.diagnostics import Diagnostics, Level, Status
+from bot_console.tui.console.sensors.diagnostic_status import Diagnostics, Level, Status
 from bot_console.tui.format import clock_text
 from bot_console.tui.panes.diagnostics.table import LEVEL_STYLES, StatusRows
 from bot_console.tui.panes.diagnostics.tree import Row, matches, rows

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bot_console.tui.console.query import Query
-from bot_console.tui.console.sensors.diagnostics import Level
+from bot_console.tui.console.sensors.diagnostic_status import Level
 from bot_console.tui.panes.diagnostics.tree import Row, matches
 from bot_console.tui.text.figures import age_text
 from bot_console.tui.text.sanitize import cut, sanitize

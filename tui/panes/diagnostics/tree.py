@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 
 from bot_console.tui.console.query import Query
-from bot_console.tui.console.sensors.diagnostics import Level, Status
+from bot_console.tui.console.sensors.diagnostic_status import Level, Status
 
 
 @dataclass(frozen=True, slots=True)

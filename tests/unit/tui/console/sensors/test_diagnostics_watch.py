@@ -7,7 +7,7 @@ from typing import Any
 
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.sensors import diagnostics_watch as module
-from bot_console.tui.console.sensors.diagnostics import Level
+from bot_console.tui.console.sensors.diagnostic_status import Level
 from bot_console.tui.console.sensors.diagnostics_watch import MAX_CHANGES_PER_NAME, TYPE, DiagnosticsWatch
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from piloting import Clock
