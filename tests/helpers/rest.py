@@ -10,19 +10,24 @@ A frame is drawn when a test pauses to look at the screen, not between keys.
 from __future__ import annotations
 
 import asyncio
+import inspect
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import lru_cache
+from types import FunctionType
 from typing import Any
 from unittest.mock import patch
+from weakref import WeakKeyDictionary
 
 from bot_console.tui.terminal.output import SparingApp
-from textual import _wait
+from textual import _callback, _wait
 from textual import app as app_module
+from textual import dom as dom_module
 from textual import pilot as pilot_module
 from textual._context import active_app
+from textual.css.stylesheet import Stylesheet
 from textual.screen import Screen
-from textual_lookups import looked_up_once
 
 MAX_POLLS = 100_000
 """Turns of the event loop after which an app that never becomes idle is left alone."""
@@ -86,15 +91,18 @@ def _draw(app: Any) -> None:
 
 @contextmanager
 def at_rest(*, is_scripted: bool = False) -> Iterator[None]:
-    """Within this block pilots wait in this way, and Textual looks up once what does not change.
+    """Within this block pilots wait in this way, and style sheets are parsed only once per process.
 
-    No stop is late by the clock. If the system is scripted, no thread from before the block works for the app: some
-    that earlier tests have left, such as those of the middleware, would make each key take 60 ms.
+    The source file of a class is looked up, and the parameters of a callback counted, only once as well. No stop is
+    late by the clock. If the system is scripted, no thread from before the block works for the app: some that earlier
+    tests have left, such as those of the middleware, would make each key take 60 ms.
     """
     threads = frozenset(threading.enumerate()) if is_scripted else _idle_threads
     with (
         patch(f"{__name__}._idle_threads", threads),
-        looked_up_once(),
+        patch.object(dom_module, "getfile", _file_of_class),
+        patch.object(_callback, "_count_parameters", _number_of_parameters),
+        patch.object(Stylesheet, "_parse_rules", _parsed_once),
         patch.object(SparingApp, "may_draw", lambda app: False),
         patch.object(SparingApp, "NOTIFICATION_TIMEOUT", NOTIFICATION_TIMEOUT_S),
         patch.object(Screen, "_compositor_refresh", _held),
@@ -121,3 +129,42 @@ def _held(screen: Any) -> None:
         screen._dirty_widgets.clear()
     else:
         _compositor_refresh(screen)
+
+
+_file_of_class = lru_cache(maxsize=None)(inspect.getfile)
+_count_parameters = _callback._count_parameters
+
+
+def _number_of_parameters(call: Callable[..., Any]) -> int:
+    """The number of parameters in its signature; for a plain function its code has the number."""
+    plain = getattr(call, "__func__", call)
+    if type(plain) is not FunctionType or hasattr(plain, "__wrapped__") or hasattr(plain, "__signature__"):
+        return _count_parameters(call)
+    code = plain.__code__
+    stars = bool(code.co_flags & inspect.CO_VARARGS) + bool(code.co_flags & inspect.CO_VARKEYWORDS)
+    own = plain is not call and code.co_argcount > 0
+    return code.co_argcount + code.co_kwonlyargcount + stars - own
+
+
+_parsed: dict[object, Any] = {}
+_colours: WeakKeyDictionary[Stylesheet, tuple[dict[str, str], int]] = WeakKeyDictionary()
+_numbers: dict[object, int] = {}
+_parse_rules = Stylesheet._parse_rules
+
+
+def _parsed_once(sheet: Stylesheet, css: str, *where: Any, **how: Any) -> Any:
+    asked = (css, *where, *how.items(), _number_of_colours(sheet))
+    if asked not in _parsed:
+        _parsed[asked] = _parse_rules(sheet, css, *where, **how)
+    return _parsed[asked]
+
+
+def _number_of_colours(sheet: Stylesheet) -> int:
+    """The same for sheets with the same variables: there are hundreds of them, and two hundred texts are parsed with
+    them.
+    """
+    known = _colours.get(sheet)
+    if known is None or known[0] is not sheet._variables:
+        number = _numbers.setdefault(tuple(sorted(sheet._variables.items())), len(_numbers))
+        known = _colours[sheet] = sheet._variables, number
+    return known[1]
