@@ -6,13 +6,12 @@ yet. If the private parts of Textual have other names, all parts are styled as T
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any, cast
 
 from rich.style import Style
 from textual.app import App
 from textual.css.model import RuleSet
-from textual.css.styles import RULE_NAMES_SET, RenderStyles, RulesMap
+from textual.css.styles import RenderStyles
 from textual.css.stylesheet import Stylesheet
 from textual.dom import DOMNode
 from textual.geometry import Region
@@ -28,53 +27,19 @@ class Rules(RuleSet):
 
 
 class PartwiseStylesheet(Stylesheet):
-    """A style sheet that leaves the parts of a `StyledByPart` to the widget, and sets no rule that is set."""
+    """A style sheet that leaves the parts of a `StyledByPart` to the widget."""
 
     def _parse_rules(self, *css: Any, **how: Any) -> list[RuleSet]:
         rules: list[RuleSet] = super()._parse_rules(*css, **how)
         for each in rules:
-            if type(each) is not Rules:
-                each.__class__ = Rules
-                _as_set(each.styles)
+            each.__class__ = Rules
         return rules
-
-    @classmethod
-    def _check_rule(cls, rule_set: RuleSet, css_path_nodes: list[DOMNode]) -> Iterable[tuple[int, int, int]]:
-        """Specificities of the selectors that match; most do not, by what they say of the node itself."""
-        node = css_path_nodes[-1]
-        if any(each.selectors[-1].check(node) for each in rule_set.selector_set):
-            return super()._check_rule(rule_set, css_path_nodes)
-        return ()
-
-    @classmethod
-    def replace_rules(cls, node: DOMNode, rules: RulesMap, animate: bool = False) -> None:
-        """Set what differs; a node whose rules are the same only drops what it has cached of its ancestors' style."""
-        current = node.styles.base.get_rules()
-        if "layout" in current and "layout" in rules and current["layout"].name == rules["layout"].name:
-            current["layout"] = rules["layout"]  # each node has an object of its own
-        if current == rules:
-            node.notify_style_update()
-        else:
-            super().replace_rules(node, rules, animate)
 
     def _process_component_classes(self, node: DOMNode) -> None:
         if isinstance(node, StyledByPart):
             node.style_parts_again(self)
         else:
             super()._process_component_classes(node)
-
-
-def _as_set(styles: Any) -> None:
-    """Give rules the form that they have once set on a node: as parsed they never equal it.
-
-    There are notes about each colour, most of which nothing reads, and text styles are texts.
-    """
-    rules: dict[str, object] = styles._rules
-    for name, value in [*rules.items()]:
-        if name not in RULE_NAMES_SET:
-            del rules[name]
-        elif "_style" in name and isinstance(value, str):
-            rules[name] = Style.parse(value)
 
 
 class StyledByPart(Widget):

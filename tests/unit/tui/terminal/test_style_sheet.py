@@ -11,8 +11,6 @@ from bot_console.tui.terminal.styling import StyledByPart, StyledOnceApp
 from rich.segment import Segment
 from textual.app import ComposeResult
 from textual.color import Color
-from textual.containers import Container
-from textual.css.stylesheet import Stylesheet
 from textual.geometry import Region
 from textual.strip import Strip
 from textual.widget import Widget
@@ -83,49 +81,5 @@ def test_what_is_kept_of_a_part_follows_the_rules_and_its_own_style_is_asked_for
                 parts.render_lines(Region(0, 0, 10, 5))
                 assert asked == [parts]
                 assert parts.own_style == parts.rich_style
-
-    asyncio.run(main())
-
-
-class Framed(StyledOnceApp):
-    CSS = """
-    .changed { background: blue; }
-    Parts { border: solid red; text-style: bold; layout: horizontal; link-style: none; scrollbar-color: red; }
-    Parts:focus { color: green; }
-    Container.changed > Parts.inner { text-style: italic; }
-    """
-
-    def compose(self) -> ComposeResult:
-        with Container():
-            yield Parts(classes="inner")
-
-
-def test_rules_that_are_set_are_not_set_again() -> None:
-    async def main() -> None:
-        app = Framed()
-        async with app.run_test():
-            for animate in (True, False):
-                with patch.object(Stylesheet, "replace_rules") as replaced:
-                    app.stylesheet.update(app.query_one(Container), animate)
-                assert not replaced.called, animate
-
-    asyncio.run(main())
-
-
-def test_rules_that_changed_are_set_and_cached_styles_follow_the_ancestors() -> None:
-    async def main() -> None:
-        app = Framed()
-        async with app.run_test() as pilot:
-            parts, box = app.query_one(Parts), app.query_one(Container)
-            for is_changed in (False, True, False):
-                box.set_class(is_changed, "changed")
-                await pilot.pause()
-                assert bool(parts.rich_style.italic) is is_changed
-                assert bool(parts.rich_style.bold) is not is_changed
-            parts.remove_class("inner")
-            for is_changed in (False, True, False):
-                box.set_class(is_changed, "changed")
-                await pilot.pause()
-                assert (parts.visual_style.background == Color.parse("blue")) is is_changed, "none of its own changed"
 
     asyncio.run(main())
