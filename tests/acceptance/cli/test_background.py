@@ -120,7 +120,7 @@ def test_processes_are_visible_and_controllable_from_changing_consoles(state: Pa
     def enter(gate: str) -> HostedLauncher | None:
         connection = connect_to_host(gate)
         return connection and HostedLauncher(
-            connection, lambda *record: None, lambda severity, name, text: lines.append(text), owner=False
+            connection, lambda *record: lines.append(record[3]), lambda *line: None, owner=False
         )
 
     def attached() -> CombinedLauncher:

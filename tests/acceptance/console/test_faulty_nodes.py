@@ -96,7 +96,7 @@ def system(tmp_path_factory: pytest.TempPathFactory) -> Iterator[System]:
         host = start_host(log=folder / "host.log")
         printed: list[tuple[str, str]] = []
         launcher = HostedLauncher(
-            host.connection, lambda *record: None, lambda severity, name, text: printed.append((name, text))
+            host.connection, lambda *record: printed.append((record[2], record[3])), lambda *line: None
         )
         made = System(launcher, printed, folder)
         assert launcher.launch(SYSTEM_LAUNCH, {"seed": "1"}).result(TIMEOUT_S).ok

@@ -36,7 +36,10 @@ class Hosted:
         host = start_host(["--workspace", str(folder)], log=self.log)
         self.process = host.process
         self.launcher = HostedLauncher(
-            host.connection, lambda *record: None, lambda *line: self.printed.append(line), thaw=host.thaw
+            host.connection,
+            lambda *record: self.printed.append(record[1:4]),
+            lambda *line: self.printed.append(line),
+            thaw=host.thaw,
         )
 
     def launch(self, *actions: str, **programs: str) -> Any:
