@@ -52,7 +52,7 @@ class FrameHistory:
             self._stamps, self.waiting, self.entries = [], [], []
 
     def insert(self, entry: Entry) -> bool:
-        """Add a transform; return whether it is recent enough. Of several with one time, the last one counts."""
+        """Add a transform; return whether it is recent enough. Different ones with one time are all kept."""
         if self.is_static:
             self.entries, self._stamps = [entry], [0]
             return True
@@ -110,6 +110,9 @@ class FrameHistory:
             raise LookupError(self._outside(time, self.first))
         stamp, parent, place, _ = entries[after - 1]
         if stamp == time:
+            first = self.first
+            if stamps[first] == time:  # of several with the oldest time, tf2 returns the one that came first
+                _, parent, place, _ = entries[first]
             return parent, place
         later, other_parent, other_place, _ = entries[after]
         if parent != other_parent:

@@ -59,29 +59,31 @@ def reported(message: Any) -> None:
 
 
 def shown(value: Any) -> None:
-    from bot_console.tui import format as words
+    from bot_console.tui.format import field_text
+    from bot_console.tui.text.value_text import value_text
 
-    words.value_text(value)
-    words.value_text(value, exact=True)
-    words.field_text(value)
+    value_text(value)
+    value_text(value, exact=True)
+    field_text(value)
 
 
 def pane_text(text: str) -> None:
     """Text written by a node or a person, as all panes show it."""
-    from bot_console.tui import format as words
     from bot_console.tui.console.model import ConsoleSnapshot
     from bot_console.tui.console.robot.robot_model import DriveInfo, RobotStop
     from bot_console.tui.safety.stop_wording import release_question
+    from bot_console.tui.text.sanitize import brief, cut, sanitize
+    from bot_console.tui.text.value_text import value_text, yaml_text
     from bot_console.tui.widgets.status_bar import status_text
     from rich.text import Text
 
-    shown = words.sanitize(text)
+    shown = sanitize(text)
     assert not any(ord(each) < 32 or 0x7F <= ord(each) < 0xA0 for each in shown), repr(shown)
     for width in (0, 1, 7, 80):
-        assert Text(words.cut(text, width)).cell_len <= width
-    words.brief(text)
-    words.yaml_text(text)
-    words.value_text(text)
+        assert Text(cut(text, width)).cell_len <= width
+    brief(text)
+    yaml_text(text)
+    value_text(text)
     drive = DriveInfo(
         stopped=True, stop_confirmed=True, lockable=True, stop_holder=text, stop_reason=text, limited_by=text
     )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 import pytest
@@ -59,19 +58,30 @@ def filled(known: list[Entry]) -> BufferCore:
 
 
 def in_parent(known: list[Entry], child: str, time: float) -> np.ndarray | None:
-    """The matrix of a frame in its parent at a time (s); None if it is unknown."""
-    first: dict[int, Any] = {}
+    """The matrix of a frame in its parent at a time (s); None if it is unknown.
+
+    Of several different transforms with one time the last one counts; at the oldest time, and where an interpolation
+    ends, the first one.
+    """
+    kept: dict[int, list[tuple[np.ndarray, np.ndarray]]] = {}
     for name, second, move, turn in known:
-        if name != child or (first and second < max(first) - 10):
+        if name != child or (kept and second < max(kept) - 10):
             continue
-        first.setdefault(second, (np.array(move), unit(turn)))
-    times = sorted(each for each in first if each >= max(first) - 10)
+        same_time = kept.setdefault(second, [])
+        if not any(np.array_equal(move, each) and np.array_equal(unit(turn), other) for each, other in same_time):
+            same_time.append((np.array(move), unit(turn)))
+    times = sorted(each for each in kept if each >= max(kept) - 10)
     if not times or not times[0] <= time <= times[-1]:
         return None
     before = max(each for each in times if each <= time)
     after = min(each for each in times if each >= time)
-    share = 0.0 if after == before else (time - before) / (after - before)
-    (move0, turn0), (move1, turn1) = first[before], first[after]
+    move0, turn0 = kept[before][0 if time == times[0] != times[-1] else -1]
+    move1, turn1 = kept[after][0]
+    if before == after:
+        matrix = quaternion_matrix(turn0)
+        matrix[:3, 3] = move0
+        return matrix
+    share = (time - before) / (after - before)
     matrix = quaternion_matrix(quaternion_slerp(turn0, turn1, share))
     matrix[:3, 3] = move0 + share * (move1 - move0)
     return matrix

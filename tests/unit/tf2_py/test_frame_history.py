@@ -34,13 +34,15 @@ def test_late_entries_are_sorted_in() -> None:
     assert found.latest() == (300, "map")
 
 
-@pytest.mark.parametrize("time", [200, 300])
-def test_last_one_of_several_entries_with_one_time_counts(time: int) -> None:
-    found = history(entry(200), entry(300), entry(time))
-    assert len(found.entries) == 2
+@pytest.mark.parametrize(
+    ("time", "parent", "newest"), [(100, "map", "map"), (200, "odom", "map"), (300, "odom", "odom")]
+)
+def test_last_entry_with_one_time_counts_except_at_the_oldest_time(time: int, parent: str, newest: str) -> None:
+    found = history(entry(100), entry(200), entry(300), entry(time))
+    assert len(found.entries) == 3
     assert found.insert((time, "odom", (7.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0), "you"))
-    assert found.at(time) == ("odom", (7.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0))
-    assert found.latest() == (300, "odom" if time == 300 else "map")
+    assert found.at(time) == (parent, (7.0 if parent == "odom" else float(time), 0.0, 0.0, 0.0, 0.0, 0.0, 1.0))
+    assert found.latest() == (300, newest)
 
 
 @pytest.mark.parametrize(("time", "refused"), [(1000, False), (999, True)])
