@@ -160,9 +160,9 @@ class MachineRig:
         self._up = 0
         self._patch = pytest.MonkeyPatch()
         self._patch.setenv("AMENT_PREFIX_PATH", str(folder), prepend=os.pathsep)
-        self.launcher: Launcher = launcher_of_machine(lambda *record: None, self._heard)
+        self.launcher: Launcher = launcher_of_machine(self._heard, lambda *line: None)
 
-    def _heard(self, severity: int, label: str, text: str) -> None:
+    def _heard(self, stamp: int, severity: int, label: str, text: str, site: object) -> None:
         self._up += text == "up"
 
     def info(self) -> LaunchInfo:
