@@ -101,7 +101,7 @@ class Recorder:
 
     def close(self) -> None:
         """Take the messages still waiting and stop recording; afterwards the sink can be closed."""
-        self._take()
+        self.take()
         for each in self.subscribed.values():
             each.destroy()
         if self._sim_time is not None:
@@ -111,7 +111,7 @@ class Recorder:
         """Take waiting messages; from time to time search for new topics, and flush. To be called every `PACE_S`
         seconds.
         """
-        self._take()
+        self.take()
         now = time.monotonic()
         if now - self._polled >= self._poll_s:
             self._polled = now
@@ -122,7 +122,8 @@ class Recorder:
             for each in self.subscribed.values():
                 each.follow()
 
-    def _take(self) -> None:
+    def take(self) -> None:
+        """Take the messages that are waiting."""
         now = time.time_ns()
         found = [(sent, name, data) for name, each in self.subscribed.items() for data, sent in each.drain()]
         if self._sim_time is not None:

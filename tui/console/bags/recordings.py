@@ -84,6 +84,8 @@ class Recordings:
             return done(Answer(False, self._sink.problem or "nothing is being recorded"))
 
         def end() -> Answer:
+            if self._recorder is not None:
+                self._recorder.take()  # what came after the last turn had begun
             try:
                 writer = self._sink.end()
             except (NotSaved, OSError) as error:
@@ -144,7 +146,7 @@ class Recordings:
                         generic=self._generic,
                         definition_timeout_s=DEFINITION_TIMEOUT_S,
                     )
-                self._obey()  # after the turn, so that a bag which is closed now contains everything that came before
+                self._obey()
             if self._recorder is not None:
                 self._recorder.close()
             self._sink.end()

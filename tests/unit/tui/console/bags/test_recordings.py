@@ -74,6 +74,25 @@ def test_a_bag_is_recorded_from_start_to_stop(tmp_path: Path, node: rclpy.node.N
     assert reported(room.start(str(tmp_path / "late"))) == Answer(False, "the console has closed")
 
 
+def test_bag_contains_what_is_published_between_the_last_turn_and_its_end(
+    tmp_path: Path, node: rclpy.node.Node, room: Recordings, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    publisher = node.create_publisher(String, "/words", 10)
+    turn, ended = recorder.Recorder.turn, list[Future[Answer]]()
+
+    def turn_before_the_end(self: recorder.Recorder) -> None:
+        turn(self)
+        if not ended and publisher.get_subscription_count():
+            publisher.publish(String(data="last"))
+            ended.append(room.stop())
+
+    monkeypatch.setattr(recorder.Recorder, "turn", turn_before_the_end)
+    assert reported(room.start(str(tmp_path / "bag"))).ok
+    until(lambda: ended, "the end")
+    assert reported(ended[0]).ok
+    assert texts(tmp_path / "bag") == ["last"]
+
+
 def test_a_topic_of_an_unknown_type_is_named_until_its_type_is_known(
     tmp_path: Path, node: rclpy.node.Node, room: Recordings, monkeypatch: pytest.MonkeyPatch
 ) -> None:
