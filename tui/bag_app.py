@@ -12,7 +12,7 @@ from textual.binding import BindingType
 from textual.widget import Widget
 
 FOLLOW_S = 0.1
-"""Time between two looks at the position of the player."""
+"""Time between two readings of the position of the player."""
 SEEK_S = 5.0
 """Seconds of the bag that a key moves."""
 RATE_FACTOR = 1.1

@@ -14,7 +14,9 @@ from rclpy.node import Node
 from rclpy.parameter import parameter_value_to_python
 
 TWISTS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
-TIMEOUT = re.compile(r"(cmd|command|vel|twist|input|watchdog).*time_?out|time_?out.*(cmd|command|vel)|watchdog", re.I)
+TIMEOUT_PARAMETER = re.compile(
+    r"(cmd|command|vel|twist|input|watchdog).*time_?out|time_?out.*(cmd|command|vel)|watchdog", re.I
+)
 """Names of the parameters that stop a base or controller when commands cease."""
 TIMEOUT_S = 3.0
 """Seconds for a node to list its parameters."""
@@ -49,7 +51,7 @@ def base_finding(node: Node) -> DoctorFinding:
 def time_outs(node: Node, base: str) -> dict[str, float]:
     """The numeric parameters of a node whose names suggest command time-outs."""
     listed = _answer(node, ListParameters, f"{base}/list_parameters", ListParameters.Request())
-    names = [each for each in listed.result.names if TIMEOUT.search(each)] if listed else []
+    names = [each for each in listed.result.names if TIMEOUT_PARAMETER.search(each)] if listed else []
     reported = (
         _answer(node, GetParameters, f"{base}/get_parameters", GetParameters.Request(names=names)) if names else None
     )

@@ -26,7 +26,7 @@ from textual.app import ComposeResult
 REQUESTER, SUGGESTING = "alarms", "alarms suggested"
 STATE_NAME = "alarms"
 SAMPLE_POLL_S, LIST_POLL_S, MISSING_PATH_POLL_S = 0.2, 1.0, 1.0
-"""Seconds between two looks at the samples, at the list, and at paths that are not there yet."""
+"""Seconds between two checks of the samples, of the list, and of paths that are not there yet."""
 NOTICE_S = 8.0
 """Seconds that a notice stands; the times that an alarm begins to hold meanwhile are told with its next one."""
 MAX_ALARMS = 100

@@ -27,7 +27,7 @@ from textual.app import ComposeResult
 from textual.containers import Container
 
 POLL_S = 0.5
-"""Seconds between two looks."""
+"""Seconds between two refreshes."""
 MIN_SIDE_BY_SIDE_CELLS = 110
 """Cells from which the list and what is at the cursor stand side by side."""
 EMPTY = Placeholder(

@@ -16,7 +16,7 @@ from textual.app import App, ComposeResult
 from textual.containers import Container
 
 FRAMES_POLL_S = 0.5
-"""Seconds between two looks."""
+"""Seconds between two refreshes."""
 
 
 class FramesView(Container):

@@ -51,7 +51,7 @@ MIN_ROWS_FOR_OUTPUT = 19
 
 ALIVE = (ProcessState.RUNNING, ProcessState.STARTING, ProcessState.STOPPING)
 NEWS_S = 2.0
-"""Seconds between two looks at what processes have printed and used; a line after such a silence is shown at once."""
+"""Seconds between two readings of output and usage of processes; a line after such a silence is shown at once."""
 
 EMPTY = Placeholder(
     "Processes that launch files started, with keys to stop and start each: none was launched yet.",

@@ -29,9 +29,9 @@ from textual.app import ComposeResult
 from textual.containers import Container
 
 MEASURE_POLL_S = 1.0
-"""Seconds between two looks at what was measured."""
+"""Seconds between two readings of what was measured."""
 MESSAGE_POLL_S = 0.25
-"""Seconds between two looks at the message that is open."""
+"""Seconds between two readings of the message that is open."""
 EXPECTED_FILE = "expected-rates-file"
 MAX_STATE_LINES = 3
 MIN_SIDE_BY_SIDE_CELLS = 110

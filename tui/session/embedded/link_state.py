@@ -31,9 +31,8 @@ def words_of(state: LinkState, now: float) -> LinkInfo:
     """The state of the link at a given time; delays are rounded to about a tenth of their value so that the display is
     calm.
     """
-    silent = 0 if state.heard is None else int(now - state.heard)
-    silent = silent if silent >= NO_ANSWER_AFTER_S else 0
+    silent_s = 0.0 if state.heard is None else now - state.heard
     delay = None if state.delay is None else max(1, round(state.delay * 1000))
     if delay is not None and delay > 20:
         delay = round(delay, -1)
-    return LinkInfo(state.to, delay, silent, state.lost)
+    return LinkInfo(state.to, delay, int(silent_s) if silent_s >= NO_ANSWER_AFTER_S else 0, state.lost)

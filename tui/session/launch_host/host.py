@@ -82,12 +82,12 @@ class LaunchHost:
         self._wake.set()
 
     def _record(self, stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
-        self._line({"record": [stamp, severity, name, text, list(site)]})
+        self._line(_record_message(stamp, severity, name, text, site))
 
     def printed(self, severity: int, name: str, text: str) -> None:
         """Send a line to all consoles."""
         self._also_notified(severity, name, text)
-        self._line(_stamped(severity, name, text))
+        self._line(_record_message(time.time_ns(), severity, name, text))
 
     def learn(self, kind: str, facts: Mapping[str, Any]) -> None:
         """Send a fact about a program or a launch to all consoles."""
@@ -96,7 +96,7 @@ class LaunchHost:
     def noticed(self, severity: int, name: str, text: str) -> None:
         """Send a notice about a process, which a flood of its output cannot displace."""
         self._also_notified(severity, name, text)
-        self._pass_on(_stamped(severity, name, text), self._facts, spare=False)
+        self._pass_on(_record_message(time.time_ns(), severity, name, text), self._facts, spare=False)
 
     def _also_notified(self, severity: int, name: str, text: str) -> None:
         if self._also is not None:
@@ -183,6 +183,8 @@ class LaunchHost:
             each.channel.close()
 
 
-def _stamped(severity: int, name: str, text: str) -> Message:
-    """A line with the time of now, which a console that connects later shows, too."""
-    return {"record": [time.time_ns(), severity, name, text, ["", "", 0]]}
+def _record_message(
+    stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int] = ("", "", 0)
+) -> Message:
+    """A line with the time (ns since the epoch) at which it came, which a console that connects later shows, too."""
+    return {"record": [stamp, severity, name, text, list(site)]}
