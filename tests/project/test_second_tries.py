@@ -9,6 +9,8 @@ from pathlib import Path
 HELPERS = Path(__file__).parents[1] / "helpers"
 ONLY_XDIST = {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "PYTEST_PLUGINS": "xdist.plugin", "PYTEST_ADDOPTS": ""}
 """Environment of each pytest below: to import the other plug-ins takes most of its time."""
+ON_CI = ("CI", "BUILD_NUMBER")
+"""Variables for which pytest does not shorten the last lines, which then repeat the explanation of a failure."""
 TESTS = """
 import os
 from pathlib import Path
@@ -66,9 +68,10 @@ def test_second_try_explains_what_a_worker_does_not(tmp_path: Path) -> None:
 def run(folder: Path, workers: str, *more: str) -> tuple[int, str, str]:
     """The exit code, the counts of the last line, and all that is shown."""
     (folder / "conftest.py").write_text('pytest_plugins = ["second_tries"]\n')
+    environment = {name: value for name, value in os.environ.items() if name not in ON_CI}
     done = subprocess.run(
         [sys.executable, "-m", "pytest", "-q", "-n", workers, "--junitxml=junit.xml", "-p", "no:cacheprovider", *more],
-        cwd=folder, env={**os.environ, "PYTHONPATH": str(HELPERS), **ONLY_XDIST},
+        cwd=folder, env={**environment, "PYTHONPATH": str(HELPERS), **ONLY_XDIST},
         capture_output=True, text=True, check=False,
     )  # fmt: skip
     return done.returncode, done.stdout.splitlines()[-1].strip("= ").rpartition(" in ")[0], done.stdout
