@@ -46,10 +46,13 @@ os.environ["BOT_CONSOLE_SOCKET_DIR"] = os.path.join(_sockets, "0")
 os.environ["BOT_CONSOLE_USER_DIR"] = os.path.join(_sockets, "0-user")
 atexit.register(shutil.rmtree, _sockets, ignore_errors=True)
 
-# Workers and a test's programs compile what they import once, also where the environment says that no files are to be
-# left behind.
-if os.environ.pop("PYTHONDONTWRITEBYTECODE", None):
-    os.environ.setdefault("PYTHONPYCACHEPREFIX", os.path.join(_sockets, "compiled"))
+# Workers and a test's programs find compiled what an earlier run compiled, also where no files are to be left beside the
+# sources: to compile all of it took each worker as long as all else that it does at its start.
+COMPILED = TESTS.parent / "build/compiled"
+if os.environ.pop("PYTHONDONTWRITEBYTECODE", None) and "PYTHONPYCACHEPREFIX" not in os.environ:
+    os.environ["PYTHONPYCACHEPREFIX"] = str(COMPILED)
+    of_tests = Path(f"{COMPILED}{tempfile.gettempdir()}")
+    atexit.register(lambda: [shutil.rmtree(each, ignore_errors=True) for each in of_tests.glob("pytest-of-*")])
 
 # The default run tries the same few examples each time, so that red means a change: HYPOTHESIS_PROFILE=explore tries
 # many others.
@@ -73,8 +76,9 @@ def socket_folder(monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", name)
     monkeypatch.setenv("BOT_CONSOLE_USER_DIR", f"{name}-user")
     yield name
-    shutil.rmtree(name, ignore_errors=True)
-    shutil.rmtree(f"{name}-user", ignore_errors=True)
+    for made in (name, f"{name}-user"):
+        if os.path.lexists(made):
+            shutil.rmtree(made, ignore_errors=True)
 
 
 @pytest.fixture
@@ -127,10 +131,15 @@ def pytest_configure(config: pytest.Config) -> None:
         config.args = [str(each) for each in (*files[first:], *files[:first])]
 
 
-def pytest_collection_finish() -> None:
-    """What was imported and collected stays: to look it through took a quarter of the time of a screen's test."""
-    gc.collect()
-    gc.freeze()
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Iterator[None]:
+    """What is imported and collected stays: to look it through took a quarter of the time of a screen's test."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
 
 
 @pytest.fixture
