@@ -46,8 +46,8 @@ os.environ["BOT_CONSOLE_SOCKET_DIR"] = os.path.join(_sockets, "0")
 os.environ["BOT_CONSOLE_USER_DIR"] = os.path.join(_sockets, "0-user")
 atexit.register(shutil.rmtree, _sockets, ignore_errors=True)
 
-# Workers and a test's programs find compiled what an earlier run compiled, also where no files are to be left beside the
-# sources: to compile all of it took each worker as long as all else that it does at its start.
+# Workers and programs of tests find compiled what an earlier run compiled, also where no files are to be left beside
+# the sources: to compile all of it took each worker as long as all else that it does at its start.
 COMPILED = TESTS.parent / "build/compiled"
 if os.environ.pop("PYTHONDONTWRITEBYTECODE", None) and "PYTHONPYCACHEPREFIX" not in os.environ:
     os.environ["PYTHONPYCACHEPREFIX"] = str(COMPILED)

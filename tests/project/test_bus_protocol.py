@@ -11,7 +11,10 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 
-pytestmark = pytest.mark.skipif(importlib.util.find_spec("pyright") is None, reason="pyright is not installed")
+pytestmark = [
+    pytest.mark.skipif(importlib.util.find_spec("pyright") is None, reason="pyright is not installed"),
+    pytest.mark.slow,
+]
 
 HEAD = """
 from collections.abc import Callable, Mapping, Sequence

@@ -31,14 +31,20 @@ ROS = {
 LIBRARIES = {"numpy", "pymunk", "yaml", "setuptools"}
 
 
-def test_files_import_only_ros_names_and_ordinary_libraries(tmp_path):
-    names = imported(export(tmp_path)) - set(sys.stdlib_module_names)
+@pytest.fixture(scope="module")
+def place(tmp_path_factory):
+    """The exported package, which no test changes."""
+    return export(tmp_path_factory.mktemp("export"))
+
+
+def test_files_import_only_ros_names_and_ordinary_libraries(place):
+    names = imported(place) - set(sys.stdlib_module_names)
     assert names - LIBRARIES - {NAME} <= ROS
     assert {"rclpy", "launch", "numpy", "pymunk"} <= names
 
 
-def test_package_is_found_like_any_other_of_a_workspace(tmp_path):
-    package = read_package(export(tmp_path))
+def test_package_is_found_like_any_other_of_a_workspace(place):
+    package = read_package(place)
     assert package.name == NAME
     assert package.build_type == "ament_python"
     assert set(package.executables) == {
@@ -56,14 +62,13 @@ def test_package_is_found_like_any_other_of_a_workspace(tmp_path):
     }
 
 
-def test_every_ros_import_is_a_dependency_of_the_manifest(tmp_path):
-    place = export(tmp_path)
+def test_every_ros_import_is_a_dependency_of_the_manifest(place):
     depends = {each.text for each in ElementTree.parse(place / "package.xml").iter("exec_depend")}
     assert imported(place) & ROS <= depends
 
 
-def test_setup_py_is_valid_python(tmp_path):
-    place = export(tmp_path)
+@pytest.mark.slow
+def test_setup_py_is_valid_python(place):
     done = subprocess.run(
         [sys.executable, "setup.py", "--name"], cwd=place, capture_output=True, text=True, check=False
     )
@@ -72,9 +77,8 @@ def test_setup_py_is_valid_python(tmp_path):
     assert done.stdout.strip().endswith(NAME)
 
 
-def test_existing_folder_is_left_alone(tmp_path, capsys):
-    export(tmp_path)
+def test_existing_folder_is_left_alone(place, capsys):
     with pytest.raises(SystemExit) as ended:
-        main(["export", str(tmp_path)])
+        main(["export", str(place.parent)])
     assert ended.value.code == 1
     assert "exists" in capsys.readouterr().err

@@ -32,15 +32,18 @@ SHARED = {
 }
 
 
+@pytest.mark.slow
 def test_wheel_contains_one_package(wheel):
     names = [name.split("/")[0] for name in wheel]
     assert {name for name in names if not name.endswith((".dist-info", ".data"))} == {"bot_console"}
 
 
+@pytest.mark.slow
 def test_wheel_installs_manual_page_and_shell_completion(wheel):
     assert {name.partition(".data/data/share/")[2] for name in wheel if ".data/" in name} == SHARED
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name",
     [
@@ -55,10 +58,12 @@ def test_wheel_contains_what_a_run_needs(wheel, name):
     assert name in wheel
 
 
+@pytest.mark.slow
 def test_wheel_contains_generated_messages(wheel):
     assert any(name.startswith("bot_console/runtime/rosidl/generated/") and "geometry_msgs" in name for name in wheel)
 
 
+@pytest.mark.slow
 def test_no_module_shadows_an_outside_name(wheel):
     assert not any(name.startswith(("rclpy/", "launch/", "tests/")) for name in wheel)
 

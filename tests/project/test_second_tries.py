@@ -6,6 +6,8 @@ import sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
+import pytest
+
 HELPERS = Path(__file__).parents[1] / "helpers"
 ONLY_XDIST = {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "PYTEST_PLUGINS": "xdist.plugin", "PYTEST_ADDOPTS": ""}
 """Environment of each pytest below: to import the other plug-ins takes most of its time."""
@@ -48,21 +50,37 @@ EXPLAINED = "where 1 = len(('tried',))"
 
 
 def test_only_what_fails_in_both_tries_is_a_failure(tmp_path: Path) -> None:
-    tests = tmp_path / "test_it.py"
-    tests.write_text(TESTS)
+    (tmp_path / "test_it.py").write_text(TESTS + ALWAYS)
+    assert run(tmp_path, "1")[:2] == (1, "1 failed, 4 passed, 4 rerun")
+    assert failures(tmp_path) == ["test_is_wrong"]
+
+
+@pytest.mark.slow
+def test_run_in_which_all_pass_at_last_passes(tmp_path: Path) -> None:
+    (tmp_path / "test_it.py").write_text(TESTS)
     assert run(tmp_path, "1")[:2] == (0, "4 passed, 3 rerun")
-    cases = ElementTree.parse(tmp_path / "junit.xml").iter("testcase")
-    assert not [each for each in cases if each.find("failure") is not None or each.find("error") is not None]
-    tests.write_text(TESTS + ALWAYS)
+    assert failures(tmp_path) == []
+
+
+@pytest.mark.slow
+def test_tests_are_tried_again_without_workers_too(tmp_path: Path) -> None:
+    (tmp_path / "test_it.py").write_text(TESTS + ALWAYS)
     assert run(tmp_path, "0")[:2] == (1, "1 failed, 4 passed, 2 rerun")
 
 
+@pytest.mark.slow
 def test_second_try_explains_what_a_worker_does_not(tmp_path: Path) -> None:
     (tmp_path / "test_it.py").write_text(TESTS + ALWAYS)
     code, counts, shown = run(tmp_path, "1", "-k", "is_wrong")
     assert (code, counts) == (1, "1 failed, 1 rerun")
     assert shown.count(">   " + ALWAYS.splitlines()[-1]) == 2, "each try is shown"
     assert shown.count(EXPLAINED) == 1
+
+
+def failures(folder: Path) -> list[str | None]:
+    """The names of the tests that failed according to the report of the run."""
+    cases = ElementTree.parse(folder / "junit.xml").iter("testcase")
+    return [each.get("name") for each in cases if not {"failure", "error"}.isdisjoint(part.tag for part in each)]
 
 
 def run(folder: Path, workers: str, *more: str) -> tuple[int, str, str]:
