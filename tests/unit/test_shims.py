@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 from helpers.shells import PYTHON, make_home, python, set_up
+from sampling import slow_after
 
 if os.name != "posix":
     pytest.skip("needs a shell", allow_module_level=True)
@@ -72,7 +73,7 @@ def workspace(tmp_path: Path) -> Path:
     return tmp_path / "ws"
 
 
-@pytest.mark.parametrize("option", ["file", "-m", "-c", "-i", "-S"])
+@pytest.mark.parametrize("option", slow_after(1, ["file", "-m", "-c", "-i", "-S"]))
 def test_python_imports_rclpy_and_runs_node(option: str, env: dict[str, str], tmp_path: Path) -> None:
     (tmp_path / "alone.py").write_text(NODE)
     words = {
@@ -99,7 +100,7 @@ def test_virtual_environment_activated_after_setup_imports_rclpy(env: dict[str, 
 
 
 @pytest.mark.parametrize("place", ["before", "after", "site-packages"])
-@pytest.mark.parametrize("first", ["rclpy", "std_msgs"])
+@pytest.mark.parametrize("first", slow_after(1, ["rclpy", "std_msgs"]))
 def test_real_rclpy_is_used_wherever_it_is_on_the_path(
     first: str, place: str, env: dict[str, str], ros: Path, tmp_path: Path
 ) -> None:
@@ -132,7 +133,7 @@ def test_child_of_embedded_program_stays_on_the_embedded_runtime(env: dict[str, 
     assert done.stdout.endswith("runtime/rclpy/__init__.py\n"), done.stderr
 
 
-@pytest.mark.parametrize("program", [*OTHERS, pytest.param(None, id="pretended")], ids=str)
+@pytest.mark.parametrize("program", [*slow_after(0, OTHERS), pytest.param(None, id="pretended")], ids=str)
 def test_another_python_gets_one_line_that_names_the_interpreter(
     program: Path | None, env: dict[str, str], tmp_path: Path
 ) -> None:
@@ -152,7 +153,7 @@ def test_another_python_gets_one_line_that_names_the_interpreter(
     assert "ZeroDivisionError" in python(["-c", caught], env, program or PYTHON).stderr
 
 
-@pytest.mark.parametrize("program", [*OTHERS, PYTHON], ids=str)
+@pytest.mark.parametrize("program", [*slow_after(0, OTHERS), PYTHON], ids=str)
 def test_program_without_ros_notices_nothing(program: Path, env: dict[str, str], tmp_path: Path) -> None:
     text = (
         "import sys, json\n"
@@ -180,7 +181,7 @@ def test_packages_of_workspace_may_be_imported_first(env: dict[str, str], worksp
     assert "No module named 'own_interfaces'" in python(shows, env, cwd=tmp_path).stderr
 
 
-@pytest.mark.parametrize("first", ["", "import rclpy; "], ids=["alone", "after rclpy"])
+@pytest.mark.parametrize("first", slow_after(1, ["", "import rclpy; "]), ids=["alone", "after rclpy"])
 def test_package_in_working_directory_is_no_namespace_package(first: str, env: dict[str, str], workspace: Path) -> None:
     for folder, name in ((workspace / "src" / "all", "own_nodes.node"), (workspace / "src", "own_interfaces.msg")):
         done = python(["-c", f"{first}import {name}"], {**env, "BOT_CONSOLE_WORKSPACE": str(workspace)}, cwd=folder)

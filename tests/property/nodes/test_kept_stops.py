@@ -264,4 +264,4 @@ class StopsWithoutFile(Stops):
 
 Stops.TestCase.settings = settings(stateful_step_count=40)
 StopsWithoutFile.TestCase.settings = settings(stateful_step_count=40)
-TestStops, TestStopsWithoutFile = Stops.TestCase, StopsWithoutFile.TestCase
+TestStops, TestStopsWithoutFile = Stops.TestCase, pytest.mark.slow(StopsWithoutFile.TestCase)

@@ -10,6 +10,17 @@ from bot_console.runtime.rosidl.cdr import CdrError, deserialize, serialize
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+LARGE = (
+    "trajectory_msgs/msg/JointTrajectory",
+    "visualization_msgs/msg/Marker",
+    "rcl_interfaces/msg/ParameterEvent",
+    "sensor_msgs/msg/PointCloud2",
+    "rcl_interfaces/msg/ParameterDescriptor",
+    "sensor_msgs/msg/BatteryState",
+    "diagnostic_msgs/msg/DiagnosticArray",
+    "tf2_msgs/msg/TFMessage",
+)
+"""Those of most fields: what they are made of, smaller ones are made of too."""
 NAMES = (
     "std_msgs/msg/Empty",
     "std_msgs/msg/String",
@@ -41,7 +52,13 @@ def class_of(name: str) -> Any:
     return getattr(importlib.import_module(f"{package}.{kind}"), short)
 
 
-@pytest.mark.parametrize("name", [*NAMES, "example_interfaces/msg/WString"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(each, marks=pytest.mark.slow) if each in LARGE else each
+        for each in [*NAMES, "example_interfaces/msg/WString"]
+    ],
+)
 @given(data=st.data())
 @LIMITS
 def test_written_messages_are_read_back_unchanged(name: str, data: Any, messages: Any) -> None:
@@ -59,7 +76,9 @@ def store() -> Any:
     return get_typestore(Stores.ROS2_JAZZY)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(each, marks=pytest.mark.slow) if each in LARGE else each for each in NAMES]
+)
 @given(data=st.data())
 @LIMITS
 def test_the_bytes_are_identical_to_those_of_rosbags(name: str, data: Any, messages: Any, store: Any) -> None:

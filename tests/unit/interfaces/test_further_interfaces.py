@@ -12,10 +12,14 @@ from bot_console.runtime.files.user_folders import cache_folder
 from bot_console.runtime.interfaces import further_interfaces, interface_cache
 from bot_console.runtime.rosidl.cdr import deserialize, serialize
 
+LARGE = ("nav2_msgs", "control_msgs", "irobot_create_msgs", "geographic_msgs")
+"""Those of most definitions."""
 PACKAGES = sorted(further_interfaces.unverified_folders())
 
 
-@pytest.mark.parametrize("package", PACKAGES)
+@pytest.mark.parametrize(
+    "package", [pytest.param(each, marks=pytest.mark.slow) if each in LARGE else each for each in PACKAGES]
+)
 def test_all_definitions_give_classes_that_survive_serialization(package: str) -> None:
     folder = further_interfaces.unverified_folders()[package]
     for path in sorted(folder.rglob("*.*")):

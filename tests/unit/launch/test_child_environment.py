@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from sampling import slow_after
 
 if os.name != "posix":
     pytest.skip("needs a shell", allow_module_level=True)
@@ -52,7 +53,8 @@ def program(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
 
 
 @pytest.mark.parametrize(
-    ("kind", "python"), [("process", "python3"), ("process", sys.executable), ("node", "python3"), ("shell", "python3")]
+    ("kind", "python"),
+    slow_after(1, [("process", "python3"), ("process", sys.executable), ("node", "python3"), ("shell", "python3")]),
 )
 def test_program_started_by_its_interpreter_finds_ros(run: Launch, program: str, python: str, kind: str) -> None:
     action: Any = {

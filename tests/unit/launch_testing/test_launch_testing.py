@@ -137,7 +137,7 @@ def test_launch_ending_before_its_tests_is_an_error(tmp_path: Path) -> None:
     assert "Processes under test stopped before tests completed" in result.errors[0][1]
 
 
-@pytest.mark.parametrize(("text", "code"), [(GOOD, 0), (BAD, 1)])
+@pytest.mark.parametrize(("text", "code"), [pytest.param(GOOD, 0, marks=pytest.mark.slow), (BAD, 1)])
 def test_exit_code_is_the_same_under_pytest_and_launch_test(tmp_path: Path, text: str, code: int) -> None:
     path = write(tmp_path, text)
     for words in (["test", "-q", "-p", "no:cacheprovider", str(path)], ["launch_test", str(path)]):

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from sampling import slow_after
 
 if not hasattr(os, "fork"):
     pytest.skip("needs fork", allow_module_level=True)
@@ -203,7 +204,7 @@ def test_random_numbers_differ_between_children(fork: Any) -> None:
     assert len({each.out for each in numbers}) == 3
 
 
-@pytest.mark.parametrize("warm_up", ["numpy:get_include", "numpy.random:seed"])
+@pytest.mark.parametrize("warm_up", slow_after(1, ["numpy:get_include", "numpy.random:seed"]))
 def test_numpy_random_numbers_differ_without_importing_more_in_the_server(fork: Any, warm_up: str) -> None:
     has_random = "import sys\nprint('numpy.random' in sys.modules)\n"
     module = warm_up.partition(":")[0]

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from sampling import slow_after
 
 if not hasattr(os, "fork"):
     pytest.skip("needs fork", allow_module_level=True)
@@ -78,7 +79,10 @@ def test_child_inherits_nothing_of_the_forked_program(tmp_path: Path) -> None:
     assert facts["server"] == facts["session of the server"] == server != parent
 
 
-@pytest.mark.parametrize("text", ["raise SystemExit(3)", "1 / 0", "import os; os.kill(os.getppid(), 9)"])
+@pytest.mark.parametrize(
+    "text",
+    [pytest.param("raise SystemExit(3)", marks=pytest.mark.slow), "1 / 0", "import os; os.kill(os.getppid(), 9)"],
+)
 def test_ending_child_or_server_does_not_continue_the_parents_program(tmp_path: Path, text: str) -> None:
     done = ran(tmp_path, text)
     assert done.stdout.count("end of the parent") == 1 and done.stdout.count("once") == 1
@@ -110,7 +114,7 @@ def test_ctrl_c_reaches_the_parent_only(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("how", ["True", "False"])
-@pytest.mark.parametrize("closed", ["<&-", ">&-", "<&- >&-"])
+@pytest.mark.parametrize("closed", ["<&- >&-", *slow_after(0, ["<&-", ">&-"])])
 def test_child_has_its_streams_even_if_the_programs_are_closed(tmp_path: Path, closed: str, how: str) -> None:
     parent = PARENT.replace("stdout=1", "stdout=2").replace('sys.stdout.write("once\\n")', "")
     parent = parent.replace('held = os.open("/", os.O_RDONLY)', "held = os.dup(2)").replace("here=True", f"here={how}")

@@ -23,7 +23,9 @@ PACKAGES = (
 )
 
 
-@pytest.mark.parametrize("package", PACKAGES)
+@pytest.mark.parametrize(
+    "package", [pytest.param(each, marks=pytest.mark.slow) if each == "nav2_msgs" else each for each in PACKAGES]
+)
 def test_hash_of_the_texts_is_that_of_the_class(package: str) -> None:
     names = interface_names(package)
     assert names

@@ -4,6 +4,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from bot_console_robot.simulation.simulation import Simulation
 from bot_console_robot.simulation.world import World
 
@@ -33,6 +34,7 @@ def in_a_process(world: str, seed: int, hash_seed: str) -> str:
     return subprocess.run(command, env=environment, check=True, capture_output=True, text=True).stdout
 
 
+@pytest.mark.slow
 def test_same_seed_gives_the_same_run_in_every_process() -> None:
     first = in_a_process("outdoor", 1, "1")
     assert in_a_process("outdoor", 1, "2") == first

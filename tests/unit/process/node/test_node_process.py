@@ -347,8 +347,8 @@ def test_ended_process_leaves_no_objects_behind(run):
     started.process = None
     deadline = time.monotonic() + LONG
     while (thread() or reference()) and time.monotonic() < deadline:  # its daemon thread needs a moment to unwind
+        threading.Event().wait(0.1)
         gc.collect()
-        threading.Event().wait(0.01)
     assert thread() is None
     assert reference() is None
 

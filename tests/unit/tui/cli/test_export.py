@@ -52,17 +52,23 @@ def test_export_asks_before_writing_into_existing_folder_and_deletes_nothing(
     assert contents(place) == fresh | {"notes.txt": b"mine", "setup.py~": b"# mine\n"}
 
 
-def test_each_profile_is_exported_once(tmp_path: Path) -> None:
-    run([str(tmp_path)])
-    names = sorted(each.stem for each in (tmp_path / NAME / "config").iterdir())
+@pytest.fixture(scope="module")
+def exported(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The exported package, which no test changes."""
+    folder = tmp_path_factory.mktemp("export")
+    run([str(folder)])
+    return folder / NAME
+
+
+def test_each_profile_is_exported_once(exported: Path) -> None:
+    names = sorted(each.stem for each in (exported / "config").iterdir())
     assert names == [f"{each}_config" for each in ("competition", "indoor", "outdoor", "warehouse")]
-    readme = (tmp_path / NAME / "README.md").read_text()
+    readme = (exported / "README.md").read_text()
     assert "| parameter | competition | indoor | outdoor | warehouse |" in readme and "config |" not in readme
 
 
-def test_invalid_navigator_argument_is_refused(tmp_path: Path) -> None:
-    run([str(tmp_path)])
-    description = get_launch_description_from_python_launch_file(str(tmp_path / NAME / "launch/robot_system.launch.py"))
+def test_invalid_navigator_argument_is_refused(exported: Path) -> None:
+    description = get_launch_description_from_python_launch_file(str(exported / "launch/robot_system.launch.py"))
     context = LaunchContext()
     context.launch_configurations["navigator"] = "mine"
     with pytest.raises(RuntimeError, match="navigator:=mine: expected true, false, goals or a Python file"):
@@ -75,9 +81,8 @@ def test_invalid_navigator_argument_is_refused(tmp_path: Path) -> None:
     ("launch_file", "words"),
     [("robot_system.launch.py", {"navigator": "my_node.py"}), ("program.launch.py", {"program": "my_node.py"})],
 )
-def test_user_file_need_not_be_executable_on_real_ros(tmp_path: Path, launch_file: str, words: dict[str, str]) -> None:
-    run([str(tmp_path)])
-    file = tmp_path / NAME / "launch" / launch_file
+def test_user_file_need_not_be_executable_on_real_ros(exported: Path, launch_file: str, words: dict[str, str]) -> None:
+    file = exported / "launch" / launch_file
     description = get_launch_description_from_python_launch_file(str(file))
     context = LaunchContext()
     context.launch_configurations.update(words)

@@ -16,6 +16,7 @@ from bot_console.tui import __version__
 from bot_console.tui.cli.main import main
 from bot_console.tui.cli.verbs import setup
 from helpers.shells import SHELLS, in_shell, make_home
+from sampling import slow_after
 
 
 @pytest.fixture
@@ -66,20 +67,20 @@ def undoing(name: str) -> str:
     return setup.evaluation(name).replace(f"setup {name}", f"setup {name} --undo")
 
 
-@pytest.mark.parametrize("name", SHELLS)
+@pytest.mark.parametrize("name", slow_after(1, SHELLS))
 def test_scripts_and_other_programs_find_ros2(name: str, shell: Shell):
     lines = "env ros2 interface show std_msgs/msg/String | tail -n 1\nenv sh -c 'ros2 --help' | head -n 1"
     assert shell(name, lines, has_completion=False, asks=True).startswith("string data\nusage: ros2 ")
 
 
-@pytest.mark.parametrize("name", SHELLS)
+@pytest.mark.parametrize("name", slow_after(1, SHELLS))
 def test_course_commands_and_distribution_are_available(name: str, shell: Shell):
     names = ["rqt", "rqt_console", "rqt_graph", "rqt_plot", "rqt_reconfigure", "rqt_robot_steering", "ros2", "colcon"]
     found = shell(name, "\n".join(f"command -v {each}" for each in names) + "\necho $ROS_DISTRO")
     assert [os.path.basename(line) for line in found.split()] == [*names, "jazzy"]
 
 
-@pytest.mark.parametrize("name", SHELLS)
+@pytest.mark.parametrize("name", slow_after(1, SHELLS))
 def test_colcon_reports_that_nothing_has_to_be_built(name: str, home: Path, shell: Shell):
     assert shell(name, f"cd {home}; colcon build").startswith("Nothing has to be built or sourced: ")
 
@@ -93,7 +94,7 @@ def test_existing_ros2_is_kept(name: str, home: Path, shell: Shell):
     assert shell(name, "echo $ROS_DISTRO", {"ROS_DISTRO": "kilted"}) == "kilted\n"
 
 
-@pytest.mark.parametrize("name", SHELLS)
+@pytest.mark.parametrize("name", slow_after(1, SHELLS))
 def test_chosen_distribution_is_that_of_the_shell_until_undone(name: str, shell: Shell):
     kilted = setup.evaluation(name).replace(f" setup {name}", f" --distro kilted setup {name}")
     shows = 'echo "-$ROS_DISTRO-$BOT_CONSOLE_DISTRO-"'
@@ -108,7 +109,7 @@ def test_second_evaluation_adds_nothing(name: str, shell: Shell):
     assert "shims" in once and twice == once
 
 
-@pytest.mark.parametrize("name", SHELLS)
+@pytest.mark.parametrize("name", slow_after(1, SHELLS))
 def test_python_imports_rclpy(name: str, shell: Shell):
     line = "python3 -c 'import rclpy, sensor_msgs.msg; print(rclpy.__name__)'"
     assert shell(name, line) == "rclpy\n"
@@ -177,7 +178,7 @@ def test_setup_reports_real_rclpy_and_another_python(home: Path, tmp_path: Path)
         ("bot-console setup ", ["bash", "editor", "fish", "venv", "zsh"]),
         ("ros2 interface show std_msgs/msg/Strin", ["std_msgs/msg/String"]),
         ("ros2 launch bot_console_robot robot_system.launch.py nav", ["navigator:="]),
-        ("ros2 launch bot_console_robot robot_system.launch.py navigator:=", []),
+        pytest.param("ros2 launch bot_console_robot robot_system.launch.py navigator:=", [], marks=pytest.mark.slow),
         pytest.param("ros2 run bot_console_robot sim", ["simulator_node"], marks=pytest.mark.soak),
         pytest.param("ros2 launch bot_console_robot robot_", ["robot_system.launch.py"], marks=pytest.mark.soak),
         pytest.param("ros2 node list --co", ["--count-nodes"], marks=pytest.mark.soak),
@@ -207,7 +208,7 @@ def test_setup_fails_in_one_line_where_it_cannot_write(home: Path):
     assert done.stderr.startswith(f"bot-console setup: cannot write {home}/file/cache") and done.stderr.count("\n") == 1
 
 
-@pytest.mark.parametrize("name", ["a\nb", "\udcff"])
+@pytest.mark.parametrize("name", slow_after(1, ["a\nb", "\udcff"]))
 def test_name_of_the_user_folder_may_contain_anything(name: str, home: Path) -> None:
     text = 'eval "$(bot-console setup bash)"; python3 -c "import rclpy; print(rclpy.__file__)"'
     done = in_shell("bash", home, text, {"BOT_CONSOLE_USER_DIR": str(home / name)})
@@ -221,7 +222,7 @@ def test_setup_without_valid_shell_prints_what_to_type(capsys: pytest.CaptureFix
         assert setup.evaluation("bash") in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("name", SHELLS)
+@pytest.mark.parametrize("name", slow_after(1, SHELLS))
 def test_printed_line_makes_bot_console_available_where_it_is_not_on_path(name: str, home: Path, shell: Shell):
     (home / "only_python").mkdir()
     # The system's Python may be of another version, which setup would mention.

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from bot_console.tui.cli.main import main
 from helpers.shells import PYTHON, python
+from sampling import slow_after
 
 
 @pytest.fixture
@@ -40,7 +41,7 @@ def test_programs_of_environment_import_rclpy_until_it_is_removed(venv: Path, ca
     assert "nothing to remove" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("name", ["a\nb", "\udcff", " 'ä\\\"{0} "])
+@pytest.mark.parametrize("name", slow_after(1, ["a\nb", "\udcff", " 'ä\\\"{0} "]))
 def test_name_of_the_user_folder_may_contain_anything(
     name: str, venv: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ):

@@ -39,8 +39,13 @@ def test_setup_file_adds_ros2_and_workspace_to_shell_once(folder: Path, capsys: 
     assert "install/setup.bash makes the ros2 command" in capsys.readouterr().out
     names, command = sourced(folder).splitlines()
     assert names == str(folder) and command.endswith("bot-console")
-    assert sourced(folder, before="/other").splitlines()[0] == f"{folder}:/other"
     assert (folder / "install" / "COLCON_IGNORE").exists()
+
+
+@pytest.mark.slow
+def test_setup_file_puts_workspace_before_those_sourced_earlier(folder: Path) -> None:
+    assert run(["build"]) == 0
+    assert sourced(folder, before="/other").splitlines()[0] == f"{folder}:/other"
 
 
 def test_packages_of_sourced_workspace_are_found_after_local_ones(

@@ -10,6 +10,7 @@ from bot_console.tui.terminal.dimmed_screen import DimmedScreen
 from bot_console.tui.terminal.output import HoldingScreen
 from rich.style import Style
 from rich.text import Text
+from sampling import slow_after
 from textual._compositor import Compositor
 from textual.app import App, ComposeResult
 from textual.containers import Container, Horizontal
@@ -77,7 +78,9 @@ def links(update: Any) -> bool:
     return any(each.style and each.style.link for line in update.strips for strip in line for each in strip)
 
 
-@pytest.mark.parametrize("names", [[""], ["clear"], ["opaque"], ["", ""], ["opaque", ""], ["", "clear"]])
+@pytest.mark.parametrize(
+    "names", [[""], ["opaque"], ["", "clear"], *slow_after(0, [["clear"], ["", ""], ["opaque", ""]])]
+)
 @pytest.mark.parametrize("colours", [True, False])
 def test_what_is_below_is_dimmed_as_textual_does_it(
     names: list[str], colours: bool, monkeypatch: pytest.MonkeyPatch

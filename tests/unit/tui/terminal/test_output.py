@@ -150,7 +150,7 @@ def test_a_screen_over_the_panes_comes_and_goes() -> None:
     run(script)
 
 
-@pytest.mark.parametrize("screens", [1, 2, 3])
+@pytest.mark.parametrize("screens", [1, 2, pytest.param(3, marks=pytest.mark.slow)])
 def test_panes_go_on_below_screens_that_lie_over_each_other(screens: int) -> None:
     async def script(app: Panes, pilot: Pilot[None]) -> None:
         for _ in range(screens):
@@ -235,7 +235,10 @@ def test_what_changes_just_before_a_held_frame_is_drawn_is_not_lost(over: bool) 
     run(script)
 
 
-@pytest.mark.parametrize("seed", [0, 1, *(pytest.param(each, marks=pytest.mark.soak) for each in range(2, 6))])
+@pytest.mark.parametrize(
+    "seed",
+    [0, pytest.param(1, marks=pytest.mark.slow), *(pytest.param(each, marks=pytest.mark.soak) for each in range(2, 6))],
+)
 def test_whatever_happens_while_frames_are_held_and_drawn(seed: int) -> None:
     draw = random.Random(seed)
 

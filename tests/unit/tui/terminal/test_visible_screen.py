@@ -7,6 +7,7 @@ from collections.abc import Awaitable, Callable
 
 import pytest
 from bot_console.tui.terminal.visible_screen import VisibleScreen, mount_unseen
+from sampling import slow_after
 from textual.app import App, ComposeResult
 from textual.containers import Container, Horizontal
 from textual.geometry import Size
@@ -129,7 +130,8 @@ async def come_and_show(app: Panes, pilot: Pilot[None]) -> None:
 
 
 @pytest.mark.parametrize(
-    "change", [grow_and_show, show_and_hide, hide_all, hide_the_other, grow_before_the_hidden, come_and_show]
+    "change",
+    [grow_and_show, hide_the_other, *slow_after(0, [show_and_hide, hide_all, grow_before_the_hidden, come_and_show])],
 )
 def test_what_is_seen_in_the_end_is_what_textual_shows(change: Play) -> None:
     assert played(change)[2] == played(change, Screen)[2]

@@ -12,6 +12,7 @@ from bot_console.tui.widgets.diagram.flow_chart.plan import Style, planned
 from hypothesis import given
 from hypothesis import strategies as some
 from samples import graph as robot
+from sampling import slow_after
 from scenes.reading_charts import Reader
 
 KIND = ("a/msg/B",)
@@ -158,7 +159,15 @@ def test_who_publishes_and_who_subscribes_can_be_read_from_the_picture(size: tup
 
 @pytest.mark.parametrize(
     "style",
-    [Style(), Style(rightward=3, slack=4, words=2, pad=0), Style(rightward=9, slack=10), Style(slack=4, framed=False)],
+    slow_after(
+        1,
+        [
+            Style(),
+            Style(rightward=3, slack=4, words=2, pad=0),
+            Style(rightward=9, slack=10),
+            Style(slack=4, framed=False),
+        ],
+    ),
 )
 @given(
     ends=some.lists(

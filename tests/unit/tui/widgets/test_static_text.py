@@ -9,6 +9,7 @@ from unittest.mock import patch
 import pytest
 from bot_console.tui.widgets.static_text import StaticText
 from rich.text import Text
+from sampling import slow_after
 from textual.app import App, ComposeResult
 
 
@@ -64,7 +65,7 @@ def test_only_lines_that_are_others_are_drawn() -> None:
     asyncio.run(main())
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", slow_after(1, range(4)))
 def test_every_message_is_visible(seed: int) -> None:
     async def main() -> None:
         draw = random.Random(seed)

@@ -161,15 +161,24 @@ def test_ros_that_does_not_start_is_reported(tmp_path, monkeypatch) -> None:
     assert "does not start: librcl.so" in done.stdout and "ros2 node list" in done.stdout
 
 
-def test_doctor_says_first_that_it_searches_another_range_and_without_others_which_one_to_try(
-    tmp_path_factory, monkeypatch
-) -> None:
+@pytest.fixture
+def range_off(tmp_path_factory, monkeypatch) -> None:
+    """An installed ROS 2 whose range finds no other node."""
     for name, value in make_standin(tmp_path_factory.mktemp("opt")).items():
         monkeypatch.setenv(name, value)
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF")
+
+
+@pytest.mark.usefixtures("range_off")
+def test_without_other_nodes_doctor_says_which_range_to_try() -> None:
     done = run("--ros", "--seconds", "0.2")
     assert "range OFF, which finds no other node" in done.stdout
     assert "no other node was found\n    → search the network: bot-console doctor --ros --range SUBNET" in done.stdout
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("range_off")
+def test_doctor_says_first_that_it_searches_another_range() -> None:
     first, *rest = run("--ros", "--seconds", "0.2", "--range", "LOCALHOST").stdout.splitlines()
     assert (
         first

@@ -16,6 +16,7 @@ from bot_console.tui.console.bags.damage import NoBag
 from bot_console.tui.console.bags.definitions import definition
 from bot_console.tui.console.bags.reader import Bag
 from rclpy.serialization import deserialize_message, serialize_message
+from sampling import slow_after
 from std_msgs.msg import String
 
 mcap_writer = pytest.importorskip("mcap.writer")
@@ -146,7 +147,7 @@ def rosbags_bag(folder: Path, mode: str, storage: str) -> Path:
 
 @pytest.mark.parametrize("storage", ["SQLITE3", "MCAP"])
 @pytest.mark.parametrize("mode", ["", "FILE", "MESSAGE"])
-@pytest.mark.parametrize("metadata", [True, False])
+@pytest.mark.parametrize("metadata", slow_after(1, [True, False]))
 def test_bags_compressed_by_file_or_message_are_read(tmp_path: Path, mode: str, storage: str, metadata: bool) -> None:
     folder = rosbags_bag(tmp_path / "bag", mode, storage)
     if not metadata:

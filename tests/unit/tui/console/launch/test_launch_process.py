@@ -141,7 +141,7 @@ class Life(RuleBasedStateMachine):
 
 
 TestLife = Life.TestCase
-TestLife.settings = settings(max_examples=80, stateful_step_count=20, deadline=None)
+TestLife.settings = settings(stateful_step_count=20, deadline=None)
 
 
 @given(st.lists(st.sampled_from(VERBS), max_size=6))

@@ -266,6 +266,7 @@ def test_a_missing_package_is_reported(bench):
     assert "system.launch.py, line 9: package 'not_there' not found" in answer.text
 
 
+@pytest.mark.slow
 def test_an_endless_include_is_reported(bench):
     answer = bench.launcher.launch(bench.file("[IncludeLaunchDescription(__file__)]"), {}).result(3 * TIMEOUT_S)
     assert answer.text.endswith("line 8: launch files include each other endlessly")

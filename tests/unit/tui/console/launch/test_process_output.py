@@ -52,7 +52,7 @@ def test_a_mark_forged_by_a_node_is_harmless(number: str) -> None:
     assert [record[3:5] for record in records] == [("x", ("f.py", "g", 0))]
 
 
-@pytest.mark.parametrize("begin", ["", "\x1e"])
+@pytest.mark.parametrize("begin", [pytest.param("", marks=pytest.mark.slow), "\x1e"])
 def test_output_without_an_end_is_passed_on_in_parts(begin: str) -> None:
     _, printed = read(begin, *["x" * 65536] * 32)
     assert len(printed) == 2 and sum(map(len, printed)) == 32 * 65536 + len(begin)
