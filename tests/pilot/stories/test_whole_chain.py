@@ -122,7 +122,7 @@ def test_tuning_session_works_by_mouse_alone(tmp_path: Path, monkeypatch: pytest
         nonlocal left
         session.console.folder = tmp_path
         await session.click_tab("1")
-        await session.click("▾ /crowd")
+        await session.click("▸ /robot_navigator")
         await session.click("max_speed")
         assert session.pane(ParameterRows).current.parameter.name == "max_speed"
         session.console.refusals[NAVIGATOR, "max_speed"] = "not while it drives"
@@ -160,14 +160,14 @@ def test_tuning_session_works_by_mouse_alone(tmp_path: Path, monkeypatch: pytest
         await session.click_tab("1")
         await help_line(session, "Save to a ROS parameter file")
         await session.click(f"this node: {NAVIGATOR}", times=2)
-        await session.click("enter take it")
+        await session.click("enter OK")
         assert f"turn_rate: {left[1]}" in (tmp_path / "parameters.yaml").read_text()
 
     async def load(session: Session) -> None:
         assert [value(session, name) for name in names] != left
         await session.click_tab("7")
         await session.click("o Open")
-        await session.click("enter take it")
+        await session.click("enter OK")
         await session.click("a Apply")
         assert [value(session, name) for name in names] == left
 
