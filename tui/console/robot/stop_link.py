@@ -55,7 +55,10 @@ class StopInfo:
     here: bool = False
     """Whether one of the stops is our own."""
     own: frozenset[str] = frozenset()
-    """The ids of our own stops, except those made by `add_stop`."""
+    """The ids of our own stops, except those made by `add_stop` and those that are being released.
+
+    A lock adds one when we had control and fell silent.
+    """
     stops: tuple[RobotStop, ...] = ()
     """Everybody's stops, the oldest first."""
 
@@ -189,9 +192,18 @@ class StopLink:
             steered_by=next((each.steered_by for each in states if each.steered_by), ""),
             locks=len(states),
             here=own is not None or any(each.here for each in stops),
-            own=frozenset(id for id, each in self._requested.items() if not each.alone),
+            own=frozenset(id for id, each in self._requested.items() if not each.alone) | self._made_by_locks(states),
             stops=stops,
         )
+
+    def _made_by_locks(self, states: Iterable[LockState]) -> frozenset[str]:
+        """The ids of stops that locks report as ours, of which we have requested none and nobody has released one."""
+        if self._key in self._releasing:
+            return frozenset()
+        states = list(states)
+        ours = {each.id for state in states for each in state.stops if each.key == self._key and each.id}
+        released = {id for state in states for id in state.released or ()}
+        return frozenset(ours - self._requested.keys() - self._releasing - released)
 
     def _silent_locks(self) -> list[str]:
         """The topics of locks that should report once a second but do not: they may be frozen, or gone."""

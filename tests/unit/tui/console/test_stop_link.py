@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import threading
 from collections.abc import Callable, Iterator
 
 import pytest
 from bot_console.tui.console.robot import stop_link
 from bot_console.tui.console.robot.stop_link import FOLDER, LATCHED, StopLink
+from bot_console_robot.safety import operator_silence
+from bot_console_robot.safety.emergency_stop import BASE
 from bot_console_robot.safety.stop_messages import State, state_message
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from rclpy.serialization import deserialize_message, serialize_message
@@ -182,6 +185,40 @@ def test_the_console_in_control_is_shown_and_can_hand_back(rig: Rig) -> None:
     rig.link.hand_back()
     rig.settle()
     assert not (rig.link.info.steered_by or base.steered_by or base.lock.held)
+
+
+def test_stop_of_locks_that_missed_the_console_counts_as_its_own_until_released(
+    rig: Rig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    locks = rig.lock("safety_monitor"), rig.lock("simulator")
+    rig.settle()
+    rig.link.steer()
+    rig.settle()
+    monkeypatch.setattr(operator_silence, "SILENCE_TIMEOUT_NS", -1)
+    rig.report()
+    held = {id for lock in locks for id in lock.lock.ids}
+    assert held and rig.link.info.own == held, "one press releases it, as the status line says"
+    rig.link.release()
+    assert rig.link.info.own == frozenset(), "on its way: another press holds the robot"
+    rig.settle(3)
+    assert not (rig.link.info.own or rig.link.info.stopped or any(lock.lock.held for lock in locks))
+
+
+def test_own_stop_that_one_lock_has_released_is_no_longer_own(rig: Rig) -> None:
+    arbiter, base = rig.robot()
+    rig.settle()
+    id = rig.link.stop("the arm swings")
+    rig.settle()
+    rig.link._on_state(*released_by("berta", id, rig))
+    assert rig.link.info.own == frozenset() and base.lock.held and arbiter.lock.held
+
+
+def released_by(who: str, id: str, rig: Rig) -> tuple[str, object, DiagnosticStatus]:
+    """The report of the base alone that somebody has released a stop, with the topic and the subscription."""
+    topic = f"{FOLDER}{BASE.rpartition('/')[2]}"
+    values = {"locked": "false", "challenge": "c", "released": json.dumps([[id, who]])}
+    message = DiagnosticStatus(values=[KeyValue(key=key, value=value) for key, value in values.items()])
+    return topic, rig.link._watches[topic], message
 
 
 def test_waiting_for_a_stop_ends_with_the_last_acknowledgement_and_not_before(rig: Rig) -> None:
