@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.panes.alarms.pane import AlarmsPane, parted
 from bot_console.tui.panes.alarms.rows import AlarmRows
@@ -90,6 +91,7 @@ def test_alarms_are_stored_edited_and_deleted() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_invalid_condition_is_rejected_and_missing_topic_is_awaited() -> None:
     async def play(session: Session) -> None:
         await session.press("B")
@@ -107,6 +109,7 @@ def test_invalid_condition_is_rejected_and_missing_topic_is_awaited() -> None:
     run(live(), play, (120, 30))
 
 
+@pytest.mark.slow
 def test_click_selects_and_edits_an_alarm() -> None:
     async def play(session: Session) -> None:
         await session.press("B")
@@ -168,6 +171,7 @@ def test_alarms_are_suggested_with_live_values_and_enter_watches_one() -> None:
     run(system, play, (100, 30))
 
 
+@pytest.mark.slow
 def test_suggestions_are_not_cut_where_they_differ_in_a_small_terminal() -> None:
     async def play(session: Session) -> None:
         await session.press("B")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import pytest
 from bot_console.tui.console.sensors.diagnostic_status import Diagnostics, Level
 from bot_console.tui.panes.diagnostics.pane import DiagnosticsPane
 from bot_console.tui.panes.diagnostics.table import StatusRows
@@ -32,6 +33,7 @@ def test_tree_names_levels_and_propagates_the_worst() -> None:
     run(live(), play, (100, 30))
 
 
+@pytest.mark.slow
 def test_absence_of_diagnostics_is_explained_in_full() -> None:
     async def play(session: Session) -> None:
         session.console.sensors.info = Diagnostics()
@@ -85,6 +87,7 @@ def test_rows_are_filtered_and_folded() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_mouse_selects_opens_and_folds_rows() -> None:
     async def play(session: Session) -> None:
         await session.press("M")

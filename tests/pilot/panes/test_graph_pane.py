@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import pytest
 from bot_console.tui.console.model import Endpoint, GraphInfo, IncompatiblePair, NodeInfo
 from bot_console.tui.console.sensors.frames import Frame, Frames
 from bot_console.tui.panes.graph.pane import GraphPane
+from bot_console.tui.panes.graph.view import Mode
 from bot_console.tui.widgets.diagram_view import DiagramView
 from piloting import Clock, Session, run
 from samples import empty, graph, live
@@ -22,9 +24,11 @@ def items(session: Session) -> set[str]:
 
 
 async def draw_topics(session: Session) -> None:
-    """Open the graph in the mode in which topics are items of their own, all of them."""
-    await session.press("3", *"mmm")
-    assert session.pane(GraphPane).border_subtitle.startswith("Nodes/Topics (all)")
+    """Open the graph in the mode in which topics are items of their own, all of them, from the mode before it."""
+    pane = session.pane(GraphPane)
+    pane._view = replace(pane._view, mode=Mode.ACTIVE)
+    await session.press("3", "m")
+    assert pane.border_subtitle.startswith("Nodes/Topics (all)")
 
 
 def colours(view: DiagramView, item: str) -> set[object]:
@@ -96,6 +100,7 @@ def test_debug_topics_are_hidden_until_asked_for_and_dead_ends_can_go() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_a_topic_that_nobody_publishes_is_named_as_suspicious() -> None:
     async def play(session: Session) -> None:
         await draw_topics(session)
@@ -132,6 +137,7 @@ def test_a_new_node_appears_and_the_selection_stays() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_what_changed_while_the_pane_was_hidden_is_drawn_as_it_fits_the_pane() -> None:
     """A hidden widget has no size; what is drawn before it has one again must not be chosen for a pane of one cell."""
     longer = "/cell_3/perception/front"
@@ -164,7 +170,6 @@ def test_it_is_exported_as_mermaid(tmp_path: Path) -> None:
 
     async def play(session: Session) -> None:
         await session.press("3", "e")
-        await session.press(*["backspace"] * 9)
         session.app.focused.value = str(target)
         await session.press("enter")
 
@@ -173,6 +178,7 @@ def test_it_is_exported_as_mermaid(tmp_path: Path) -> None:
     assert text.startswith("flowchart LR") and '(["/simulator"])' in text and "-->" in text
 
 
+@pytest.mark.slow
 def test_a_bad_pattern_is_explained_while_it_is_typed() -> None:
     async def play(session: Session) -> None:
         await session.press("3", "slash")
@@ -199,7 +205,7 @@ def test_a_large_graph_is_laid_out_beside_the_event_loop() -> None:
 
     async def play(session: Session) -> None:
         session.console.change(graph=GraphInfo(nodes))
-        await session.press("3", *"mmm")
+        await draw_topics(session)
         await session.app.workers.wait_for_complete()
         await session.settle()
         assert len(items(session)) == 201
@@ -272,6 +278,7 @@ def test_many_nodes_are_folded_by_themselves() -> None:
     run(live(), play, (120, 40))
 
 
+@pytest.mark.slow
 def test_of_a_large_namespace_the_namespaces_in_it_are_drawn_first() -> None:
     names = [f"/fleet/robot_{at % 10}/{part}_{at}" for at in range(100) for part in ("nav", "lidar")]
     nodes = tuple(NodeInfo(each) for each in names)
@@ -350,6 +357,7 @@ def test_rates_stand_on_the_lines_where_there_is_room_while_the_pane_is_seen() -
     run(live(), play, (120, 40))
 
 
+@pytest.mark.slow
 def test_rates_are_measured_on_request_where_there_is_no_room_for_them() -> None:
     async def play(session: Session) -> None:
         pane = session.pane(GraphPane)
@@ -366,6 +374,19 @@ def test_rates_are_measured_on_request_where_there_is_no_room_for_them() -> None
     run(live(), play)
 
 
+def test_pane_of_a_parameter_in_the_details_of_a_node_is_opened() -> None:
+    async def play(session: Session) -> None:
+        await session.press("3")
+        picture(session).choose("/robot_navigator")
+        await session.press("enter")
+        await session.type("max_speed")
+        await session.press("enter")
+        assert "[1 " in session.lines()[0], "the parameters pane is shown"
+
+    run(live(), play)
+
+
+@pytest.mark.slow
 def test_details_are_something_to_go_to() -> None:
     async def play(session: Session) -> None:
         await session.press("3")
@@ -387,6 +408,7 @@ def test_details_are_something_to_go_to() -> None:
     run(live(), play, (120, 40))
 
 
+@pytest.mark.slow
 def test_a_picture_has_a_map_only_where_it_does_not_fit() -> None:
     async def play(session: Session) -> None:
         def has_map() -> bool:
@@ -405,6 +427,24 @@ def test_a_picture_has_a_map_only_where_it_does_not_fit() -> None:
     run(live(), play, (120, 40))
 
 
+def test_frames_of_tf2_are_received_only_while_they_are_shown() -> None:
+    system = live()
+    sensors = system[0].sensors
+    sensors.tree = Frames((Frame("base", "odom", place=(1.0, 2.0, 0.0), rate=20.0, heard=100.0),))
+
+    async def play(session: Session) -> None:
+        session.pane(GraphPane).clock = Clock()
+        await session.press("3")
+        assert not sensors.watched
+        await session.press("t")
+        assert sensors.watched and any("base" in each and "20.0 Hz" in each for each in session.lines())
+        await session.press("t")
+        assert not sensors.watched and picture(session).display
+
+    run(system, play)
+
+
+@pytest.mark.slow
 def test_frames_of_tf2_in_the_place_of_the_picture() -> None:
     system = live()
     console = system[0]
@@ -463,6 +503,7 @@ def test_the_list_names_each_topic_with_its_publishers_and_subscribers() -> None
     run(live(), play, (80, 24))
 
 
+@pytest.mark.slow
 def test_the_robot_is_drawn_without_scrolling_at_80_columns_and_described_at_120() -> None:
     async def small(session: Session) -> None:
         await session.press("3")
@@ -487,6 +528,7 @@ def test_the_robot_is_drawn_without_scrolling_at_80_columns_and_described_at_120
     run(live(), large, (120, 40))
 
 
+@pytest.mark.slow
 def test_the_filter_suggests_names() -> None:
     async def play(session: Session) -> None:
         await session.press("3", "slash")

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import pytest
 from bot_console.tui.console.model import ChangeSource, Severity
 from bot_console.tui.panes.history.pane import HistoryPane
 from bot_console.tui.panes.history.rows import ChangeRows
@@ -42,6 +43,7 @@ def test_changes_are_listed_newest_first_with_source_and_reason() -> None:
     run(live(), play, (100, 30))
 
 
+@pytest.mark.slow
 def test_effect_of_a_change_on_the_speed_stands_behind_it_also_when_the_pane_was_hidden() -> None:
     async def play(session: Session) -> None:
         clock = session.pane(HistoryPane).clock = Clock()
@@ -65,6 +67,7 @@ def test_effect_of_a_change_on_the_speed_stands_behind_it_also_when_the_pane_was
     run(live(), play, (120, 40))
 
 
+@pytest.mark.slow
 def test_source_and_reason_fit_at_80_columns_beside_long_names() -> None:
     async def play(session: Session) -> None:
         long = {"recovery.emergency_stop_distance": "a value that is long", "speed": 1.0}
@@ -152,6 +155,7 @@ def test_changes_are_filtered_by_words_and_by_refusal() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_value_whose_node_did_not_answer_differs_from_refused_one() -> None:
     async def play(session: Session) -> None:
         session.console.journal[-1] = replace(session.console.journal[-1], answered=False, reason="no answer in 5 s")
@@ -165,6 +169,7 @@ def test_value_whose_node_did_not_answer_differs_from_refused_one() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_log_and_plot_show_the_time_of_the_row() -> None:
     async def play(session: Session) -> None:
         for second in range(-20, 20):
@@ -193,9 +198,7 @@ def test_log_and_plot_show_the_time_of_the_row() -> None:
 
 def test_shown_changes_are_exported(tmp_path: Path) -> None:
     async def play(session: Session) -> None:
-        await session.press("H", "x", "e")
-        for _ in range(len("history.csv")):
-            await session.pilot.press("backspace")
+        await session.press("H", "x", "e", "ctrl+u")
         await session.type(f"{tmp_path}/refused.csv")
         await session.press("enter")
         lines = (tmp_path / "refused.csv").read_text().splitlines()

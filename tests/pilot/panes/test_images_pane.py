@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from bot_console.tui.console.sensors.picture import Picture
 from bot_console.tui.panes.images.pane import ImagesPane, ImageView
 from piloting import Session, run
@@ -96,18 +97,22 @@ def test_characters_are_used_on_request_and_on_plain_terminals() -> None:
     run(system(), play)
 
 
-def test_unsupported_image_explains_why() -> None:
-    async def nothing(session: Session) -> None:
+@pytest.mark.slow
+def test_keys_without_any_image_topic_are_answered_that_there_is_none() -> None:
+    async def play(session: Session) -> None:
         await session.press("I", "n", "space", "g", "y", "t")
         assert "no topic of sensor_msgs/msg/Image" in session.text()
 
-    async def wrong(session: Session) -> None:
+    run(empty(), play)
+
+
+def test_unsupported_image_explains_why() -> None:
+    async def play(session: Session) -> None:
         session.console.sensors.shown = Picture("/front/image", count=1, problem="the encoding 'yuv' cannot be shown")
         await session.press("I")
         assert "/front/image  the encoding 'yuv' cannot be shown" in session.text()
 
-    run(empty(), nothing)
-    run(system(), wrong)
+    run(system(), play)
 
 
 def test_pane_explains_what_to_do_until_an_image_arrives() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import pytest
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import (
     Endpoint,
@@ -48,6 +49,7 @@ def test_processes_are_shown_as_a_tree_with_states() -> None:
     run(live(), play, (120, 40))
 
 
+@pytest.mark.slow
 def test_an_ended_process_says_when_and_how() -> None:
     async def play(session: Session) -> None:
         pane, at = session.pane(LaunchPane), [10**18]
@@ -145,6 +147,7 @@ def test_groups_fold_and_the_cursor_stays_on_its_process() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_details_and_timeline_are_listed() -> None:
     async def play(session: Session) -> None:
         await session.press("8", *["down"] * 4, "enter")
@@ -243,6 +246,7 @@ def test_restarts_on_failure_are_switched_for_a_process_and_for_a_group() -> Non
     run(live(), play, (100, 30))
 
 
+@pytest.mark.slow
 def test_argument_outside_its_choices_is_rejected() -> None:
     async def play(session: Session) -> None:
         session.launcher.declared = arguments()[:1]
@@ -283,6 +287,7 @@ def test_unreadable_launch_file_is_reported_and_changes_nothing() -> None:
     run(live(), play, (100, 30))
 
 
+@pytest.mark.slow
 def test_a_launch_that_failed_is_reported_in_the_pane() -> None:
     async def play(session: Session) -> None:
         await session.press("8")
@@ -306,6 +311,7 @@ def test_failure_is_shown_in_full_until_the_cursor_moves() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_choices_are_listed_with_the_value_marked() -> None:
     async def play(session: Session) -> None:
         session.launcher.declared = arguments()[:1]
@@ -399,6 +405,7 @@ def test_warnings_and_output_of_the_process_at_the_cursor_are_shown() -> None:
     run(live(), play, (120, 40))
 
 
+@pytest.mark.slow
 def test_line_after_a_silence_is_shown_at_once_and_more_of_them_every_two_seconds() -> None:
     async def play(session: Session) -> None:
         pane, clock = session.pane(LaunchPane), Clock()
@@ -427,6 +434,7 @@ def test_line_after_a_silence_is_shown_at_once_and_more_of_them_every_two_second
     run(live(), play, (120, 40))
 
 
+@pytest.mark.slow
 def test_names_of_nodes_stand_in_a_column_and_a_problem_beside_them_where_there_is_room() -> None:
     def rows(session: Session) -> list[str]:
         return [line for line in session.lines() if any(f" {glyph} " in line for glyph in "●✗")][:6]

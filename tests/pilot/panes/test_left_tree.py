@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from bot_console.tui.panes.graph.pane import GraphPane
 from bot_console.tui.panes.graph.view import Mode
 from bot_console.tui.panes.parameters.pane import ParametersPane
@@ -15,6 +16,7 @@ def current(session: Session) -> tuple[str, str]:
     return row.node, row.parameter.name if row.parameter else ""
 
 
+@pytest.mark.slow
 def test_parameter_tree_is_restored_at_the_next_start() -> None:
     kept = {}
 
@@ -69,6 +71,7 @@ def test_graph_view_is_restored() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_preselected_node_takes_precedence_over_restored_cursor() -> None:
     async def play(session: Session) -> None:
         session.app.state_store.put("parameters", {"filter": "turn", "closed": ["/simulator"]})

@@ -90,7 +90,7 @@ async def look(session: Session) -> None:
     await session.settle()
 
 
-@pytest.mark.parametrize("size", [(80, 24), (120, 40)])
+@pytest.mark.parametrize("size", [(80, 24), pytest.param((120, 40), marks=pytest.mark.slow)])
 def test_step_is_shown_and_the_next_one_once_it_is_done(size: tuple[int, int], tmp_path: Path) -> None:
     async def play(session: Session) -> None:
         assert "1/2 Set the speed" in session.text()
@@ -174,6 +174,7 @@ def test_two_lines_of_a_step_show_first_what_it_waits_for(waiting: str, lines: l
     assert lines_of(view, 48).plain.splitlines() == lines
 
 
+@pytest.mark.slow
 def test_each_press_of_y_copies_the_next_listing(tmp_path: Path) -> None:
     async def play(session: Session) -> None:
         session.pane(LessonPane).focus_target()

@@ -6,6 +6,7 @@ import re
 from typing import Any
 
 import numpy as np
+import pytest
 from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.logs.view import LogViews
 from bot_console.tui.console.model import LogFilter, Severity
@@ -15,16 +16,16 @@ from fakes.console import START, FakeConsole
 from piloting import Session, run
 from samples import live
 
-LINES, AT_ONCE = 100_000, 5_000
+AT_ONCE = 5_000
 SITE = ("node.py", "callback", 7)
 
 
 class Flooded(FakeConsole):
     """A console with a log of its own size, searched beside the screen as that of a robot is."""
 
-    def __init__(self) -> None:
+    def __init__(self, lines: int) -> None:
         super().__init__(live()[0].current)
-        self.records = LogStore(2 * LINES)
+        self.records = LogStore(2 * lines)
         self.views = LogViews(self.records)
         self.logs.record = self.records.record
 
@@ -57,23 +58,24 @@ def shown(session: Session) -> np.ndarray[Any, Any]:
     return numbers.array()
 
 
-def test_hundred_thousand_lines_are_followed_and_counted_exactly_once() -> None:
-    console = Flooded()
+@pytest.mark.parametrize("lines", [10_000, pytest.param(100_000, marks=pytest.mark.slow)])
+def test_many_lines_are_followed_and_counted_exactly_once(lines: int) -> None:
+    console = Flooded(lines)
 
     async def play(session: Session) -> None:
         await session.press("2", "r")  # each line on its own
-        for first in range(0, LINES, AT_ONCE):
+        for first in range(0, lines, AT_ONCE):
             console.flood(first)
             counts = await drawn(session, f"line {first + AT_ONCE - 1} ")
             assert counts and all(part <= whole for part, whole in counts)
-        assert np.array_equal(shown(session), np.arange(LINES)), "no line twice, none missing"
+        assert np.array_equal(shown(session), np.arange(lines)), "no line twice, none missing"
         console.change(logs=console.records.state)
-        await drawn(session, f"{LINES} of {LINES}")
+        await drawn(session, f"{lines} of {lines}")
         await session.press("w")
-        await drawn(session, f"{LINES // 10} of {LINES} · >= WARN")
-        assert np.array_equal(shown(session), np.arange(0, LINES, 10))
-        console.flood(LINES)
-        counts = await drawn(session, f"line {LINES + AT_ONCE - 10} ")
+        await drawn(session, f"{lines // 10} of {lines} · >= WARN")
+        assert np.array_equal(shown(session), np.arange(0, lines, 10))
+        console.flood(lines)
+        counts = await drawn(session, f"line {lines + AT_ONCE - 10} ")
         assert all(part <= whole for part, whole in counts)
 
     try:

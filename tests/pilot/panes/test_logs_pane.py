@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import pytest
 from bot_console.tui.console.model import Endpoint, NodeInfo, Severity
 from bot_console.tui.panes.history.pane import HistoryPane
 from bot_console.tui.panes.logs.pane import LogsPane
@@ -75,6 +76,7 @@ def test_next_error_is_shown_in_full_copied_and_saved(tmp_path: Path) -> None:
     assert text.count("\n") == 5 and "[ERROR]" in text
 
 
+@pytest.mark.slow
 def test_existing_file_is_replaced_only_after_a_question(tmp_path: Path) -> None:
     path = tmp_path / "mine [b].txt"
 
@@ -133,6 +135,7 @@ def test_rules_hide_and_highlight_lines() -> None:
     assert [each.text for each in rules.rules] == ["hide sev:info"], "they are there at the next start"
 
 
+@pytest.mark.slow
 def test_a_search_hides_nothing_and_goes_around() -> None:
     async def play(session: Session) -> None:
         pane = session.pane(LogsPane)
@@ -208,6 +211,7 @@ def test_saved_log_replaces_the_live_one(tmp_path: Path) -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_line_leads_to_preceding_events_and_to_the_plot() -> None:
     async def play(session: Session) -> None:
         cursor = session.app.time_cursor
@@ -241,6 +245,7 @@ def test_logger_levels_are_set_on_nodes_with_logger_services() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_name_of_a_node_that_has_left_is_still_spelled_as_in_the_graph() -> None:
     async def play(session: Session) -> None:
         await session.press("1")

@@ -40,7 +40,7 @@ def asked(session: Session) -> list[tuple[str, dict[str, object]]]:
     return [each[1:] for each in session.console.asked if each[0] == "set"]
 
 
-@pytest.mark.parametrize(("length", "is_noted"), [(20, True), (42, False)])
+@pytest.mark.parametrize(("length", "is_noted"), [(20, True), pytest.param(42, False, marks=pytest.mark.slow)])
 def test_note_of_a_value_that_cannot_be_set_is_whole_or_left_out(length: int, is_noted: bool) -> None:
     async def play(session: Session) -> None:
         console = session.console
@@ -55,6 +55,7 @@ def test_note_of_a_value_that_cannot_be_set_is_whole_or_left_out(length: int, is
     run(live(), play, (60, 20))
 
 
+@pytest.mark.slow
 def test_refusal_is_readable_beside_a_short_value_where_another_value_is_long() -> None:
     async def play(session: Session) -> None:
         console = session.console
@@ -110,6 +111,7 @@ def test_unanswered_value_is_shown_as_pending(monkeypatch: pytest.MonkeyPatch) -
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_burst_of_steps_continues_from_the_value_in_flight_and_sends_only_the_newest(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -154,6 +156,7 @@ def test_burst_of_steps_continues_from_the_value_in_flight_and_sends_only_the_ne
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_steps_after_a_refused_one_are_dropped(monkeypatch: pytest.MonkeyPatch) -> None:
     async def play(session: Session) -> None:
         answer: Future[tuple[SetOutcome, ...]] = Future()
@@ -169,6 +172,7 @@ def test_steps_after_a_refused_one_are_dropped(monkeypatch: pytest.MonkeyPatch) 
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_escape_from_a_filter_keeps_what_is_marked() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
@@ -200,6 +204,7 @@ def test_boolean_toggles_and_invalid_value_is_explained() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_error_of_a_typed_value_is_shown_in_full() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
@@ -246,6 +251,7 @@ async def refuse(session: Session) -> None:
     await session.press("enter")
 
 
+@pytest.mark.slow
 def test_long_reason_is_shown_in_full_in_the_details() -> None:
     async def play(session: Session) -> None:
         await refuse(session)
@@ -262,7 +268,7 @@ def test_long_reason_is_shown_in_full_in_the_details() -> None:
     run(live(), play)
 
 
-@pytest.mark.parametrize("key", ["escape", "x"])
+@pytest.mark.parametrize("key", ["escape", pytest.param("x", marks=pytest.mark.slow)])
 def test_refusal_is_dismissed(key: str) -> None:
     async def play(session: Session) -> None:
         await refuse(session)
@@ -278,6 +284,7 @@ def test_refusal_is_dismissed(key: str) -> None:
 LONG = "emergency_stop_distance_of_the_rear_bumper"
 
 
+@pytest.mark.slow
 def test_name_is_cut_with_an_ellipsis_only_without_room() -> None:
     async def play(session: Session) -> None:
         trees = dict(session.console.current.parameters)
@@ -376,6 +383,7 @@ def test_value_changed_elsewhere_is_shown_and_cursor_stays() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_values_of_a_restarted_node_are_its_new_start_values() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
@@ -390,6 +398,7 @@ def test_values_of_a_restarted_node_are_its_new_start_values() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_unanswering_node_is_reported() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
@@ -406,6 +415,7 @@ def test_pane_waits_for_nodes_in_an_empty_system() -> None:
     run(empty(), play)
 
 
+@pytest.mark.slow
 def test_saved_value_loses_its_mark_immediately() -> None:
     key = ("/robot_navigator", "max_speed")
 
@@ -421,6 +431,7 @@ def test_saved_value_loses_its_mark_immediately() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_only_a_person_moves_the_cursor_away_from_what_matters_most() -> None:
     async def play(session: Session) -> None:
         shown = rows(session)
@@ -498,6 +509,7 @@ def test_nodes_that_leave_or_do_not_answer_are_named() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_large_tree_starts_folded_opens_by_key_and_stays_open_as_nodes_come() -> None:
     system = live()
     tree = system[0].current.parameters["/robot_navigator"]
@@ -520,6 +532,7 @@ def test_large_tree_starts_folded_opens_by_key_and_stays_open_as_nodes_come() ->
     run(system, play, (100, 30))
 
 
+@pytest.mark.slow
 def test_edge_between_names_and_values_is_moved_by_key_and_mouse_and_kept() -> None:
     async def play(session: Session) -> None:
         await session.press("1")

@@ -46,6 +46,7 @@ def test_a_curve_is_added_by_its_path_with_completion_and_removed() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_unplottable_path_is_rejected_with_a_reason() -> None:
     async def play(session: Session) -> None:
         session.console.unplottable["/scan"] = "name a field of /scan as well, for instance /scan/range_max"
@@ -58,7 +59,10 @@ def test_unplottable_path_is_rejected_with_a_reason() -> None:
     run(live(), play, (120, 40))
 
 
-@pytest.mark.parametrize("typed", [f"{LIMIT} +", "sine(/a/x)", f"{NEAREST}, nonsense"])
+@pytest.mark.parametrize(
+    "typed",
+    ["sine(/a/x)", *(pytest.param(each, marks=pytest.mark.slow) for each in (f"{LIMIT} +", f"{NEAREST}, nonsense"))],
+)
 def test_wrong_expression_stays_to_be_corrected(typed: str) -> None:
     async def play(session: Session) -> None:
         await session.press("4", "a")
@@ -85,6 +89,7 @@ def test_a_parameter_is_plotted_from_the_parameter_pane() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_a_topic_of_which_only_stamps_can_be_plotted_hints_at_parameters() -> None:
     async def play(session: Session) -> None:
         await session.press("4")
@@ -152,6 +157,7 @@ def test_nan_values_leave_a_gap_and_are_counted() -> None:
     run(system, play, (120, 40))
 
 
+@pytest.mark.slow
 def test_curve_without_numbers_says_so() -> None:
     async def play(session: Session) -> None:
         await session.press("4")
@@ -160,6 +166,7 @@ def test_curve_without_numbers_says_so() -> None:
     run(faulty(), play, (120, 40))
 
 
+@pytest.mark.slow
 def test_strips_show_one_trace_below_each_name() -> None:
     async def play(session: Session) -> None:
         await session.press("4", "f")
@@ -169,12 +176,29 @@ def test_strips_show_one_trace_below_each_name() -> None:
     run(live(), play, (100, 30))
 
 
+@pytest.mark.slow
+def test_picture_is_saved_as_it_is_on_the_screen(tmp_path: Path) -> None:
+    async def play(session: Session) -> None:
+        await session.press("4")
+        for name in ("p.html", "p.txt"):
+            await save(session, "S", tmp_path / name)
+
+    run(live(), play, (100, 30))
+    assert "<" in (tmp_path / "p.html").read_text()
+    assert any(0x2800 < ord(character) < 0x2900 for character in (tmp_path / "p.txt").read_text())
+
+
+async def save(session: Session, key: str, file: Path) -> None:
+    await session.press(key)
+    session.app.focused.value = str(file)
+    await session.press("enter")
+
+
 def test_samples_and_picture_are_saved(tmp_path: Path) -> None:
     async def play(session: Session) -> None:
-        for key, name in (("e", "p.csv"), ("S", "p.html"), ("S", "p.txt"), ("S", "p.svg")):
-            await session.press("4", key)
-            session.app.focused.value = str(tmp_path / name)
-            await session.press("enter")
+        await session.press("4")
+        await save(session, "e", tmp_path / "p.csv")
+        await save(session, "S", tmp_path / "p.svg")
         await session.press("e")
         session.app.focused.value = tmp_path.anchor
         await session.press("enter")
@@ -189,8 +213,6 @@ def test_samples_and_picture_are_saved(tmp_path: Path) -> None:
     )
     words = [each.text for each in ElementTree.parse(tmp_path / "p.svg").iter("{http://www.w3.org/2000/svg}text")]
     assert SPEED in words and LIMIT in words
-    assert "<" in (tmp_path / "p.html").read_text()
-    assert any(0x2800 < ord(character) < 0x2900 for character in (tmp_path / "p.txt").read_text())
 
 
 def test_empty_plot_explains_what_to_do() -> None:
@@ -201,6 +223,7 @@ def test_empty_plot_explains_what_to_do() -> None:
     run(empty(), play)
 
 
+@pytest.mark.slow
 def test_expression_is_completed_added_or_rejected_with_a_reason() -> None:
     async def play(session: Session) -> None:
         await session.press("4", "a")

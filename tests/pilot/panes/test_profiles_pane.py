@@ -7,6 +7,7 @@ from concurrent.futures import Future
 from dataclasses import replace
 from pathlib import Path
 
+import pytest
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.command_gate import done
 from bot_console.tui.console.model import Capabilities, Endpoint, Profile, SetOutcome
@@ -39,6 +40,7 @@ def test_differences_are_shown_before_applying() -> None:
     run(live(), play, (120, 40))
 
 
+@pytest.mark.slow
 def test_profiles_are_compared_until_one_is_previewed_and_c_compares_all() -> None:
     async def play(session: Session) -> None:
         await session.press("7")
@@ -55,6 +57,7 @@ def test_profiles_are_compared_until_one_is_previewed_and_c_compares_all() -> No
     run(live(), play, (80, 24))
 
 
+@pytest.mark.slow
 def test_description_is_shown_in_full_at_80_columns_and_after_resizing() -> None:
     title = "Outdoor: higher speed, larger distances, and then so many words that no list has room for all of them"
     system = live()
@@ -124,6 +127,7 @@ def test_error_while_applying_is_shown_in_the_pane() -> None:
     run(live(), play, (120, 40))
 
 
+@pytest.mark.slow
 def test_list_of_differences_stays_while_values_are_applied() -> None:
     async def play(session: Session) -> None:
         slow: Future[tuple[object, ...]] = Future()
@@ -141,6 +145,7 @@ def test_list_of_differences_stays_while_values_are_applied() -> None:
     run(live(), play, (120, 40))
 
 
+@pytest.mark.slow
 def test_a_changed_parameter_changes_the_differences() -> None:
     async def play(session: Session) -> None:
         await session.press("7", "down")
@@ -215,6 +220,7 @@ def test_read_only_console_asks_no_node_to_check() -> None:
     run((console, *rest), play, (120, 40))
 
 
+@pytest.mark.slow
 def test_absence_of_profiles_is_reported() -> None:
     async def play(session: Session) -> None:
         await session.press("7", "a", "w", "down", "r", "u")
@@ -224,6 +230,7 @@ def test_absence_of_profiles_is_reported() -> None:
     run(empty(), play)
 
 
+@pytest.mark.slow
 def test_long_list_of_differences_scrolls() -> None:
     system = live()
     many = tuple(replace(differences()[0], name=f"parameter_{at}") for at in range(60))
@@ -238,6 +245,7 @@ def test_long_list_of_differences_scrolls() -> None:
     run(system, play)
 
 
+@pytest.mark.slow
 def test_cursor_follows_the_active_profile() -> None:
     system = live()
     system[0].change(active_profile="broken")
@@ -257,6 +265,7 @@ def test_cursor_follows_the_active_profile() -> None:
     run(system, play, (120, 40))
 
 
+@pytest.mark.slow
 def test_status_line_counts_differences_from_the_profile() -> None:
     async def play(session: Session) -> None:
         assert "indoor" in session.lines()[-2] and "changed" not in session.lines()[-2]
@@ -281,9 +290,7 @@ def test_file_is_opened_and_running_values_are_saved_as_a_profile(tmp_path: Path
         assert "1 change, 1 unknown to its node and left out, not running: /gone" in text
         await session.press("a")
         assert session.console.current.parameters["/robot_navigator"].get("turn_rate").value == 0.5
-        await session.press("S")
-        for _ in range(12):
-            await session.pilot.press("backspace")
+        await session.press("S", "ctrl+u")
         await session.type("hall")
         await session.press("enter")
         await session.type("for the hall")

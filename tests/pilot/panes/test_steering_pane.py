@@ -63,6 +63,7 @@ def test_sideways_keys_slide_a_holonomic_base() -> None:
     run(live(), play, (100, 30))
 
 
+@pytest.mark.slow
 def test_figures_stay_long_enough_to_be_read_while_nobody_steers_here() -> None:
     async def drive_at(session: Session, speed: float) -> str:
         drive = session.console.current.drive
@@ -100,6 +101,7 @@ def test_the_command_topic_is_chosen_by_its_name_and_the_robot_left_is_held() ->
     run(live(), play, (100, 30))
 
 
+@pytest.mark.slow
 def test_the_command_topic_is_typed_in_full() -> None:
     async def play(session: Session) -> None:
         chosen: list[str] = []
@@ -114,6 +116,7 @@ def test_the_command_topic_is_typed_in_full() -> None:
     run(live(), play, (100, 30))
 
 
+@pytest.mark.slow
 def test_the_rate_of_the_commands_is_typed() -> None:
     async def play(session: Session) -> None:
         steering(session).clock = Clock()
@@ -157,26 +160,31 @@ def test_topic_and_rate_given_as_parameters_are_taken_once_somebody_subscribes()
     run(live(), play, (100, 30))
 
 
-DRIVEN: list[tuple[list[str], tuple[float, float]]] = [
+Driven = list[tuple[list[str], tuple[float, float]]]
+"""Keys, and the velocities that they ask for."""
+DRIVEN: Driven = [
     (["w", "w"], (0.1, 0.0)),
+    (["W", "A", "x"], (0.0, 0.5)),
+    (["d"], (0.0, -0.05)),
+]
+DRIVEN_MORE: Driven = [
     (["up", "up"], (0.1, 0.0)),
     (["s"], (-0.05, 0.0)),
     (["a"], (0.0, 0.05)),
     (["left"], (0.0, 0.05)),
-    (["d"], (0.0, -0.05)),
     (["W"], (0.5, 0.0)),
     (["W", "W", "W"], (1.0, 0.0)),
     (["W", "S", "S"], (-0.5, 0.0)),
-    (["W", "A", "x"], (0.0, 0.5)),
     (["W", "A", "c"], (0.5, 0.0)),
     (["w", "s"], (0.0, 0.0)),
 ]
 
 
-def test_keys_of_rqt_robot_steering_drive_the_robot() -> None:
+@pytest.mark.parametrize("driven", [DRIVEN, pytest.param(DRIVEN_MORE, marks=pytest.mark.slow)], ids=["some", "more"])
+def test_keys_of_rqt_robot_steering_drive_the_robot(driven: Driven) -> None:
     async def play(session: Session) -> None:
         await session.press("6")
-        for keys, expected in DRIVEN:
+        for keys, expected in driven:
             session.console.asked.clear()
             await session.press("enter", *keys)
             assert commands(session)[-1] == pytest.approx(expected), keys
@@ -210,6 +218,7 @@ def test_command_is_repeated_and_dead_man_timeout_stops_once() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_t_selects_the_dead_man_time() -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter", "t", "W")
@@ -221,7 +230,10 @@ def test_t_selects_the_dead_man_time() -> None:
     run(live(), play)
 
 
-@pytest.mark.parametrize("key", ["1", "tab", "escape", "enter", "0"])
+@pytest.mark.parametrize(
+    "key",
+    ["1", "escape", "enter", pytest.param("tab", marks=pytest.mark.slow), pytest.param("0", marks=pytest.mark.slow)],
+)
 def test_leaving_or_disarming_sends_zero_and_disables_keys(key: str) -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter", "W", key)
@@ -242,6 +254,7 @@ def test_leaving_the_pane_holds_the_robot_until_it_is_handed_back() -> None:
     run(live(), play, (100, 30))
 
 
+@pytest.mark.slow
 def test_key_bar_names_what_enter_does() -> None:
     async def play(session: Session) -> None:
         await session.press("6")
@@ -355,6 +368,7 @@ def test_space_stops_armed_or_not() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_read_only_console_names_no_key_that_would_be_refused() -> None:
     async def play(session: Session) -> None:
         await session.press("6")
@@ -415,6 +429,7 @@ def test_arming_without_a_robot_is_refused_with_a_reason() -> None:
     run(empty(), play, (100, 30))
 
 
+@pytest.mark.slow
 def test_topics_that_take_commands_are_counted_and_not_robots() -> None:
     async def play(session: Session) -> None:
         await session.press("6")
@@ -451,6 +466,7 @@ def test_limits_and_dead_man_time_are_kept_per_robot_and_arming_is_not() -> None
     run(live(), play, (100, 30))
 
 
+@pytest.mark.slow
 def test_reason_for_a_limited_command_is_shown() -> None:
     async def play(session: Session) -> None:
         await session.press("6")
@@ -462,6 +478,7 @@ def test_reason_for_a_limited_command_is_shown() -> None:
     run(live(), play, (100, 30))
 
 
+@pytest.mark.slow
 def test_limits_are_typed_or_taken_from_the_parameters() -> None:
     async def play(session: Session) -> None:
         await session.press("6", "v")

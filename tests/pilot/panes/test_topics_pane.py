@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import pytest
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo, RateCheck
 from bot_console.tui.console.topics.port import Field, Reply, RequestedQos
 from bot_console.tui.panes.topics.pane import TopicsPane
@@ -54,6 +55,7 @@ async def at(session: Session, name: str) -> None:
     await session.settle()
 
 
+@pytest.mark.slow
 def test_heading_fits_the_columns_of_a_list_that_is_laid_out_after_the_pane() -> None:
     async def play(session: Session) -> None:
         pane = await opened(session)
@@ -66,6 +68,7 @@ def test_heading_fits_the_columns_of_a_list_that_is_laid_out_after_the_pane() ->
     run(live(), play, SIZE)
 
 
+@pytest.mark.slow
 def test_figures_change_once_a_second_however_often_the_system_changes() -> None:
     async def play(session: Session) -> None:
         pane = await opened(session)
@@ -95,6 +98,7 @@ def test_topics_show_rates_and_faults() -> None:
     run(live(), play, SIZE)
 
 
+@pytest.mark.slow
 def test_expected_rates_come_from_a_file_and_show_what_is_late_here_and_in_alarms(tmp_path) -> None:
     file = tmp_path / "expected.yaml"
     checks = (
@@ -140,6 +144,7 @@ def test_rates_are_provisional_until_three_seconds_are_measured() -> None:
     run(live(), play, SIZE)
 
 
+@pytest.mark.slow
 def test_topics_are_listed_in_natural_order() -> None:
     topics = tuple(Endpoint(f"/robot{number}/scan", ("std_msgs/msg/Float64",)) for number in (1, 10, 2, 20, 3))
 
@@ -167,6 +172,7 @@ def test_newest_values_are_a_column_and_follow_the_messages() -> None:
     run(live(), play, (80, 24))
 
 
+@pytest.mark.slow
 def test_namespaces_of_a_fleet_start_folded_and_unfold_one_by_one() -> None:
     def names(session: Session) -> list[str]:
         return [each.name for each in session.pane(TopicRows).rows]
@@ -263,6 +269,7 @@ def test_newest_message_is_a_tree_that_can_be_frozen_and_folded() -> None:
     run(live(), play, SIZE)
 
 
+@pytest.mark.slow
 def test_names_beside_a_message_are_cut_in_the_middle() -> None:
     ends = ("colour/image_raw", "depth/image_raw", "info")
     deep = [f"/cell_3{at}/perception/front/left/camera/{each}" for at, each in enumerate(ends)]
@@ -341,6 +348,7 @@ def test_earlier_sent_messages_are_recalled() -> None:
     run(live(), play, SIZE)
 
 
+@pytest.mark.slow
 def test_quaternion_is_typed_as_yaw_and_stamp_as_now() -> None:
     async def play(session: Session) -> None:
         await opened(session)
@@ -406,6 +414,7 @@ def test_built_in_services_are_hidden_by_default() -> None:
     run(live(), play, SIZE)
 
 
+@pytest.mark.slow
 def test_empty_system_is_reported() -> None:
     async def play(session: Session) -> None:
         await opened(session, "enter", "P", "p", "x", "y", "space")
@@ -414,6 +423,7 @@ def test_empty_system_is_reported() -> None:
     run(empty(), play)
 
 
+@pytest.mark.slow
 def test_key_bar_describes_keys_for_topics_services_and_actions() -> None:
     async def play(session: Session) -> None:
         def bar() -> str:
@@ -433,6 +443,17 @@ def test_key_bar_describes_keys_for_topics_services_and_actions() -> None:
     run(live(), play, (140, 40))
 
 
+def test_open_topic_is_heard_with_the_qos_that_is_chosen() -> None:
+    async def play(session: Session) -> None:
+        pane = await opened(session)
+        pane.go_to(ODOM_TOPIC)
+        await session.press("enter", "Q", "pagedown", "enter")
+        assert session.console.topics.qos == RequestedQos("reliable")
+
+    run(live(), play, SIZE)
+
+
+@pytest.mark.slow
 def test_qos_of_the_open_topic_is_asked_for_in_several_fields_at_once() -> None:
     async def play(session: Session) -> None:
         await session.press("9")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
+import pytest
 from bot_console.tui.console.robot.robot_model import Pose, Turtle, TurtleField, WorldInfo
 from fakes.console import START
 from piloting import Session, run
@@ -35,6 +36,7 @@ def test_zoom_changes_the_scale_and_fit_shows_the_whole_map() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_scale_bar_keeps_its_length_in_a_narrow_pane() -> None:
     async def play(session: Session) -> None:
         await session.press("5")
@@ -44,6 +46,7 @@ def test_scale_bar_keeps_its_length_in_a_narrow_pane() -> None:
     run(live(), play, (60, 20))
 
 
+@pytest.mark.slow
 def test_missing_map_or_pose_is_reported() -> None:
     async def play(session: Session) -> None:
         await session.press("5", "plus", "f")
@@ -52,6 +55,7 @@ def test_missing_map_or_pose_is_reported() -> None:
     run(empty(), play)
 
 
+@pytest.mark.slow
 def test_system_without_a_world_explains_why() -> None:
     async def play(session: Session) -> None:
         session.console.change(problem="")
@@ -61,6 +65,7 @@ def test_system_without_a_world_explains_why() -> None:
     run(faulty(), play, (100, 30))
 
 
+@pytest.mark.slow
 def test_turtle_field_is_listed_beside_the_robots() -> None:
     async def play(session: Session) -> None:
         turtles = Turtle("turtle1", Pose(5.5, 5.5, 0.0)), Turtle("leo", Pose(2.0, 2.0, 1.57), 2.0)

@@ -111,12 +111,8 @@ def test_setting_is_saved_as_profile_and_second_escape_ends_the_runs() -> None:
 
 def test_missing_tuner_is_reported_before_any_question() -> None:
     async def play(session: Session) -> None:
-        await begin(session)
         session.app.tuner = None
-        await session.press("escape")
-        session.app.screen.dismiss()
-        await session.settle()
-        await session.press("T")
+        await session.press("1", "T")
         assert "Tuning is not available" in session.text() and "tune within" not in session.text()
 
     run(live(), play)

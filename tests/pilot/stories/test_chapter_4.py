@@ -94,6 +94,7 @@ def test_step_1_the_speed_is_tuned_while_the_robot_runs(page: Terminals, robot: 
     page.show(play)
 
 
+@pytest.mark.slow
 def test_step_1_a_text_field_and_a_checkbox(page: Terminals, robot: Program) -> None:
     async def play(screen: Screen) -> None:
         await screen.press("1")
@@ -115,6 +116,7 @@ async def add_curve(screen: Screen, path: str) -> None:
     assert path in screen.pane(PlotPane).paths
 
 
+@pytest.mark.slow
 def test_step_2_a_sine_wave_is_plotted(page: Terminals, robot: Program, publisher: Program, tmp_path: Path) -> None:
     async def play(screen: Screen) -> None:
         await screen.line("ros2 run rqt_plot rqt_plot")
@@ -140,6 +142,7 @@ def test_step_2_a_sine_wave_is_plotted(page: Terminals, robot: Program, publishe
     page.show(play)
 
 
+@pytest.mark.slow
 def test_the_page_s_lines_of_rqt_plot_wait_for_what_nobody_publishes(page: Terminals) -> None:
     async def play(screen: Screen) -> None:
         await screen.line("ros2 run rqt_plot rqt_plot /robot/speed /robot/distance")
@@ -167,6 +170,7 @@ def listener(page: Terminals) -> Program:
     return page.node(LISTENER)
 
 
+@pytest.mark.slow
 def test_step_3_nodes_topics_and_arrows(page: Terminals, robot: Program, publisher: Program, listener: Program) -> None:
     async def play(screen: Screen) -> None:
         await screen.line("ros2 run rqt_graph rqt_graph")
@@ -188,6 +192,7 @@ def test_step_3_nodes_topics_and_arrows(page: Terminals, robot: Program, publish
     page.show(play)
 
 
+@pytest.mark.slow
 def test_step_4_an_error_is_found_among_warnings(page: Terminals, robot: Program) -> None:
     async def play(screen: Screen) -> None:
         await screen.line("ros2 run rqt_console rqt_console")
@@ -235,6 +240,7 @@ async def build_dashboard(screen: Screen) -> None:
     await choose(screen, "v", "parameters")
 
 
+@pytest.mark.slow
 def test_step_5_a_dashboard_is_built_saved_and_loaded(page: Terminals, robot: Program) -> None:
     kept: dict[str, Region] = {}
 
@@ -263,6 +269,7 @@ def test_step_5_a_dashboard_is_built_saved_and_loaded(page: Terminals, robot: Pr
     page.show(load, appearance=appearance_of(parse(["--layout", "my_robot_dashboard"])))
 
 
+@pytest.mark.slow
 def test_the_workflow_shows_all_of_it_side_by_side(page: Terminals, robot: Program, publisher: Program) -> None:
     async def play(screen: Screen) -> None:
         await build_dashboard(screen)
@@ -293,6 +300,7 @@ def test_the_robot_is_steered_by_key(page: Terminals, listener: Program) -> None
     page.show(play)
 
 
+@pytest.mark.slow
 def test_each_plug_in_of_the_menu_is_a_pane_and_messages_are_published(page: Terminals, listener: Program) -> None:
     async def play(screen: Screen) -> None:
         for program, pane in PLUGINS.items():
@@ -311,6 +319,7 @@ def test_each_plug_in_of_the_menu_is_a_pane_and_messages_are_published(page: Ter
     page.show(play)
 
 
+@pytest.mark.slow
 def test_types_and_limits_are_found_out(page: Terminals) -> None:
     robot = page.start("ros2 run bot_console_robot robot_node")  # the page's declares no range (N15)
 
@@ -330,6 +339,7 @@ def test_types_and_limits_are_found_out(page: Terminals) -> None:
         robot.process.kill()
 
 
+@pytest.mark.slow
 def test_a_plug_in_of_ones_own_starts_and_stops_the_robot(page: Terminals) -> None:
     shutil.copytree(EXAMPLE, page.workspace / "src" / "my_robot_control", dirs_exist_ok=True)
     discover.use(discover.Workspace([page.workspace / "src"]))

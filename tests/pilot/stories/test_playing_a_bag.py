@@ -165,6 +165,7 @@ def test_it_plays_at_once_when_asked_to(bag: Bag) -> None:
     run(bag, play, plays=True)
 
 
+@pytest.mark.slow
 def test_player_goes_on_while_the_panes_are_dismantled(bag: Bag) -> None:
     async def play(app: BagApp, pilot: Any, published: Published) -> None:
         for pane in app.query(Pane):

@@ -28,7 +28,7 @@ def test_same_key_starts_and_stops_recording(tmp_path: Path) -> None:
     run(live(), play, (120, 40))
 
 
-@pytest.mark.parametrize("key", ["R", "Z"])
+@pytest.mark.parametrize("key", ["R", pytest.param("Z", marks=pytest.mark.slow)])
 def test_bag_does_not_offer_to_replace_what_exists(key: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from concurrent.futures import Future
 from dataclasses import replace
 
+import pytest
 from bot_console.tui.console.model import ChangeSource, SetOutcome
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
@@ -59,6 +60,7 @@ def test_marked_edits_are_sent_together_and_undone_together() -> None:
     run(live(), play, (100, 30))
 
 
+@pytest.mark.slow
 def test_refusal_by_one_node_keeps_all_marks_and_shows_the_reason() -> None:
     async def play(session: Session) -> None:
         session.console.refusals["/simulator", "lidar.beams"] = "not while it turns"
@@ -75,6 +77,7 @@ def test_refusal_by_one_node_keeps_all_marks_and_shows_the_reason() -> None:
     run(live(), play, (100, 30))
 
 
+@pytest.mark.slow
 def test_marking_can_be_resumed_before_the_answer() -> None:
     async def play(session: Session) -> None:
         answer: Future[tuple[SetOutcome, ...]] = Future()
@@ -129,6 +132,7 @@ def test_every_way_to_set_an_unsafe_value_warns_first() -> None:
     run(live(), play, (100, 30))
 
 
+@pytest.mark.slow
 def test_expression_with_unit_shows_its_result() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
@@ -204,6 +208,7 @@ def test_change_flashes_and_marks_show_its_source() -> None:
     run(live(), play, (100, 30))
 
 
+@pytest.mark.slow
 def test_plot_compares_responses_with_their_figures() -> None:
     """Set B takes the speed from 0.5 to 1.0 at once; set A back down with 0.5 m/s² until 1.2 s, too far by 15 %."""
     console, launcher = live()
