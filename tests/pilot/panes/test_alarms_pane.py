@@ -32,7 +32,7 @@ def reported(session: Session) -> int:
 
 async def add(session: Session, text: str) -> None:
     await session.press("a")
-    await session.type(text)
+    await session.paste(text)
     await session.press("enter")
 
 

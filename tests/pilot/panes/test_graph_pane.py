@@ -76,7 +76,7 @@ def test_a_filter_keeps_what_matches_and_its_neighbours() -> None:
         await draw_topics(session)
         everything = items_before = items(session)
         await session.press("slash")
-        await session.type("sensor !cmd_vel")
+        await session.paste("sensor !cmd_vel")
         await session.press("enter")
         assert items(session) == {"/sensor_handler", "topic:/scan_raw", "topic:/scan"}
         assert " of " in session.text()
@@ -379,7 +379,7 @@ def test_pane_of_a_parameter_in_the_details_of_a_node_is_opened() -> None:
         await session.press("3")
         picture(session).choose("/robot_navigator")
         await session.press("enter")
-        await session.type("max_speed")
+        await session.paste("max_speed")
         await session.press("enter")
         assert "[1 " in session.lines()[0], "the parameters pane is shown"
 
@@ -393,7 +393,7 @@ def test_details_are_something_to_go_to() -> None:
         picture(session).choose("/robot_navigator")
         await session.press("enter")
         assert "parameter max_speed" in session.text() and "process robot_navigator-5" in session.text()
-        await session.type("max_speed")
+        await session.paste("max_speed")
         await session.press("enter")
         assert "[1 " in session.lines()[0], "the parameters pane is shown"
         await session.press("3", "enter")
@@ -532,7 +532,7 @@ def test_the_robot_is_drawn_without_scrolling_at_80_columns_and_described_at_120
 def test_the_filter_suggests_names() -> None:
     async def play(session: Session) -> None:
         await session.press("3", "slash")
-        await session.type("topic:cmd_vel_n")
+        await session.paste("topic:cmd_vel_n")
         await session.settle()
         await session.press("right", "enter")
         assert session.pane(GraphPane).words == "topic:cmd_vel_nav"

@@ -144,7 +144,7 @@ def test_single_change_is_reverted_with_a_safety_warning() -> None:
 def test_changes_are_filtered_by_words_and_by_refusal() -> None:
     async def play(session: Session) -> None:
         await session.press("H", "slash")
-        await session.type("outdoor")
+        await session.paste("outdoor")
         await session.press("enter")
         assert shown(session) == [("turn_rate", 1.5)] and "1 of 3" in session.text()
         await session.press("escape", "escape", "x")
@@ -162,7 +162,7 @@ def test_value_whose_node_did_not_answer_differs_from_refused_one() -> None:
         await session.press("H")
         assert "? max_speed" in session.text() and "? 10.0 was not set: no answer in 5 s" in session.text()
         await session.press("slash")
-        await session.type("refused")
+        await session.paste("refused")
         await session.press("enter")
         assert shown(session) == []
 
@@ -199,7 +199,7 @@ def test_log_and_plot_show_the_time_of_the_row() -> None:
 def test_shown_changes_are_exported(tmp_path: Path) -> None:
     async def play(session: Session) -> None:
         await session.press("H", "x", "e", "ctrl+u")
-        await session.type(f"{tmp_path}/refused.csv")
+        await session.paste(f"{tmp_path}/refused.csv")
         await session.press("enter")
         lines = (tmp_path / "refused.csv").read_text().splitlines()
         assert len(lines) == 2 and "too fast" in lines[1]

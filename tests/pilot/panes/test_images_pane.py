@@ -40,7 +40,7 @@ def test_first_topic_is_shown_in_half_blocks_and_n_shows_the_next() -> None:
         await session.press("n")
         assert sensors.watching[0] == "/rear/image" and "no image yet" in session.text()
         await session.press("t")
-        await session.type("front")
+        await session.paste("front")
         await session.press("enter")
         assert sensors.watching[0] == "/front/image" and "640x480" in session.text()
         await session.press("1")

@@ -155,7 +155,7 @@ def test_details_and_timeline_are_listed() -> None:
         assert "crashed, last exit code 1" in text and "/telemetry_publisher" in text
         await session.press("escape", "t")
         assert "simulator-6 started, pid 4109" in session.text()
-        await session.type("simulator-6")
+        await session.paste("simulator-6")
         await session.press("enter")
         assert session.app.time_cursor.stamp == START + 10**9, "plot, log and world look at that moment"
         shown = "\n".join(session.lines()[-8:])
@@ -168,7 +168,7 @@ def test_a_launch_file_is_picked_and_its_arguments_are_filled_in() -> None:
     async def play(session: Session) -> None:
         await session.press("8", "o")
         assert isinstance(session.app.screen, PickerScreen)
-        await session.type("single")
+        await session.paste("single")
         await session.press("enter")
         await until(session, ArgumentsScreen)
         assert isinstance(session.app.focused, Input) and session.app.focused.value == "", "the required one first"
@@ -186,7 +186,7 @@ def test_a_launch_file_is_picked_and_its_arguments_are_filled_in() -> None:
 def test_a_launch_file_for_what_runs_is_written(tmp_path) -> None:
     async def play(session: Session) -> None:
         await session.press("8", "S", "ctrl+u")
-        await session.type(str(tmp_path / "again.launch.py"))
+        await session.paste(str(tmp_path / "again.launch.py"))
         await session.press("enter")
         assert session.console.graph.written_launches == [str(tmp_path / "again.launch.py")]
         assert "2 programs" in session.text()
@@ -207,7 +207,7 @@ def test_a_lifecycle_node_shows_its_state_and_makes_transitions_here_and_in_the_
         assert f"{name} (inactive, T changes it)" in session.text()
         await session.press("T")
         assert "activate /sensor_handler" in session.text() and "cleanup" in session.text()
-        await session.type("activ")
+        await session.paste("activ")
         await session.press("enter")
         assert session.console.graph.transitions == [(name, "activate")]
         assert "it is inactive now" in session.text()

@@ -22,7 +22,7 @@ def test_parameter_tree_is_restored_at_the_next_start() -> None:
 
     async def leave(session: Session) -> None:
         await session.press("1", "slash")
-        await session.type("speed")
+        await session.paste("speed")
         await session.press("enter", "escape", "G", "left", "left", "g", "down", "down")
         assert current(session) == ("/robot_navigator", "enable_safety")
         pane = session.pane(ParametersPane)

@@ -50,7 +50,7 @@ def test_lines_are_filtered_by_severity_words_and_node() -> None:
         await session.press("w", "v", "v", "v")
         assert len(seqs(session)) == 1
         await session.press("escape", "slash")
-        await session.type("node:navigator !max")
+        await session.paste("node:navigator !max")
         await session.press("enter")
         assert len(seqs(session)) == 2
         await session.press("x", "enter")
@@ -76,7 +76,6 @@ def test_next_error_is_shown_in_full_copied_and_saved(tmp_path: Path) -> None:
     assert text.count("\n") == 5 and "[ERROR]" in text
 
 
-@pytest.mark.slow
 def test_existing_file_is_replaced_only_after_a_question(tmp_path: Path) -> None:
     path = tmp_path / "mine [b].txt"
 
@@ -143,7 +142,7 @@ def test_a_search_hides_nothing_and_goes_around() -> None:
             session.console.show_text(Severity.INFO, "talker", f"zebra {number}")
             session.console.show_text(Severity.INFO, "talker", "horse")
         await session.press("2", "s")
-        await session.type("zebra")
+        await session.paste("zebra")
         await session.press("enter")
         rows = pane.query_one(LogRows)
 
@@ -159,9 +158,9 @@ def test_a_search_hides_nothing_and_goes_around() -> None:
             places.append(stands_on())
         assert places == ["zebra 0", "zebra 1", "zebra 0", "zebra 2", "zebra 1"]
         await session.press("slash")
-        await session.type("!zebra")
+        await session.paste("!zebra")
         await session.press("enter", "s")
-        await session.type("zebra")
+        await session.paste("zebra")
         await session.press("enter")
         assert "Nothing here matches zebra" in session.text()
 

@@ -178,7 +178,7 @@ def test_escape_from_a_filter_keeps_what_is_marked() -> None:
         await session.press("1")
         await go_to(session, "max_speed")
         await session.press("m", "plus", "slash")
-        await session.type("speed")
+        await session.paste("speed")
         await session.press("enter", "escape")
         assert session.pane(ParametersPane).words == "" and "1 marked" in session.text()
         await session.press("escape")
@@ -326,13 +326,13 @@ def test_reset_undo_redo_folding_and_filters_work() -> None:
         await session.press("C")
         assert all(row.parameter is None for row in rows(session).rows)
         await session.press("slash")
-        await session.type("max_speed")
+        await session.paste("max_speed")
         await session.press("enter", "escape")
         at = rows(session).current
         assert at and at.name == "max_speed", "what was found is seen without the filter, though its node was closed"
         assert any(row.folded and row.node == "/simulator" for row in rows(session).rows)
         await session.press("C", "C", "slash")
-        await session.type("lidar")
+        await session.paste("lidar")
         assert {row.node for row in rows(session).rows} == {"/simulator"}
         await session.press("enter")
         assert rows(session).current.parameter.name == "lidar.beams"

@@ -34,7 +34,7 @@ def test_speed_and_its_limit_are_plotted_by_default() -> None:
 def test_a_curve_is_added_by_its_path_with_completion_and_removed() -> None:
     async def play(session: Session) -> None:
         await session.press("4", "a")
-        await session.type("telemetry")
+        await session.paste("telemetry")
         await session.press("enter")
         assert plot(session).paths == [SPEED, LIMIT, NEAREST]
         await session.press("x")
@@ -51,7 +51,7 @@ def test_unplottable_path_is_rejected_with_a_reason() -> None:
     async def play(session: Session) -> None:
         session.console.unplottable["/scan"] = "name a field of /scan as well, for instance /scan/range_max"
         await session.press("4", "a")
-        await session.type("/scan")
+        await session.paste("/scan")
         await session.press("enter")
         assert "name a field of /scan" in " ".join(session.text().split())
         assert "/scan" not in plot(session).paths
@@ -66,12 +66,12 @@ def test_unplottable_path_is_rejected_with_a_reason() -> None:
 def test_wrong_expression_stays_to_be_corrected(typed: str) -> None:
     async def play(session: Session) -> None:
         await session.press("4", "a")
-        await session.type(typed)
+        await session.paste(typed)
         await session.press("enter")
         assert session.app.screen.query_one(Input).value == typed
         assert len(session.app._notifications) == 0, "the reason stands in the box"
         await session.press("ctrl+u")
-        await session.type(f"{SPEED} * 2")
+        await session.paste(f"{SPEED} * 2")
         await session.press("enter")
         assert f"{SPEED} * 2" in plot(session).paths and len(session.app.screen_stack) == 1
 
@@ -227,12 +227,12 @@ def test_empty_plot_explains_what_to_do() -> None:
 def test_expression_is_completed_added_or_rejected_with_a_reason() -> None:
     async def play(session: Session) -> None:
         await session.press("4", "a")
-        await session.type("deg(" + SPEED + ") - /tele")
+        await session.paste("deg(" + SPEED + ") - /tele")
         assert f"deg({SPEED}) - {NEAREST}" in session.text()
         await session.press("enter")
         assert plot(session).paths[-1] == f"deg({SPEED}) - {NEAREST}"
         await session.press("a")
-        await session.type("sine(/x)")
+        await session.paste("sine(/x)")
         assert "is not one of derivative" in session.text()
 
     run(live(), play, (120, 40))
@@ -260,13 +260,13 @@ def test_presets_store_thresholds_axes_and_forms(tmp_path: Path, monkeypatch: py
 
     async def play(session: Session) -> None:
         await session.press("4", "T")
-        await session.type("> 0.1")
+        await session.paste("> 0.1")
         await session.press("enter")
         assert f"! {SPEED} > 0.1" in session.text()
         await session.press("down", "Y")
         assert "right axis" in session.text() and "├" in session.text()
         await session.press("w")
-        await session.type("drive")
+        await session.paste("drive")
         await session.press("enter", "X", "p", "enter")
         first, second = plot(session)._timeline.curves
         assert (first.path, second.path, second.right) == (SPEED, LIMIT, True)

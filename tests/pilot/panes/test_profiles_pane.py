@@ -283,7 +283,7 @@ def test_file_is_opened_and_running_values_are_saved_as_a_profile(tmp_path: Path
 
     async def play(session: Session) -> None:
         await session.press("7", "o")
-        await session.type(str(file))
+        await session.paste(str(file))
         await session.press("enter")
         text = session.text()
         assert "turn_rate" in text and "1.0 → 0.5" in text and "unknown to its node" in text
@@ -293,7 +293,7 @@ def test_file_is_opened_and_running_values_are_saved_as_a_profile(tmp_path: Path
         await session.press("S", "ctrl+u")
         await session.type("hall")
         await session.press("enter")
-        await session.type("for the hall")
+        await session.paste("for the hall")
         await session.press("enter")
         assert ("save profile", "hall", "for the hall") in session.console.asked
 
@@ -341,7 +341,7 @@ def test_profile_from_a_url_is_shown_before_it_is_applied(tmp_path) -> None:
 
     async def play(session: Session) -> None:
         await session.press("7", "o")
-        await session.type("https://config.example/served.yaml")
+        await session.paste("https://config.example/served.yaml")
         await session.press("enter")
         assert session.console.asked[-1] == ("fetch profile", "https://config.example/served.yaml")
         assert "fetching https://config.example/served.yaml ..." in session.text()

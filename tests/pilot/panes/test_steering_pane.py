@@ -109,7 +109,7 @@ def test_the_command_topic_is_typed_in_full() -> None:
         drive = session.console.current.drive
         session.console.change(drive=replace(drive, robot="/", robots=("/", "/robot2")))
         await session.press("6", "o")
-        await session.type("/robot2/cmd_vel")
+        await session.paste("/robot2/cmd_vel")
         await session.press("enter")
         assert chosen == ["/robot2"]
 
@@ -147,7 +147,7 @@ def test_topic_and_rate_given_as_parameters_are_taken_once_somebody_subscribes()
         chosen: list[str] = []
         session.console.drive.choose = chosen.append
         await session.press("colon")
-        await session.type("rqt_robot_steering --ros-args -p default_topic:=/robot2/cmd_vel -p publish_rate:=20")
+        await session.paste("rqt_robot_steering --ros-args -p default_topic:=/robot2/cmd_vel -p publish_rate:=20")
         await session.press("enter")
         assert steering(session).state.rate == 20.0 and "20 Hz" in session.text() and chosen == []
         drive = session.console.current.drive
@@ -218,7 +218,6 @@ def test_command_is_repeated_and_dead_man_timeout_stops_once() -> None:
     run(live(), play)
 
 
-@pytest.mark.slow
 def test_t_selects_the_dead_man_time() -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter", "t", "W")
@@ -478,7 +477,6 @@ def test_reason_for_a_limited_command_is_shown() -> None:
     run(live(), play, (100, 30))
 
 
-@pytest.mark.slow
 def test_limits_are_typed_or_taken_from_the_parameters() -> None:
     async def play(session: Session) -> None:
         await session.press("6", "v")

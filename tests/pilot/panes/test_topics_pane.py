@@ -108,7 +108,7 @@ def test_expected_rates_come_from_a_file_and_show_what_is_late_here_and_in_alarm
 
     async def play(session: Session) -> None:
         await opened(session, "E")
-        await session.type(str(file))
+        await session.paste(str(file))
         await session.press("enter")
         assert ("expect", str(file)) in session.console.asked
         session.console.change(rate_checks=checks)

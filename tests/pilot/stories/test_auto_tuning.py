@@ -53,7 +53,7 @@ async def begin(session: Session) -> FakeTuner:
     at = next(index for index, row in enumerate(rows.rows) if row.parameter and row.parameter.name == "max_speed")
     rows.cursor = at
     await session.press("T", "enter")
-    await session.type("swift")
+    await session.paste("swift")
     await session.press("enter", "enter")
     return tuner
 
@@ -94,7 +94,7 @@ def test_setting_is_saved_as_profile_and_second_escape_ends_the_runs() -> None:
         tuner = await begin(session)
         await goes_on(session, tuner, Progress((NOW, BEST), 20, 70, 10.0, 20))
         await session.press("down", "S", "ctrl+u")
-        await session.type("quick")
+        await session.paste("quick")
         await session.press("enter")
         assert tuner.tuning.saved == [("quick", (1.0,))]
         assert "saved as profile quick" in session.text()

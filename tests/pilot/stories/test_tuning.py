@@ -228,7 +228,7 @@ def test_plot_compares_responses_with_their_figures() -> None:
         assert "rise 0.8" in of_a and "overshoot 15 %" in of_a and "settling 1.20 s" in of_a
         assert "rise 0.00 s" in of_b and "overshoot 0 %" in of_b and "settling 0.00 s" in of_b
         await session.press("s")
-        await session.type("overshoot")
+        await session.paste("overshoot")
         await session.press("enter")
         assert "score 0.15" in session.text()
         await session.press("o")
