@@ -10,7 +10,7 @@ from bot_console.tui.panes.diagnostics.pane import DiagnosticsPane
 from bot_console.tui.panes.diagnostics.table import StatusRows
 from fakes.sensors import status
 from piloting import Session, run
-from samples import empty, live
+from samples import live
 
 
 def titles(session: Session) -> list[str]:
@@ -103,11 +103,3 @@ def test_mouse_selects_opens_and_folds_rows() -> None:
         assert titles(session) == ["camera", "motors", "safety_monitor: velocity"], "the fold mark closes at once"
 
     run(live(), play, (100, 30))
-
-
-def test_empty_list_explains_why() -> None:
-    async def play(session: Session) -> None:
-        await session.press("M", "enter", "left", "C", "w")
-        assert "no node publishes" in session.text()
-
-    run(empty(), play)

@@ -12,7 +12,7 @@ from bot_console.tui.panes.graph.pane import GraphPane
 from bot_console.tui.panes.graph.view import Mode
 from bot_console.tui.widgets.diagram_view import DiagramView
 from piloting import Clock, Session, run
-from samples import empty, graph, live
+from samples import graph, live
 
 
 def picture(session: Session) -> DiagramView:
@@ -82,6 +82,14 @@ def test_a_filter_keeps_what_matches_and_its_neighbours() -> None:
         assert " of " in session.text()
         await session.press("escape")
         assert items(session) == items_before == everything
+        await session.press("slash")
+        session.app.focused.value = "re:("
+        await session.settle()
+        assert "regular expression" in session.text()
+        session.app.focused.value = ""
+        await session.paste("topic:cmd_vel_n")
+        await session.press("right", "enter")
+        assert session.pane(GraphPane).words == "topic:cmd_vel_nav"
 
     run(live(), play)
 
@@ -176,25 +184,6 @@ def test_it_is_exported_as_mermaid(tmp_path: Path) -> None:
     run(live(), play)
     text = target.read_text()
     assert text.startswith("flowchart LR") and '(["/simulator"])' in text and "-->" in text
-
-
-@pytest.mark.slow
-def test_a_bad_pattern_is_explained_while_it_is_typed() -> None:
-    async def play(session: Session) -> None:
-        await session.press("3", "slash")
-        session.app.focused.value = "re:("
-        await session.settle()
-        assert "regular expression" in session.text()
-
-    run(live(), play)
-
-
-def test_an_empty_system_reports_it() -> None:
-    async def play(session: Session) -> None:
-        await session.press("3", "enter", "right")
-        assert "there are no nodes yet" in session.text()
-
-    run(empty(), play)
 
 
 def test_a_large_graph_is_laid_out_beside_the_event_loop() -> None:

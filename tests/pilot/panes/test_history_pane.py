@@ -13,7 +13,7 @@ from bot_console.tui.panes.logs.pane import LogsPane
 from bot_console.tui.panes.plot.pane import PlotPane
 from fakes.console import START
 from piloting import Clock, Session, run
-from samples import empty, live
+from samples import live
 
 NAVIGATOR = "/robot_navigator"
 
@@ -43,7 +43,6 @@ def test_changes_are_listed_newest_first_with_source_and_reason() -> None:
     run(live(), play, (100, 30))
 
 
-@pytest.mark.slow
 def test_effect_of_a_change_on_the_speed_stands_behind_it_also_when_the_pane_was_hidden() -> None:
     async def play(session: Session) -> None:
         clock = session.pane(HistoryPane).clock = Clock()
@@ -53,7 +52,7 @@ def test_effect_of_a_change_on_the_speed_stands_behind_it_also_when_the_pane_was
                 clock.now += 0.5
                 drive = replace(session.console.current.drive, actual=(speed, 0.0))
                 session.console.change(drive=drive)
-                await session.settle()
+                session.app.pull()
 
         await drive(0.5, 2)
         session.console.take(NAVIGATOR, {"max_speed": 2.0}, ChangeSource.EDIT)
@@ -155,7 +154,6 @@ def test_changes_are_filtered_by_words_and_by_refusal() -> None:
     run(live(), play)
 
 
-@pytest.mark.slow
 def test_value_whose_node_did_not_answer_differs_from_refused_one() -> None:
     async def play(session: Session) -> None:
         session.console.journal[-1] = replace(session.console.journal[-1], answered=False, reason="no answer in 5 s")
@@ -205,11 +203,3 @@ def test_shown_changes_are_exported(tmp_path: Path) -> None:
         assert len(lines) == 2 and "too fast" in lines[1]
 
     run(live(), play)
-
-
-def test_empty_history_says_so() -> None:
-    async def play(session: Session) -> None:
-        await session.press("H", "u", "b", "p", "y", "x", "escape")
-        assert "Every change of a parameter is listed here" in session.text()
-
-    run(empty(), play)

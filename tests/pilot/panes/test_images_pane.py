@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
 from bot_console.tui.console.sensors.picture import Picture
 from bot_console.tui.panes.images.pane import ImagesPane, ImageView
 from piloting import Session, run
@@ -95,15 +94,6 @@ def test_characters_are_used_on_request_and_on_plain_terminals() -> None:
         assert "################" in session.text()
 
     run(system(), play)
-
-
-@pytest.mark.slow
-def test_keys_without_any_image_topic_are_answered_that_there_is_none() -> None:
-    async def play(session: Session) -> None:
-        await session.press("I", "n", "space", "g", "y", "t")
-        assert "no topic of sensor_msgs/msg/Image" in session.text()
-
-    run(empty(), play)
 
 
 def test_unsupported_image_explains_why() -> None:

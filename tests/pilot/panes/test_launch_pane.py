@@ -23,7 +23,7 @@ from bot_console.tui.screens.launch_arguments import ArgumentsScreen
 from bot_console.tui.screens.picker import PickerScreen
 from fakes.console import START
 from piloting import Clock, Session, run
-from samples import arguments, empty, faulty, launched, live
+from samples import arguments, empty, launched, live
 from textual.widgets import Input
 
 
@@ -147,7 +147,6 @@ def test_groups_fold_and_the_cursor_stays_on_its_process() -> None:
     run(live(), play)
 
 
-@pytest.mark.slow
 def test_details_and_timeline_are_listed() -> None:
     async def play(session: Session) -> None:
         await session.press("8", *["down"] * 4, "enter")
@@ -285,15 +284,6 @@ def test_unreadable_launch_file_is_reported_and_changes_nothing() -> None:
         assert "sensor_handler-1" in session.text()
 
     run(live(), play, (100, 30))
-
-
-@pytest.mark.slow
-def test_a_launch_that_failed_is_reported_in_the_pane() -> None:
-    async def play(session: Session) -> None:
-        await session.press("8")
-        assert "broken.launch.py, line 12: invalid syntax" in session.text()
-
-    run(faulty(), play, (100, 30))
 
 
 def test_failure_is_shown_in_full_until_the_cursor_moves() -> None:

@@ -71,7 +71,6 @@ def test_graph_view_is_restored() -> None:
     run(live(), play)
 
 
-@pytest.mark.slow
 def test_preselected_node_takes_precedence_over_restored_cursor() -> None:
     async def play(session: Session) -> None:
         session.app.state_store.put("parameters", {"filter": "turn", "closed": ["/simulator"]})

@@ -14,7 +14,7 @@ from bot_console.tui.panes.logs.rules import RuleBook
 from bot_console.tui.panes.plot.pane import PlotPane
 from fakes.console import START
 from piloting import Session, run
-from samples import empty, live
+from samples import live
 
 
 def seqs(session: Session) -> list[int]:
@@ -95,17 +95,6 @@ def test_existing_file_is_replaced_only_after_a_question(tmp_path: Path) -> None
             assert words in path.read_text()
 
     run(live(), play)
-
-
-def test_invalid_pattern_is_explained_even_on_an_empty_log() -> None:
-    async def play(session: Session) -> None:
-        await session.press("2", "E", "enter", "x", "y", "K", "f", "slash")
-        session.app.clear_notifications()
-        session.app.focused.value = "re:["
-        await session.settle()
-        assert "regular expression" in session.text()
-
-    run(empty(), play)
 
 
 def test_rules_hide_and_highlight_lines() -> None:

@@ -23,7 +23,7 @@ from bot_console.tui.panes.parameters.absences import LEFT_SHOWN_S
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
 from piloting import Clock, Session, run
-from samples import empty, faulty, live
+from samples import live
 
 
 def rows(session: Session) -> ParameterRows:
@@ -251,28 +251,23 @@ async def refuse(session: Session) -> None:
     await session.press("enter")
 
 
-@pytest.mark.slow
-def test_long_reason_is_shown_in_full_in_the_details() -> None:
-    async def play(session: Session) -> None:
-        await refuse(session)
-        shown = rows(session)
-        row = shown.render_line(shown.cursor - shown.scroll_offset.y)
-        assert row.text.rstrip().endswith("…") and "✗ 3.0: too fast" in row.text
-        error = shown.get_component_rich_style("row-list--error", partial=True).color
-        assert [each.style.color for each in row if "✗" in each.text] == [error]
-        words = session.pane(ParametersPane).query_one("#parameter-detail")
-        shown_lines = session.lines()[words.content_region.y : words.content_region.bottom]
-        assert REASON in " ".join(" ".join(line.strip("│ ") for line in shown_lines).split())
-        assert "ros2 param set" in shown_lines[-1]
-
-    run(live(), play)
+def assert_that_the_reason_stands_in_full_in_the_details(session: Session) -> None:
+    shown = rows(session)
+    row = shown.render_line(shown.cursor - shown.scroll_offset.y)
+    assert row.text.rstrip().endswith("…") and "✗ 3.0: too fast" in row.text
+    error = shown.get_component_rich_style("row-list--error", partial=True).color
+    assert [each.style.color for each in row if "✗" in each.text] == [error]
+    words = session.pane(ParametersPane).query_one("#parameter-detail")
+    shown_lines = session.lines()[words.content_region.y : words.content_region.bottom]
+    assert REASON in " ".join(" ".join(line.strip("│ ") for line in shown_lines).split())
+    assert "ros2 param set" in shown_lines[-1]
 
 
 @pytest.mark.parametrize("key", ["escape", pytest.param("x", marks=pytest.mark.slow)])
-def test_refusal_is_dismissed(key: str) -> None:
+def test_refusal_is_shown_in_full_until_it_is_dismissed(key: str) -> None:
     async def play(session: Session) -> None:
         await refuse(session)
-        assert "✗ 3.0" in session.text()
+        assert_that_the_reason_stands_in_full_in_the_details(session)
         await session.press("down", key, "up")
         assert "✗ 3.0" in session.text(), "only that of the row at the cursor"
         await session.press(key)
@@ -399,23 +394,6 @@ def test_values_of_a_restarted_node_are_its_new_start_values() -> None:
 
 
 @pytest.mark.slow
-def test_unanswering_node_is_reported() -> None:
-    async def play(session: Session) -> None:
-        await session.press("1")
-        assert "does not answer on its parameter services" in session.text()
-
-    run(faulty(), play, (120, 40))
-
-
-def test_pane_waits_for_nodes_in_an_empty_system() -> None:
-    async def play(session: Session) -> None:
-        await session.press("1", "enter", "plus", "d", "p", "y", "left", "right", "C")
-        assert "waiting for nodes" in session.text()
-
-    run(empty(), play)
-
-
-@pytest.mark.slow
 def test_saved_value_loses_its_mark_immediately() -> None:
     key = ("/robot_navigator", "max_speed")
 
@@ -431,7 +409,6 @@ def test_saved_value_loses_its_mark_immediately() -> None:
     run(live(), play)
 
 
-@pytest.mark.slow
 def test_only_a_person_moves_the_cursor_away_from_what_matters_most() -> None:
     async def play(session: Session) -> None:
         shown = rows(session)

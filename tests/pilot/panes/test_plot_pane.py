@@ -12,7 +12,7 @@ import pytest
 from bot_console.tui.panes.plot.pane import PlotPane
 from fakes.console import START
 from piloting import Session, run
-from samples import LIMIT, NEAREST, SPEED, empty, faulty, live
+from samples import LIMIT, NEAREST, SPEED, live
 from textual.widgets import Input
 
 
@@ -89,7 +89,6 @@ def test_a_parameter_is_plotted_from_the_parameter_pane() -> None:
     run(live(), play)
 
 
-@pytest.mark.slow
 def test_a_topic_of_which_only_stamps_can_be_plotted_hints_at_parameters() -> None:
     async def play(session: Session) -> None:
         await session.press("4")
@@ -158,15 +157,6 @@ def test_nan_values_leave_a_gap_and_are_counted() -> None:
 
 
 @pytest.mark.slow
-def test_curve_without_numbers_says_so() -> None:
-    async def play(session: Session) -> None:
-        await session.press("4")
-        assert "no numbers in this window" in session.text()
-
-    run(faulty(), play, (120, 40))
-
-
-@pytest.mark.slow
 def test_strips_show_one_trace_below_each_name() -> None:
     async def play(session: Session) -> None:
         await session.press("4", "f")
@@ -213,14 +203,6 @@ def test_samples_and_picture_are_saved(tmp_path: Path) -> None:
     )
     words = [each.text for each in ElementTree.parse(tmp_path / "p.svg").iter("{http://www.w3.org/2000/svg}text")]
     assert SPEED in words and LIMIT in words
-
-
-def test_empty_plot_explains_what_to_do() -> None:
-    async def play(session: Session) -> None:
-        await session.press("4", "x", "X", "space", "plus", "left", "right", "f", "K", "up", "down")
-        assert "a  Add /topic" in session.text()
-
-    run(empty(), play)
 
 
 @pytest.mark.slow

@@ -16,7 +16,7 @@ from bot_console.tui.panes.profiles.pane import ProfilesPane
 from bot_console.tui.panes.profiles.rows import ProfileRows
 from bot_console.tui.screens.confirm import ConfirmScreen
 from piloting import Session, run
-from samples import differences, empty, live
+from samples import differences, live
 
 SANITIZED = replace(differences()[0], unsafe="")
 
@@ -25,7 +25,7 @@ def applied(session: Session) -> list[tuple[str, bool]]:
     return [each[1:] for each in session.console.asked if each[0] == "apply"]
 
 
-def test_differences_are_shown_before_applying() -> None:
+def test_differences_are_shown_before_applying_and_follow_the_parameters() -> None:
     async def play(session: Session) -> None:
         await session.press("7")
         assert "Nothing to change" in session.text()
@@ -36,6 +36,15 @@ def test_differences_are_shown_before_applying() -> None:
         assert "turns a protection off" in text and "needs a world reset" in text
         assert "4 changes, 1 would be refused" in text
         assert applied(session) == []
+        await session.press("c")
+        assert "1.0 → 3.0" not in session.text(), "all profiles side by side"
+        await session.press("c")
+        assert "1.0 → 3.0" in session.text()
+        session.console.differences["competition"] = differences()[1:]
+        session.console.change(parameters=dict(session.console.current.parameters))
+        await session.settle()
+        assert "3 changes" in session.text()
+        assert session.pane(ProfilesPane).has_focus_within
 
     run(live(), play, (120, 40))
 
@@ -145,19 +154,6 @@ def test_list_of_differences_stays_while_values_are_applied() -> None:
     run(live(), play, (120, 40))
 
 
-@pytest.mark.slow
-def test_a_changed_parameter_changes_the_differences() -> None:
-    async def play(session: Session) -> None:
-        await session.press("7", "down")
-        session.console.differences["competition"] = differences()[1:]
-        session.console.change(parameters=dict(session.console.current.parameters))
-        await session.settle()
-        assert "3 changes" in session.text()
-        assert session.pane(ProfilesPane).has_focus_within
-
-    run(live(), play, (120, 40))
-
-
 def test_node_that_can_check_values_is_asked_before_applying() -> None:
     console, *rest = live()
     console.differences["competition"] = (
@@ -221,16 +217,6 @@ def test_read_only_console_asks_no_node_to_check() -> None:
 
 
 @pytest.mark.slow
-def test_absence_of_profiles_is_reported() -> None:
-    async def play(session: Session) -> None:
-        await session.press("7", "a", "w", "down", "r", "u")
-        text = session.text()
-        assert "parameter files were found" in text and "o  Open a parameter file" in text
-
-    run(empty(), play)
-
-
-@pytest.mark.slow
 def test_long_list_of_differences_scrolls() -> None:
     system = live()
     many = tuple(replace(differences()[0], name=f"parameter_{at}") for at in range(60))
@@ -245,7 +231,6 @@ def test_long_list_of_differences_scrolls() -> None:
     run(system, play)
 
 
-@pytest.mark.slow
 def test_cursor_follows_the_active_profile() -> None:
     system = live()
     system[0].change(active_profile="broken")
@@ -256,13 +241,13 @@ def test_cursor_follows_the_active_profile() -> None:
         session.console.change(active_profile="indoor", profile_changes=2)
         await session.settle()
         assert session.pane(ProfileRows).cursor == 0
-        assert "● indoor" in session.text() and "2 changed" in session.text()
+        assert "● indoor" in session.text() and "indoor, 2 changed" in session.lines()[-2]
         await session.press("down")
         session.console.change(active_profile="broken")
         await session.settle()
         assert session.pane(ProfileRows).cursor == 1, "a person looks at another one"
 
-    run(system, play, (120, 40))
+    run(system, play, (160, 40))
 
 
 @pytest.mark.slow

@@ -63,7 +63,6 @@ def test_sideways_keys_slide_a_holonomic_base() -> None:
     run(live(), play, (100, 30))
 
 
-@pytest.mark.slow
 def test_figures_stay_long_enough_to_be_read_while_nobody_steers_here() -> None:
     async def drive_at(session: Session, speed: float) -> str:
         drive = session.console.current.drive
@@ -335,16 +334,25 @@ def test_enter_resumes_steering_a_robot_without_lock_after_timeout() -> None:
     run(live(), play)
 
 
-def test_read_only_console_neither_arms_nor_stops_the_robot() -> None:
+def test_read_only_console_neither_arms_nor_stops_the_robot_nor_names_keys_for_it() -> None:
     async def play(session: Session) -> None:
-        session.console.change(drive=replace(driving(), refused="read-only console"))
+        drive = replace(driving(), refused="read-only console")
+        session.console.change(drive=drive)
         await session.settle()
-        await session.press("6", "enter")
+        await session.press("6")
+        assert "read-only console" in session.text() and "enter arms" not in session.text()
+        held = replace(drive, stopped=True, stop_confirmed=True, stop_holder="bot-console of a@b")
+        session.console.change(drive=held)
+        await session.settle()
+        assert "released elsewhere: held by bot-console of a@b" in session.text()
+        assert "! releases" not in session.text()
+        session.console.change(drive=drive)
+        await session.press("enter")
         assert "read-only console" in session.text() and not steering(session).state.armed
         await session.press("1")
         assert stops(session) == []
 
-    run(live(), play)
+    run(live(), play, (120, 40))
 
 
 def test_a_screen_over_the_pane_disarms() -> None:
@@ -365,24 +373,6 @@ def test_space_stops_armed_or_not() -> None:
         assert commands(session)[-1] == (0.0, 0.0) and steering(session).state.armed
 
     run(live(), play)
-
-
-@pytest.mark.slow
-def test_read_only_console_names_no_key_that_would_be_refused() -> None:
-    async def play(session: Session) -> None:
-        await session.press("6")
-        drive = replace(driving(), refused="read-only console")
-        session.console.change(drive=drive)
-        await session.settle()
-        assert "read-only console" in session.text() and "enter arms" not in session.text()
-        session.console.change(
-            drive=replace(drive, stopped=True, stop_confirmed=True, stop_holder="bot-console of a@b")
-        )
-        await session.settle()
-        assert "released elsewhere: held by bot-console of a@b" in session.text()
-        assert "! releases" not in session.text()
-
-    run(live(), play, (120, 40))
 
 
 def test_the_all_stop_zeroes_the_sliders_and_holds_the_keys() -> None:
@@ -428,7 +418,6 @@ def test_arming_without_a_robot_is_refused_with_a_reason() -> None:
     run(empty(), play, (100, 30))
 
 
-@pytest.mark.slow
 def test_topics_that_take_commands_are_counted_and_not_robots() -> None:
     async def play(session: Session) -> None:
         await session.press("6")

@@ -14,7 +14,7 @@ from bot_console.tui.widgets.static_text import StaticText
 from fleet import fleet
 from geometry_msgs.msg import Twist
 from piloting import Clock, Session, run
-from samples import ODOM, ODOM_TOPIC, empty, graph, live, odometry
+from samples import ODOM, ODOM_TOPIC, graph, live, odometry
 
 SIZE = (100, 30)
 SET_BOOL, FIBONACCI = "std_srvs/srv/SetBool", "example_interfaces/action/Fibonacci"
@@ -68,7 +68,6 @@ def test_heading_fits_the_columns_of_a_list_that_is_laid_out_after_the_pane() ->
     run(live(), play, SIZE)
 
 
-@pytest.mark.slow
 def test_figures_change_once_a_second_however_often_the_system_changes() -> None:
     async def play(session: Session) -> None:
         pane = await opened(session)
@@ -94,6 +93,10 @@ def test_topics_show_rates_and_faults() -> None:
         assert "1/3" in line and " 50 " in line and "37 kB" in line and "2.1 ms" in line
         await at(session, "/cmd_vel_teleop")
         assert "!/cmd_vel_teleop" in session.text() and "nobody publishes it" in session.text()
+        await session.press("E")
+        await session.paste("/r/rates.yaml")
+        await session.press("enter")
+        assert ("expect", "/r/rates.yaml") in session.console.asked
 
     run(live(), play, SIZE)
 
@@ -140,19 +143,6 @@ def test_rates_are_provisional_until_three_seconds_are_measured() -> None:
         tick(session)
         await session.settle()
         assert "~" not in session.text()
-
-    run(live(), play, SIZE)
-
-
-@pytest.mark.slow
-def test_topics_are_listed_in_natural_order() -> None:
-    topics = tuple(Endpoint(f"/robot{number}/scan", ("std_msgs/msg/Float64",)) for number in (1, 10, 2, 20, 3))
-
-    async def play(session: Session) -> None:
-        session.console.change(graph=GraphInfo((NodeInfo("/n", topics),), topics))
-        await opened(session)
-        names = [each.name for each in session.pane(TopicRows).rows]
-        assert names == [f"/robot{number}/scan" for number in (1, 2, 3, 10, 20)]
 
     run(live(), play, SIZE)
 
@@ -412,15 +402,6 @@ def test_built_in_services_are_hidden_by_default() -> None:
         assert "/set_parameters" in session.text()
 
     run(live(), play, SIZE)
-
-
-@pytest.mark.slow
-def test_empty_system_is_reported() -> None:
-    async def play(session: Session) -> None:
-        await opened(session, "enter", "P", "p", "x", "y", "space")
-        assert "All topics of the system" in session.text()
-
-    run(empty(), play)
 
 
 @pytest.mark.slow

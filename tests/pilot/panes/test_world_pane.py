@@ -9,7 +9,7 @@ import pytest
 from bot_console.tui.console.robot.robot_model import Pose, Turtle, TurtleField, WorldInfo
 from fakes.console import START
 from piloting import Session, run
-from samples import empty, faulty, live, world
+from samples import empty, live, world
 
 
 def test_robot_is_drawn_as_a_moving_arrow_in_the_map() -> None:
@@ -44,25 +44,6 @@ def test_scale_bar_keeps_its_length_in_a_narrow_pane() -> None:
         assert re.search(r"├─*┤ [\d.]+ m", line) and "…" not in line
 
     run(live(), play, (60, 20))
-
-
-@pytest.mark.slow
-def test_missing_map_or_pose_is_reported() -> None:
-    async def play(session: Session) -> None:
-        await session.press("5", "plus", "f")
-        assert "there is no map and no pose yet" in session.text()
-
-    run(empty(), play)
-
-
-@pytest.mark.slow
-def test_system_without_a_world_explains_why() -> None:
-    async def play(session: Session) -> None:
-        session.console.change(problem="")
-        await session.press("5")
-        assert "this system has no world" in session.text()
-
-    run(faulty(), play, (100, 30))
 
 
 @pytest.mark.slow
