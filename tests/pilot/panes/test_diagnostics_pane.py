@@ -73,6 +73,7 @@ def test_new_status_is_shown_and_silent_one_becomes_stale() -> None:
     run(live(), play, (100, 30))
 
 
+@pytest.mark.slow
 def test_rows_are_filtered_and_folded() -> None:
     async def play(session: Session) -> None:
         await session.press("M", "slash")

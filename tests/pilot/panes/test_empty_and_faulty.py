@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from piloting import Session, run
 from samples import empty, faulty
 
@@ -31,6 +32,7 @@ def test_keys_of_panes_without_anything_to_act_on_are_harmless() -> None:
     run(empty(), play)
 
 
+@pytest.mark.slow
 def test_invalid_pattern_is_explained_even_on_an_empty_log() -> None:
     async def play(session: Session) -> None:
         await session.press("2", "E", "enter", "x", "y", "K", "f", "slash")

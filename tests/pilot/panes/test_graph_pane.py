@@ -56,6 +56,7 @@ def test_arrow_keys_follow_the_arrows_and_enter_reports_all() -> None:
     run(live(), play, (120, 40))
 
 
+@pytest.mark.slow
 def test_the_selected_item_is_always_in_view() -> None:
     async def play(session: Session) -> None:
         await session.press("3")
@@ -94,6 +95,7 @@ def test_a_filter_keeps_what_matches_and_its_neighbours() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_debug_topics_are_hidden_until_asked_for_and_dead_ends_can_go() -> None:
     async def play(session: Session) -> None:
         await draw_topics(session)
@@ -186,6 +188,7 @@ def test_it_is_exported_as_mermaid(tmp_path: Path) -> None:
     assert text.startswith("flowchart LR") and '(["/simulator"])' in text and "-->" in text
 
 
+@pytest.mark.slow
 def test_a_large_graph_is_laid_out_beside_the_event_loop() -> None:
     nodes = tuple(
         NodeInfo(f"/n{at}", (Endpoint(f"/t{at}", ("a/msg/B",)),), (Endpoint(f"/t{at - 1}", ("a/msg/B",)),))
@@ -477,6 +480,7 @@ def test_frames_of_tf2_in_the_place_of_the_picture() -> None:
     run(system, play, (120, 40))
 
 
+@pytest.mark.slow
 def test_the_list_names_each_topic_with_its_publishers_and_subscribers() -> None:
     async def play(session: Session) -> None:
         await session.press("3", *"mmmm")

@@ -140,6 +140,7 @@ def test_single_change_is_reverted_with_a_safety_warning() -> None:
     run(live(), play, (100, 30))
 
 
+@pytest.mark.slow
 def test_changes_are_filtered_by_words_and_by_refusal() -> None:
     async def play(session: Session) -> None:
         await session.press("H", "slash")

@@ -57,6 +57,7 @@ def test_filter_is_restored_and_escape_clears_it() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_graph_view_is_restored() -> None:
     async def play(session: Session) -> None:
         pane = session.pane(GraphPane)

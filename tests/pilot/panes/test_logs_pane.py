@@ -76,6 +76,7 @@ def test_next_error_is_shown_in_full_copied_and_saved(tmp_path: Path) -> None:
     assert text.count("\n") == 5 and "[ERROR]" in text
 
 
+@pytest.mark.slow
 def test_existing_file_is_replaced_only_after_a_question(tmp_path: Path) -> None:
     path = tmp_path / "mine [b].txt"
 
@@ -97,6 +98,21 @@ def test_existing_file_is_replaced_only_after_a_question(tmp_path: Path) -> None
     run(live(), play)
 
 
+def test_a_rule_highlights_lines_and_is_kept() -> None:
+    async def play(session: Session) -> None:
+        await session.press("2", "g", "plus", "enter")
+        assert "▌" in session.text() and "In violet: node:=" in session.text()
+        every = len(seqs(session))
+        await session.press("o")
+        assert 0 < len(seqs(session)) < every
+
+    run(live(), play)
+    rules = RuleBook()
+    rules.read()
+    assert len(rules.rules) == 1
+
+
+@pytest.mark.slow
 def test_rules_hide_and_highlight_lines() -> None:
     async def play(session: Session) -> None:
         await session.press("2", "g", "plus", "enter")

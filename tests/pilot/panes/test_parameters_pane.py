@@ -337,6 +337,7 @@ def test_reset_undo_redo_folding_and_filters_work() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_a_name_a_value_or_a_node_is_copied_alone() -> None:
     async def play(session: Session) -> None:
         await session.press("1", "home", "Y")

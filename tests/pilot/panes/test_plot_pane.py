@@ -156,7 +156,6 @@ def test_nan_values_leave_a_gap_and_are_counted() -> None:
     run(system, play, (120, 40))
 
 
-@pytest.mark.slow
 def test_strips_show_one_trace_below_each_name() -> None:
     async def play(session: Session) -> None:
         await session.press("4", "f")
@@ -237,6 +236,7 @@ def test_cursor_shows_values_and_moves_in_all_panes() -> None:
     run(live(), play, (120, 40))
 
 
+@pytest.mark.slow
 def test_presets_store_thresholds_axes_and_forms(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path))
 

@@ -320,6 +320,7 @@ def test_launch_profile_stops_the_system_before_launching() -> None:
     run((console, launcher), play, (120, 40))
 
 
+@pytest.mark.slow
 def test_profile_from_a_url_is_shown_before_it_is_applied(tmp_path) -> None:
     path = tmp_path / "served.yaml"
     path.write_text("/robot_navigator: {ros__parameters: {max_speed: 1.5}}\n")
@@ -340,7 +341,10 @@ def test_profile_from_a_url_is_shown_before_it_is_applied(tmp_path) -> None:
     run(live(), play)
 
 
-def test_presets_of_a_node_are_applied_saved_and_deleted() -> None:
+@pytest.mark.parametrize(
+    "more", [False, pytest.param(True, marks=pytest.mark.slow)], ids=["applied", "saved and deleted"]
+)
+def test_presets_of_a_node_are_applied_saved_and_deleted(more: bool) -> None:
     console, *rest = live()
     kept = {"careful": "slow and gentle"}
     offered = [("list", "std_srvs/srv/Trigger")]
@@ -368,6 +372,8 @@ def test_presets_of_a_node_are_applied_saved_and_deleted() -> None:
         assert "/presets sets the values itself" in session.text() and message == [("list", "")]
         await session.press("y")
         assert message[1:] == [("apply", "careful")] and "apply careful: all is well" in session.text()
+        if not more:
+            return
         await session.press("p", *"save", "enter", *"brisk", "enter")
         assert message[3:] == [("save", "brisk")]
         await session.press(

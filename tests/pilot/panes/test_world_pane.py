@@ -88,6 +88,7 @@ def test_n_cycles_through_robots_and_turtles() -> None:
     run(live(), play, (120, 30))
 
 
+@pytest.mark.slow
 def test_turtle_field_is_shown_at_once_without_robots() -> None:
     async def play(session: Session) -> None:
         session.console.change(

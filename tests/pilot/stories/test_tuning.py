@@ -92,6 +92,7 @@ def test_marking_can_be_resumed_before_the_answer() -> None:
     run(live(), play, (100, 30))
 
 
+@pytest.mark.slow
 def test_two_sets_are_swapped_with_one_key() -> None:
     async def play(session: Session) -> None:
         await mark_two(session)
