@@ -10,6 +10,7 @@ import pytest
 if not hasattr(os, "fork"):
     pytest.skip("needs fork", allow_module_level=True)
 
+from bot_console.runtime.children import import_prefetch
 from bot_console.runtime.children.own_fork_server import PREPARE
 from bot_console.runtime.process.fork_server import ForkServer, Job
 
@@ -63,6 +64,23 @@ def test_numpy_is_imported_for_a_file_that_may_need_it(text: str, wanted: list[s
         return
     file.write_text(ENDS + text)
     assert imported(tmp_path, "python_file", [[], str(file), [], False]) == str(wanted)
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("import json\nfrom std_srvs.srv import Trigger", []),
+        ("def f():\n    import cv2", ["numpy"]),
+        ("from nav_msgs import msg", ["numpy"]),
+        ("from . import helpers", ["numpy"]),
+        ("from std_msgs.msg import Unknown", ["numpy"]),
+        ("from rclpy.action import ActionClient", ["numpy", "rclpy.action"]),
+        ("from rclpy.nowhere import nothing\nimport numpy", ["rclpy.nowhere", "numpy"]),
+    ],
+)
+def test_what_a_file_needs_is_read_from_its_imports(text: str, wanted: list[str], tmp_path: Path) -> None:
+    (tmp_path / "node.py").write_text(text)
+    assert [*import_prefetch._needed(str(tmp_path / "node.py"))] == wanted
 
 
 def test_numpy_is_imported_for_an_entry_point_that_needs_it(tmp_path: Path) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.workspace import discover
+from bot_console.tui.cli.verbs import sourced as verb
 from bot_console.tui.cli.verbs.colcon import run
 from bot_console.tui.cli.verbs.sourced import write_setup_files
 
@@ -42,8 +43,8 @@ def test_setup_file_adds_ros2_and_workspace_to_shell_once(folder: Path, capsys: 
     assert (folder / "install" / "COLCON_IGNORE").exists()
 
 
-@pytest.mark.slow
-def test_setup_file_puts_workspace_before_those_sourced_earlier(folder: Path) -> None:
+def test_setup_file_puts_workspace_before_those_sourced_earlier(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(verb, "command", lambda: "true")
     assert run(["build"]) == 0
     assert sourced(folder, before="/other").splitlines()[0] == f"{folder}:/other"
 

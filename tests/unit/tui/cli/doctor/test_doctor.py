@@ -176,6 +176,13 @@ def test_without_other_nodes_doctor_says_which_range_to_try() -> None:
     assert "no other node was found\n    → search the network: bot-console doctor --ros --range SUBNET" in done.stdout
 
 
+def test_finding_names_both_ranges(monkeypatch) -> None:
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF")
+    found = doctor._change_range("LOCALHOST")
+    assert found.text.startswith("searching with LOCALHOST instead of OFF: domain 0, range LOCALHOST, this machine")
+    assert os.environ["ROS_AUTOMATIC_DISCOVERY_RANGE"] == "LOCALHOST"
+
+
 @pytest.mark.slow
 @pytest.mark.usefixtures("range_off")
 def test_doctor_says_first_that_it_searches_another_range() -> None:

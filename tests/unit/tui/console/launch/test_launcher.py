@@ -233,6 +233,8 @@ def test_a_failed_launch_does_not_use_up_a_number(bench):
 
 SYNTAX = "def generate_launch_description(:\n    pass\n"
 RAISES = "def generate_launch_description():\n    return 1 / 0\n"
+RECURS = "def generate_launch_description():\n    raise RecursionError\n"
+"""As does a file that includes itself, when there are too many."""
 NOTHING = "x = 1\n"
 EXITS = "import sys\nsys.exit('no robot today')\n"
 
@@ -242,6 +244,7 @@ EXITS = "import sys\nsys.exit('no robot today')\n"
     [
         (SYNTAX, r"line 1: syntax error: invalid syntax"),
         (RAISES, r"line 2: ZeroDivisionError: division by zero"),
+        (RECURS, r"line 2: launch files include each other endlessly"),
         (NOTHING, r"broken.launch.py.* does not contain the required function"),
         (EXITS, r"line 2: SystemExit: no robot today"),
     ],
