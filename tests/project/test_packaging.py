@@ -9,6 +9,11 @@ from pathlib import Path
 
 import pytest
 
+if sys.version_info >= (3, 11):
+    import tomllib
+else:
+    tomllib = pytest.importorskip("tomli")
+
 ROOT = Path(__file__).resolve().parents[2]
 
 
@@ -66,6 +71,15 @@ def test_wheel_contains_generated_messages(wheel):
 @pytest.mark.slow
 def test_no_module_shadows_an_outside_name(wheel):
     assert not any(name.startswith(("rclpy/", "launch/", "tests/")) for name in wheel)
+
+
+def test_wheel_is_declared_to_contain_one_package():
+    """As the wheel itself shows, whose tests are slow."""
+    wheel = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["hatch"]["build"]["targets"]["wheel"]
+    assert wheel["sources"] == {each: f"bot_console/{each}" for each in wheel["only-include"]}
+    assert set(wheel["only-include"]) == {"tui", "runtime", "nodes", "profiles", "launch"}
+    assert {each.removeprefix("share/") for each in wheel["shared-data"].values()} == SHARED
+    assert wheel["artifacts"] == ["runtime/rosidl/generated/**"]
 
 
 @pytest.mark.parametrize("folder", ["tests", "docs", "tools", "examples", ".ci", ".github"])
