@@ -38,7 +38,13 @@ def command(words: list[str], folder: Path, **options: object) -> subprocess.Com
 @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="a system without /dev/full")
 @pytest.mark.parametrize(
     "words",
-    [["--help"], ["setup", "bash"], ["ros2", "pkg", "list"], ["ros2", "interface", "show", "std_msgs/msg/String"]],
+    [
+        ["ros2", "pkg", "list"],
+        *(
+            pytest.param(each, marks=pytest.mark.slow)
+            for each in (["--help"], ["setup", "bash"], ["ros2", "interface", "show", "std_msgs/msg/String"])
+        ),
+    ],
     ids=" ".join,
 )
 def test_full_disk_is_reported_once(words: list[str], tmp_path: Path) -> None:
@@ -58,7 +64,9 @@ def test_closed_pipe_is_not_an_error(tmp_path: Path) -> None:
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a POSIX shell closes the streams")
-@pytest.mark.parametrize("closed", [">&-", "2>&-", "<&- >&- 2>&-"])
+@pytest.mark.parametrize(
+    "closed", ["<&- >&- 2>&-", *(pytest.param(each, marks=pytest.mark.slow) for each in (">&-", "2>&-"))]
+)
 def test_closed_standard_streams_are_not_an_error(closed: str, tmp_path: Path) -> None:
     program = [sys.executable, "-c", "from bot_console.tui.cli.main import program; program()", "node", "list"]
     line = ["sh", "-c", f'exec "$0" "$@" {closed}', *program]
@@ -86,12 +94,20 @@ def test_launched_nodes_have_streams_if_those_of_the_launch_were_closed(tmp_path
     assert done.returncode == 0 and "process has finished cleanly" in logs, (done.stderr, logs)
 
 
+@pytest.mark.slow
 def test_character_missing_in_terminal_encoding_is_not_an_error(tmp_path: Path) -> None:
     done = command(["doctor"], tmp_path, env={"PYTHONIOENCODING": "ascii"}, stdout=subprocess.PIPE)
     assert "? domain" in done.stdout and done.stderr == ""
 
 
-@pytest.mark.parametrize("words", [["run", "x.py"], ["ros2", "pkg", "list"], ["launch", "x.launch.py"]], ids=" ".join)
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["run", "x.py"],
+        *(pytest.param(each, marks=pytest.mark.slow) for each in (["ros2", "pkg", "list"], ["launch", "x.launch.py"])),
+    ],
+    ids=" ".join,
+)
 def test_deleted_folder_is_reported(words: list[str], tmp_path: Path) -> None:
     there = tmp_path / "gone"
     there.mkdir()
@@ -186,10 +202,20 @@ def test_character_missing_in_the_c_locale_is_replaced(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("limit", "words", "message"),
     [
-        ("-v 30000", ["topic", "list"], "there is too little memory (a limit is shown by `ulimit -v`)"),
+        pytest.param(
+            "-v 30000",
+            ["topic", "list"],
+            "there is too little memory (a limit is shown by `ulimit -v`)",
+            marks=pytest.mark.slow,
+        ),
         ("-v 100000", ["stop"], "bot-console stop: no robot was stopped: there is too little memory"),
-        ("-v 400000", ["--headless"], "bot-console needs an address space of 500,000 KiB"),
-        ("-f 0", ["up"], "bot-console needs files of 64 KiB"),
+        pytest.param(
+            "-v 400000",
+            ["--headless"],
+            "bot-console needs an address space of 500,000 KiB",
+            marks=pytest.mark.slow,
+        ),
+        pytest.param("-f 0", ["up"], "bot-console needs files of 64 KiB", marks=pytest.mark.slow),
         ("-f 0", ["export", "there"], "not exported: "),
     ],
 )

@@ -101,7 +101,9 @@ def finish(line: list[str], env: Mapping[str, str], cwd: Path) -> subprocess.Com
     return subprocess.run(line, env=dict(env), cwd=cwd, capture_output=True, text=True, check=False, timeout=240)
 
 
-@pytest.mark.parametrize("way", ["run", "launch", "python3", "script"])
+@pytest.mark.parametrize(
+    "way", ["run", *(pytest.param(each, marks=pytest.mark.slow) for each in ("launch", "python3", "script"))]
+)
 def test_children_meet_their_parent(way: str, home: Path) -> None:
     file, launch, script = home / "parent.py", home / "children.launch.py", home / "launching.py"
     file.write_text(PARENT)
@@ -131,12 +133,12 @@ def test_process_forked_after_init_is_reported(home: Path) -> None:
     ("words", "stdout", "exit_code"),
     [
         (["-c", "import rclpy, sys; print(rclpy.__name__, sys.argv, __name__)", "a"], "rclpy ['-c', 'a'] __main__", 0),
-        (["-m", "shown", "a"], "rclpy ['{folder}/shown.py', 'a'] __main__", 0),
-        (["-mshown"], "rclpy ['{folder}/shown.py'] __main__", 0),
-        (["-c", "raise SystemExit(3)"], "", 3),
-        (["-m", "missing"], "", 1),
+        pytest.param(["-m", "shown", "a"], "rclpy ['{folder}/shown.py', 'a'] __main__", 0, marks=pytest.mark.slow),
+        pytest.param(["-mshown"], "rclpy ['{folder}/shown.py'] __main__", 0, marks=pytest.mark.slow),
+        pytest.param(["-c", "raise SystemExit(3)"], "", 3, marks=pytest.mark.slow),
+        pytest.param(["-m", "missing"], "", 1, marks=pytest.mark.slow),
         (["-c", "1/0"], "", 1),
-        (["-m"], "", 2),
+        pytest.param(["-m"], "", 2, marks=pytest.mark.slow),
     ],
     ids=lambda given: " ".join(given) if isinstance(given, list) else "",
 )

@@ -75,10 +75,14 @@ def workspace(tmp_path: Path) -> Path:
 @pytest.mark.parametrize(
     ("line", "typed"),
     [
-        ([str(PYTHON), "-c", "from debugged.node import main; main()"], TYPED),
+        pytest.param([str(PYTHON), "-c", "from debugged.node import main; main()"], TYPED, marks=pytest.mark.slow),
         (["bot-console", "run", "debugged", "node"], TYPED),
-        (["bot-console", "ros2", "run", "--prefix", "python3 -m pdb", "debugged", "node"], f"c\n{TYPED}q\n"),
-        pytest.param(["bot-console", "launch", "pdb.launch.py"], "", marks=PDB_TAKES_NO_OPTIONS),
+        pytest.param(
+            ["bot-console", "ros2", "run", "--prefix", "python3 -m pdb", "debugged", "node"],
+            f"c\n{TYPED}q\n",
+            marks=pytest.mark.slow,
+        ),
+        pytest.param(["bot-console", "launch", "pdb.launch.py"], "", marks=[PDB_TAKES_NO_OPTIONS, pytest.mark.slow]),
     ],
     ids=["python3", "run", "ros2 run --prefix", "launch prefix"],
 )
@@ -100,7 +104,7 @@ PLAIN = "from debugged.node import main; main()"
     "way",
     [
         pytest.param("python3", marks=pytest.mark.soak),
-        "run",
+        pytest.param("run", marks=pytest.mark.slow),
         pytest.param("ros2 run --prefix", marks=pytest.mark.soak),
         pytest.param("launch prefix", marks=pytest.mark.soak),
     ],

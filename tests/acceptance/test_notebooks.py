@@ -93,6 +93,7 @@ def kernel(env: dict[str, str]) -> Iterator[Kernel]:
     shutil.rmtree(folder, ignore_errors=True)
 
 
+@pytest.mark.slow
 def test_interrupt_ends_the_cell_and_a_restart_leaves_no_node(kernel: Kernel) -> None:
     assert kernel.run(BEGIN) == ("", "")
     assert kernel.run(HEARS) == ("True\n", "")
@@ -115,6 +116,7 @@ def test_example_notebook_runs_and_takes_its_robot_down(kernel: Kernel, env: dic
     assert (there.returncode, "nothing runs" in there.stderr) == (1, True)
 
 
+@pytest.mark.slow
 def test_ipython_imports_and_spins(env: dict[str, str]) -> None:
     begin = "import rclpy; rclpy.init(); node = rclpy.create_node('n')"
     line = f"{begin}; rclpy.spin_once(node, timeout_sec=0.0); print(node.get_name())"

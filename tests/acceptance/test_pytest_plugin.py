@@ -36,7 +36,7 @@ def test_it_meets_nobody():
     rclpy.shutdown()
 """
 TIMES = """
-import subprocess, sys, threading, time
+import os, subprocess, sys, threading, time
 import pytest, rclpy
 from std_msgs.msg import String
 
@@ -77,6 +77,7 @@ def test_clock_lets_time_pass(stepped_time, node):
     thread.join()
 
 def test_child_is_heard(ros_domain, node):
+    assert os.environ["BOT_CONSOLE_SOCKET_DIR"] != os.environ["OUTSIDE"], "where other programs meet"
     heard = []
     node.create_subscription(String, "t", heard.append, rclpy.qos.QoSProfile(depth=1, durability=1))
     child = subprocess.Popen([sys.executable, "-c", CHILD])
@@ -99,7 +100,9 @@ def start(words: tuple[str, ...], folder: Path, env: Mapping[str, str]) -> subpr
 
 
 @pytest.mark.parametrize(
-    ("plugin", "code"), [(PLUGIN, 0), pytest.param((), 1, marks=pytest.mark.soak)], ids=["with", "without"]
+    ("plugin", "code"),
+    [pytest.param(PLUGIN, 0, marks=pytest.mark.slow), pytest.param((), 1, marks=pytest.mark.soak)],
+    ids=["with", "without"],
 )
 def test_two_test_processes_meet_only_without_plugin(
     plugin: tuple[str, ...], code: int, home: Path, tmp_path: Path
@@ -115,7 +118,8 @@ def test_two_test_processes_meet_only_without_plugin(
 
 def test_tests_run_in_real_and_stepped_time(home: Path, tmp_path: Path) -> None:
     (tmp_path / "test_times.py").write_text(TIMES)
-    process = start(PLUGIN, tmp_path, set_up(home))
+    place = str(tmp_path)
+    process = start(PLUGIN, tmp_path, {**set_up(home), "BOT_CONSOLE_SOCKET_DIR": place, "OUTSIDE": place})
     assert "3 passed" in process.communicate(timeout=240)[0]
     process = start((*PLUGIN, "--ros-time", "stepped", "-k", "not child"), tmp_path, set_up(home))
     assert "2 passed" in process.communicate(timeout=240)[0]
@@ -145,7 +149,9 @@ def scripts() -> dict[str, list[str]]:
     }
 
 
-@pytest.mark.parametrize("name", ["github", pytest.param("gitlab", marks=pytest.mark.soak)])
+@pytest.mark.parametrize(
+    "name", [pytest.param("github", marks=pytest.mark.slow), pytest.param("gitlab", marks=pytest.mark.soak)]
+)
 def test_documented_workflow_runs_the_tests(name: str, home: Path, tmp_path: Path) -> None:
     (tmp_path / "test_node.py").write_text("def test_node():\n    import rclpy\n    assert rclpy.ok() is False\n")
     (home / "bin" / "pytest").unlink(missing_ok=True)

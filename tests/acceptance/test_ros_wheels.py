@@ -46,9 +46,9 @@ def test_only_what_the_wheels_added_is_removed():
 @pytest.mark.parametrize(
     ("words", "name", "text"),
     [
-        pytest.param(["bot_console.tui", "run"], "node.py", NODE, id="run"),
+        pytest.param(["bot_console.tui", "run"], "node.py", NODE, id="run", marks=pytest.mark.slow),
         pytest.param(["bot_console.tui", "launch"], "a.launch.py", LAUNCH, id="launch"),
-        pytest.param(["bot_console.runtime.programs.run"], "node.py", NODE, id="launched"),
+        pytest.param(["bot_console.runtime.programs.run"], "node.py", NODE, id="launched", marks=pytest.mark.slow),
     ],
 )
 def test_programs_of_other_environments_do_not_inherit_it(tmp_path, words, name, text):

@@ -21,6 +21,8 @@ WAYS = [
 The last one is for machines with a ROS 2: `BOT_CONSOLE_TESTS_ON=ros pytest -m ros tests/contract`.
 """
 
+HERE = Path(__file__).parent
+
 OURS = {
     "test_other_implementation.py": "the Zenoh sessions of our middleware, beside another implementation of its format",
     "test_reopened.py": "the Zenoh sessions of our middleware are reopened",
@@ -43,6 +45,23 @@ def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> 
     if is_embedded_rclpy() or module_path.name not in OURS:
         return None
     return OfOurs.from_parent(parent, path=module_path)
+
+
+ONCE = ("mesh", "hosted", "attached")
+"""Ways on which the default run tries only the first of several values: they say nothing about the way."""
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark what the default run leaves to that of the slow tests."""
+    begun: set[tuple[Path, str, str]] = set()
+    for each in items:
+        if isinstance(each, pytest.Function) and each.path.parent == HERE and hasattr(each, "callspec"):
+            way, _, value = each.callspec.id.partition("-")
+            test = (each.path, each.originalname, way)
+            if value and way in ONCE and test in begun:
+                each.add_marker(pytest.mark.slow)
+            begun.add(test)
 
 
 @pytest.fixture(params=WAYS)

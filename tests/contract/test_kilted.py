@@ -29,8 +29,8 @@ def printed(*words: str, **environment: str) -> str:
     ("words", "environment"),
     [
         (["--distro", "kilted", "run"], {}),
-        (["--distro=kilted", "run"], {}),
-        (["run"], {"BOT_CONSOLE_DISTRO": "kilted"}),
+        pytest.param(["--distro=kilted", "run"], {}, marks=pytest.mark.slow),
+        pytest.param(["run"], {"BOT_CONSOLE_DISTRO": "kilted"}, marks=pytest.mark.slow),
     ],
     ids=["option", "option with =", "variable"],
 )

@@ -15,20 +15,25 @@ from domains import unused_domain
 from helpers.recorded.programs import differing, names, outcome, recorded
 from rigs import is_embedded_rclpy
 
-EACH_RUN = 20
-"""Of so many programs one is in the default run, the others run with `-m soak`."""
+DEFAULT_RUN, EACH_CHANGE = 60, 20
+"""Of so many programs one is in the default run, and one runs with `-m slow`; the others run with `-m soak`."""
 OURS = [str(Path(sys.executable).with_name("bot-console")), "run"]
 ADDED_IN_3_13 = " and no __dict__ for setting new attributes"
 """What Python 3.13 appends to a message of the interpreter."""
 pytestmark = pytest.mark.timeout(180)
 
 
-def programs(mark: pytest.MarkDecorator) -> list[object]:
-    return [pytest.param(each, marks=() if number % EACH_RUN == 0 else mark) for number, each in enumerate(names())]
+def programs() -> list[object]:
+    """All names, with the marks of the run that each is in."""
+    shares = ((DEFAULT_RUN, ()), (EACH_CHANGE, pytest.mark.slow), (1, pytest.mark.soak))
+    return [
+        pytest.param(each, marks=next(marks for share, marks in shares if number % share == 0))
+        for number, each in enumerate(names())
+    ]
 
 
 @pytest.mark.skipif(not is_embedded_rclpy(), reason="about our rclpy")
-@pytest.mark.parametrize("name", programs(pytest.mark.soak))
+@pytest.mark.parametrize("name", programs())
 def test_program_ends_as_on_the_real_rclpy(name: str) -> None:
     ours, real = outcome(OURS, name, unused_domain()), recorded()[name]
     ours = ours._replace(printed=ours.printed.replace(ADDED_IN_3_13, ""))

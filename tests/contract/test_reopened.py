@@ -62,6 +62,7 @@ def while_reopened(here: Here, call: Callable[[], None], times: int = TIMES) -> 
     assert opened >= times, "it could not be opened"
 
 
+@pytest.mark.slow
 def test_no_call_of_a_node_raises(here: Here) -> None:
     node = here.node
     output = [node.create_publisher(String, "/said", qos) for qos in (10, LATCHED, ALL)]

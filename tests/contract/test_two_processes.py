@@ -84,6 +84,7 @@ def test_a_service_responds_and_its_log_line_arrives(here):
     here.until(lambda: "somebody pulled" in lines)
 
 
+@pytest.mark.slow
 def test_a_flood_of_log_lines_arrives_complete_and_in_order(here):
     heard = []
     qos = QoSProfile(history=HistoryPolicy.KEEP_ALL, depth=0, durability=DurabilityPolicy.TRANSIENT_LOCAL)

@@ -92,7 +92,7 @@ def velocities_are_commanded(page: Page, row: Row) -> None:
     assert (near.linear, abs(near.angular)) == (0.0, 0.6)
 
 
-@row(301, 331, 344, own=True)
+@row(301, 331, 344, own=True, alike=True)
 def each_change_takes_effect_at_once(page: Page, row: Row) -> None:
     """The robot behaves differently at once, without a restart."""
     started = start(page, "robot_navigator")
@@ -125,7 +125,7 @@ CHANGES = {
 STAMP = re.compile(r"\[(\d{10}\.\d{9})\] \[robot_navigator\]: (.*)$", re.MULTILINE)
 
 
-@row(302, 332, own=True)
+@row(302, 332, own=True, alike=True)
 def each_change_is_logged_with_its_time(page: Page, row: Row) -> None:
     """Once each, and not if refused; the robot gets a change every 1.5 s."""
     started = start(page, "robot_navigator")

@@ -55,14 +55,14 @@ def faster(page: Page, one: str, other: str) -> bool:
     return quick.speed > slow.speed and quick.driven > slow.driven
 
 
-@row(265, 305, own=True)
+@row(265, 305, own=True, alike=True)
 def outdoors_is_faster_and_wider(page: Page, row: Row) -> None:
     assert faster(page, "outdoor", "indoor")
     assert faster(page, "competition", "outdoor")
     assert manner(page, "outdoor").distance > manner(page, "indoor").distance
 
 
-@row(266, 306, own=True)
+@row(266, 306, own=True, alike=True)
 def the_warehouse_lies_between(page: Page, row: Row) -> None:
     assert faster(page, "warehouse", "indoor")
     assert faster(page, "competition", "warehouse")
@@ -70,7 +70,7 @@ def the_warehouse_lies_between(page: Page, row: Row) -> None:
     assert manner(page, "warehouse").distance < manner(page, "outdoor").distance
 
 
-@row(267, 307, own=True)
+@row(267, 307, own=True, alike=True)
 def competition_is_fastest_with_least_distance(page: Page, row: Row) -> None:
     others = ("indoor", "outdoor", "warehouse")
     assert all(faster(page, "competition", each) for each in others)
@@ -121,7 +121,7 @@ def system(page: Page, words: str) -> Program:
     return launched(page, f"{LAUNCH} {words}")
 
 
-@row(299, 335, own=True)
+@row(299, 335, own=True, alike=True)
 def all_nodes_load_the_one_file(page: Page, row: Row) -> None:
     assert set(CUSTOM) == set(NODES)
     system(page, f"config_file:={custom_file(page)}")

@@ -50,7 +50,7 @@ def the_robot_has_the_parameter(page: Page, row: Row) -> None:
     assert (f"    Min value: {low}\n    Max value: {high}\n" in described) == bool(limits)
 
 
-@row(313, 329, own=True)
+@row(313, 329, own=True, alike=True)
 def each_parameter_has_a_description(page: Page, row: Row) -> None:
     for name in NODES:
         program = start(page, name)
@@ -60,7 +60,7 @@ def each_parameter_has_a_description(page: Page, row: Row) -> None:
         page.stop(program)
 
 
-@row(300, 303, 314, 330, 345, own=True)
+@row(300, 303, 314, 330, 345, own=True, alike=True)
 def wrong_values_are_refused_with_the_reason(page: Page, row: Row) -> None:
     start(page, "robot_navigator")
     for name, value in (("max_speed", "10.0"), ("turn_rate", "0.05"), ("robot_name", "''"), ("max_speed", "fast")):

@@ -16,8 +16,20 @@ PROFILES = {"indoor": (1.0, 0.5), "outdoor": (2.0, 1.0), "warehouse": (1.4, 0.7)
 """Speed (m/s) and safety distance (m) that a student may choose: the page asks for higher, medium, least."""
 
 
+_reports: dict[str, dict[str, Any]] = {}
+"""The report of each drive so far, by the text of its configuration."""
+
+
 def drive(folder: Path, config: Path) -> dict[str, Any]:
-    """The report of a one-minute drive with the student's launch file and one configuration."""
+    """The report of a minute with the student's launch file and one configuration, driven once for all rows."""
+    text = config.read_text("utf-8")
+    if text not in _reports:
+        _reports[text] = driven(folder, config)
+    return _reports[text]
+
+
+def driven(folder: Path, config: Path) -> dict[str, Any]:
+    """Drive for a minute."""
     launch = "src/intelligent_robot/launch/robot_system.launch.py"
     words = ["--headless", "--fast", "--duration", "60", "--launch", launch, f"config_file:={config}"]
     done = typed(*words, cwd=folder, env={**os.environ, "ROS_HOME": str(folder)})

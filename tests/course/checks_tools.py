@@ -65,7 +65,7 @@ def the_wrong_form_is_refused(page: Page, row: Row) -> None:
     assert "Cannot have a value before ros__parameters at line 3" in loads(page, row.quoted[0].rstrip(":"))
 
 
-@row(81, 368)
+@row(81, 368, alike=True)
 def the_share_folder_has_the_config(page: Page, row: Row) -> None:
     """The package of these tests has that very line in its `setup.py`."""
     share = page.ask("ros2 pkg prefix --share my_package").stdout.strip()

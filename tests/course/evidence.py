@@ -1,16 +1,20 @@
 """Which test shows a row about the console's screens: most of chapter 4 by keyboard, with the page's own nodes.
 
-The row checks that the test exists; `count_rows.py`, at the end of the checks, that it was run and passed.
+The row checks that the test exists and is in the default run; `count_rows.py`, at the end of the checks, that it was
+run and passed.
 """
 
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterable
 from functools import lru_cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+LATER = re.compile(r"mark\.(slow|soak)\b")
+"""Marks of tests that are not in the default run, from which the rows are counted."""
 CHAPTER, PARAMETERS = "tests/pilot/stories/test_chapter_4.py", "tests/pilot/panes/test_parameters_pane.py"
 LOGS, PLOT = "tests/pilot/panes/test_logs_pane.py", "tests/pilot/panes/test_plot_pane.py"
 TUNED = f"{CHAPTER}::test_step_1_the_speed_is_tuned_while_the_robot_runs"
@@ -60,12 +64,28 @@ SHOWN: dict[int, str] = {number: test for test, numbers in _SHOWN for number in 
 
 
 def is_there(test: str) -> bool:
-    """Whether a file contains the test of that id, not always skipped."""
+    """Whether a file contains the test of that id, in the default run, not always skipped."""
     path, _, name = test.partition("::")
     return name in _tests(ROOT / path)
 
 
 @lru_cache
 def _tests(path: Path) -> frozenset[str]:
-    functions = [each for each in ast.parse(path.read_text("utf-8")).body if isinstance(each, ast.FunctionDef)]
-    return frozenset(each.name for each in functions if not any("skip" in ast.unparse(d) for d in each.decorator_list))
+    body = ast.parse(path.read_text("utf-8")).body
+    marks = [
+        each.value for each in body if isinstance(each, ast.Assign) and ast.unparse(each.targets[0]) == "pytestmark"
+    ]
+    if any(map(_is_later, marks)):
+        return frozenset()
+    functions = [each for each in body if isinstance(each, ast.FunctionDef)]
+    return frozenset(each.name for each in functions if not any(map(_is_left_out, each.decorator_list)))
+
+
+def _is_left_out(decorator: ast.expr) -> bool:
+    return "skip" in ast.unparse(decorator) or _is_later(decorator)
+
+
+def _is_later(mark: ast.expr) -> bool:
+    """Whether a mark keeps a whole test out of the default run; that of a parameter keeps the other parameters in."""
+    text = ast.unparse(mark)
+    return "parametrize" not in text and LATER.search(text) is not None

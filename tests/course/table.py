@@ -15,10 +15,15 @@ OWN: set[int] = set()
 """Rows that are checked with our own robot instead of the page's."""
 COMPLETE: set[int] = set()
 """Rows that are checked with substitutes for the executables that the page does not print (N8)."""
+ALIKE: set[int] = set()
+"""Rows whose check does the same for each of its rows: once it has passed, it is not repeated."""
 
 
-def row(*numbers: int, own: bool = False, complete: bool = False) -> Callable[[Check], Check]:
-    """Register a function as the check of these rows, and choose the workspace: as printed, completed, or ours."""
+def row(*numbers: int, own: bool = False, complete: bool = False, alike: bool = False) -> Callable[[Check], Check]:
+    """Register a function as the check of these rows, and choose the workspace: as printed, completed, or ours.
+
+    With `alike` it does the same for all of them.
+    """
 
     def add(check: Check) -> Check:
         for number in numbers:
@@ -28,6 +33,8 @@ def row(*numbers: int, own: bool = False, complete: bool = False) -> Callable[[C
                 OWN.add(number)
             if complete:
                 COMPLETE.add(number)
+            if alike:
+                ALIKE.add(number)
         return check
 
     return add

@@ -109,6 +109,7 @@ def until(condition: Callable[[], Any], what: str) -> Any:
     return found
 
 
+@pytest.mark.slow
 def test_processes_are_visible_and_controllable_from_changing_consoles(state: Path) -> None:
     (state / "waiter.py").write_text(WAITS)
     file = state / "system.launch.py"

@@ -9,7 +9,7 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 from xml.etree import ElementTree
 
 import pytest
@@ -119,6 +119,7 @@ def test_wrong_variant_fails_only_in_rows_that_depend_on_it(
 
 @needs_course
 @needs_namespaces
+@pytest.mark.slow
 def test_default_that_is_wrong_fails_its_row_alone(tmp_path: Path) -> None:
     folder = workspace(tmp_path)
     change(folder, NODE, r"'max_speed', 1\.0", "'max_speed', 1.5")
@@ -151,31 +152,43 @@ def graded(tmp_path: Path, program: str, row: str = "run {package} node\nexpect-
     return result
 
 
-@needs_namespaces
-def test_graded_program_reaches_no_network_and_changes_no_file_of_the_workspace(tmp_path: Path) -> None:
+class Escape(NamedTuple):
+    """What a program that tries to get out of its sandbox has achieved."""
+
+    why: str
+    place: Path
+    running: str
+    """The command lines of all processes after its row."""
+
+
+@pytest.fixture(scope="module")
+def escape(tmp_path_factory: pytest.TempPathFactory) -> Escape:
+    """One graded row for the tests that look at its consequences: it starts whole sandboxes."""
+    place = tmp_path_factory.mktemp("escape")
     program = (
-        "import os, socket\n"
+        "import os, socket, subprocess\n"
         "def main():\n"
         "    open('src/mine/changed', 'w').close()\n"
         "    names = [name for _, name in socket.if_nameindex()]\n"
         "    print('interfaces', names, 'processes', len([p for p in os.listdir('/proc') if p.isdigit()]) < 20)\n"
+        f"    subprocess.Popen(['sh', '-c', 'sleep 1000 # {place}/alive'], start_new_session=True)\n"
+        "    print('started', flush=True)\n"
     )
-    result = graded(tmp_path, program)
-    assert "interfaces ['lo'] processes True" in result.why
-    assert not (tmp_path / "ws" / "src" / "mine" / "changed").exists()
+    why = graded(place, program).why
+    listed = subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True, check=True)
+    return Escape(why, place, listed.stdout)
 
 
 @needs_namespaces
-def test_nothing_that_a_graded_program_starts_outlives_its_row(tmp_path: Path) -> None:
-    mark = f"{tmp_path}/alive"
-    program = (
-        "import subprocess, sys\n"
-        "def main():\n"
-        f"    subprocess.Popen(['sh', '-c', 'sleep 1000 # {mark}'], start_new_session=True)\n"
-    )
-    graded(tmp_path, program)
-    running = subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True, check=True).stdout
-    assert mark not in running
+def test_graded_program_reaches_no_network_and_changes_no_file_of_the_workspace(escape: Escape) -> None:
+    assert "interfaces ['lo'] processes True" in escape.why
+    assert not (escape.place / "ws" / "src" / "mine" / "changed").exists()
+
+
+@needs_namespaces
+def test_nothing_that_a_graded_program_starts_outlives_its_row(escape: Escape) -> None:
+    assert "started" in escape.why
+    assert f"{escape.place}/alive" not in escape.running
 
 
 @needs_namespaces

@@ -41,10 +41,10 @@ HEAVY = {
     ("words", "more"),
     [
         ("node list", {"hashlib", "bot_console.runtime.rosidl.cdr_layout"}),
-        ("topic list", {"hashlib", "bot_console.runtime.rosidl.cdr_layout"}),
-        ("param get /other/peer speed", {"hashlib"}),
-        ("param set /other/peer speed 2.5", {"hashlib"}),
-        ("service call /pull std_srvs/srv/Trigger", set[str]()),
+        pytest.param("topic list", {"hashlib", "bot_console.runtime.rosidl.cdr_layout"}, marks=pytest.mark.slow),
+        pytest.param("param get /other/peer speed", {"hashlib"}, marks=pytest.mark.slow),
+        pytest.param("param set /other/peer speed 2.5", {"hashlib"}, marks=pytest.mark.slow),
+        pytest.param("service call /pull std_srvs/srv/Trigger", set[str](), marks=pytest.mark.slow),
         ("topic echo --once /poor", set[str]()),
     ],
 )

@@ -20,6 +20,7 @@ if os.name == "nt":
 TIMEOUT_S = 240
 
 
+@pytest.mark.slow
 def test_background_robot_is_reached_through_router_with_certificate_only(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -106,6 +106,7 @@ def test_verb_reads_messages_by_definition_from_their_node_unless_hash_differs(e
     assert "/painter describes it by a definition that does not have the hash RIHS01_" in untrue.stderr
 
 
+@pytest.mark.slow
 def test_bag_records_foreign_types_and_names_topics_without_definition_or_publisher(elsewhere: Path) -> None:
     while "/spots" not in typed("topic", "list", cwd=elsewhere).stdout:
         pass

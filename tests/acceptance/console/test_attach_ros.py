@@ -129,6 +129,7 @@ def test_robot_of_fifty_nodes_and_a_hundred_topics_is_shown(robot: subprocess.Po
         assert terminal.wait() == 0
 
 
+@pytest.mark.slow
 def test_console_asks_which_system_if_one_of_ours_runs_too(robot: subprocess.Popen[bytes], tmp_path: Path) -> None:
     line = [sys.executable, *CONSOLE, "attach"]
     seen = ""

@@ -31,7 +31,9 @@ def on_the_stand_in(folder: Path, *words: str, **variables: str) -> None:
     assert " passed" in done.stdout
 
 
-@pytest.mark.parametrize("which", [SOME, pytest.param("", marks=pytest.mark.soak)], ids=["some", "all"])
+@pytest.mark.parametrize(
+    "which", [pytest.param(SOME, marks=pytest.mark.slow), pytest.param("", marks=pytest.mark.soak)], ids=["some", "all"]
+)
 def test_contract_suites_pass_on_foreign_rclpy(tmp_path: Path, which: str) -> None:
     on_the_stand_in(tmp_path, "-k", which, "tests/contract", "--ignore", RECORDINGS_OF_RCLPY)
 

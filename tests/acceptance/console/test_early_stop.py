@@ -63,6 +63,9 @@ BEFORE = {
     "half of a sequence": "\x1b[<35;10;",
 }
 
+OFTEN = {"mouse moves": (), "nothing": pytest.mark.slow}
+"""What is tried before a change lands, in the default run or in that of the slow tests; each takes a console."""
+
 
 class Console:
     """The console in its terminal, and what was requested of the robot."""
@@ -95,7 +98,7 @@ def console(tmp_path: Path) -> Iterator[Console]:
 
 @pytest.mark.parametrize(
     "before",
-    [each if each in ("nothing", "mouse moves") else pytest.param(each, marks=pytest.mark.soak) for each in BEFORE],
+    [pytest.param(each, marks=OFTEN.get(each, pytest.mark.soak)) for each in BEFORE],
 )
 def test_robot_is_held_once_while_the_screen_hangs_and_its_turn_keeps_it(console: Console, before: str) -> None:
     console.terminal.type(BEFORE[before])

@@ -121,6 +121,7 @@ def test_second_signal_does_not_break_the_end(console):
     assert console.is_usable()
 
 
+@pytest.mark.slow
 def test_console_frozen_during_input_takes_keys_and_ends_in_order(console):
     for _ in range(2):
         os.kill(console.process.pid, signal.SIGSTOP)
@@ -140,6 +141,7 @@ def test_console_frozen_during_input_takes_keys_and_ends_in_order(console):
     assert console.is_usable()
 
 
+@pytest.mark.slow
 def test_vanished_terminal_ends_the_console(console):
     console.hang_up()
     assert console.process.wait(TIMEOUT_S) == 129

@@ -131,6 +131,7 @@ ENDS: Mapping[str, tuple[str, ProcessState, int, str]] = {
 """What a node does to itself, and what is shown then: its state, its exit code and a part of its problem."""
 
 
+@pytest.mark.slow
 def test_ending_node_ends_alone(system: System) -> None:
     system.start({name: HEAD + fault + "\n" for name, (fault, *_) in ENDS.items()})
     for name, (_, state, code, problem) in ENDS.items():
@@ -203,6 +204,7 @@ def test_computing_node_is_named_with_its_figures(system: System, name: str) -> 
 
 
 @pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="a system that cannot tell it")
+@pytest.mark.slow
 def test_node_holding_interpreter_lock_in_c_is_named_with_its_line(system: System) -> None:
     system.start({"hangs": HEAD + "ctypes.PyDLL(None).sleep(100000)\n"})
     system.until(lambda: "hangs.py:7, in <module>" in system.named("hangs").problem, "the line in which it hangs")
@@ -242,6 +244,7 @@ time.sleep(1000)
 
 
 @pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="a system that cannot tell it")
+@pytest.mark.slow
 def test_host_with_thread_holding_interpreter_lock_is_named_and_ended(tmp_path: Path) -> None:
     host = start_host(log=tmp_path / "host.log")
     message: list[str] = []
@@ -269,6 +272,7 @@ def test_host_with_thread_holding_interpreter_lock_is_named_and_ended(tmp_path: 
     assert host.process.returncode == -9
 
 
+@pytest.mark.slow
 def test_node_that_closes_all_descriptors_harms_no_other(system: System) -> None:
     system.start({"all": HEAD + CLOSES_ALL})
     system.all_others_go_on()
@@ -276,6 +280,7 @@ def test_node_that_closes_all_descriptors_harms_no_other(system: System) -> None
     assert system.named("all").exit_code == (-9 if killed.ok else -signal.SIGABRT), (killed, system.named("all"))
 
 
+@pytest.mark.slow
 def test_robot_can_be_stopped_beside_nodes_that_never_end(system: System) -> None:
     system.start({name: HEAD + fault for name, fault in ENDLESS.items() if name != "floods"})
     system.until(lambda: (system.named("holds").memory or 0) > 250, "its memory")

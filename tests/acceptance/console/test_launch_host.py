@@ -106,6 +106,7 @@ def test_node_has_its_own_process_and_its_crash_ends_nothing_else(hosted: Hosted
     assert hosted.named("waiter").state is ProcessState.EXITED
 
 
+@pytest.mark.slow
 def test_host_reports_number_of_delayed_starts(hosted: Hosted) -> None:
     late = "TimerAction(period={}, actions=[ExecuteProcess(cmd=['true'])])"
     assert hosted.launch(late.format("3600.0"), late.format("0.01"), waiter=WAITS).ok
@@ -156,7 +157,7 @@ STARTS_OTHERS = "sleep 600 & echo $!; (trap '' TERM; echo $BASHPID; sleep 600; s
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
-@pytest.mark.parametrize("end", ["close", "kill"])
+@pytest.mark.parametrize("end", [pytest.param("close", marks=pytest.mark.slow), "kill"])
 def test_grandchildren_end_with_the_host(hosted: Hosted, end: str) -> None:
     assert hosted.launch(f"ExecuteProcess(cmd=['bash', '-c', {STARTS_OTHERS!r}])").ok
     lines = hosted.until(lambda: len(found := [text for *_, text in hosted.printed if text.isdecimal()]) == 2 and found)
@@ -169,6 +170,7 @@ def test_grandchildren_end_with_the_host(hosted: Hosted, end: str) -> None:
     hosted.until(lambda: not any(map(is_running, pids)))
 
 
+@pytest.mark.slow
 def test_frozen_host_ends_its_processes_and_itself(hosted: Hosted) -> None:
     assert hosted.launch(waiter=WAITS).ok
     hosted.up("waiter")

@@ -105,6 +105,7 @@ def crashing(tmp_path):
     return Options(launch=str(path))
 
 
+@pytest.mark.slow
 def test_raising_node_dies_alone(crashing, tmp_path):
     async def run():
         async with live(crashing) as it:
@@ -128,6 +129,7 @@ def test_output_of_a_node_is_in_the_log_and_not_on_the_screen(crashing, capfd):
     assert "printed by the node" not in capfd.readouterr().out
 
 
+@pytest.mark.slow
 def test_hostile_text_is_kept_and_has_no_effect(crashing):
     async def run():
         async with live(crashing) as it:
@@ -140,6 +142,7 @@ def test_hostile_text_is_kept_and_has_no_effect(crashing):
     asyncio.run(run())
 
 
+@pytest.mark.slow
 def test_max_speed_is_refused_with_its_reason_then_accepted(tmp_path):
     async def run():
         async with live(Options()) as it:

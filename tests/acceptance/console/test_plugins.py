@@ -91,7 +91,9 @@ def test_example_is_built_installed_and_found(tmp_path: Path) -> None:
     assert found.stdout.strip() == "My robot", found.stderr
 
 
-@pytest.mark.parametrize("fault", BAD)
+@pytest.mark.parametrize(
+    "fault", [pytest.param(each, marks=() if each == "raises" else pytest.mark.slow) for each in BAD]
+)
 def test_faulty_plugin_ends_alone(source: Path, fault: str) -> None:
     package = source / f"bad_{fault}"
     shutil.copytree(EXAMPLE, package)

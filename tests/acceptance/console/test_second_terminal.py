@@ -79,6 +79,7 @@ def test_second_console_asks_to_attach_and_leaves_the_robot_running(console: Ter
     console.read_until(lambda: speed() > 0.1, "the robot that drives on")
 
 
+@pytest.mark.slow
 def test_signal_makes_console_write_its_stacks_and_continue(console: Terminal) -> None:
     stacks = console.stacks()
     assert "Current thread" in stacks and "_writer_thread.py" in stacks

@@ -82,12 +82,12 @@ def apart(env: dict[str, str], tmp_path: Path) -> None:
     ("options", "number", "handler", "shown"),
     [
         ("ALL", "SIGINT", "-", "KeyboardInterrupt False\n"),
-        ("ALL", "SIGTERM", "-", "ExternalShutdownException False\n"),
-        ("NO", "SIGINT", "-", "KeyboardInterrupt True\n"),
+        pytest.param("ALL", "SIGTERM", "-", "ExternalShutdownException False\n", marks=pytest.mark.slow),
+        pytest.param("NO", "SIGINT", "-", "KeyboardInterrupt True\n", marks=pytest.mark.slow),
         ("NO", "SIGTERM", "-", ""),
         pytest.param("SIGINT", "SIGTERM", "-", "", marks=pytest.mark.soak),
         pytest.param("SIGTERM", "SIGINT", "-", "KeyboardInterrupt True\n", marks=pytest.mark.soak),
-        ("ALL", "SIGINT", "before", "own ExternalShutdownException False\n"),
+        pytest.param("ALL", "SIGINT", "before", "own ExternalShutdownException False\n", marks=pytest.mark.slow),
         ("ALL", "SIGINT", "after", "own went on True\n"),
     ],
 )

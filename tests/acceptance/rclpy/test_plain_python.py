@@ -78,9 +78,9 @@ def demo(module: str, function: str) -> str:
     return f"-c 'from bot_console_demos.demo_nodes.{module} import {function}; {function}()'"
 
 
-def some(values: Sequence[Any], count: int) -> list[Any]:
-    """The first few for the default run, the others for the long one."""
-    return [pytest.param(each, marks=[] if n < count else pytest.mark.soak) for n, each in enumerate(values)]
+def some(values: Sequence[Any], *marks: pytest.MarkDecorator) -> list[Any]:
+    """The first one with these marks, the others for the long run."""
+    return [pytest.param(each, marks=pytest.mark.soak if n else marks) for n, each in enumerate(values)]
 
 
 CASTS = [
@@ -194,6 +194,7 @@ def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return make_home(tmp_path_factory.mktemp("home"))
 
 
+@pytest.mark.slow
 def test_uncaught_exception_is_shown_alike(home: Path, tmp_path: Path) -> None:
     text = "import rclpy\nrclpy.init()\nnode = rclpy.create_node('n')\nnode.create_timer(0.1, lambda: 1 / 0)\n"
     (tmp_path / "raises.py").write_text(f"{text}rclpy.spin(node)\n")
@@ -220,7 +221,7 @@ def compare(cast: Sequence[Line], home: Path, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "cast",
-    some(CASTS, 1),
+    some(CASTS),
     ids=lambda cast: cast[0].words.split()[0],
 )
 def test_programs_print_the_same_under_plain_python(cast: list[Line], home: Path, tmp_path: Path) -> None:
@@ -228,7 +229,7 @@ def test_programs_print_the_same_under_plain_python(cast: list[Line], home: Path
 
 
 @pytest.mark.skipif(not COURSE.is_dir(), reason="BOT_CONSOLE_COURSE names no course")
-@pytest.mark.parametrize("cast", some(COURSE_NODES, 1), ids=lambda cast: cast[0].words)
+@pytest.mark.parametrize("cast", some(COURSE_NODES, pytest.mark.slow), ids=lambda cast: cast[0].words)
 def test_listings_of_the_course_print_the_same_under_plain_python(cast: list[Line], home: Path, tmp_path: Path) -> None:
     """The other two, `dynamic_robot.py` and `parameter_client.py`, start nothing, and `bot-console run` says so."""
     compare(cast, home, tmp_path)

@@ -47,7 +47,7 @@ def drive():
     publisher.publish(command)
 
 
-node.create_timer(0.01, drive)
+node.create_timer(0.05, drive)
 rclpy.spin(node)
 """
 
@@ -139,6 +139,7 @@ def test_locked_robot_obeys_no_publisher_until_released(bench: Bench, topic: str
     assert bench.drives()
 
 
+@pytest.mark.slow
 def test_killed_monitor_is_restarted_and_robot_stands_until_a_person_releases_it(bench: Bench) -> None:
     bench.python(DRIVER, "cmd_vel")
     bench.kill("safety_node")
@@ -162,6 +163,7 @@ def test_steering_blocks_the_program_and_silence_locks(bench: Bench) -> None:
     assert bench.drives()
 
 
+@pytest.mark.slow
 def test_release_of_a_person_covers_only_their_own_stops(bench: Bench) -> None:
     bench.call("/safety_monitor/stop")
     assert bench.command("stop", "the arm swings").exit == 0
@@ -179,6 +181,7 @@ def test_release_of_a_person_covers_only_their_own_stops(bench: Bench) -> None:
     assert bench.drives()
 
 
+@pytest.mark.slow
 def test_unusable_scans_do_not_end_the_monitor(bench: Bench) -> None:
     blind = bench.python(BLIND)
     bench.run(2.0)

@@ -121,6 +121,7 @@ def test_right_wheel_is_faster_in_a_left_turn(running: System) -> None:
     assert float(re.findall(r"angular_velocity:\n(?:.*\n){2}\s+z: ([-\d.]+)", once(running, "/imu"))[0]) > 0.9
 
 
+@pytest.mark.slow
 def test_map_and_odometry_start_at_the_robot(running: System) -> None:
     robot(running, "-p", "origin:=start", "-p", "odometry.distance_noise:=0.0")
     navigator(running)
@@ -162,6 +163,7 @@ def test_signals_are_listed_and_reach_late_subscribers(running: System) -> None:
     assert running.finish(running.python("-c", text)).stdout == "1\n"
 
 
+@pytest.mark.slow
 def test_first_beam_of_turtlebot_3_points_forward(running: System) -> None:
     robot(running, "-p", "model:=turtlebot3", "-p", "lidar.field_of_view:=6.265732014659643", "-p", "lidar.noise:=0.0")
     scan = once(running, "/scan")
@@ -239,6 +241,7 @@ def test_newer_goal_replaces_the_older(running: System) -> None:
     assert "ABORTED" in first.stdout
 
 
+@pytest.mark.slow
 def test_waypoints_are_followed_and_missed_ones_reported(running: System) -> None:
     robot(running)
     navigator(running)
@@ -259,6 +262,7 @@ def test_waiting_for_nav2_returns_at_once(running: System) -> None:
     assert "frame_id: map" in once(running, "/amcl_pose")
 
 
+@pytest.mark.slow
 def test_goal_topic_needs_no_action_client(running: System) -> None:
     robot(running)
     program = navigator(running)
@@ -305,6 +309,7 @@ navigator.lifecycleShutdown()
 """
 
 
+@pytest.mark.slow
 def test_nav2_simple_commander_drives_the_robot(running: System) -> None:
     robot(running)
     navigator(running)

@@ -26,7 +26,7 @@ def test_page_navigator_drives_ten_minutes_in_our_system(tmp_path, world):
     assert report["distance"] > 100.0
 
 
-@pytest.mark.parametrize("minutes", [1, pytest.param(10, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("minutes", [pytest.param(1, marks=pytest.mark.slow), pytest.param(10, marks=pytest.mark.soak)])
 def test_page_navigator_drives_minutes_alone_with_the_simulator(tmp_path, minutes):
     report = headless(tmp_path, "--duration", str(60 * minutes), str(NODE), command=("run",))
     assert report["longest_standstill"] < 20.0

@@ -52,6 +52,7 @@ def run(folder, *words, seconds="6"):
     return typed(*words, cwd=folder)
 
 
+@pytest.mark.slow
 def test_nodes_that_need_a_robot_drive_ours_reproducibly(tmp_path):
     write(tmp_path, "driver", "watcher")
     words = ("--duration", "8", "--seed", "3", "--world", "warehouse", "--launch", "mine.launch.py")
@@ -74,6 +75,7 @@ def test_node_with_stamped_velocities_moves_the_robot(tmp_path):
     assert headless(tmp_path, "--duration", "8", "--launch", "mine.launch.py")["distance"] > 0.5
 
 
+@pytest.mark.slow
 def test_late_node_is_noticed(tmp_path):
     write(tmp_path, "TimerAction(period=5.0, actions=[Node(executable='driver.py')])")
     report = headless(tmp_path, "--duration", "12", "--launch", "mine.launch.py")
@@ -171,7 +173,7 @@ print("given by", looks[-1], flush=True)
     [
         (("run", "asks.py"), 0),
         pytest.param(("launch", "asks.launch.py"), 0, marks=pytest.mark.soak),
-        (("run", "--headless", "--duration", "600", "asks.py"), 1),
+        pytest.param(("run", "--headless", "--duration", "600", "asks.py"), 1, marks=pytest.mark.slow),
     ],
     ids=["run", "launch", "run --headless"],
 )

@@ -105,6 +105,7 @@ def run(work: Callable[[], Awaitable[Any]]) -> None:
     asyncio.run(asyncio.wait_for(work(), TIMEOUT_S))  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 def test_watching_console_takes_keys_mouse_and_touch_and_its_stop_works(
     chromium: str, watched: tuple[str, int]
 ) -> None:
@@ -153,6 +154,7 @@ def test_tablet_has_a_stop_button(chromium: str, watched: tuple[str, int]) -> No
     run(work)
 
 
+@pytest.mark.slow
 def test_silent_browser_ends_a_console_that_steers(chromium: str) -> None:
     async def work(address: str, server: int) -> None:
         async with new_page(chromium) as page:

@@ -23,11 +23,16 @@ while True:
     print("size", *shutil.get_terminal_size(), "controls", os.tcgetpgrp(0) == os.getpgrp(), end=".", flush=True)
     print("read", os.read(0, 100), end=".", flush=True)
 """
+WATCHING = """
+import os
+while True:
+    print("alive", os.read(int(os.environ["BOT_CONSOLE_BROWSER"]), 1), end=".", flush=True)
+"""
 
 
 @asynccontextmanager
-async def served(sessions: int = 1) -> AsyncIterator[tuple[Server, list[str], int]]:
-    server = Server([sys.executable, "-c", CONSOLE], "127.0.0.1", sessions=sessions)
+async def served(sessions: int = 1, console: str = CONSOLE) -> AsyncIterator[tuple[Server, list[str], int]]:
+    server = Server([sys.executable, "-c", console], "127.0.0.1", sessions=sessions)
     runner = web.AppRunner(server.application(), shutdown_timeout=0.1)
     await runner.setup()
     try:
@@ -195,6 +200,18 @@ def test_console_has_a_terminal_and_ends_with_its_tab(monkeypatch: pytest.Monkey
             assert process.returncode == 0, "it was hung up on, and ended by itself"
             while await socket_status(session, port, Origin=here) != 101:
                 await asyncio.sleep(0)
+
+    run(work)
+
+
+def test_console_hears_that_its_page_is_alive() -> None:
+    async def work() -> None:
+        async with served(console=WATCHING) as (_, [address], port), a_browser() as session:
+            here = f"http://127.0.0.1:{port}"
+            await status(session, address)
+            async with session.ws_connect(f"{here}/ws", origin=here) as socket:
+                await socket.send_str(json.dumps(["alive"]))
+                await until(socket, b"alive b'.'.")
 
     run(work)
 

@@ -129,6 +129,7 @@ def test_arguments_are_shown(running: System, tmp_path: Path) -> None:
     assert "'red':" in shown and "How red the follower's field is" in shown and "(default: '120')" in shown
 
 
+@pytest.mark.slow
 def test_project_of_several_files_runs(running: System, tmp_path: Path) -> None:
     for name, text in PROJECT.items():
         (tmp_path / name).write_text(text)

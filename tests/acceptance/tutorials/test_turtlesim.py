@@ -153,6 +153,7 @@ def test_background_is_set_by_parameters(running: System, sim: Program) -> None:
     assert running.ask("param", "set", "/turtlesim", "background_r", "150").stdout == "Set parameter successful\n"
 
 
+@pytest.mark.slow
 def test_draw_square_draws_a_square(running: System, sim: Program) -> None:
     square = running.executable("turtlesim", "draw_square")
     running.run(40.0)
@@ -196,6 +197,7 @@ def test_launch_file_starts_two_simulators(running: System) -> None:
     running.finish(launched)
 
 
+@pytest.mark.slow
 def test_turtle_follows_another_by_its_frame(running: System) -> None:
     running.ros2("launch", "turtle_tf2_py", "turtle_tf2_demo_launch.py")
     running.run(5.0)

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 import threading
 
-from bot_console.tui.cli.foreground.ending_signals import ended_by_signals
+import pytest
+from bot_console.tui.cli.foreground.ending_signals import ended_by_signals, hangup_as_signal
 
 TIMEOUT_S = 240.0
 
@@ -45,3 +47,20 @@ def test_signal_after_the_app_has_ended_is_ignored() -> None:
         os.kill(os.getpid(), signal.SIGTERM)
         ending.join(TIMEOUT_S)
         assert not ending.is_alive()
+
+
+def test_terminal_that_has_gone_counts_as_a_signal(monkeypatch: pytest.MonkeyPatch) -> None:
+    ended, ends = list[int](), threading.Event()
+
+    def end(number: int) -> None:
+        ended.append(number)
+        ends.set()
+
+    ours, its = os.openpty()
+    with os.fdopen(its) as terminal:
+        monkeypatch.setattr(sys, "__stdin__", terminal)
+        with ended_by_signals(end), hangup_as_signal():
+            assert not ends.is_set()
+            os.close(ours)
+            assert ends.wait(TIMEOUT_S)
+    assert ended == [signal.SIGHUP]
