@@ -82,7 +82,7 @@ def apart(env: dict[str, str], tmp_path: Path) -> None:
     ("options", "number", "handler", "shown"),
     [
         ("ALL", "SIGINT", "-", "KeyboardInterrupt False\n"),
-        pytest.param("ALL", "SIGTERM", "-", "ExternalShutdownException False\n", marks=pytest.mark.slow),
+        ("ALL", "SIGTERM", "-", "ExternalShutdownException False\n"),
         pytest.param("NO", "SIGINT", "-", "KeyboardInterrupt True\n", marks=pytest.mark.slow),
         ("NO", "SIGTERM", "-", ""),
         pytest.param("SIGINT", "SIGTERM", "-", "", marks=pytest.mark.soak),

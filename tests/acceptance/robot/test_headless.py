@@ -10,6 +10,7 @@ import pytest
 from bot_console.runtime.workspace.builtin_package import ROOT
 from bot_console.tui.cli.main import main
 from processes.typed import typed
+from systems import system
 
 sys.path.insert(0, str(Path(__file__).parent))
 from headless import TIMEOUT_S, headless
@@ -213,6 +214,15 @@ node = rclpy.create_node("draws")
 print("DRAWN", random.random(), np.random.rand(), flush=True)
 rclpy.spin_once(node, timeout_sec=0.1)
 """
+
+
+def test_random_numbers_of_a_program_are_those_of_the_seed():
+    def drawn():
+        with system() as running:
+            return running.finish(running.python("-c", DRAWS)).stdout
+
+    first = drawn()
+    assert first.startswith("DRAWN") and first == drawn()
 
 
 @pytest.mark.slow

@@ -1,0 +1,17 @@
+"""What a launch host sends of its state arrives whole."""
+
+from __future__ import annotations
+
+import json
+
+from bot_console.tui.console.model import LaunchEvent, LaunchInfo, ProcessInfo, ProcessState, Program, Severity
+from bot_console.tui.session.launch_host.plain_data import of_info, to_info
+
+PROCESS = ProcessInfo(
+    "1", "node-1", ProcessState.CRASHED, 7, ("/node",), ("a.launch.py",), 2, -9, "killed", program=Program(("node",))
+)
+INFO = LaunchInfo(("a.launch.py",), (PROCESS,), (LaunchEvent(0, 5, "begun", Severity.WARN),), "line 3", delayed=2)
+
+
+def test_state_is_the_same_on_the_other_side() -> None:
+    assert to_info(json.loads(json.dumps(of_info(INFO, 0))), LaunchInfo(), kept=10) == INFO
