@@ -157,7 +157,13 @@ def kill_writers(folder: Path, times: int) -> None:
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="forks")
-@pytest.mark.parametrize("times", [10, pytest.param(1000, marks=[pytest.mark.soak, pytest.mark.timeout(1000)])])
+@pytest.mark.parametrize(
+    "times",
+    [
+        pytest.param(10, marks=pytest.mark.slow),
+        pytest.param(1000, marks=[pytest.mark.soak, pytest.mark.timeout(1000)]),
+    ],
+)
 def test_kill_at_random_moments_leaves_complete_files(times: int, tmp_path: Path) -> None:
     # In a separate interpreter: a fork is safe only if no other thread runs.
     done = subprocess.run(

@@ -40,12 +40,12 @@ HEAVY = {
 @pytest.mark.parametrize(
     ("words", "more"),
     [
-        ("node list", {"hashlib", "bot_console.runtime.rosidl.cdr_layout"}),
+        pytest.param("node list", {"hashlib", "bot_console.runtime.rosidl.cdr_layout"}, marks=pytest.mark.slow),
         pytest.param("topic list", {"hashlib", "bot_console.runtime.rosidl.cdr_layout"}, marks=pytest.mark.slow),
-        pytest.param("param get /other/peer speed", {"hashlib"}, marks=pytest.mark.slow),
+        ("param get /other/peer speed", {"hashlib"}),
         pytest.param("param set /other/peer speed 2.5", {"hashlib"}, marks=pytest.mark.slow),
         pytest.param("service call /pull std_srvs/srv/Trigger", set[str](), marks=pytest.mark.slow),
-        ("topic echo --once /poor", set[str]()),
+        pytest.param("topic echo --once /poor", set[str](), marks=pytest.mark.slow),
     ],
 )
 def test_verb_imports_nothing_heavy(tmp_path: Path, words: str, more: set[str]) -> None:

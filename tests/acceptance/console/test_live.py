@@ -159,6 +159,7 @@ def test_max_speed_is_refused_with_its_reason_then_accepted(tmp_path):
     asyncio.run(run())
 
 
+@pytest.mark.slow
 def test_without_safety_node_robot_stops_and_console_says_why():
     async def run():
         async with live(Options()) as it:

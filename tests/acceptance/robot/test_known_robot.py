@@ -219,6 +219,7 @@ def test_goal_in_a_wall_is_aborted_with_the_reason(running: System) -> None:
     assert "Goal failed: the goal is inside a wall or outside the map" in nav.stderr
 
 
+@pytest.mark.slow
 def test_spin_back_up_and_wait_succeed(running: System) -> None:
     robot(running)
     navigator(running)
