@@ -12,6 +12,7 @@ import pytest
 from bot_console.runtime.importer import OWN_PACKAGE, OWN_PACKAGES, is_embedded
 from bot_console.runtime.workspace import discover
 from bot_console.runtime.workspace.builtin_package import FIRST_VARIABLE, NAME, PAGE_NAME
+from sampling import slow_after
 
 
 def test_ros_modules_are_embedded():
@@ -73,7 +74,7 @@ def test_our_two_package_names_share_modules(workspace):
     assert importlib.import_module(f"{OWN_PACKAGE}.detection").__spec__.name == f"{OWN_PACKAGE}.detection"
 
 
-@pytest.mark.parametrize("name", OWN_PACKAGES)
+@pytest.mark.parametrize("name", slow_after(1, OWN_PACKAGES))
 def test_workspace_package_with_our_name_takes_precedence(name, workspace):
     make(workspace, name)
     runs(workspace, f"import {name}; assert {name}.theirs")

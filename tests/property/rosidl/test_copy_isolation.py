@@ -11,6 +11,7 @@ import pytest
 from bot_console.runtime.rosidl.cdr import deserialize, serialize
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from sampling import slow_after
 
 NAMES = (
     "std_msgs/msg/Float32",
@@ -42,7 +43,7 @@ def parts(value: Any) -> list[Any]:
     return [value] if isinstance(value, (array, numpy.ndarray)) else []
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", slow_after(3, NAMES))
 @given(data=st.data())
 @LIMITS
 def test_a_copy_equals_the_result_of_a_round_trip(name: str, data: Any, messages: Any) -> None:
@@ -50,7 +51,7 @@ def test_a_copy_equals_the_result_of_a_round_trip(name: str, data: Any, messages
     assert messages.same(message._copy_(), deserialize(serialize(message), type(message)))
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", slow_after(3, NAMES))
 @given(data=st.data())
 @LIMITS
 def test_a_copy_shares_no_part_with_the_message(name: str, data: Any, messages: Any) -> None:

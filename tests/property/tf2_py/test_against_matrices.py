@@ -111,6 +111,7 @@ def _to_common(known: list[Entry], frame: str, common: str, time: float) -> np.n
     return matrix
 
 
+@pytest.mark.slow
 @given(entries, st.sampled_from(FRAMES), st.sampled_from(FRAMES), quarters)
 def test_a_transform_is_the_product_of_matrices(known: list[Entry], target: str, source: str, quarter: int) -> None:
     time = quarter / 4

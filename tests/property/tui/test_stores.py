@@ -21,6 +21,7 @@ from bot_console.tui.settings.settings import read_settings
 from bot_console.tui.settings.state_files import StateFiles
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from sampling import slow_after
 
 TIMEOUT_S = 240.0
 """Seconds after which a blocking read fails its test."""
@@ -143,7 +144,7 @@ GARBAGE = st.one_of(
 )  # fmt: skip
 
 
-@pytest.mark.parametrize(("where", "read", "reports"), STORES.values(), ids=STORES)
+@pytest.mark.parametrize(("where", "read", "reports"), slow_after(3, STORES.values()), ids=STORES)
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
 @given(content=GARBAGE)
 def test_any_content_can_be_read(

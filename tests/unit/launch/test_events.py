@@ -30,6 +30,7 @@ from launch.events import matches_action
 from launch.events.process import ShutdownProcess, SignalProcess
 from launch.substitutions import LaunchConfiguration, LocalSubstitution
 from launching import Launch, Outcome
+from sampling import slow_after
 
 from launch import Event, EventHandler, LaunchDescription, LaunchService
 
@@ -150,7 +151,7 @@ AGAIN: dict[str, Callable[[Any], Any]] = {
 """Ways in which a handler executes a process once more."""
 
 
-@pytest.mark.parametrize("again", AGAIN)
+@pytest.mark.parametrize("again", slow_after(2, AGAIN))
 @pytest.mark.parametrize("after", ["start", "output"])
 def test_reexecuting_a_running_action_keeps_its_process(run: Launch, again: str, after: str) -> None:
     ended: list[int] = []

@@ -22,6 +22,7 @@ from launch_ros.event_handlers import OnStateTransition
 from launching import Launch
 from processes.waiting_node import WAITS, once_up
 from python_versions import PDB_TAKES_NO_OPTIONS
+from sampling import slow_after
 
 
 @pytest.fixture
@@ -80,9 +81,9 @@ def test_python_options_in_prefix_are_left_to_python(run: Launch, script: Any) -
     [
         ("python3 -X utf8", "1 rclpy"),
         pytest.param("python3 -m pdb -c continue -c quit", "0 rclpy", marks=PDB_TAKES_NO_OPTIONS),
-        ("env PYTHONUTF8=1", "1 rclpy"),
-        ("nice", "0 rclpy"),
-        ("python3 -X importtime", "import time:"),
+        *slow_after(
+            0, [("env PYTHONUTF8=1", "1 rclpy"), ("nice", "0 rclpy"), ("python3 -X importtime", "import time:")]
+        ),
     ],
 )
 def test_an_entry_point_behind_a_prefix_is_a_script(

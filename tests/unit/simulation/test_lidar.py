@@ -1,5 +1,6 @@
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -8,7 +9,9 @@ from bot_console_robot.simulation.lidar import LidarSettings
 from bot_console_robot.simulation.simulation import Settings, Simulation
 from bot_console_robot.simulation.world import World
 from bot_console_robot.simulation.world_file import parse_world
+from sampling import slow_after
 
+SHIPPED = sorted(path.stem for path in (Path(__file__).parents[3] / "profiles" / "worlds").glob("*.yaml"))
 EXACT = LidarSettings(noise=0.0, dropout=0.0, range_max=100.0)
 
 
@@ -16,6 +19,7 @@ def simulate(world: World, lidar: LidarSettings = EXACT, seed: int = 1) -> Simul
     return Simulation(world, seed, Settings(lidar=lidar))
 
 
+@pytest.mark.parametrize("shipped_world", slow_after(1, SHIPPED), indirect=True)
 def test_beams_agree_with_the_physics_engine(shipped_world: World) -> None:
     simulation = simulate(shipped_world, replace(EXACT, field_of_view=2 * math.pi))
     rng = np.random.default_rng(7)

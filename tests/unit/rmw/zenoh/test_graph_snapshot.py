@@ -42,7 +42,7 @@ def publishers(graph: WholeGraph) -> int:
     return len(graph.tables.publishers.all())
 
 
-@pytest.mark.parametrize(("known", "single"), [(False, 48), (True, 48), (True, 1)])
+@pytest.mark.parametrize(("known", "single"), [(False, 48), pytest.param(True, 48, marks=pytest.mark.slow), (True, 1)])
 def test_snapshot_is_complete_at_once_and_leaves_with_its_process(socket_folder, monkeypatch, known, single):
     monkeypatch.setattr(watching, "SINGLE", single)
     holder = open_session(0)

@@ -15,6 +15,7 @@ def sockets_of(folder: str) -> set[str]:
     return {name for name in os.listdir(os.path.join(folder, "0")) if name[0].isdigit() and not name.endswith(".lock")}
 
 
+@pytest.mark.slow
 def test_simultaneous_starts_all_meet():
     with members(8) as present:
         assert every_pair_talks(present)
@@ -49,6 +50,7 @@ def test_leaving_process_removes_dead_sockets(socket_folder):
     assert sockets_of(socket_folder) == set()
 
 
+@pytest.mark.slow
 def test_folder_full_of_dead_sockets_is_cleaned(socket_folder):
     with members(6) as dead:
         for each in dead:

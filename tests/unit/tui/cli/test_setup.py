@@ -85,7 +85,7 @@ def test_colcon_reports_that_nothing_has_to_be_built(name: str, home: Path, shel
     assert shell(name, f"cd {home}; colcon build").startswith("Nothing has to be built or sourced: ")
 
 
-@pytest.mark.parametrize("name", SHELLS)
+@pytest.mark.parametrize("name", slow_after(1, SHELLS))
 def test_existing_ros2_is_kept(name: str, home: Path, shell: Shell):
     real = home / "bin" / "ros2"
     real.write_text("#!/bin/sh\necho real\n", "utf-8")
@@ -117,7 +117,9 @@ def test_python_imports_rclpy(name: str, shell: Shell):
 
 
 @pytest.mark.parametrize("name", SHELLS)
-@pytest.mark.parametrize("extra", [{}, {"ROS_DISTRO": "kilted", "PYTHONPATH": "/mine:/too"}], ids=["bare", "sourced"])
+@pytest.mark.parametrize(
+    "extra", slow_after(1, [{}, {"ROS_DISTRO": "kilted", "PYTHONPATH": "/mine:/too"}]), ids=["bare", "sourced"]
+)
 def test_undo_leaves_environment_of_before(name: str, home: Path, shell: Shell, extra: dict[str, str]):
     before = in_shell(name, home, "env | sort", extra).stdout
     done = shell(name, f"{undoing(name)}\nenv | sort; echo then\n{undoing(name)}\nenv | sort", extra)
@@ -175,9 +177,11 @@ def test_setup_reports_real_rclpy_and_another_python(home: Path, tmp_path: Path)
     [
         ("ros2 topi", ["topic"]),
         pytest.param("ros2 param l", ["list", "load"], marks=pytest.mark.soak),
-        ("bot-console setup ", ["bash", "editor", "fish", "venv", "zsh"]),
+        pytest.param("bot-console setup ", ["bash", "editor", "fish", "venv", "zsh"], marks=pytest.mark.slow),
         ("ros2 interface show std_msgs/msg/Strin", ["std_msgs/msg/String"]),
-        ("ros2 launch bot_console_robot robot_system.launch.py nav", ["navigator:="]),
+        pytest.param(
+            "ros2 launch bot_console_robot robot_system.launch.py nav", ["navigator:="], marks=pytest.mark.slow
+        ),
         pytest.param("ros2 launch bot_console_robot robot_system.launch.py navigator:=", [], marks=pytest.mark.slow),
         pytest.param("ros2 run bot_console_robot sim", ["simulator_node"], marks=pytest.mark.soak),
         pytest.param("ros2 launch bot_console_robot robot_", ["robot_system.launch.py"], marks=pytest.mark.soak),

@@ -73,7 +73,10 @@ def both(compositor: Any, *regions: Region) -> tuple[Any, Any]:
     return ours, pieces(Compositor.render_partial_update(compositor))
 
 
-@pytest.mark.parametrize("seed", [0, *(pytest.param(each, marks=pytest.mark.soak) for each in range(1, 4))])
+@pytest.mark.parametrize(
+    "seed",
+    [pytest.param(0, marks=pytest.mark.slow), *(pytest.param(each, marks=pytest.mark.soak) for each in range(1, 4))],
+)
 def test_changed_parts_are_composed_as_textual_does_it(seed: int) -> None:
     async def main() -> None:
         draw = random.Random(seed)

@@ -78,9 +78,7 @@ def links(update: Any) -> bool:
     return any(each.style and each.style.link for line in update.strips for strip in line for each in strip)
 
 
-@pytest.mark.parametrize(
-    "names", [[""], ["opaque"], ["", "clear"], *slow_after(0, [["clear"], ["", ""], ["opaque", ""]])]
-)
+@pytest.mark.parametrize("names", slow_after(2, [[""], ["", "clear"], ["opaque"], ["clear"], ["", ""], ["opaque", ""]]))
 @pytest.mark.parametrize("colours", [True, False])
 def test_what_is_below_is_dimmed_as_textual_does_it(
     names: list[str], colours: bool, monkeypatch: pytest.MonkeyPatch

@@ -180,7 +180,7 @@ def test_files_that_are_not_bags_are_refused(tmp_path: Path) -> None:
             Bag(tmp_path / name)
 
 
-@pytest.mark.parametrize("step", [3, pytest.param(1, marks=pytest.mark.soak)])
+@pytest.mark.parametrize("step", [12, pytest.param(3, marks=pytest.mark.slow), pytest.param(1, marks=pytest.mark.soak)])
 def test_a_damaged_byte_anywhere_is_reported_or_harmless(tmp_path: Path, step: int) -> None:
     file = words(tmp_path / "bag", "a", "b") / "bag_0.mcap"
     whole, reported = file.read_bytes(), 0

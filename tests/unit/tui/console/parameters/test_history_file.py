@@ -255,7 +255,9 @@ while True:
 """
 
 
-@pytest.mark.parametrize("programs", [3, pytest.param(10, marks=pytest.mark.soak)])
+@pytest.mark.parametrize(
+    "programs", [1, pytest.param(3, marks=pytest.mark.slow), pytest.param(10, marks=pytest.mark.soak)]
+)
 def test_no_confirmed_change_is_lost_when_the_program_is_killed(tmp_path: Path, programs: int) -> None:
     """100 changes and saves in each of several programs, each killed in the middle of the next one."""
     confirmed: dict[str, int] = {}
