@@ -92,7 +92,7 @@ def test_example_is_built_installed_and_found(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "fault", [pytest.param(each, marks=() if each == "raises" else pytest.mark.slow) for each in BAD]
+    "fault", [pytest.param(each, marks=() if each in ("raises", "no_widget") else pytest.mark.slow) for each in BAD]
 )
 def test_faulty_plugin_ends_alone(source: Path, fault: str) -> None:
     package = source / f"bad_{fault}"
