@@ -42,6 +42,12 @@ def by_rosbags(folder: Path) -> list[int]:
         return [reader.deserialize(data, each.msgtype).data for each, _, data in reader.messages(connections)]
 
 
+@pytest.mark.parametrize(("preset", "compressed"), [("zstd_fast", True), ("zstd_small", True), ("fastwrite", False)])
+def test_chunks_are_compressed_as_the_preset_says(tmp_path: Path, preset: str, compressed: bool) -> None:
+    (file,) = written(tmp_path / "bag", storage="mcap", preset=preset).glob("*.mcap")
+    assert (b"zstd" in file.read_bytes()) == compressed
+
+
 @pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
 @pytest.mark.parametrize(
     "how",
