@@ -23,6 +23,12 @@ STATES: list[tuple[str, System, tuple[int, int]]] = [
     ("faulty", faulty, (80, 24)),
     ("narrow", live, (60, 20)),
 ]
+PICTURED = {
+    "empty": ("parameters", "steering"),
+    "faulty": ("parameters", "alarms"),
+    "narrow": ("parameters", "steering"),
+}
+"""The panes whose picture in that state is taken by default, beside those of all panes that are live."""
 RARER: list[tuple[str, System, tuple[int, int]]] = [
     ("medium", live, (120, 40)),
     ("large", live, (200, 50)),
@@ -41,30 +47,43 @@ def app_of(system: System, start: str = "overview") -> BotConsoleApp:
     return BotConsoleApp(console, refresh_hz=0, opening=Opening(start))
 
 
+def marks(state: str, pane: str) -> list[pytest.MarkDecorator]:
+    """What keeps the picture of a pane out of the default run."""
+    if state in [each[0] for each in RARER]:
+        return [pytest.mark.soak]
+    return [] if state == "live" or pane in PICTURED[state] else [pytest.mark.slow]
+
+
 @pytest.mark.parametrize(
-    ("state", "system", "size"),
-    [*(pytest.param(*each, id=each[0]) for each in STATES),
-     *(pytest.param(*each, id=each[0], marks=pytest.mark.soak) for each in RARER)],
+    ("entry", "state", "system", "size"),
+    [pytest.param(entry, *each, id=f"{entry.id}-{each[0]}", marks=marks(each[0], entry.id))
+     for entry in PANES for each in (*STATES, *RARER)],
 )  # fmt: skip
-@pytest.mark.parametrize("entry", PANES, ids=[each.id for each in PANES])
 def test_pane(entry: Any, state: str, system: System, size: tuple[int, int], snap_compare: Any) -> None:
     assert snap_compare(app_of(system), terminal_size=size, press=[entry.key])
 
 
 @pytest.mark.parametrize(
-    "size", [(60, 20), (80, 24), (100, 30), (120, 40), (200, 50)], ids=["least", "compact", "small", "medium", "large"]
+    "size",
+    [
+        pytest.param((60, 20), id="least"),
+        pytest.param((80, 24), id="compact", marks=pytest.mark.slow),
+        pytest.param((100, 30), id="small", marks=pytest.mark.slow),
+        pytest.param((120, 40), id="medium", marks=pytest.mark.slow),
+        pytest.param((200, 50), id="large", marks=pytest.mark.slow),
+    ],
 )
 def test_overview(size: tuple[int, int], snap_compare: Any) -> None:
     assert snap_compare(app_of(live), terminal_size=size)
 
 
-FOLDED = ("graph", "launch", "topics")
-"""The panes that fold a fleet, whose pictures at the smallest size are taken by default."""
+FOLDED = {"graph": [], "launch": [pytest.mark.slow], "topics": [pytest.mark.slow]}
+"""The panes that fold a fleet, whose pictures at the smallest size are taken before each change."""
 
 
 @pytest.mark.parametrize(
     "entry",
-    [pytest.param(each, id=each.id, marks=() if each.id in FOLDED else pytest.mark.soak) for each in PANES],
+    [pytest.param(each, id=each.id, marks=FOLDED.get(each.id, [pytest.mark.soak])) for each in PANES],
 )
 def test_fleet(entry: Any, snap_compare: Any) -> None:
     assert snap_compare(app_of(fleet), terminal_size=(80, 24), press=[entry.key])
@@ -81,13 +100,13 @@ def test_too_small(snap_compare: Any) -> None:
     assert snap_compare(app_of(live), terminal_size=(50, 15))
 
 
-LONG_AND_SHORT = ("parameters", "world")
-"""Whose help is a picture by default; that each names all its keys, the pilots see to."""
+LONG_AND_SHORT = {"parameters": [pytest.mark.slow], "world": []}
+"""Whose help is a picture before each change; that each names all its keys, the pilots see to."""
 
 
 @pytest.mark.parametrize(
     "entry",
-    [pytest.param(each, id=each.id, marks=() if each.id in LONG_AND_SHORT else pytest.mark.soak) for each in PANES],
+    [pytest.param(each, id=each.id, marks=LONG_AND_SHORT.get(each.id, [pytest.mark.soak])) for each in PANES],
 )
 def test_help(entry: Any, snap_compare: Any) -> None:
     assert snap_compare(app_of(live), terminal_size=(100, 40), press=[entry.key, "question_mark"])
@@ -112,7 +131,17 @@ OVERLAYS = {
 }
 
 
-@pytest.mark.parametrize("keys", OVERLAYS.values(), ids=OVERLAYS.keys())
+BY_DEFAULT = ("graph_node", "parameter_refused", "launch_picker", "profile_question", "all_stop")
+"""One picture of each kind: a box, a field with a fault, a list to choose from, a question, a stop."""
+
+
+@pytest.mark.parametrize(
+    "keys",
+    [
+        pytest.param(keys, id=name, marks=() if name in BY_DEFAULT else pytest.mark.slow)
+        for name, keys in OVERLAYS.items()
+    ],
+)
 def test_in_use(keys: list[str], snap_compare: Any) -> None:
     async def use(pilot: Any) -> None:
         await pilot.press(*keys)
@@ -134,6 +163,8 @@ def test_steering_armed(size: tuple[int, int], snap_compare: Any) -> None:
     assert snap_compare(app_of(live), terminal_size=size, run_before=steer)
 
 
-@pytest.mark.parametrize("keys", [["I"], ["I", "g"]], ids=["colours", "letters"])
+@pytest.mark.parametrize(
+    "keys", [pytest.param(["I"], id="colours", marks=pytest.mark.slow), pytest.param(["I", "g"], id="letters")]
+)
 def test_image(keys: list[str], snap_compare: Any) -> None:
     assert snap_compare(app_of(lambda: with_camera("front")), terminal_size=(80, 24), press=keys)

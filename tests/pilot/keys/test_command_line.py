@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from bot_console.tui.keys.keyboard import MAX_PASTE_CHARACTERS
 from bot_console.tui.panes.plot.pane import PlotPane
 from bot_console.tui.screens.output import OutputScreen
@@ -15,7 +16,7 @@ from textual.widgets import Input
 
 async def line(session: Session, text: str) -> None:
     await session.press("colon")
-    await session.type(text)
+    await session.paste(text)
     await session.press("enter")
 
 
@@ -46,7 +47,9 @@ def test_error_message_is_shown_in_full_at_80_columns() -> None:
 
 def test_invalid_line_is_reported_and_stays_editable() -> None:
     async def play(session: Session) -> None:
-        await line(session, "topc list")
+        await session.press("colon")
+        await session.type("topc list")
+        await session.press("enter")
         assert "did you mean topic?" in session.text() and field(session) == "topc list"
         await session.press("escape")
         assert not session.pane(CommandField).is_open
@@ -78,14 +81,20 @@ def test_commands_and_ros2_lines_are_run() -> None:
         assert session.console.asked[-1] == ("all_stop", True)
         await line(session, "release")
         assert session.console.asked[-1] == ("all_stop", False)
+        await line(session, "node list")
+        assert session.console.asked[-1] == ("run", "node list") and isinstance(session.app.screen, OutputScreen)
+        assert "give up" not in session.lines()[-1]
+
+    run(live(), play, (120, 40))
+
+
+@pytest.mark.slow
+def test_commands_that_change_or_open_something_are_run() -> None:
+    async def play(session: Session) -> None:
         await line(session, "layout tuning")
         assert session.app.stage.arranging.arrangement.name == "tuning"
         await line(session, f"plot {SPEED}")
         assert session.pane(PlotPane).display and session.pane(PlotPane).paths == [SPEED]
-        await line(session, "node list")
-        assert session.console.asked[-1] == ("run", "node list") and isinstance(session.app.screen, OutputScreen)
-        assert "give up" not in session.lines()[-1]
-        await session.press("escape")
         await line(session, "help")
         assert "set NODE PARAMETER VALUE" in session.text() and "rqt_plot" in session.text()
         await session.press("escape", "ctrl+p")
@@ -121,6 +130,7 @@ def test_tab_completes_and_focus_returns_to_the_pane() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_history_recalls_earlier_lines() -> None:
     async def play(session: Session) -> None:
         for each in ("node list", "topic list"):

@@ -18,7 +18,8 @@ async def opened(session: Session) -> None:
     await session.press("1", "home")
     rows = session.pane(ParametersPane).query_one(ParameterRows)
     at = next(index for index, row in enumerate(rows.rows) if row.name == "a_list")
-    await session.press(*["down"] * (at - rows.cursor), "enter")
+    rows.cursor = at
+    await session.press("enter")
     assert isinstance(session.app.screen, ElementsScreen)
 
 
@@ -51,6 +52,7 @@ def test_array_is_edited_element_by_element_and_set_once() -> None:
     assert edited(Kind.DOUBLE_ARRAY, (1.0, 2.0, 3.0), play) == [(9.0, 3.0, 7.5)]
 
 
+@pytest.mark.slow
 def test_a_text_with_a_comma_stays_one_element() -> None:
     async def play(session: Session) -> None:
         assert "b, d" in session.text()
@@ -72,6 +74,7 @@ def test_invalid_element_is_explained_and_rejected() -> None:
     assert edited(Kind.INTEGER_ARRAY, (1,), play) == []
 
 
+@pytest.mark.slow
 def test_byte_array_and_empty_array_are_edited() -> None:
     async def play(session: Session) -> None:
         assert "empty" in session.text()
@@ -90,7 +93,7 @@ def test_byte_array_and_empty_array_are_edited() -> None:
     assert edited(Kind.BYTE_ARRAY, (), play) == [(b"\xff",)]
 
 
-@pytest.mark.parametrize("undone", [True, False])
+@pytest.mark.parametrize("undone", [pytest.param(True, marks=pytest.mark.slow), False])
 def test_changes_are_discarded_only_at_the_second_escape(undone: bool) -> None:
     async def play(session: Session) -> None:
         await session.press("d", *(["u"] if undone else []), "escape")

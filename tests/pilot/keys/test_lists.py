@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
+import pytest
 from bot_console.tui.console.model import Kind, Severity
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
@@ -46,6 +47,11 @@ def name(at: int) -> str:
 
 
 LISTS = {"parameters": "1", "logs": "2", "profiles": "7", "launch": "8"}
+each_list = pytest.mark.parametrize(
+    "digit",
+    [pytest.param(digit, id=pane, marks=() if pane == "logs" else pytest.mark.slow) for pane, digit in LISTS.items()],
+)
+"""All are lists of one kind: by default one of them is tried."""
 
 
 def focused(session: Session) -> RowList:
@@ -68,20 +74,21 @@ async def ends_and_pages(session: Session, rows: RowList, home: str, end: str) -
     await session.press(end)
     last = rows.row_count() - 1
     assert rows.cursor == last > 20
+    assert 0 <= last - rows.scroll_offset.y < rows.size.height, "the cursor is in view"
     await session.press(home)
-    assert rows.cursor == 0
+    assert rows.cursor == rows.scroll_offset.y == 0
     await session.press("pagedown")
     assert rows.cursor == rows.size.height - 1
     await session.press("pageup")
     assert rows.cursor == 0
 
 
-def test_keys_go_to_first_and_last_row_and_by_pages() -> None:
+@each_list
+def test_keys_go_to_first_and_last_row_and_by_pages(digit: str) -> None:
     async def play(session: Session) -> None:
-        for digit in LISTS.values():
-            await session.press(digit)
-            for home, end in (("g", "G"), ("home", "end")):
-                await ends_and_pages(session, focused(session), home, end)
+        await session.press(digit)
+        for home, end in (("g", "G"), ("home", "end")):
+            await ends_and_pages(session, focused(session), home, end)
 
     run(crowded(), play)
 
@@ -114,18 +121,19 @@ async def filter_and_step(session: Session) -> None:
     assert at_cursor(rows) == seen[1]
 
 
-def test_filter_counts_matches_and_n_steps_through_them() -> None:
+@each_list
+def test_filter_counts_matches_and_n_steps_through_them(digit: str) -> None:
     async def play(session: Session) -> None:
-        for digit in LISTS.values():
-            await session.press(digit)
-            await filter_and_step(session)
+        await session.press(digit)
+        await filter_and_step(session)
 
     run(crowded(), play, size=(120, 40))
 
 
-def test_next_match_without_search_or_matches_is_reported_in_each_pane() -> None:
+@pytest.mark.parametrize("digits", ["2", pytest.param("31278", marks=pytest.mark.slow)])
+def test_next_match_without_search_or_matches_is_reported_in_each_pane(digits: str) -> None:
     async def play(session: Session) -> None:
-        for digit in ("3", *LISTS.values()):
+        for digit in digits:
             session.app.clear_notifications()
             await session.press(digit)
             assert "Nothing was" not in session.text() and "Nothing here" not in session.text()
@@ -139,7 +147,9 @@ def test_next_match_without_search_or_matches_is_reported_in_each_pane() -> None
 
 def test_next_match_works_in_the_graph() -> None:
     async def play(session: Session) -> None:
-        await session.press("3", "slash", *"scan", "enter", "escape", "n")
+        await session.press("3", "slash")
+        await session.paste("scan")
+        await session.press("enter", "escape", "n")
         from bot_console.tui.widgets.diagram_view import DiagramView
 
         first = session.pane(DiagramView).selected
@@ -151,6 +161,7 @@ def test_next_match_works_in_the_graph() -> None:
     run(live(), play, size=(120, 40))
 
 
+@pytest.mark.slow
 def test_search_in_elements_hides_nothing() -> None:
     async def play(session: Session) -> None:
         await session.press("1", "slash", *"a_list", "enter", "enter")

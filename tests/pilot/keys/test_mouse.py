@@ -18,9 +18,12 @@ from textual.widgets._toast import Toast
 NAVIGATOR = "/robot_navigator"
 
 
-def test_click_on_tab_opens_pane_and_click_selects_row() -> None:
+@pytest.mark.parametrize("keys", ["28", pytest.param("1345679HMBI", marks=pytest.mark.slow)])
+def test_click_on_tab_opens_pane_and_click_selects_row(keys: str) -> None:
     async def play(session: Session) -> None:
-        for entry in PANES:
+        entries = [each for each in PANES if each.key in keys]
+        assert len(entries) == len(keys)
+        for entry in entries:
             await session.click_tab(entry.key)
             [pane] = session.app.visible_panes()
             assert pane.id == entry.id
@@ -50,7 +53,7 @@ def test_double_click_opens_row_and_click_outside_closes_box() -> None:
     run(live(), play, (200, 40))
 
 
-@pytest.mark.parametrize(("answer", "set_"), [("y yes", True), ("n no", False)])
+@pytest.mark.parametrize(("answer", "set_"), [("y yes", True), pytest.param("n no", False, marks=pytest.mark.slow)])
 def test_a_question_is_answered_by_mouse(answer: str, set_: bool) -> None:
     async def play(session: Session) -> None:
         await session.click_tab("7")
@@ -77,7 +80,9 @@ def test_clicks_that_are_on_their_way_when_a_box_closes_do_nothing() -> None:
     run(live(), play)
 
 
-@pytest.mark.parametrize("keys", [(), ("question_mark",)], ids=["panes", "box"])
+@pytest.mark.parametrize(
+    "keys", [pytest.param((), id="panes"), pytest.param(("question_mark",), id="box", marks=pytest.mark.slow)]
+)
 def test_button_that_goes_down_where_a_notification_was_removed_ends_nothing(keys: tuple[str, ...]) -> None:
     async def play(session: Session) -> None:
         await session.press(*keys)
@@ -113,6 +118,7 @@ def test_click_chooses_option_and_key_bar_stops_the_robot() -> None:
     run(live(), play, (200, 40))
 
 
+@pytest.mark.slow
 def test_click_on_help_line_presses_its_key() -> None:
     async def play(session: Session) -> None:
         await session.click_tab("1")

@@ -67,6 +67,16 @@ def test_value_is_set_on_the_edited_parameter_after_the_cursor_moved() -> None:
     run(live(), play)
 
 
+def test_key_bar_names_the_keys_of_what_has_the_focus() -> None:
+    async def play(session: Session) -> None:
+        await edit(session, "max_speed")
+        assert "esc Cancel" in session.lines()[-1] and "e Edit" not in session.lines()[-1]
+        await session.press("escape")
+        assert "esc Cancel" not in session.lines()[-1] and "/ Filter" in session.lines()[-1]
+
+    run(live(), play)
+
+
 def test_click_moves_cursor_and_prompt_keeps_focus() -> None:
     async def play(session: Session) -> None:
         await edit(session, "max_speed")
@@ -81,6 +91,7 @@ def test_click_moves_cursor_and_prompt_keeps_focus() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_click_into_another_pane_closes_the_prompt() -> None:
     async def play(session: Session) -> None:
         await edit(session, "max_speed")
@@ -95,7 +106,7 @@ def test_click_into_another_pane_closes_the_prompt() -> None:
     run(live(), play, (120, 40))
 
 
-@pytest.mark.parametrize("gone", ["node", "parameter"])
+@pytest.mark.parametrize("gone", ["node", pytest.param("parameter", marks=pytest.mark.slow)])
 def test_edit_closes_when_its_node_leaves(gone: str) -> None:
     async def play(session: Session) -> None:
         await edit(session, "max_speed")
@@ -151,6 +162,7 @@ def test_characters_typed_after_the_filter_key_belong_to_the_filter() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_keys_typed_fast_go_to_the_value_until_enter() -> None:
     async def play(session: Session) -> None:
         await edit(session, "max_speed")
@@ -162,6 +174,7 @@ def test_keys_typed_fast_go_to_the_value_until_enter() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_characters_typed_after_the_palette_key_belong_to_the_palette() -> None:
     async def play(session: Session) -> None:
         await at_once(session, "\x10node graph")
@@ -174,9 +187,17 @@ def test_characters_typed_after_the_palette_key_belong_to_the_palette() -> None:
     run(live(), play)
 
 
-def test_escape_pressed_twice_closes_one_prompt_at_a_time() -> None:
+@pytest.mark.parametrize(
+    "typed",
+    [
+        (":\x1b\x1b", "8o\x1b\x1b\x1b"),
+        pytest.param((":\r\r", ":xyzzy\r\r", ":?\r\x1b\r", "8o\r\r", "?qq"), marks=pytest.mark.slow),
+    ],
+    ids=["escape", "others"],
+)
+def test_escape_pressed_twice_closes_one_prompt_at_a_time(typed: tuple[str, ...]) -> None:
     async def play(session: Session) -> None:
-        for keys in (":\r\r", ":\x1b\x1b", ":xyzzy\r\r", ":?\r\x1b\r", "8o\r\r", "8o\x1b\x1b\x1b", "?qq"):
+        for keys in typed:
             await session.press("escape", "escape", "escape")
             await at_once(session, keys)
             assert session.app._exception is None, keys
@@ -185,15 +206,22 @@ def test_escape_pressed_twice_closes_one_prompt_at_a_time() -> None:
     run(live(), play)
 
 
-def test_finished_key_does_not_hold_up_the_next() -> None:
+@pytest.mark.parametrize(
+    "typed",
+    [("?", "\x1b", ":", "\x1b"),
+     pytest.param(("/", "x", "\r", "/", "\x1b", "8", "o", "\x1b", "3", "\r", "\x1b"), marks=pytest.mark.slow)],
+    ids=["help and line", "others"],
+)  # fmt: skip
+def test_finished_key_does_not_hold_up_the_next(typed: tuple[str, ...]) -> None:
     async def play(session: Session) -> None:
-        for keys in ("?", "\x1b", ":", "\x1b", "/", "x", "\r", "/", "\x1b", "8", "o", "\x1b", "3", "\r", "\x1b"):
+        for keys in typed:
             await at_once(session, keys)
             assert session.app._keyboard._under_way == 0, keys
 
     run(live(), play)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("away", [((40, 10),), ((40, 10), (80, 24), (20, 5))], ids=["once", "twice"])
 def test_prompt_has_the_keys_again_when_the_terminal_is_large_again(away: tuple[tuple[int, int], ...]) -> None:
     async def play(session: Session) -> None:
@@ -210,6 +238,7 @@ def test_prompt_has_the_keys_again_when_the_terminal_is_large_again(away: tuple[
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_prompt_of_a_pane_that_had_no_room_has_the_keys_when_the_pane_is_chosen() -> None:
     async def play(session: Session) -> None:
         await session.press("z", "2", "0")
@@ -226,7 +255,10 @@ def test_prompt_of_a_pane_that_had_no_room_has_the_keys_when_the_pane_is_chosen(
     run(live(), play)
 
 
-@pytest.mark.parametrize("opens", [("1", "e"), (":",)], ids=["prompt", "command line"])
+@pytest.mark.parametrize(
+    "opens",
+    [pytest.param(("1", "e"), id="prompt"), pytest.param((":",), id="command line", marks=pytest.mark.slow)],
+)
 def test_all_stop_acts_where_a_text_field_is_hidden_and_the_field_has_the_keys_afterwards(
     opens: tuple[str, ...],
 ) -> None:
@@ -246,7 +278,7 @@ def test_all_stop_acts_where_a_text_field_is_hidden_and_the_field_has_the_keys_a
     run(live(), play)
 
 
-@pytest.mark.parametrize("opens", ["ctrl+p", "question_mark"])
+@pytest.mark.parametrize("opens", [pytest.param("ctrl+p", marks=pytest.mark.slow), "question_mark"])
 def test_pane_has_the_keys_after_a_box_that_was_open_while_the_terminal_was_too_small(opens: str) -> None:
     async def play(session: Session) -> None:
         await session.press("8", opens)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import cache
+
 import pytest
 from bot_console.tui.keymap import TABLE
 from bot_console.tui.keys.key import key_text
@@ -25,17 +28,70 @@ def shown(session: Session) -> list[str]:
     return [each.id or "" for each in session.app.visible_panes()]
 
 
-def test_digit_opens_and_focuses_the_pane() -> None:
+@dataclass
+class Visit:
+    """What was found where the key of a pane had been pressed."""
+
+    shown: list[str]
+    current: str | None
+    has_focus: bool
+    key_bar: str
+    claims: dict[str, set[str]]
+    """Every key that some scope around the focus claims, with the ids of what it does."""
+    first_stop: object
+    status: str
+    second_stop: object
+
+
+@cache
+def visits() -> dict[str, Visit]:
+    """One walk through all panes, the keys of which are looked at by several tests."""
+    found: dict[str, Visit] = {}
+
     async def play(session: Session) -> None:
         for entry in PANES:
             await session.press(entry.key)
-            assert shown(session) == [entry.id]
-            assert session.app.focused is not None
-            assert session.app.current_pane is not None and session.app.current_pane.id == entry.id
+            pane, key_bar = session.app.current_pane, session.lines()[-1]
+            at, seen, held = session.app.focused, shown(session), claims(session)
+            await session.press("exclamation_mark")
+            first, status = session.console.asked[-1], session.lines()[-2]
+            await session.press("exclamation_mark")
+            second = session.console.asked[-1]
+            found[entry.id] = Visit(seen, pane and pane.id, at is not None, key_bar, held, first, status, second)
+
+    run(live(), play, (60, 20))
+    return found
+
+
+def claims(session: Session) -> dict[str, set[str]]:
+    ours = {key.id for keys in TABLE.values() for key in keys}
+    found: dict[str, set[str]] = {}
+    for node in session.app.focused.ancestors_with_self if session.app.focused else ():
+        for key, bound in node._bindings.key_to_bindings.items():
+            found.setdefault(key, set()).update(each.id for each in bound if each.id in ours)
+    return found
+
+
+def test_digit_opens_and_focuses_the_pane() -> None:
+    assert [*visits()] == IDS
+    for id, visit in visits().items():
+        assert visit.shown == [id] and visit.current == id and visit.has_focus, id
+
+
+def test_tab_and_shift_tab_open_the_next_pane_and_the_one_before() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1", "tab")
+        following = session.app.current_pane.id
+        assert following in IDS[1:] and shown(session) == [following]
+        await session.press("shift+tab")
+        assert session.app.current_pane.id == "parameters"
+        await session.press("shift+tab")
+        assert session.app.current_pane.id not in ("parameters", following), "before the first comes the last"
 
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_tab_cycles_through_panes_and_shift_tab_back() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
@@ -52,6 +108,7 @@ def test_tab_cycles_through_panes_and_shift_tab_back() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_overview_shows_the_panes_that_fit() -> None:
     fitting = {
         (60, 20): {"parameters", "world", "logs"},
@@ -107,9 +164,10 @@ def test_tiny_terminal_still_names_the_stop_and_quit_keys() -> None:
     run(live(), play)
 
 
-def test_help_names_every_key_of_the_pane() -> None:
+@pytest.mark.parametrize("ids", [IDS[:1], pytest.param(IDS[1:], marks=pytest.mark.slow)], ids=["first", "others"])
+def test_help_names_every_key_of_the_pane(ids: list[str]) -> None:
     async def play(session: Session) -> None:
-        for entry in PANES:
+        for entry in (each for each in PANES if each.id in ids):
             await session.press(entry.key, "question_mark")
             seen = session.text()
             for key in TABLE[entry.id]:
@@ -121,6 +179,7 @@ def test_help_names_every_key_of_the_pane() -> None:
     run(live(), play, (100, 70))
 
 
+@pytest.mark.slow
 def test_long_help_scrolls() -> None:
     async def play(session: Session) -> None:
         await session.press("1", "question_mark")
@@ -145,6 +204,7 @@ def test_palette_runs_an_action(key: str) -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_the_palette_shows_the_pane_of_an_action_and_runs_it() -> None:
     async def play(session: Session) -> None:
         await session.press("1", "ctrl+p")
@@ -158,12 +218,18 @@ def test_the_palette_shows_the_pane_of_an_action_and_runs_it() -> None:
     run(live(), play)
 
 
-def test_the_all_stop_works_in_every_pane_and_over_help() -> None:
+def test_the_all_stop_works_in_every_pane() -> None:
+    for id, visit in visits().items():
+        assert visit.first_stop == ("all_stop", True) and "ALL STOP" in visit.status, id
+        assert visit.second_stop == ("all_stop", False), id
+
+
+@pytest.mark.parametrize("ids", [IDS[:1], pytest.param(IDS[1:], marks=pytest.mark.slow)], ids=["first", "others"])
+def test_the_all_stop_works_over_the_help_of_every_pane(ids: list[str]) -> None:
     async def play(session: Session) -> None:
-        for entry in PANES:
+        for entry in (each for each in PANES if each.id in ids):
             await session.press(entry.key, "exclamation_mark")
             assert session.console.asked[-1] == ("all_stop", True), entry.id
-            assert "ALL STOP" in session.lines()[-2]
             await session.press("question_mark", "exclamation_mark", "escape")
             assert session.console.asked[-1] == ("all_stop", False), entry.id
 
@@ -182,12 +248,13 @@ def test_in_a_text_field_the_all_stop_and_digits_are_text() -> None:
     run(live(), play)
 
 
-def test_key_bar_fits_every_width_and_q_quits() -> None:
+def test_key_bar_names_help_and_stop_at_the_least_width() -> None:
+    for id, visit in visits().items():
+        assert "? Help" in visit.key_bar and "! Stop" in visit.key_bar, id
+
+
+def test_q_quits() -> None:
     async def play(session: Session) -> None:
-        for entry in PANES:
-            await session.press(entry.key)
-            last = session.lines()[-1]
-            assert "? Help" in last and "! Stop" in last
         await session.press("q")
         assert not session.app.is_running or session.app._exit
 
@@ -195,21 +262,12 @@ def test_key_bar_fits_every_width_and_q_quits() -> None:
 
 
 def test_no_two_scopes_that_are_live_together_claim_one_key() -> None:
-    async def play(session: Session) -> None:
-        ours = {key.id for keys in TABLE.values() for key in keys}
-        for entry in PANES:
-            await session.press(entry.key)
-            claims: dict[str, set[str]] = {}
-            assert session.app.focused is not None
-            for node in session.app.focused.ancestors_with_self:
-                for key, bound in node._bindings.key_to_bindings.items():
-                    claims.setdefault(key, set()).update(each.id for each in bound if each.id in ours)
-            assert {key for key in claims if key in ("q", "0")} == {"q", "0"}, "the keys of the app are among them"
-            assert {key: ids for key, ids in claims.items() if len(ids) > 1} == {}, entry.id
-
-    run(live(), play)
+    for id, visit in visits().items():
+        assert {key for key in visit.claims if key in ("q", "0")} == {"q", "0"}, "the keys of the app are among them"
+        assert {key: ids for key, ids in visit.claims.items() if len(ids) > 1} == {}, id
 
 
+@pytest.mark.slow
 def test_the_key_bar_names_the_filter_at_80_columns() -> None:
     async def play(session: Session) -> None:
         for digit in ("1", "2", "3"):
@@ -219,6 +277,7 @@ def test_the_key_bar_names_the_filter_at_80_columns() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_every_list_has_keys_for_first_and_last_row() -> None:
     panes: tuple[type[Pane], ...] = (ParametersPane, LaunchPane, ProfilesPane, LogsPane)
 

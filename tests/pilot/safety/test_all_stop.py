@@ -59,7 +59,10 @@ def test_first_press_adds_our_stop_and_second_asks_to_release_others() -> None:
     run(live(), play, (120, 40))
 
 
-@pytest.mark.parametrize("opened", [(":",), ("1", "/"), ("1", "enter"), ("ctrl+p",)])
+@pytest.mark.parametrize(
+    "opened",
+    [(":",), *(pytest.param(each, marks=pytest.mark.slow) for each in (("1", "/"), ("1", "enter"), ("ctrl+p",)))],
+)
 def test_status_line_says_that_the_stop_key_is_typed_into_a_text_field(opened: tuple[str, ...]) -> None:
     async def play(session: Session) -> None:
         await session.press(STOP)

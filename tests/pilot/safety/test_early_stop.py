@@ -107,7 +107,15 @@ def test_typed_character_keeps_the_stop_of_another_press() -> None:
 
 
 @pytest.mark.parametrize(
-    "keys", [("question_mark",), ("ctrl+p", "escape"), ("1", "enter", "escape"), ("V",), ("colon", "escape")]
+    "keys",
+    [
+        ("question_mark",),
+        ("V",),
+        *(
+            pytest.param(each, marks=pytest.mark.slow)
+            for each in (("ctrl+p", "escape"), ("1", "enter", "escape"), ("colon", "escape"))
+        ),
+    ],
 )
 def test_stop_works_over_every_screen(keys: tuple[str, ...]) -> None:
     async def play(session: Session) -> None:

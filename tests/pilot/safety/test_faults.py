@@ -46,13 +46,18 @@ FAULTS = {
 
 
 BESIDE_OTHERS = ("a drawing",)
-"""What is tried by default in a wide terminal as well: there other panes are drawn in the same frame."""
+"""What is tried in a wide terminal as well: there other panes are drawn in the same frame."""
+BY_DEFAULT = ("an action", "a message of a widget")
+"""What is tried by default in a small terminal; the drawing is in the wide one."""
 
 
 @pytest.mark.parametrize(
     ("kind", "size"),
     [
-        *(pytest.param(kind, (80, 24), id=kind) for kind in FAULTS),
+        *(
+            pytest.param(kind, (80, 24), id=kind, marks=() if kind in BY_DEFAULT else pytest.mark.slow)
+            for kind in FAULTS
+        ),
         *(
             pytest.param(kind, (120, 40), id=f"{kind}, wide", marks=() if kind in BESIDE_OTHERS else pytest.mark.soak)
             for kind in FAULTS

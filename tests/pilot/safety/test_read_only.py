@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+import pytest
 from bot_console.tui.console.command_gate import READ_ONLY
 from bot_console.tui.console.model import Capabilities, Kind
 from bot_console.tui.keymap import CHANGING, TABLE
@@ -20,13 +23,14 @@ KEYS = {
 }
 
 
-def test_key_bar_of_a_read_only_console_names_only_keys_that_it_obeys() -> None:
+@pytest.mark.parametrize("digits", ["16", pytest.param("789H", marks=pytest.mark.slow)])
+def test_key_bar_of_a_read_only_console_names_only_keys_that_it_obeys(digits: str) -> None:
     async def play(session: Session) -> None:
         assert "More" in session.lines()[-1]
         session.console.change(capabilities=Capabilities(change=READ_ONLY))
         session.app.pull()
         await session.settle()
-        for pane in ("1", "6", "7", "8", "9", "H"):
+        for pane in digits:
             await session.press(pane)
             words = session.lines()[-1].split()
             for word in (
@@ -50,10 +54,19 @@ def test_key_bar_of_a_read_only_console_names_only_keys_that_it_obeys() -> None:
     run(live(), play, (200, 50))
 
 
-def test_read_only_console_refuses_before_asking() -> None:
+BY_DEFAULT = ("a value", "a profile", "an end")
+
+
+@pytest.mark.parametrize(
+    "kinds",
+    [BY_DEFAULT, pytest.param([each for each in KEYS if each not in BY_DEFAULT], marks=pytest.mark.slow)],
+    ids=["first", "others"],
+)
+def test_read_only_console_refuses_before_asking(kinds: Sequence[str]) -> None:
     async def play(session: Session) -> None:
         session.console.change(capabilities=Capabilities(change=READ_ONLY))
-        for what, keys in KEYS.items():
+        for what in kinds:
+            keys = KEYS[what]
             session.app.clear_notifications()
             await session.press(*keys)
             assert not isinstance(session.app.screen, QuestionScreen), what

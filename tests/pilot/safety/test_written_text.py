@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Iterable
 
 import pytest
-from bot_console.tui.pane_table import PANES
+from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.panes.graph.pane import GraphPane
 from bot_console.tui.screens.facts import FactsScreen
 from bot_console.tui.screens.output import OutputScreen
@@ -47,14 +48,33 @@ KEYS = {
 }
 
 
-@pytest.mark.parametrize("text", [*DRAWN, *(pytest.param(each, marks=pytest.mark.soak) for each in MORE)])
-def test_any_text_is_drawn_in_every_pane_and_overlay(text: str) -> None:
+each_text = pytest.mark.parametrize("text", [*DRAWN, *(pytest.param(each, marks=pytest.mark.soak) for each in MORE)])
+
+
+async def drawn_in(session: Session, text: str, panes: Iterable[PaneEntry]) -> None:
+    session.console.change(problem=text)
+    await session.press("0")
+    for entry in panes:
+        for key in (entry.key, *KEYS.get(entry.id, []), "escape", "escape"):
+            await session.press(key)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [*(pytest.param(each, marks=pytest.mark.slow) for each in DRAWN),
+     *(pytest.param(each, marks=pytest.mark.soak) for each in MORE)],
+)  # fmt: skip
+def test_any_text_is_drawn_in_every_pane(text: str) -> None:
     async def play(session: Session) -> None:
-        session.console.change(problem=text)
-        await session.press("0")
-        for entry in PANES:
-            for key in (entry.key, *KEYS.get(entry.id, []), "escape", "escape"):
-                await session.press(key)
+        await drawn_in(session, text, PANES)
+
+    run(hostile(text), play, (120, 40))
+
+
+@each_text
+def test_any_text_is_drawn_in_the_overview_and_in_every_overlay(text: str) -> None:
+    async def play(session: Session) -> None:
+        await drawn_in(session, text, [])
         session.console.change(problem="")
         await session.settle()
         pane = session.pane(GraphPane)
@@ -78,9 +98,10 @@ def test_any_text_is_drawn_in_every_pane_and_overlay(text: str) -> None:
     run(hostile(text), play, (120, 40))
 
 
-def test_text_is_shown_character_by_character() -> None:
+@pytest.mark.parametrize("texts", [("[red]evil[/red]",), pytest.param(("[/", "\\[x]"), marks=pytest.mark.slow)])
+def test_text_is_shown_character_by_character(texts: tuple[str, ...]) -> None:
     async def play(session: Session) -> None:
-        for text in ("[red]evil[/red]", "[/", "\\[x]"):
+        for text in texts:
             session.app.clear_notifications()
             session.app.notify(text, title=text)
             session.app.push_screen(screen_for(Confirmation(text, print, reasons=text)))
@@ -95,9 +116,14 @@ def test_text_is_shown_character_by_character() -> None:
     run(live(), play, (120, 40))
 
 
-def test_palette_accepts_any_text() -> None:
+@pytest.mark.parametrize(
+    "typed",
+    [("[/", "\\"), pytest.param(("ros2 [/red]", "ros2 topic echo [b", "[@click=app.quit]x"), marks=pytest.mark.slow)],
+    ids=["short", "long"],
+)
+def test_palette_accepts_any_text(typed: tuple[str, ...]) -> None:
     async def play(session: Session) -> None:
-        for line in ("[/", "ros2 [/red]", "ros2 topic echo [b", "\\", "[@click=app.quit]x"):
+        for line in typed:
             await session.press("colon")
             before = session.text().count(line)
             await session.type(line)

@@ -11,6 +11,7 @@ from bot_console.tui.terminal.ascii import plain_text
 from bot_console.tui.theme import THEMES
 from bot_console.tui.widgets.key_bar import KeyBar
 from bot_console.tui.widgets.tabs import Tabs
+from emulator import Emulator
 from hypothesis import given
 from hypothesis import strategies as st
 from piloting import Session, run
@@ -19,7 +20,9 @@ from samples import live
 from textual.color import Color
 
 
-@pytest.mark.parametrize("digits", ["046", pytest.param("12345678", marks=pytest.mark.soak)])
+@pytest.mark.parametrize(
+    "digits", [pytest.param("046", marks=pytest.mark.slow), pytest.param("12345678", marks=pytest.mark.soak)]
+)
 def test_panes_are_drawn_in_every_theme(digits: str) -> None:
     async def play(session: Session) -> None:
         seen = []
@@ -75,14 +78,34 @@ def test_plain_characters_are_ascii_of_the_same_width(text: str) -> None:
     assert cell_len(plain_text(text)) == sum(map(cell_len, text))
 
 
-def test_every_drawing_character_has_an_ascii_substitute() -> None:
+@pytest.mark.parametrize("digits", ["04", pytest.param("1235678", marks=pytest.mark.slow)])
+def test_every_drawing_character_has_an_ascii_substitute(digits: str) -> None:
     async def play(session: Session) -> None:
-        for digit in "012345678":
+        for digit in digits:
             await session.press(digit)
             drawn = {character for character in session.text() if not character.isascii()}
             assert not [character for character in drawn if plain_text(character) == "?"]
 
     run(live(), play, (120, 40))
+
+
+def test_ctrl_g_sends_everything_again_in_ascii_and_back() -> None:
+    async def play(session: Session) -> None:
+        terminal = Emulator(80, 24)
+
+        def is_ascii() -> bool:
+            strips = session.app.screen._compositor.render_strips()
+            terminal.feed(session.app._difference(session.app.size, {y: {0: each} for y, each in enumerate(strips)}))
+            assert "Parameters" in "".join(terminal.lines())
+            return "".join(terminal.lines()).isascii()
+
+        assert not is_ascii()
+        await session.press("ctrl+g")
+        assert is_ascii()
+        await session.press("ctrl+g")
+        assert not is_ascii()
+
+    run(live(), play)
 
 
 def test_action_is_remapped_to_another_key(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -128,6 +128,7 @@ def test_keys_typed_before_the_panes_are_there_act_on_them_in_turn() -> None:
     arrive("2:ros!", play)
 
 
+@pytest.mark.slow
 def test_keys_for_a_pane_wait_until_it_is_there() -> None:
     async def play(session: Session) -> None:
         assert session.pane(PlotPane).display
@@ -157,7 +158,19 @@ def test_a_stop_typed_first_waits_for_no_pane(monkeypatch: pytest.MonkeyPatch) -
 
 @pytest.mark.parametrize(
     ("key", "action", "hidden"),
-    [("?", "help", 0), ("j", "", 1), ("2", "pane", 0), ("6", "pane", 1), ("I", "pane", 1), (":", "command_line", None)],
+    [
+        ("6", "pane", 1),
+        *(
+            pytest.param(*each, marks=pytest.mark.slow)
+            for each in (
+                ("?", "help", 0),
+                ("j", "", 1),
+                ("2", "pane", 0),
+                ("I", "pane", 1),
+                (":", "command_line", None),
+            )
+        ),
+    ],
 )
 def test_a_key_waits_for_no_pane_but_those_that_it_is_for(
     key: str, action: str, hidden: int | None, monkeypatch: pytest.MonkeyPatch

@@ -14,7 +14,7 @@ def test_caches_stay_small_when_panes_are_switched_often(monkeypatch: pytest.Mon
     monkeypatch.setattr(cache_limits, "MAX_ANSWERS", FEW)
 
     async def play(session: Session) -> None:
-        await session.press(*"12345678123")
+        await session.press(*"123412")
         maximum = {type(each).__name__: len(each._query_one_cache) for each in session.app.screen.walk_children()}
         maximum["the screen"] = len(session.app.screen._query_one_cache)
         assert max(maximum.values()) == FEW, maximum

@@ -15,6 +15,7 @@ from samples import live
 from textual.widgets._toast import Toast
 
 LONG = "a long story " * 60
+SIZES = ((80, 24), (120, 40))
 
 
 def lines_of(session: Session, *widgets: object) -> list[str]:
@@ -26,7 +27,7 @@ def seen(session: Session) -> list[Toast]:
     return [each for each in session.app.screen.query(Toast) if each.region.height]
 
 
-@pytest.mark.parametrize("size", [(60, 20), (80, 24), (120, 40)])
+@pytest.mark.parametrize("size", [(60, 20), *(pytest.param(each, marks=pytest.mark.slow) for each in SIZES)])
 def test_nothing_important_is_covered(size: tuple[int, int]) -> None:
     async def play(session: Session) -> None:
         await session.press("1", "exclamation_mark")
@@ -41,8 +42,8 @@ def test_nothing_important_is_covered(size: tuple[int, int]) -> None:
     run(live(), play, size)
 
 
-@pytest.mark.parametrize("size", [(80, 24), (120, 40)])
-@pytest.mark.parametrize("end", ["home", "end"])
+@pytest.mark.parametrize("size", [SIZES[0], pytest.param(SIZES[1], marks=pytest.mark.slow)])
+@pytest.mark.parametrize("end", [pytest.param("home", marks=pytest.mark.slow), "end"])
 def test_row_at_the_cursor_is_never_covered(size: tuple[int, int], end: str) -> None:
     async def play(session: Session) -> None:
         for number in range(size[1]):
@@ -107,6 +108,7 @@ def test_notification_stands_at_the_foot_unless_that_covers_the_line_in_use() ->
     assert lines_below(None, 24, 4) == 4 and lines_below(20, 24, 4) == 4 and lines_below(19, 24, 4) == 5
 
 
+@pytest.mark.slow
 def test_errors_are_acknowledged() -> None:
     async def play(session: Session) -> None:
         assert "1 error" in session.text()

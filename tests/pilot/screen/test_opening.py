@@ -20,7 +20,7 @@ def test_rqt_plot_line_replaces_curves_and_waits_for_missing_topics() -> None:
     async def play(session: Session) -> None:
         assert session.pane(PlotPane).paths != [NEAREST]
         await session.press(":")
-        await session.type(f"ros2 run rqt_plot rqt_plot {NEAREST} /none/x")
+        await session.paste(f"ros2 run rqt_plot rqt_plot {NEAREST} /none/x")
         await session.press("enter")
         assert session.pane(PlotPane).display
         assert session.pane(PlotPane).paths == [NEAREST]
@@ -54,7 +54,13 @@ def test_empty_plot_names_awaited_paths_or_the_key_to_press(wanted: tuple[str, .
     run(empty(), play, (60, 20))
 
 
-@pytest.mark.parametrize("wanted", ["/scan/ranges[2]", "/tf/transforms[0].rotation.z - 1", "max(/scan/ranges[4:8])"])
+@pytest.mark.parametrize(
+    "wanted",
+    [
+        *(pytest.param(each, marks=pytest.mark.slow) for each in ("/scan/ranges[2]", "max(/scan/ranges[4:8])")),
+        "/tf/transforms[0].rotation.z - 1",
+    ],
+)
 def test_unknown_path_is_plotted_once_its_topic_appears(wanted: str) -> None:
     console, launcher = live()
     console.plots.plottable = lambda: ()  # type: ignore[method-assign]
@@ -80,7 +86,7 @@ def test_unknown_path_is_plotted_once_its_topic_appears(wanted: str) -> None:
     ("wanted", "path", "why"),
     [
         ("/scan/rangs[2]", "/scan/rangs[2]", "LaserScan has no field 'rangs'"),
-        ("/scan + 1", "/scan", "name a field of /scan as well"),
+        pytest.param("/scan + 1", "/scan", "name a field of /scan as well", marks=pytest.mark.slow),
     ],
 )
 def test_reason_for_an_unplottable_field_is_shown(wanted: str, path: str, why: str) -> None:
@@ -120,7 +126,7 @@ def test_preselected_node_is_selected() -> None:
 def test_ignored_options_are_reported() -> None:
     async def play(session: Session) -> None:
         await session.press(":")
-        await session.type("rqt --perspective-file mine.ini wrong")
+        await session.paste("rqt --perspective-file mine.ini wrong")
         await session.press("enter")
         text = " ".join(each.message for each in session.app._notifications)
         assert "perspective mine.ini" in text

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+import pytest
 from bot_console.tui.console.model import Profile
 from bot_console.tui.screens.confirm import ConfirmScreen
 from piloting import Session, run
@@ -31,7 +32,7 @@ def asked(session: Session) -> list[tuple]:
 def test_overwriting_a_profile_asks_with_file_and_time(tmp_path: Path) -> None:
     async def play(session: Session) -> None:
         await session.press("7", "S")
-        await session.type("zz_hall")
+        await session.paste("zz_hall")
         await session.press("enter")
         assert isinstance(session.app.screen, ConfirmScreen)
         text = session.text()
@@ -40,27 +41,29 @@ def test_overwriting_a_profile_asks_with_file_and_time(tmp_path: Path) -> None:
         await session.press("n")
         assert asked(session) == []
         await session.press("S")
-        await session.type("zz_hall")
+        await session.paste("zz_hall")
         await session.press("enter", "y")
         assert asked(session) == [("save profile", "zz_hall", "")]
 
     run(with_hall(tmp_path), play, (120, 40))
 
 
+@pytest.mark.slow
 def test_invalid_profile_name_is_rejected() -> None:
     async def play(session: Session) -> None:
         await session.press("7", "S")
-        await session.type("../hall")
+        await session.paste("../hall")
         await session.press("enter")
         assert "is not a valid profile name" in session.text() and "what ../hall is for" not in session.text()
         await session.press("escape", "S")
-        await session.type(" ")
+        await session.paste(" ")
         await session.press("enter")
         assert "a profile needs a name" in session.text() and asked(session) == []
 
     run(live(), play, (120, 40))
 
 
+@pytest.mark.slow
 def test_profile_is_renamed_unless_the_name_is_taken(tmp_path: Path) -> None:
     system = with_hall(tmp_path)
     console = system[0]
@@ -68,11 +71,11 @@ def test_profile_is_renamed_unless_the_name_is_taken(tmp_path: Path) -> None:
 
     async def play(session: Session) -> None:
         await session.press("7", "G", "m")
-        await session.type("attic")
+        await session.paste("attic")
         await session.press("enter")
         assert "there is a profile attic already" in session.text() and asked(session) == []
         await session.press("escape", "m")
-        await session.type("cellar")
+        await session.paste("cellar")
         await session.press("enter")
         assert asked(session) == [("rename profile", "zz_hall", "cellar")]
 

@@ -39,13 +39,17 @@ def check(session: Session, size: tuple[int, int]) -> None:
 CASES = [(size, live) for size in SIZES] + [
     (size, other) for size in (SIZES[0], SIZES[-1]) for other in (empty, faulty)
 ]
-OFTEN = [(SIZES[0], faulty), ((120, 40), live), (SIZES[0], empty)]
+MARKS = {
+    (SIZES[0], faulty): [],
+    ((120, 40), live): [pytest.mark.slow],
+    (SIZES[0], empty): [pytest.mark.slow],
+}
 """Where room is scarce, and a usual terminal; the soak takes the others, and one pane is resized through them below."""
 
 
 @pytest.mark.parametrize(
     ("size", "system"),
-    [pytest.param(*each, marks=() if each in OFTEN else pytest.mark.soak) for each in CASES],
+    [pytest.param(*each, marks=MARKS.get(each, [pytest.mark.soak])) for each in CASES],
     ids=[f"{w}x{h}-{system.__name__}" for (w, h), system in CASES],
 )
 def test_every_pane_and_the_overview_fit(size, system) -> None:
@@ -57,9 +61,10 @@ def test_every_pane_and_the_overview_fit(size, system) -> None:
     run(system(), play, size)
 
 
-def test_below_the_minimum_size_only_a_message_is_shown() -> None:
+@pytest.mark.parametrize("digits", ["01", pytest.param("23456789HMBI", marks=pytest.mark.slow)])
+def test_below_the_minimum_size_only_a_message_is_shown(digits: str) -> None:
     async def play(session: Session) -> None:
-        for digit, size in zip(("0", *(each.key for each in PANES)), cycle(((59, 20), (60, 19), (40, 10)))):
+        for digit, size in zip(digits, cycle(((59, 20), (60, 19), (40, 10)))):
             await session.pilot.resize_terminal(80, 24)
             await session.press(digit)
             await session.pilot.resize_terminal(*size)
@@ -71,9 +76,14 @@ def test_below_the_minimum_size_only_a_message_is_shown() -> None:
     run(live(), play)
 
 
-def test_resize_updates_the_layout() -> None:
+@pytest.mark.parametrize(
+    "sizes",
+    [((60, 20), (120, 40)), pytest.param(((250, 80), (60, 20), (170, 45), (80, 24)), marks=pytest.mark.slow)],
+    ids=["two", "more"],
+)
+def test_resize_updates_the_layout(sizes: tuple[tuple[int, int], ...]) -> None:
     async def play(session: Session) -> None:
-        for size in ((250, 80), (60, 20), (170, 45), (80, 24), (120, 40)):
+        for size in sizes:
             await session.pilot.resize_terminal(*size)
             await session.settle()
             check(session, size)
@@ -81,7 +91,13 @@ def test_resize_updates_the_layout() -> None:
     run(live(), play)
 
 
-@pytest.mark.parametrize("size", [(60, 20), (80, 24), (99, 40), (100, 30), (120, 40), (200, 50)])
+@pytest.mark.parametrize(
+    "size",
+    [
+        (60, 20),
+        *(pytest.param(each, marks=pytest.mark.slow) for each in ((80, 24), (99, 40), (100, 30), (120, 40), (200, 50))),
+    ],
+)
 def test_0_shows_the_robot_at_a_glance_at_any_size(size) -> None:
     async def play(session: Session) -> None:
         await session.press("2", "0")
@@ -98,7 +114,9 @@ def test_small_panes_show_what_matters_most() -> None:
     async def play(session: Session) -> None:
         names = [row.name for row in session.app.screen.query_one(ParameterRows).rows]
         assert names == ["max_speed", "turn_rate", "safety_distance"]
-        await session.press("slash", *"noise", "enter")
+        await session.press("slash")
+        await session.paste("noise")
+        await session.press("enter")
         assert "noise" in session.text(), "a filter finds all"
         await session.press("escape", "1")
         assert "detection_threshold" in session.text() and "Maximum linear velocity" in session.text()
