@@ -24,11 +24,12 @@ STATES: list[tuple[str, System, tuple[int, int]]] = [
     ("narrow", live, (60, 20)),
 ]
 PICTURED = {
-    "empty": ("parameters", "steering"),
-    "faulty": ("parameters", "alarms"),
-    "narrow": ("parameters", "steering"),
+    "live": ("parameters", "graph", "plot", "steering", "launch", "topics", "history", "diagnostics", "images"),
+    "empty": ("parameters",),
+    "faulty": ("alarms",),
+    "narrow": ("parameters",),
 }
-"""The panes whose picture in that state is taken by default, beside those of all panes that are live."""
+"""The panes whose picture in that state is taken by default; the overview and the questions show the others."""
 RARER: list[tuple[str, System, tuple[int, int]]] = [
     ("medium", live, (120, 40)),
     ("large", live, (200, 50)),
@@ -51,7 +52,7 @@ def marks(state: str, pane: str) -> list[pytest.MarkDecorator]:
     """What keeps the picture of a pane out of the default run."""
     if state in [each[0] for each in RARER]:
         return [pytest.mark.soak]
-    return [] if state == "live" or pane in PICTURED[state] else [pytest.mark.slow]
+    return [] if pane in PICTURED[state] else [pytest.mark.slow]
 
 
 @pytest.mark.parametrize(
@@ -131,8 +132,8 @@ OVERLAYS = {
 }
 
 
-BY_DEFAULT = ("graph_node", "parameter_refused", "launch_picker", "profile_question", "all_stop")
-"""One picture of each kind: a box, a field with a fault, a list to choose from, a question, a stop."""
+BY_DEFAULT = ("parameter_refused", "launch_picker", "profile_question", "all_stop")
+"""One picture of each kind: a field with a fault, a list to choose from, a question, a stop."""
 
 
 @pytest.mark.parametrize(

@@ -35,6 +35,7 @@ def test_set_command_sets_value_or_shows_refusal() -> None:
     run(live(), play, (120, 40))
 
 
+@pytest.mark.slow
 def test_error_message_is_shown_in_full_at_80_columns() -> None:
     async def play(session: Session) -> None:
         await line(session, "lint running")
@@ -88,7 +89,6 @@ def test_commands_and_ros2_lines_are_run() -> None:
     run(live(), play, (120, 40))
 
 
-@pytest.mark.slow
 def test_commands_that_change_or_open_something_are_run() -> None:
     async def play(session: Session) -> None:
         await line(session, "layout tuning")
@@ -130,7 +130,6 @@ def test_tab_completes_and_focus_returns_to_the_pane() -> None:
     run(live(), play)
 
 
-@pytest.mark.slow
 def test_history_recalls_earlier_lines() -> None:
     async def play(session: Session) -> None:
         for each in ("node list", "topic list"):

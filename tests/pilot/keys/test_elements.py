@@ -9,7 +9,7 @@ import pytest
 from bot_console.tui.console.model import Kind, Value
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows
-from bot_console.tui.screens.array_editor import ElementsScreen
+from bot_console.tui.screens.array_editor import ElementRows, ElementsScreen
 from piloting import Session, run
 from samples import with_array
 
@@ -61,6 +61,19 @@ def test_a_text_with_a_comma_stays_one_element() -> None:
         await session.press("enter", "s")
 
     assert edited(Kind.STRING_ARRAY, ("a", "b, d"), play) == [("a", "x, y", "b, d")]
+
+
+def test_search_goes_to_matching_elements_and_hides_none() -> None:
+    async def play(session: Session) -> None:
+        rows = session.app.screen.query_one(ElementRows)
+        await session.press("slash")
+        await session.paste("kiwi")
+        await session.press("enter")
+        assert rows.row_count() == 4 and rows.cursor == 1
+        await session.press("n")
+        assert rows.cursor == 3
+
+    assert edited(Kind.STRING_ARRAY, ("fig", "kiwi", "plum", "kiwi 2"), play) == []
 
 
 def test_invalid_element_is_explained_and_rejected() -> None:

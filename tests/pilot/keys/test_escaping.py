@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from bot_console.tui.screens.help import HelpScreen
 from piloting import Session, run
 from samples import live
@@ -41,6 +42,7 @@ def test_alt_reported_by_the_terminal_is_not_escape() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_key_bound_with_alt_is_not_split() -> None:
     async def play(session: Session) -> None:
         session.app.set_keymap({"app.help": ALT_Q})

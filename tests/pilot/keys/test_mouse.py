@@ -118,7 +118,6 @@ def test_click_chooses_option_and_key_bar_stops_the_robot() -> None:
     run(live(), play, (200, 40))
 
 
-@pytest.mark.slow
 def test_click_on_help_line_presses_its_key() -> None:
     async def play(session: Session) -> None:
         await session.click_tab("1")

@@ -77,6 +77,7 @@ def test_key_bar_names_the_keys_of_what_has_the_focus() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_click_moves_cursor_and_prompt_keeps_focus() -> None:
     async def play(session: Session) -> None:
         await edit(session, "max_speed")
@@ -91,7 +92,6 @@ def test_click_moves_cursor_and_prompt_keeps_focus() -> None:
     run(live(), play)
 
 
-@pytest.mark.slow
 def test_click_into_another_pane_closes_the_prompt() -> None:
     async def play(session: Session) -> None:
         await edit(session, "max_speed")
@@ -106,7 +106,7 @@ def test_click_into_another_pane_closes_the_prompt() -> None:
     run(live(), play, (120, 40))
 
 
-@pytest.mark.parametrize("gone", ["node", pytest.param("parameter", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("gone", [pytest.param("node", marks=pytest.mark.slow), "parameter"])
 def test_edit_closes_when_its_node_leaves(gone: str) -> None:
     async def play(session: Session) -> None:
         await edit(session, "max_speed")
@@ -278,7 +278,8 @@ def test_all_stop_acts_where_a_text_field_is_hidden_and_the_field_has_the_keys_a
     run(live(), play)
 
 
-@pytest.mark.parametrize("opens", [pytest.param("ctrl+p", marks=pytest.mark.slow), "question_mark"])
+@pytest.mark.slow
+@pytest.mark.parametrize("opens", ["ctrl+p", "question_mark"])
 def test_pane_has_the_keys_after_a_box_that_was_open_while_the_terminal_was_too_small(opens: str) -> None:
     async def play(session: Session) -> None:
         await session.press("8", opens)

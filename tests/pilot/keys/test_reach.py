@@ -192,6 +192,7 @@ def test_long_help_scrolls() -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("key", ["ctrl+p"])
 def test_palette_runs_an_action(key: str) -> None:
     async def play(session: Session) -> None:
@@ -204,7 +205,6 @@ def test_palette_runs_an_action(key: str) -> None:
     run(live(), play)
 
 
-@pytest.mark.slow
 def test_the_palette_shows_the_pane_of_an_action_and_runs_it() -> None:
     async def play(session: Session) -> None:
         await session.press("1", "ctrl+p")
@@ -236,6 +236,7 @@ def test_the_all_stop_works_over_the_help_of_every_pane(ids: list[str]) -> None:
     run(live(), play)
 
 
+@pytest.mark.slow
 def test_in_a_text_field_the_all_stop_and_digits_are_text() -> None:
     async def play(session: Session) -> None:
         await session.press("2", "slash")

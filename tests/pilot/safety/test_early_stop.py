@@ -110,10 +110,9 @@ def test_typed_character_keeps_the_stop_of_another_press() -> None:
     "keys",
     [
         ("question_mark",),
-        ("V",),
         *(
             pytest.param(each, marks=pytest.mark.slow)
-            for each in (("ctrl+p", "escape"), ("1", "enter", "escape"), ("colon", "escape"))
+            for each in (("V",), ("ctrl+p", "escape"), ("1", "enter", "escape"), ("colon", "escape"))
         ),
     ],
 )

@@ -47,7 +47,7 @@ FAULTS = {
 
 BESIDE_OTHERS = ("a drawing",)
 """What is tried in a wide terminal as well: there other panes are drawn in the same frame."""
-BY_DEFAULT = ("an action", "a message of a widget")
+BY_DEFAULT = ("an action",)
 """What is tried by default in a small terminal; the drawing is in the wide one."""
 
 

@@ -222,6 +222,7 @@ def test_panes_that_nobody_sees_come_when_no_key_is_pressed(monkeypatch: pytest.
     arrive("?", play)
 
 
+@pytest.mark.slow
 def test_they_come_though_keys_are_pressed_all_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(arrival, "MAX_HIDDEN_PANE_PAUSE_S", 0.1)
     eager(monkeypatch, lambda: True)

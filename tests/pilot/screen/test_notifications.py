@@ -62,6 +62,7 @@ def test_row_at_the_cursor_is_never_covered(size: tuple[int, int], end: str) -> 
     run(live(), play, size)
 
 
+@pytest.mark.slow
 def test_player_of_a_bag_is_never_covered() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
@@ -108,7 +109,6 @@ def test_notification_stands_at_the_foot_unless_that_covers_the_line_in_use() ->
     assert lines_below(None, 24, 4) == 4 and lines_below(20, 24, 4) == 4 and lines_below(19, 24, 4) == 5
 
 
-@pytest.mark.slow
 def test_errors_are_acknowledged() -> None:
     async def play(session: Session) -> None:
         assert "1 error" in session.text()

@@ -63,7 +63,6 @@ def test_invalid_profile_name_is_rejected() -> None:
     run(live(), play, (120, 40))
 
 
-@pytest.mark.slow
 def test_profile_is_renamed_unless_the_name_is_taken(tmp_path: Path) -> None:
     system = with_hall(tmp_path)
     console = system[0]

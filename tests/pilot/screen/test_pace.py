@@ -74,7 +74,6 @@ def test_status_line_updates_numbers_each_second_and_words_at_once(clock: Clock)
     run(live(), play, (160, 40))
 
 
-@pytest.mark.slow
 def test_world_facts_update_twice_a_second_except_on_request(clock: Clock) -> None:
     async def play(session: Session) -> None:
         await session.press("5")

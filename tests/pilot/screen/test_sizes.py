@@ -61,7 +61,8 @@ def test_every_pane_and_the_overview_fit(size, system) -> None:
     run(system(), play, size)
 
 
-@pytest.mark.parametrize("digits", ["01", pytest.param("23456789HMBI", marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("digits", ["01", "23456789HMBI"])
 def test_below_the_minimum_size_only_a_message_is_shown(digits: str) -> None:
     async def play(session: Session) -> None:
         for digit, size in zip(digits, cycle(((59, 20), (60, 19), (40, 10)))):
@@ -76,14 +77,10 @@ def test_below_the_minimum_size_only_a_message_is_shown(digits: str) -> None:
     run(live(), play)
 
 
-@pytest.mark.parametrize(
-    "sizes",
-    [((60, 20), (120, 40)), pytest.param(((250, 80), (60, 20), (170, 45), (80, 24)), marks=pytest.mark.slow)],
-    ids=["two", "more"],
-)
-def test_resize_updates_the_layout(sizes: tuple[tuple[int, int], ...]) -> None:
+@pytest.mark.slow
+def test_resize_updates_the_layout() -> None:
     async def play(session: Session) -> None:
-        for size in sizes:
+        for size in ((250, 80), (60, 20), (170, 45), (80, 24), (120, 40)):
             await session.pilot.resize_terminal(*size)
             await session.settle()
             check(session, size)
@@ -124,6 +121,7 @@ def test_small_panes_show_what_matters_most() -> None:
     run(live(), play, (80, 24))
 
 
+@pytest.mark.slow
 def test_layout_without_room_shows_one_pane_silently() -> None:
     async def play(session: Session) -> None:
         session.app.stage.arrangement.load("watching")

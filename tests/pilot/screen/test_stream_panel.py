@@ -151,7 +151,6 @@ def test_command_without_room_is_refused_and_an_ended_one_makes_room(streams: li
     run(live(), play, (80, 24))
 
 
-@pytest.mark.slow
 def test_smaller_terminal_shows_the_newest_panels_and_counts_the_others(streams: list[Printing]) -> None:
     async def play(session: Session) -> None:
         panels = session.pane(StreamPanels)
@@ -166,7 +165,6 @@ def test_smaller_terminal_shows_the_newest_panels_and_counts_the_others(streams:
     run(live(), play, (80, 24))
 
 
-@pytest.mark.slow
 def test_end_is_shown_and_click_on_the_title_closes(streams: list[Printing]) -> None:
     async def play(session: Session) -> None:
         await begin(session)
