@@ -45,6 +45,8 @@ def test_processes_are_shown_as_a_tree_with_states() -> None:
         assert "✗ telemetry_publisher-4" in text and "exit 1" in text and "↻2" in text
         assert "4104" in text and "12% CPU" in text
         assert "telemetry_publisher-4 ended, exit code 1" in text
+        await session.press("left")
+        assert "sensor_handler-1" not in session.text(), "a group folds"
 
     run(live(), play, (120, 40))
 
@@ -276,7 +278,6 @@ def test_argument_outside_its_choices_is_rejected() -> None:
     run(live(), play, (100, 30))
 
 
-@pytest.mark.slow
 def test_a_path_may_be_typed_and_a_file_without_arguments_starts_at_once() -> None:
     async def play(session: Session) -> None:
         session.launcher.declared = ()

@@ -43,7 +43,7 @@ def test_parameter_tree_is_restored_at_the_next_start() -> None:
     assert kept["parameters"]["closed"]
 
 
-def test_filter_is_restored_and_escape_clears_it() -> None:
+def test_filter_and_form_of_the_graph_are_restored_and_escape_clears_a_filter() -> None:
     async def play(session: Session) -> None:
         session.app.state_store.put(
             "parameters", {"filter": "turn", "at": ["/robot_navigator", "turn_rate", "turn_rate"]}
@@ -53,6 +53,11 @@ def test_filter_is_restored_and_escape_clears_it() -> None:
         assert "/turn" in session.text() and current(session) == ("/robot_navigator", "turn_rate")
         await session.press("escape")
         assert len(session.pane(ParameterRows).rows) > 5
+        session.app.state_store.put("graph", {"mode": "LIST"})
+        session.pane(GraphPane).on_mount()
+        await session.press("3")
+        assert session.pane(GraphPane).border_subtitle.startswith("List")
+        assert "/cmd_vel_teleop" in session.text() and "(none) → " in session.text()
 
     run(live(), play)
 

@@ -359,6 +359,8 @@ def test_the_command_is_shown_and_copied_and_values_are_saved() -> None:
         assert "ros2 param set /robot_navigator max_speed 1.0" in session.text()
         await session.press("y", "s", "enter", "enter")
         assert ("save", "parameters.yaml") in session.console.asked
+        await session.press("Y", "enter")
+        assert session.app.clipboard == "max_speed"
 
     run(live(), play, (100, 30))
 

@@ -141,6 +141,10 @@ def test_the_window_grows_and_shrinks_and_limits_can_be_given() -> None:
         assert high - low == pytest.approx(2.0) and "y 0 .. 4" not in session.text()
         await session.press("less_than_sign")
         assert "y 0 .. 4" in session.text()
+        await session.press("T")
+        await session.paste("> 0.1")
+        await session.press("enter")
+        assert f"! {SPEED} > 0.1" in session.text()
 
     run(live(), play, (100, 30))
 

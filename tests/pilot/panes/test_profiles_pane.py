@@ -320,7 +320,6 @@ def test_launch_profile_stops_the_system_before_launching() -> None:
     run((console, launcher), play, (120, 40))
 
 
-@pytest.mark.slow
 def test_profile_from_a_url_is_shown_before_it_is_applied(tmp_path) -> None:
     path = tmp_path / "served.yaml"
     path.write_text("/robot_navigator: {ros__parameters: {max_speed: 1.5}}\n")

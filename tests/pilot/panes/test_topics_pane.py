@@ -323,7 +323,6 @@ def test_a_message_is_filled_in_and_published_once_and_at_a_rate() -> None:
     run(live(), play, SIZE)
 
 
-@pytest.mark.slow
 def test_earlier_sent_messages_are_recalled() -> None:
     async def play(session: Session) -> None:
         session.console.topics.remembered["/cmd_vel"] = [{"linear.x": "0.1"}, {"linear.x": "0.2"}]
