@@ -51,8 +51,13 @@ atexit.register(shutil.rmtree, _sockets, ignore_errors=True)
 COMPILED = TESTS.parent / "build/compiled"
 if os.environ.pop("PYTHONDONTWRITEBYTECODE", None) and "PYTHONPYCACHEPREFIX" not in os.environ:
     os.environ["PYTHONPYCACHEPREFIX"] = str(COMPILED)
-    of_tests = Path(f"{COMPILED}{tempfile.gettempdir()}")
-    atexit.register(lambda: [shutil.rmtree(each, ignore_errors=True) for each in of_tests.glob("pytest-of-*")])
+
+    @atexit.register
+    def forget_what_is_temporary() -> None:
+        for each in Path(f"{COMPILED}{tempfile.gettempdir()}").glob("*"):
+            if not TESTS.is_relative_to(Path(tempfile.gettempdir(), each.name)):
+                shutil.rmtree(each, ignore_errors=True)
+
 
 # The default run tries the same few examples each time, so that red means a change: HYPOTHESIS_PROFILE=explore tries
 # many others.
