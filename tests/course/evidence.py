@@ -1,6 +1,6 @@
 """Which test shows a row about the console's screens: most of chapter 4 by keyboard, with the page's own nodes.
 
-The row checks that the test exists and is in the default run; `count_rows.py`, at the end of the checks, that it was
+The row checks that the test exists and that each change runs it; `count_rows.py`, at the end of the checks, that it was
 run and passed.
 """
 
@@ -13,8 +13,8 @@ from functools import lru_cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-LATER = re.compile(r"mark\.(slow|soak)\b")
-"""Marks of tests that are not in the default run, from which the rows are counted."""
+LATER = re.compile(r"mark\.soak\b")
+"""The mark of tests from which the rows are not counted, since not each change runs them."""
 CHAPTER, PARAMETERS = "tests/pilot/stories/test_chapter_4.py", "tests/pilot/panes/test_parameters_pane.py"
 LOGS, PLOT = "tests/pilot/panes/test_logs_pane.py", "tests/pilot/panes/test_plot_pane.py"
 TUNED = f"{CHAPTER}::test_step_1_the_speed_is_tuned_while_the_robot_runs"
@@ -64,7 +64,7 @@ SHOWN: dict[int, str] = {number: test for test, numbers in _SHOWN for number in 
 
 
 def is_there(test: str) -> bool:
-    """Whether a file contains the test of that id, in the default run, not always skipped."""
+    """Whether a file contains the test of that id that each change runs, not always skipped."""
     path, _, name = test.partition("::")
     return name in _tests(ROOT / path)
 
@@ -86,6 +86,6 @@ def _is_left_out(decorator: ast.expr) -> bool:
 
 
 def _is_later(mark: ast.expr) -> bool:
-    """Whether a mark keeps a whole test out of the default run; that of a parameter keeps the other parameters in."""
+    """Whether a mark leaves a whole test to the soak tests; that of a parameter keeps the other parameters in."""
     text = ast.unparse(mark)
     return "parametrize" not in text and LATER.search(text) is not None
