@@ -98,10 +98,13 @@ def tmp_path(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFa
 
 @pytest.fixture(autouse=True)
 def apart(socket_folder: str) -> Iterator[None]:
-    """A test that lets this process take part in a domain does it for itself alone."""
-    before = _takes_part()
+    """A test that lets this process take part in a domain does it for itself alone.
+
+    A command that runs in a stepped system takes part too, and leaves its session to the next test that does.
+    """
+    before = _shares_domains()
     yield
-    if _takes_part() and not before:
+    if _shares_domains() and not before:
         from bot_console.runtime.children.child_discovery import let_children_meet
         from bot_console.runtime.rmw.local import local_bus
         from bot_console.runtime.rmw.middleware import choose_middleware
@@ -114,12 +117,12 @@ def apart(socket_folder: str) -> Iterator[None]:
         os.environ.pop(STOP_FILE_VARIABLE, None)
 
 
-def _takes_part() -> bool:
-    """Whether contexts of this process share their domain with others; imports nothing that is not in use."""
+def _shares_domains() -> bool:
+    """Whether contexts of this process share their domain with others or did; imports nothing that is not in use."""
     chosen, shared = (
         sys.modules.get(f"bot_console.runtime.rmw.{name}") for name in ("middleware", "zenoh.domain.domain_bus")
     )
-    return chosen is not None and shared is not None and chosen.is_chosen(shared.shared_bus)
+    return chosen is not None and shared is not None and bool(shared._buses or chosen.is_chosen(shared.shared_bus))
 
 
 def pytest_configure(config: pytest.Config) -> None:
