@@ -77,7 +77,6 @@ def test_key_bar_names_the_keys_of_what_has_the_focus() -> None:
     run(live(), play)
 
 
-@pytest.mark.slow
 def test_click_moves_cursor_and_prompt_keeps_focus() -> None:
     async def play(session: Session) -> None:
         await edit(session, "max_speed")

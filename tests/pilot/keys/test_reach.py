@@ -179,7 +179,6 @@ def test_help_names_every_key_of_the_pane(ids: list[str]) -> None:
     run(live(), play, (100, 70))
 
 
-@pytest.mark.slow
 def test_long_help_scrolls() -> None:
     async def play(session: Session) -> None:
         await session.press("1", "question_mark")

@@ -10,7 +10,6 @@ from samples import live
 FEW = 3
 
 
-@pytest.mark.slow
 def test_caches_stay_small_when_panes_are_switched_often(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cache_limits, "MAX_ANSWERS", FEW)
 

@@ -62,7 +62,6 @@ def test_row_at_the_cursor_is_never_covered(size: tuple[int, int], end: str) -> 
     run(live(), play, size)
 
 
-@pytest.mark.slow
 def test_player_of_a_bag_is_never_covered() -> None:
     async def play(session: Session) -> None:
         await session.press("1")

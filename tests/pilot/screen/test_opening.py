@@ -123,7 +123,6 @@ def test_preselected_node_is_selected() -> None:
     run(live(), play)
 
 
-@pytest.mark.slow
 def test_ignored_options_are_reported() -> None:
     async def play(session: Session) -> None:
         await session.press(":")
