@@ -46,18 +46,10 @@ os.environ["BOT_CONSOLE_SOCKET_DIR"] = os.path.join(_sockets, "0")
 os.environ["BOT_CONSOLE_USER_DIR"] = os.path.join(_sockets, "0-user")
 atexit.register(shutil.rmtree, _sockets, ignore_errors=True)
 
-# Workers and programs of tests find compiled what an earlier run compiled, also where no files are to be left beside
-# the sources: to compile all of it took each worker as long as all else that it does at its start.
-COMPILED = TESTS.parent / "build/compiled"
-if os.environ.pop("PYTHONDONTWRITEBYTECODE", None) and "PYTHONPYCACHEPREFIX" not in os.environ:
-    os.environ["PYTHONPYCACHEPREFIX"] = str(COMPILED)
-
-    @atexit.register
-    def forget_what_is_temporary() -> None:
-        for each in Path(f"{COMPILED}{tempfile.gettempdir()}").glob("*"):
-            if not TESTS.is_relative_to(Path(tempfile.gettempdir(), each.name)):
-                shutil.rmtree(each, ignore_errors=True)
-
+# Workers and programs of tests find compiled what pip or an earlier run has compiled, also where the environment says
+# that nothing compiled is to be kept: to compile all of it takes each worker as long as all else that it does at first.
+if os.environ.pop("PYTHONDONTWRITEBYTECODE", None):
+    sys.dont_write_bytecode = False
 
 # The default run tries the same few examples each time, so that red means a change: HYPOTHESIS_PROFILE=explore tries
 # many others.
