@@ -53,7 +53,7 @@ def test_verbs_in_a_second_terminal_reach_the_robot(console: Terminal) -> None:
     console.output = b""
     assert typed("stop", "a test").returncode == 0
     console.read_until(lambda: b"ALL STOP" in console.output, "the lock on the first screen")
-    assert abs(speed()) < 0.05
+    console.read_until(lambda: abs(speed()) < 0.05, "the robot at rest, which brakes from 2 m/s")
     assert typed("release").returncode == 0
     console.read_until(lambda: speed() > 0.1, "the robot that drives again")
 
