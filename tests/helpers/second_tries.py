@@ -8,13 +8,12 @@ Only the second try explains the values of an assertion: pytest rewrites the ass
 third of what it costs the workers to start.
 """
 
-import functools
 import json
 import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable, Generator
+from collections.abc import Generator
 from pathlib import Path
 from typing import Any
 
@@ -33,24 +32,9 @@ _first_tries: dict[str, list[pytest.TestReport]] = {}
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Let a worker import the tests as they are, and report only once that one has passed, unless more is shown."""
+    """Let a worker import the tests as they are."""
     if hasattr(config, "workerinput"):
         sys.meta_path[:] = [each for each in sys.meta_path if not isinstance(each, AssertionRewritingHook)]
-        if not (config.getoption("xmlpath", None) or config.getoption("durations", None)):
-            _report_passes_once(config)
-
-
-def _report_passes_once(config: pytest.Config) -> None:
-    """Send no report of what was set up and taken down without a failure: two of the three reports of a test."""
-    for worker in config.pluginmanager.get_plugins():
-        if hasattr(worker, "sendevent") and hasattr(worker, "workerid"):
-            worker.sendevent = functools.partial(_send, worker.sendevent)
-
-
-def _send(send: Callable[..., None], name: str, **content: Any) -> None:
-    data = content.get("data", {}) if name == "testreport" else {}
-    if data.get("when", "call") == "call" or data.get("outcome") != "passed":
-        send(name, **content)
 
 
 @pytest.hookimpl(wrapper=True)

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from ros_names import ros_names
-from syntax import imports
+from syntax import statements
 
 if sys.version_info >= (3, 11):
     import tomllib
@@ -45,10 +45,10 @@ def imported():
     for path in (path for folder in FOLDERS for path in (ROOT / folder).rglob("*.py")):
         if "generated" in path.parts:
             continue
-        for node in imports(path):
+        for node in statements(path):
             if isinstance(node, ast.Import):
                 names |= {alias.name.split(".")[0] for alias in node.names}
-            elif node.module and not node.level:
+            elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
                 names.add(node.module.split(".")[0])
         names |= by_name(path.read_text(encoding="utf-8"))
     return names

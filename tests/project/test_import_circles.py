@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.importer import PACKAGES
-from syntax import imports
+from syntax import statements
 
 ROOT = Path(__file__).parents[2]
 GENERATED = ROOT / "runtime" / "rosidl" / "generated"
@@ -42,10 +42,10 @@ def canonical(name: str) -> str:
 
 def names(path: Path, package: str) -> Iterator[tuple[str, str | None]]:
     """What a module imports: at once, late within functions, or under `if TYPE_CHECKING`."""
-    for node in imports(path):
+    for node in statements(path):
         if isinstance(node, ast.Import):
             yield from ((each.name, None) for each in node.names)
-        else:
+        elif isinstance(node, ast.ImportFrom):
             above = package.split(".")[: len(package.split(".")) - node.level + 1] if node.level else []
             base = ".".join([*above, *([node.module] if node.module else [])])
             yield from ((base, each.name) for each in node.names)

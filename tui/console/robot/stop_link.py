@@ -12,7 +12,7 @@ import platform
 import threading
 import time
 import uuid
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
@@ -196,11 +196,10 @@ class StopLink:
             stops=stops,
         )
 
-    def _made_by_locks(self, states: Iterable[LockState]) -> frozenset[str]:
-        """The ids of stops that locks report as ours, of which we have requested none and nobody has released one."""
+    def _made_by_locks(self, states: Sequence[LockState]) -> frozenset[str]:
+        """The ids of stops that locks hold in our name without our request, unless their release is on its way."""
         if self._key in self._releasing:
             return frozenset()
-        states = list(states)
         ours = {each.id for state in states for each in state.stops if each.key == self._key and each.id}
         released = {id for state in states for id in state.released or ()}
         return frozenset(ours - self._requested.keys() - self._releasing - released)
