@@ -78,14 +78,14 @@ def _of_declaration(call: ast.Call, path: str, tree: ast.AST) -> Iterator[LintFi
     default = call.args[1] if len(call.args) > 1 else given.get("value")
     descriptor = call.args[2] if len(call.args) > 2 else given.get("descriptor")
     number = _number(default)
-    texts, ranged, known = _described(descriptor, tree)
+    texts, ranges, known = _described(descriptor, tree)
     if known and not texts:
         yield LintFinding(path, call.lineno, "no description", name)
-    if known and number is not None and not ranged:
+    if known and number is not None and not ranges:
         yield LintFinding(path, call.lineno, "no range", name)
     if isinstance(number, float) and texts and not any(_UNIT.search(each) or is_dimensionless(each) for each in texts):
         yield LintFinding(path, call.lineno, "no unit", name)
-    if type(number) is int and _CONTINUOUS.search(name.rpartition(".")[2]):
+    if type(number) is int and "integer_range" not in ranges and _CONTINUOUS.search(name.rpartition(".")[2]):
         yield LintFinding(path, call.lineno, "float as int", name)
 
 
@@ -96,10 +96,10 @@ def _number(default: ast.expr | None) -> float | int | None:
     return None
 
 
-def _described(descriptor: ast.expr | None, tree: ast.AST) -> tuple[list[str], bool, bool]:
-    """The texts of a descriptor, whether it has a range, and whether that could be determined."""
+def _described(descriptor: ast.expr | None, tree: ast.AST) -> tuple[list[str], set[str], bool]:
+    """The texts of a descriptor, its kinds of ranges, and whether all of it could be determined."""
     if descriptor is None:
-        return [], False, True
+        return [], set(), True
     if isinstance(descriptor, ast.Name):
         assigned = [
             each.value
@@ -108,16 +108,17 @@ def _described(descriptor: ast.expr | None, tree: ast.AST) -> tuple[list[str], b
             and any(isinstance(one, ast.Name) and one.id == descriptor.id for one in each.targets)
         ]
         if len(assigned) != 1:
-            return [], False, False
+            return [], set(), False
         descriptor = assigned[0]
     if not isinstance(descriptor, ast.Call) or _called(descriptor) != "ParameterDescriptor":
-        return [], False, False  # A helper makes it, so that nothing can be determined here.
+        return [], set(), False  # A helper makes it, so that nothing can be determined here.
     given = {each.arg: each.value for each in descriptor.keywords}
+    ranges = {"floating_point_range", "integer_range"} & set(given)
     text = given.get("description")
     texts = [text.value] if isinstance(text, ast.Constant) and isinstance(text.value, str) and text.value else []
     if text is not None and not isinstance(text, ast.Constant):
-        return [], True, False
-    return texts, bool({"floating_point_range", "integer_range"} & set(given)), True
+        return [], ranges, False
+    return texts, ranges, True
 
 
 def _of_class(node: ast.ClassDef, path: str) -> Iterator[LintFinding]:

@@ -101,7 +101,10 @@ def _of_packages(files: Iterable[Path], where: Path) -> Iterator[LintFinding]:
     folders |= {where.resolve()} if (where / "package.xml").is_file() else set()
     for folder in folders:
         for each in obstacles(read_package(folder)):
-            yield LintFinding(str(each.file), each.line, "not on ROS 2", each.problem, each.fix)
+            # Written as the other findings are: below the folder that the user has named.
+            below = where.resolve() in each.file.parents
+            file = where / each.file.relative_to(where.resolve()) if below else each.file
+            yield LintFinding(str(file), each.line, "not on ROS 2", each.problem, each.fix)
 
 
 def files_of(what: str) -> list[Path]:

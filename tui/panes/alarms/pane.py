@@ -54,8 +54,8 @@ class AlarmsPane(ListPane):
     HELP = (
         "Conditions over fields of topics and parameters, such as  low battery: /battery/percentage < 0.2  or\n"
         "/scan/ranges[0] < 0.4 and /odom/twist.twist.linear.x > 1, or over rates: rate(/scan) < 8. While there are\n"
-        "none, some are suggested, and Enter adds one. Alarms are watched all the time, at each message;\n"
-        "each time that one becomes active it is announced once, with the terminal's bell if b has switched it on.\n"
+        "none, some are suggested, and Enter adds one. Alarms are evaluated with each message, whichever\n"
+        "pane is visible; you are notified when one becomes active, with the terminal's bell if b turned it on.\n"
         "They are kept for the next start. Topics whose rates are expected (E in Topics) are listed first."
     )
     BINDINGS = keymap.bindings("alarms")

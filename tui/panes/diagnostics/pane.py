@@ -42,10 +42,10 @@ class DiagnosticsPane(ListPane):
 
     TITLE = "Diagnostics"
     HELP = (
-        "What the parts of the robot say of themselves on /diagnostics (on /diagnostics_agg where there is an\n"
-        "aggregator), by the slashes of their names. A row above others has the worst level below it: error, then\n"
-        "stale, then warning. What was not said again for 5 s is stale. Below: the values of the row at the cursor,\n"
-        "and every level that it had since the console has begun."
+        "The status that the parts of the robot report on /diagnostics (on /diagnostics_agg if there is an\n"
+        "aggregator), as a tree by the slashes in their names. A parent row shows the worst level below it: error,\n"
+        "then stale, then warning. A status that was not repeated for 5 s is stale. Below, or beside it where there\n"
+        "is room: the values of the row at the cursor, and every level it has had since the console started."
     )
     BINDINGS = keymap.bindings("diagnostics")
 

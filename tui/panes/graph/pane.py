@@ -67,11 +67,12 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         "`name ×3` are three topics of one namespace, ↺ is what a node sends to itself, `idle` is a topic without\n"
         "messages now. Topics without a publisher or a subscriber are listed below, and D shows the hidden ones.\n"
         "Boxes with the same topics and the same partners share a frame and its lines.\n"
-        "m goes on to rqt's drawings, in which topics are items of their own, and to a list.\n"
+        "m switches to rqt's drawings, in which topics are items of their own, and to a list.\n"
         "What is linked to the selected item is coloured; where QoS does not match so that nothing arrives, the line\n"
         "is red and the topic marked ✗. Namespaces fold into boxes, by themselves where there are many nodes.\n"
-        "Enter lists everything about the item, to go on to; w lists the findings in words. t shows the frames of\n"
-        "tf2 as a tree instead: how often and when each was published, by whom, and loops, two parents, silence."
+        "Enter lists everything about the item, and leads to what it lists; w lists the findings in words.\n"
+        "t shows the tf2 frames as a tree instead: when, how often and by whom each was published, and what is wrong:\n"
+        "loops, two parents, silence."
     )
     BINDINGS = keymap.bindings("graph")
 

@@ -55,11 +55,11 @@ class HistoryPane(ListPane):
 
     TITLE = "History"
     HELP = (
-        "Every change of a parameter and every refusal, whoever made it, the newest first; those of earlier runs\n"
-        "stand below with their date. What was changed together, as by a profile, is one row that Enter opens; the\n"
-        "line at the top shows the rows of one run over time. u goes back to a row: whatever was changed after it\n"
-        "gets the value that it had then, all or nothing, after a question. Log and plot look at the moment of the\n"
-        "row at the cursor; Escape is now. Behind a change stands what the robot's speed did in the seconds after it."
+        "Every change of a parameter and every refusal, whoever made it, the newest first; earlier runs follow below\n"
+        "with their dates. What was changed together, for example by a profile, is one row that Enter opens; the line\n"
+        "at the top shows the rows of one run over time. u goes back to a row: every value changed after it returns\n"
+        "to what it was then, all or nothing, after a question. Log and plot show the moment of the row at the\n"
+        "cursor; Escape returns to now. Behind a change stands what the robot's speed did in the seconds after it."
     )
     BINDINGS = keymap.bindings("history")
 

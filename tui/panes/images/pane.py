@@ -40,10 +40,10 @@ class ImagesPane(Pane):
 
     TITLE = "Images"
     HELP = (
-        "The newest image of a topic, scaled to the pane: two pixels in a cell by half-blocks, or greys as letters\n"
-        "(g), which cost a fortieth of the bytes. At most 2 pictures a second (+ and - change that), and no more than\n"
-        "5 kB a second in the mean: what changes much is drawn less often. On a slow link the picture freezes; space\n"
-        "takes one. Depths and other wide numbers go from black (the least) to white."
+        "The newest image of a topic, scaled to the pane: two pixels per cell as half-blocks, or greys as letters\n"
+        "(g), which take a fortieth of the bytes. At most 2 pictures per second (+ and - change that), and 5 kB per\n"
+        "second on average: a picture that changes a lot is drawn less often. On a slow link the picture freezes, and\n"
+        "Space fetches one. Depths and other wide numbers range from black (the least) to white."
     )
     SCOPES = ()
     BINDINGS = keymap.bindings("images")

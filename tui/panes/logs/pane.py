@@ -50,10 +50,11 @@ class LogsPane(LinePane):
 
     TITLE = "Logs"
     HELP = (
-        "What the nodes log and print. The filter takes words (all must stand), !word (must not), node:name,\n"
-        "sev:>=warn, at:file.py:12, time:14:03..14:05, time:-5m and re:pattern. s looks for words and hides nothing,\n"
-        "n and N go on. x hides, + highlights lines like the one at the cursor: rules that stay, F shows them.\n"
-        "Scrolling up stops following; nothing is lost meanwhile, f follows again."
+        "What the nodes log and print. A filter takes words (all must match), !word (must not match), node:name,\n"
+        "sev:>=warn, at:file.py:12, time:14:03..14:05, time:-5m and re:pattern. s searches and hides nothing; n and N\n"
+        "go to the next and the previous match. x hides lines like the one at the cursor, + highlights them: both are\n"
+        "rules that are kept, and F lists them. Scrolling up stops following; no line is lost meanwhile, and f\n"
+        "follows again."
     )
     BINDINGS = keymap.bindings("logs")
 

@@ -44,10 +44,10 @@ class TopicsPane(ListPane):
     TITLE = "Topics"
     HELP = (
         "Every topic with its publishers and subscribers, rate, bandwidth, age and value of the newest message,\n"
-        "latency by the stamps of headers, type and offered QoS; only the rows in view are measured, and only while\n"
-        "they are seen. Enter opens the newest message as a tree that goes on living, or a namespace. P fills in a\n"
-        "message and publishes it. m lists services and actions, which Enter calls. What is wrong is marked !.\n"
-        "E names a file of expected rates (`bot-console graph --rates` writes one); what is late is marked, too."
+        "latency by header stamps, type and offered QoS. Only visible rows are measured, and only while the pane is\n"
+        "visible. Enter opens a namespace, or the newest message as a tree that keeps updating. P fills in a message\n"
+        "and publishes it. m lists services and actions, which Enter calls. ! marks a faulty topic. E names a file of\n"
+        "expected rates (`bot-console graph --rates` writes one); late topics are marked, too."
     )
     BINDINGS = keymap.bindings("topics")
 

@@ -253,3 +253,29 @@ def test_folder_with_a_launch_file_is_linted_where_ros_is_not_installed(tmp_path
     command = [sys.executable, "-m", "bot_console.tui", "lint", str(tmp_path)]
     ended = subprocess.run(command, capture_output=True, text=True, check=False)
     assert "no such package" in ended.stdout
+
+
+def test_an_integer_with_a_range_of_integers_is_meant_as_one(tmp_path: Path) -> None:
+    """`rate` sounds like a float, but its range says what it is."""
+    program = tmp_path / "talker.py"
+    program.write_text(
+        "range = ParameterDescriptor(description='Rate (Hz)', integer_range=[IntegerRange()])\n"
+        "node.declare_parameter('rate', 10, range)\n"
+    )
+    assert lint_files([program]) == []
+
+
+def test_findings_of_a_package_are_named_like_those_of_its_files(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "src" / "talker"
+    (folder / "launch").mkdir(parents=True)
+    (folder / "package.xml").write_text(
+        "<package format='3'><name>talker</name><export><build_type>ament_python</build_type></export></package>"
+    )
+    (folder / "setup.py").write_text("from setuptools import setup\nsetup(name='talker')\n")
+    (folder / "launch" / "talker.launch.py").write_text("")
+    monkeypatch.chdir(tmp_path)
+    assert run([]) == 1
+    places = [each.partition(":")[0] for each in capsys.readouterr().out.splitlines()]
+    assert places and {each for each in places if Path(each).is_absolute()} == set()
