@@ -17,12 +17,16 @@ COMPLETE: set[int] = set()
 """Rows that are checked with substitutes for the executables that the page does not print (N8)."""
 ALIKE: set[int] = set()
 """Rows whose check does the same for each of its rows: once it has passed, it is not repeated."""
+SLOW: set[int] = set()
+"""Rows that are not checked in the default run."""
 
 
-def row(*numbers: int, own: bool = False, complete: bool = False, alike: bool = False) -> Callable[[Check], Check]:
+def row(
+    *numbers: int, own: bool = False, complete: bool = False, alike: bool = False, slow: Iterable[int] = ()
+) -> Callable[[Check], Check]:
     """Register a function as the check of these rows, and choose the workspace: as printed, completed, or ours.
 
-    With `alike` it does the same for all of them.
+    With `alike` it does the same for all of them. Those named by `slow` are not checked in the default run.
     """
 
     def add(check: Check) -> Check:
@@ -35,6 +39,7 @@ def row(*numbers: int, own: bool = False, complete: bool = False, alike: bool = 
                 COMPLETE.add(number)
             if alike:
                 ALIKE.add(number)
+        SLOW.update(slow)
         return check
 
     return add

@@ -10,7 +10,7 @@ import pytest
 from course.evidence import SHOWN, is_there
 from course.page import make_workspace, page
 from course.rows import Row, rows
-from course.table import ALIKE, CHECKS, COMPLETE, OWN, Check, reason
+from course.table import ALIKE, CHECKS, COMPLETE, OWN, SLOW, Check, reason
 
 for _module in sorted(Path(__file__).parent.glob("checks_*.py")):
     importlib.import_module(f"course.{_module.stem}")
@@ -34,7 +34,12 @@ def passed() -> set[Check]:
     return set()
 
 
-@pytest.mark.parametrize("row", rows().values(), ids=str)
+def marked(row: Row) -> object:
+    """The row as a parameter, with its mark."""
+    return pytest.param(row, marks=pytest.mark.slow if row.number in SLOW else (), id=str(row))
+
+
+@pytest.mark.parametrize("row", [marked(each) for each in rows().values()])
 def test_row_of_the_course_holds(
     row: Row, passed: set[Check], request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -68,6 +68,7 @@ def called(function):
     return function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
 
 
+@pytest.mark.slow
 def test_declared_dependencies_are_imported():
     assert import_names(project()["dependencies"]) - imported() == set()
 

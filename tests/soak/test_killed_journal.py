@@ -64,7 +64,14 @@ def kill_writers(file: Path, times: int) -> None:
 
 
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="forks")
-@pytest.mark.parametrize("times", [10, pytest.param(1000, marks=[pytest.mark.soak, pytest.mark.timeout(1000)])])
+@pytest.mark.parametrize(
+    "times",
+    [
+        3,
+        pytest.param(10, marks=pytest.mark.slow),
+        pytest.param(1000, marks=[pytest.mark.soak, pytest.mark.timeout(1000)]),
+    ],
+)
 def test_no_change_that_was_shown_is_lost(times: int, tmp_path: Path) -> None:
     # In a separate interpreter: a fork is safe only if no other thread runs.
     done = subprocess.run(

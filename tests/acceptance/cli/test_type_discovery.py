@@ -122,6 +122,7 @@ def test_bag_records_foreign_types_and_names_topics_without_definition_or_publis
     assert "Topic: /false_spots | Type: false_shapes/msg/Spot" in shown
 
 
+@pytest.mark.slow
 def test_verbs_send_goals_requests_and_messages_of_foreign_types(elsewhere: Path) -> None:
     while "/draw" not in typed("action", "list", cwd=elsewhere).stdout:
         pass

@@ -90,6 +90,7 @@ def robot(
     process.wait()
 
 
+@pytest.mark.slow
 def test_attached_console_shows_robot_launches_beside_it_and_leaves_it_alone(
     robot: subprocess.Popen[bytes], tmp_path: Path
 ) -> None:

@@ -180,6 +180,7 @@ def test_frozen_host_ends_its_processes_and_itself(hosted: Hosted) -> None:
     assert not any("has not ended" in text for *_, text in hosted.printed)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
 def test_processes_end_with_their_owner(tmp_path: Path) -> None:
     program = tmp_path / "waiter.py"

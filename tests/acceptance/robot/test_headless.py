@@ -58,6 +58,7 @@ def test_logs_are_formatted_as_in_ros(runs):
     assert "[simulator_node-1] [INFO] [1700000000.000000000] [simulator]: Office" in runs[0]["log"]
 
 
+@pytest.mark.slow
 def test_real_time_run_takes_real_time(tmp_path):
     done = typed("--headless", "--duration", "1", cwd=tmp_path)
     assert done.returncode == 0, done.stderr

@@ -153,7 +153,7 @@ def test_prefix_runs_a_separate_process(ros, src: Path) -> None:
         ("python3 -m pdb -c continue", "The program exited via sys.exit()"),
         ("python3 -X utf8 -W error", "node ['word']"),
         ("python3 -m cProfile -s calls", "function calls"),
-        ("python3 -m trace --count --summary --missing -C .", "lines   cov%"),
+        pytest.param("python3 -m trace --count --summary --missing -C .", "lines   cov%", marks=pytest.mark.slow),
         ("env GREETING=hello", "hello node ['word']"),
         ("nice -n 1", "node ['word']"),
         (

@@ -6,6 +6,7 @@ import gc
 import subprocess
 import sys
 
+import pytest
 from bot_console_robot.simulation.simulation import Simulation
 from bot_console_robot.simulation.world import World
 
@@ -13,6 +14,7 @@ COLLECTED = """
 import gc, sys, weakref
 from bot_console.runtime.importer import install
 install()
+import pytest
 from bot_console_robot.simulation.simulation import Simulation
 from bot_console_robot.simulation.world_file import parse_world
 
@@ -45,6 +47,7 @@ def test_garbage_collector_frees_no_physics() -> None:
     assert not FREEING & set(done.stdout.split())
 
 
+@pytest.mark.slow
 def test_freeing_twice_is_harmless(room: World) -> None:
     simulation = Simulation(room, 1)
     memory = simulation._space._memory

@@ -334,6 +334,7 @@ def test_many_processes_leave_no_thread(run):
     assert threading.active_count() == before
 
 
+@pytest.mark.slow
 def test_ended_process_leaves_no_objects_behind(run):
     def target():
         start_sleeper()

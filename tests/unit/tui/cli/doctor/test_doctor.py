@@ -169,6 +169,7 @@ def range_off(tmp_path_factory, monkeypatch) -> None:
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF")
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("range_off")
 def test_without_other_nodes_doctor_says_which_range_to_try() -> None:
     done = run("--ros", "--seconds", "0.2")
