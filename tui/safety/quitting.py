@@ -36,7 +36,7 @@ class Quitting:
         if not snapshot.drive.stopped_here and not snapshot.drive.nothing_to_stop:
             self.holding = True
             self._console.drive.stop(True, REASON)
-        held = "" if snapshot.drive.nothing_to_stop else "The robot is held meanwhile. "
+        held = "The robot is held meanwhile. " if snapshot.drive.is_robot_known else ""
         self._app.push_screen(
             screen_for(
                 Confirmation(

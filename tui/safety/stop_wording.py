@@ -20,6 +20,8 @@ def stop_text(drive: DriveInfo) -> str:
     """The state of a stop; it reads "held" only once the robot has acknowledged it."""
     if drive.unsent:
         return f"STOP NOT SENT: {drive.unsent}"
+    if drive.awaits_robot:
+        return f"STOP NOT SENT YET: looking for the robot ({stop_key(drive, 'ends it')})"
     if drive.nothing_to_stop:
         key = stop_key(drive, "ends it")
         return f"STOP REACHES NOBODY: nothing is here to stop, no robot listens for commands ({key})"
@@ -42,6 +44,8 @@ def stop_key(drive: DriveInfo, ends: str) -> str:
         return IS_TEXT
     if drive.key_only_holds:
         return "! keeps it held"
+    if drive.awaits_robot and drive.stopped_here:
+        return "! sends it again"
     if drive.key_releases:
         return f"! {ends}"
     if drive.stopped_here:

@@ -37,7 +37,8 @@ class Stopping:
         """
         drive = self._console.snapshot().drive
         holds = self._quitting.keeps_held() or self._asking
-        if holds or not drive.stopped_here or (drive.lockable and not drive.stop_confirmed):
+        is_pending = drive.awaits_robot or (drive.lockable and not drive.stop_confirmed)
+        if holds or not drive.stopped_here or is_pending:
             self.hold()
         else:
             self.release()

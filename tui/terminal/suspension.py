@@ -74,7 +74,7 @@ class Leaving:
 
     def _when_held(self, timeout_s: float) -> None:
         drive = self._console.snapshot().drive
-        if timeout_s > 0 and drive.lockable and not drive.stop_confirmed:
+        if timeout_s > 0 and (drive.lockable or drive.searching) and not drive.stop_confirmed:
             self._app.set_timer(STOP_POLL_S, lambda: self._when_held(timeout_s - STOP_POLL_S))
             return
         self._app.action_suspend_process()

@@ -171,7 +171,7 @@ def state_text(snapshot: ConsoleSnapshot) -> str:
     if drive.silent_s:
         return f"SILENT {drive.silent_s} s"
     if drive.final is None and drive.actual is None and not drive.limited_by:
-        return NO_ROBOT if drive.nothing_to_stop else NO_DATA
+        return NO_DATA if drive.is_robot_known else NO_ROBOT
     moves, commanded = (
         velocity is not None and any(map(_is_visible, velocity)) for velocity in (drive.actual, drive.final)
     )

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
-from bot_console.tui.console.robot.robot_model import RobotStop
+from bot_console.tui.console.robot.robot_model import DriveInfo, RobotStop
 from bot_console.tui.screens.confirm import ConfirmScreen
 from piloting import Session, run
 from samples import live
@@ -40,6 +42,24 @@ def test_stop_key_holds_and_releases_the_robot() -> None:
         assert held_by(session) == []
 
     run(live(), play)
+
+
+def test_stop_key_only_repeats_the_stop_while_robots_are_looked_for() -> None:
+    async def play(session: Session) -> None:
+        pending = DriveInfo(stopped=True, stopped_here=True, own_stops=frozenset(["ours"]), searching=True)
+        session.console.change(drive=pending)
+        await session.press(STOP)
+        assert session.console.asked[-1] == ("all_stop", True)
+        session.console.change(drive=pending)
+        await session.settle()
+        assert "STOP NOT SENT YET: looking for the robot (! sends it again)" in session.text()
+        session.console.change(drive=replace(pending, searching=False))
+        await session.settle()
+        assert "STOP REACHES NOBODY" in session.text()
+        await session.press(STOP)
+        assert session.console.asked[-1] == ("all_stop", False)
+
+    run(live(), play, (80, 24))
 
 
 def test_first_press_adds_our_stop_and_second_asks_to_release_others() -> None:

@@ -43,6 +43,10 @@ VERDICT = "diagnostics"
 DIAGNOSTICS = "diagnostic_msgs/msg/DiagnosticArray"
 VERDICT_LIFETIME_S = 2.0
 """Seconds after which a verdict is no longer shown: diagnostics are published at least once a second."""
+SEARCH_S = 4.0
+"""Seconds for which the first graph may lack robots and locks: other programs announce theirs one by one, and on a busy
+machine with pauses.
+"""
 COMMAND_LIFETIME_S = 0.5
 """Seconds after which a velocity command expires, and the robot stops by itself."""
 CLOCK = "/clock"
@@ -102,6 +106,8 @@ class DriveLink:
         self._heard: dict[str, float] = {}
         self._info = DriveInfo()
         self._found = Surroundings.of(GraphInfo())
+        self._searching_until = math.inf
+        """When what has not been found yet counts as not there; unknown until there is a graph."""
         self._scope = Scope("/")
         self._robot = NOBODY
         self._chosen = ""
@@ -118,6 +124,7 @@ class DriveLink:
     def take(self, found: Surroundings) -> None:
         """Apply what was found in a graph; in the thread that serves the node."""
         self._found = found
+        self._searching_until = min(self._searching_until, self._now() + SEARCH_S)
         before = self._robot.robot
         self._follow_robot()
         self._replaced |= self._stop.steering and before not in ("", self._robot.robot)
@@ -388,6 +395,7 @@ class DriveLink:
             stops=with_gone(stop.stops),
             lockable=stop.locks > 0,
             unlocked=tuple(each.robot for each in self._unlocked),
+            searching=self._now() < self._searching_until,
             held_by_means=self._means.holds,
             means_news=self._means.news,
             steered_by=stop.steered_by,

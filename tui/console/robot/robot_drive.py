@@ -32,13 +32,14 @@ NOT_YET = DriveInfo(
     stopped=True,
     stopped_here=True,
     own_stops=UNSENT,
-    unsent="the console is still connecting; the stop is sent as soon as it is connected",
+    searching=True,
+    unsent="still connecting; it is sent as soon as that is done",
 )
 NOT_CONNECTED = DriveInfo(
     stopped=True,
     stopped_here=True,
     own_stops=UNSENT,
-    unsent="this console is not connected; run bot-console stop in another terminal",
+    unsent="not connected; run bot-console stop in another terminal",
 )
 
 

@@ -155,6 +155,8 @@ class DriveInfo:
     """Whether the robot has an emergency stop that acknowledges requests."""
     unlocked: tuple[str, ...] = ()
     """The robots that have no such emergency stop."""
+    searching: bool = False
+    """Whether the graph has not been known for long enough to tell that there is no other robot, or no other lock."""
     held_by_means: str = ""
     """The configured means of stopping that reports that it holds them; empty if none does."""
     means_news: str = ""
@@ -170,9 +172,20 @@ class DriveInfo:
 
         A stop is still reported while its release is on its way, and also for a key press that is not handled yet.
         """
-        return bool(self.own_stops) and not (self.press_waits or self.key_is_text or self.key_only_holds)
+        no_turn = self.press_waits or self.key_is_text or self.key_only_holds
+        return bool(self.own_stops) and not (no_turn or self.awaits_robot)
+
+    @property
+    def awaits_robot(self) -> bool:
+        """Whether a stop is requested while no robot has been found yet; until then it is only repeated."""
+        return self.stopped and self.searching and not self.is_robot_known
+
+    @property
+    def is_robot_known(self) -> bool:
+        """Whether there is anything that could receive a stop, as far as is known."""
+        return bool(self.lockable or self.topic or self.robots or self.held_by_means or self.means_news)
 
     @property
     def nothing_to_stop(self) -> bool:
-        """Whether no robot is known, so that nobody could have received a stop."""
-        return not (self.lockable or self.topic or self.robots or self.held_by_means or self.means_news)
+        """Whether there is no robot, so that nobody could have received a stop."""
+        return not (self.is_robot_known or self.searching)

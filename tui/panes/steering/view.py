@@ -123,6 +123,8 @@ def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
         topic += f"  topic {drive.robots.index(drive.robot) + 1} of {len(drive.robots)}, r: the next one"
     if drive.unsent:
         return ((" STOP NOT SENT ", "error"), (f" {drive.unsent}", ""))
+    if drive.awaits_robot:
+        return ((" STOP NOT SENT YET ", "error"), (" looking for the robot", ""))
     if drive.stopped and drive.nothing_to_stop:
         return ((" STOP ", "warn"), (f" nothing is here to stop: {topic}", ""))
     if drive.refused:

@@ -9,6 +9,7 @@ import pytest
 from bot_console.tui.console.graph.watch import GraphWatch
 from bot_console.tui.console.robot import robot_drive
 from bot_console.tui.console.ros_console import RosConsole
+from bot_console.tui.widgets.status_bar import status_text
 from bot_console_robot.safety.emergency_stop import ARBITER, BASE, EmergencyStop
 from domains import unused_domain
 from rclpy.clock import Clock, ClockType
@@ -63,3 +64,16 @@ def test_stop_and_release_are_acknowledged_during_a_long_graph_poll(
         assert not over.is_set()
     finally:
         over.set()
+
+
+def test_stop_before_robots_are_looked_for_is_not_said_to_reach_nobody(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
+    console = RosConsole()
+    console.drive.connect()
+    try:
+        console.drive.stop()
+        assert "STOP NOT SENT YET" in status_text(console.snapshot())
+    finally:
+        console.close()

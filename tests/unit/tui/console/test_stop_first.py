@@ -117,7 +117,7 @@ def test_an_error_in_the_robots_reports_is_logged_once_and_the_link_stays_up(
 
 @pytest.mark.parametrize(
     ("fails", "message_of"),
-    [(False, "STOP NOT SENT: the console is still connecting"), (True, "STOP NOT SENT: this console is not connected")],
+    [(False, "STOP NOT SENT: still connecting"), (True, "STOP NOT SENT: not connected")],
 )
 def test_a_stop_that_cannot_be_sent_is_reported_at_once(
     fails: bool, message_of: str, base: Base, console: RosConsole, monkeypatch: pytest.MonkeyPatch
