@@ -32,7 +32,6 @@ NOT_YET = DriveInfo(
     stopped=True,
     stopped_here=True,
     own_stops=UNSENT,
-    searching=True,
     unsent="still connecting; it is sent as soon as that is done",
 )
 NOT_CONNECTED = DriveInfo(
