@@ -69,7 +69,7 @@ def test_stop_key_locks_the_robot_in_every_state(state: str, base: Base, monkeyp
 
     def play(app: BotConsoleApp) -> None:
         if state == "starting":
-            assert "STOP NOT SENT: the console is still connecting" in status(app)
+            assert "STOP NOT SENT: still connecting" in status(app)
             assert not base.is_held()
             connect(console)
         until(base.is_held, "the lock")
