@@ -89,10 +89,10 @@ def tmp_path(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFa
 
 
 @pytest.fixture(autouse=True)
-def apart(socket_folder: str) -> Iterator[None]:
-    """A test that lets this process take part in a domain does it for itself alone.
+def leaves_no_session(socket_folder: str) -> Iterator[None]:
+    """Close the sessions that a test opened in this process, which the next test would otherwise share.
 
-    A command that runs in a stepped system takes part too, and leaves its session to the next test that does.
+    A command that runs in a stepped system opens one, too.
     """
     before = _shares_domains()
     yield
@@ -143,7 +143,7 @@ def pytest_collection() -> Iterator[None]:
 
 
 def pytest_unconfigure() -> None:
-    """Shorten the five garbage collections with which pytest ends, which would look through what 10,000 tests left."""
+    """Freeze what the tests left behind: pytest ends with five full garbage collections."""
     gc.freeze()
 
 

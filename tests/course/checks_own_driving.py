@@ -145,7 +145,7 @@ AT_START = {"enable_stamped_cmd_vel": "True", "model": "turtlebot4"}
 """Read-only parameters with a value other than the default, as given on the command line at the start."""
 
 
-@row(342, own=True, slow=[342])
+@row(342, own=True, slow=True)
 def each_parameter_can_be_set(page: Page, row: Row) -> None:
     """To a value that it does not have yet."""
     read_only = {**AT_START, "stop_file": str(page.scratch / "stops.json")}

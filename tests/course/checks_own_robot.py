@@ -69,14 +69,15 @@ def wrong_values_are_refused_with_the_reason(page: Page, row: Row) -> None:
         assert page.value(NAVIGATOR, name) == before
 
 
-@row(317, 318, 319, 320, own=True, slow=[318, 319, 320])
+@row(317, own=True)
+@row(318, 319, 320, own=True, slow=True)
 def the_profile_loads(page: Page, row: Row) -> None:
     name = re.search(r"(\w+)_config.yaml", row.text)
     assert name is not None
     profile_loads(page, name[1])
 
 
-@row(343, own=True, slow=[343])
+@row(343, own=True, slow=True)
 def each_profile_loads(page: Page, row: Row) -> None:
     for name in ("indoor", "outdoor", "warehouse", "competition"):
         profile_loads(page, name)

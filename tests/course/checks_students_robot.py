@@ -45,7 +45,7 @@ def the_students_nodes_drive(page: Page, row: Row) -> None:
     assert drive(folder, folder / "src" / "intelligent_robot" / "config" / "indoor_config.yaml")["distance"] > 10.0
 
 
-@row(392, slow=[392])
+@row(392, slow=True)
 def each_configuration_drives_otherwise(page: Page, row: Row) -> None:
     folder = make_workspace(page.scratch / "ws", complete=True)
     config = folder / "src" / "intelligent_robot" / "config"

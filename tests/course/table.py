@@ -22,11 +22,11 @@ SLOW: set[int] = set()
 
 
 def row(
-    *numbers: int, own: bool = False, complete: bool = False, alike: bool = False, slow: Iterable[int] = ()
+    *numbers: int, own: bool = False, complete: bool = False, alike: bool = False, slow: bool = False
 ) -> Callable[[Check], Check]:
     """Register a function as the check of these rows, and choose the workspace: as printed, completed, or ours.
 
-    With `alike` it does the same for all of them. Those named by `slow` are not checked in the default run.
+    With `alike` it does the same for all of them. With `slow` they are not checked in the default run.
     """
 
     def add(check: Check) -> Check:
@@ -39,7 +39,8 @@ def row(
                 COMPLETE.add(number)
             if alike:
                 ALIKE.add(number)
-        SLOW.update(slow)
+            if slow:
+                SLOW.add(number)
         return check
 
     return add

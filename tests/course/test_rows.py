@@ -34,12 +34,11 @@ def passed() -> set[Check]:
     return set()
 
 
-def marked(row: Row) -> object:
-    """The row as a parameter, with its mark."""
-    return pytest.param(row, marks=pytest.mark.slow if row.number in SLOW else (), id=str(row))
-
-
-@pytest.mark.parametrize("row", [marked(each) for each in rows().values()])
+@pytest.mark.parametrize(
+    "row",
+    [pytest.param(row, marks=pytest.mark.slow if row.number in SLOW else ()) for row in rows().values()],
+    ids=str,
+)
 def test_row_of_the_course_holds(
     row: Row, passed: set[Check], request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

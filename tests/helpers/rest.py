@@ -54,7 +54,7 @@ async def rest_undrawn(min_sleep: float = 0.02, max_sleep: float = 1) -> None:
 async def _at_rest(min_sleep: float, max_sleep: float, *, draws: bool) -> None:
     loop: Any = asyncio.get_running_loop()
     await _drained(loop, draws=draws)
-    end = loop.time() + POLL_S  # only now: a screen that is seen behind another is laid out one frame after its change
+    end = loop.time() + POLL_S  # counted from here: the screen behind an overlay is laid out one frame later
     if not _idle_threads.issuperset(threading.enumerate()):
         await _wait.wait_for_idle(min_sleep, max_sleep)
         await _drained(loop, draws=draws)

@@ -66,7 +66,6 @@ def test_background_robot_is_started_shown_and_ended(state: Path) -> None:
     assert not kept["stops"] and "bot-console release of" in kept["released"][0][1]
 
 
-@pytest.mark.slow
 def test_frozen_or_killed_system_is_ended_without_leftovers(state: Path) -> None:
     started = typed("up")
     pid = int(re.search(r"process (\d+)", started.stdout)[1])  # pyright: ignore[reportOptionalSubscript] -- told

@@ -45,7 +45,6 @@ def speed() -> float:
     return float(typed("topic", "echo", "--once", "/odom", "--field", "twist.twist.linear.x").stdout.split()[0])
 
 
-@pytest.mark.slow
 def test_verbs_in_a_second_terminal_reach_the_robot(console: Terminal) -> None:
     refused = typed("param", "set", "/robot_navigator", "max_speed", "10.0")
     assert "out of range" in refused.stderr + refused.stdout

@@ -137,7 +137,6 @@ def test_watching_console_takes_keys_mouse_and_touch_and_its_stop_works(
     run(work)
 
 
-@pytest.mark.slow
 def test_tablet_has_a_stop_button(chromium: str, watched: tuple[str, int]) -> None:
     address, _ = watched
 

@@ -44,7 +44,7 @@ def test_stop_key_holds_and_releases_the_robot() -> None:
     run(live(), play)
 
 
-def test_stop_key_only_repeats_the_stop_while_robots_are_looked_for() -> None:
+def test_stop_key_only_repeats_the_stop_while_searching_for_robots() -> None:
     async def play(session: Session) -> None:
         pending = DriveInfo(stopped=True, stopped_here=True, own_stops=frozenset(["ours"]), searching=True)
         session.console.change(drive=pending)

@@ -14,7 +14,6 @@ COLLECTED = """
 import gc, sys, weakref
 from bot_console.runtime.importer import install
 install()
-import pytest
 from bot_console_robot.simulation.simulation import Simulation
 from bot_console_robot.simulation.world_file import parse_world
 

@@ -98,12 +98,12 @@ def _of_packages(files: Iterable[Path], where: Path) -> Iterator[LintFinding]:
     """The problems that keep the packages of these files from working on ROS 2."""
     install()
     folders = {folder for each in files if (folder := folder_of_package(each)) is not None}
-    folders |= {where.resolve()} if (where / "package.xml").is_file() else set()
+    named = where.resolve()
+    folders |= {named} if (where / "package.xml").is_file() else set()
     for folder in folders:
         for each in obstacles(read_package(folder)):
-            # Written as the other findings are: below the folder that the user has named.
-            below = where.resolve() in each.file.parents
-            file = where / each.file.relative_to(where.resolve()) if below else each.file
+            # Relative to the folder as the user named it, like the paths of the other findings.
+            file = where / each.file.relative_to(named) if named in each.file.parents else each.file
             yield LintFinding(str(file), each.line, "not on ROS 2", each.problem, each.fix)
 
 

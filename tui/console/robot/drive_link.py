@@ -107,7 +107,7 @@ class DriveLink:
         self._info = DriveInfo()
         self._found = Surroundings.of(GraphInfo())
         self._searching_until = math.inf
-        """When what has not been found yet counts as not there; unknown until there is a graph."""
+        """Time after which a robot that has not been found counts as absent; known once there is a graph."""
         self._scope = Scope("/")
         self._robot = NOBODY
         self._chosen = ""

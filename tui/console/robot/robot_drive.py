@@ -32,7 +32,7 @@ NOT_YET = DriveInfo(
     stopped=True,
     stopped_here=True,
     own_stops=UNSENT,
-    unsent="still connecting; it is sent as soon as that is done",
+    unsent="still connecting; it is sent once connected",
 )
 NOT_CONNECTED = DriveInfo(
     stopped=True,

@@ -172,12 +172,12 @@ class DriveInfo:
 
         A stop is still reported while its release is on its way, and also for a key press that is not handled yet.
         """
-        no_turn = self.press_waits or self.key_is_text or self.key_only_holds
-        return bool(self.own_stops) and not (no_turn or self.awaits_robot)
+        only_holds = self.press_waits or self.key_is_text or self.key_only_holds or self.awaits_robot
+        return bool(self.own_stops) and not only_holds
 
     @property
     def awaits_robot(self) -> bool:
-        """Whether a stop is requested while no robot has been found yet; until then it is only repeated."""
+        """Whether a stop is requested before any robot has been found; until then the key only sends it again."""
         return self.stopped and self.searching and not self.is_robot_known
 
     @property

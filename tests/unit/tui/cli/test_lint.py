@@ -255,7 +255,7 @@ def test_folder_with_a_launch_file_is_linted_where_ros_is_not_installed(tmp_path
     assert "no such package" in ended.stdout
 
 
-def test_an_integer_with_a_range_of_integers_is_meant_as_one(tmp_path: Path) -> None:
+def test_integer_with_an_integer_range_is_not_reported_as_float(tmp_path: Path) -> None:
     """`rate` sounds like a float, but its range says what it is."""
     program = tmp_path / "talker.py"
     program.write_text(
@@ -265,7 +265,7 @@ def test_an_integer_with_a_range_of_integers_is_meant_as_one(tmp_path: Path) -> 
     assert lint_files([program]) == []
 
 
-def test_findings_of_a_package_are_named_like_those_of_its_files(
+def test_paths_of_package_findings_are_relative_to_the_named_folder(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     folder = tmp_path / "src" / "talker"

@@ -66,9 +66,7 @@ def test_stop_and_release_are_acknowledged_during_a_long_graph_poll(
         over.set()
 
 
-def test_stop_before_robots_are_looked_for_is_pending(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
+def test_stop_is_pending_until_the_graph_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     console = RosConsole()
     console.drive.connect()
