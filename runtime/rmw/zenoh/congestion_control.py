@@ -31,6 +31,9 @@ ROOM_OF_A_LINK = 16
 that is briefly without a processor is kept.
 """
 
+ROOM_FOR_DECLARATIONS = 16
+"""That for declarations, all of which a new link carries first: enough for 200 nodes."""
+
 NARROW = {"so_sndbuf": 16_384}
 """Send buffer of a socket to another machine (bytes; Linux doubles it).
 
@@ -60,7 +63,7 @@ def must_not_drop(topic: str, qos: Profile) -> bool:
 def queue_settings(room: int) -> dict[str, object]:
     """Zenoh's settings (`transport/link/tx/queue`) of a link that queues so many batches for messages of a priority."""
     return {
-        "size": {"data": room, "data_low": room},
+        "size": {"control": ROOM_FOR_DECLARATIONS, "data": room, "data_low": room},
         "congestion_control": {
             "drop": {"wait_before_drop": WAIT_BEFORE_DROP_US},
             "block": {"wait_before_close": WAIT_BEFORE_CUT_US},

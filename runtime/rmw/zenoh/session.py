@@ -32,6 +32,7 @@ from bot_console.runtime.rmw.zenoh.declarations import (
 )
 from bot_console.runtime.rmw.zenoh.domain.sockets import Socket, lives
 from bot_console.runtime.rmw.zenoh.lifetime import Lifetime
+from bot_console.runtime.rmw.zenoh.link_threads import LinkWaker, link_threads
 from bot_console.runtime.rmw.zenoh.settings import leaves
 from bot_console.runtime.rmw.zenoh.thread_state_cache import cache_thread_state, here
 from bot_console.runtime.rmw.zenoh.transient_local_publisher import TransientLocalPublisher
@@ -71,8 +72,8 @@ class Session(Lifetime):
 
     joined: tuple[Socket, ...] = ()
     """The sockets of this machine's processes that existed when the session joined, and that it connects to."""
-    timeout_s = 0.2
-    """Timeout of the first graph query, in s; running processes answer within 5 ms."""
+    timeout_s = 3.0
+    """Timeout for the answers of running processes, in s."""
 
     never_waits = False
     """Whether every sample is taken at once, so that no publisher has to wait or to drop one."""
@@ -86,6 +87,7 @@ class Session(Lifetime):
         """
         self.on_rejoin: Callable[[], None] = lambda: None
         """Called when the session was reopened: what is kept for late subscribers must be published again."""
+        self._waker: LinkWaker | None = None
         self.lost = 0
         """Messages to this session's subscriptions that were lost, judging by their sequence numbers."""
 
@@ -106,9 +108,31 @@ class Session(Lifetime):
                 raise SettingsError(f"there is no file {file}") from None
             raise SettingsError(f"Zenoh rejects {file or 'these settings'}: {_first_line(error)}") from None
         try:
-            self._zenoh = zenoh.open(config)
+            with link_threads():
+                self._zenoh = zenoh.open(config)
         except zenoh.ZError as error:
             raise SessionError(_first_line(error)) from None
+        if self._waker is None:
+            self._waker = LinkWaker(self._wake)
+            self.watch_links(self._waker.link_changed)
+
+    def _wake(self) -> None:
+        """Wake an idle one of the threads that make links: its task is the timeout of a query that is sent nowhere."""
+        import zenoh
+
+        with contextlib.suppress(zenoh.ZError):  # no session is open
+            self._zenoh.get(
+                f"{ROLL_CALL_KEY}nobody",
+                zenoh.handlers.FifoChannel(1),
+                allowed_destination=zenoh.Locality.SESSION_LOCAL,
+                timeout=0.001,
+            )
+
+    def close(self) -> None:
+        """Close the session and its declarations; does nothing if it is already closed."""
+        if self._waker:
+            self._waker.end()
+        super().close()
 
     @staticmethod
     def errors() -> type[Exception]:
@@ -123,6 +147,10 @@ class Session(Lifetime):
 
     def watch(self) -> None:
         """Watch the session's connection while it is open; not for short-lived programs."""
+
+    def answer_timeout_s(self) -> float:
+        """The timeout of the first graph query, in s: short if a process is known not to answer."""
+        return self.timeout_s
 
     def stopped(self) -> Mapping[str, int]:
         """The frozen processes of the mesh: the first 8 digits of their session ids, mapped to their pids."""

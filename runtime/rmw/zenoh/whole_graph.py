@@ -33,7 +33,10 @@ class WholeGraph:
         """The sockets of the processes that did not answer in time: their entries may be missing."""
         for each in self.silent:
             if each.is_stopped():
-                notify(current(), f"process {each.pid} is stopped, so its nodes are not seen: `kill -CONT {each.pid}`")
+                text = f"process {each.pid} is stopped, so its nodes are not seen: `kill -CONT {each.pid}`"
+            else:
+                text = f"process {each.pid} does not answer, so its nodes may be missing here"
+            notify(current(), text)
         key = all_tokens(session.domain)
         self._process, self._has_refused = current(), False
         self._seen = GraphCache(session, key, known=known, refused=self._refused)

@@ -4,7 +4,7 @@ Ids are given by their first eight digits. `linked` writes the ids of the sessio
 its id; `heard` writes the ids it has received; `answer` those of the sessions that respond to a query; `exit` closes
 the session and writes how long that took, in s. With the argument `hasty` its first session gives up links that take
 5 ms, and the watch has short timeouts. With `unwatched` it does not watch its place, and so leaves alone a note which
-says that it is in a debugger.
+says that it is in a debugger. With `crowded` it has as many declarations as 400 nodes.
 """
 
 import sys
@@ -25,6 +25,9 @@ if "unwatched" not in sys.argv:
 heard: set[str] = set()
 session.declare_subscriber("call", lambda payload, _: heard.add(payload.decode()))
 publisher = session.declare_publisher("call")
+if "crowded" in sys.argv:
+    for number in range(1600):
+        session.declare_token(f"{number}/{'x' * 1000}")
 print(session.zid[:8], flush=True)
 
 for word in sys.stdin:

@@ -25,7 +25,7 @@ def examine(way: Way | None, seconds: float, capture: Path | None, made_with: st
     """Check the link, the wire and the nodes; raises `SessionError`, and `OSError` if the capture cannot be written."""
     session = open_session(domain()) if way is None else open_network_session(domain(), with_environment(way))
     try:
-        await_answers(session)
+        await_answers(session, session.timeout_s)
         delay = answer_time(session)
         wire = watch_wire(session, seconds)
     finally:

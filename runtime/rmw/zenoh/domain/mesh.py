@@ -26,6 +26,9 @@ SETTLE_TIMEOUT_S = 5.0
 """How long a reopened session waits for the answers of the others, in s; 50 processes take 0.1 s."""
 
 
+FROZEN_TIMEOUT_S = 0.2
+"""Timeout of a graph query beside a frozen process, in s; running processes answer within 5 ms."""
+
 PORTS = 5
 """How many ports are tried for listening if there are no Unix sockets."""
 
@@ -143,6 +146,10 @@ class MeshSession(Session):
         with contextlib.suppress(self.errors()):
             return not self._serving and not list(self._zenoh.info.routers_zid())
         return False
+
+    def answer_timeout_s(self) -> float:
+        """The timeout of the first graph query, in s: short if a process is frozen."""
+        return FROZEN_TIMEOUT_S if self.stopped() else self.timeout_s
 
     def stopped(self) -> Mapping[str, int]:
         """The frozen processes of the mesh: the first 8 digits of their session ids, mapped to their pids."""

@@ -80,8 +80,6 @@ def client_settings(zid: str, way: Way) -> dict[str, object]:
 class NetworkSession(Session):
     """A client of a router; it reconnects by itself when the router or the link comes back."""
 
-    timeout_s = 3.0
-
     def __init__(self, domain: int, way: Way) -> None:
         super().__init__(domain)
         self.way = way

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any, cast
 
 import pytest
 from bot_console.runtime.rmw.zenoh import graph_cache as watching
+from bot_console.runtime.rmw.zenoh import whole_graph
 from bot_console.runtime.rmw.zenoh.declarations import TokenWatch
 from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession, open_session
 from bot_console.runtime.rmw.zenoh.graph_cache import Watches
@@ -81,16 +83,28 @@ def test_clients_behind_a_router_of_the_mesh_appear_and_leave(socket_folder):
     router.close()
 
 
+def test_process_that_does_not_answer_is_named(socket_folder, monkeypatch):
+    notices: list[str] = []
+    monkeypatch.setattr(whole_graph, "notify", lambda process, text: notices.append(text))
+    watcher = open_session(0)
+    watcher.timeout_s = 0.1
+    watcher.joined = (watcher.socket._replace(zid="abcdef01"),)
+    WholeGraph(watcher, lambda owner: None)
+    assert notices == [f"process {os.getpid()} does not answer, so its nodes may be missing here"]
+    watcher.close()
+
+
 class Mesh:
     """A session of direct links whose answers and links are set by the test."""
-
-    timeout_s = 0.0
 
     def __init__(self, *links: str, direct: bool = True, answers: bool = True) -> None:
         """`links`: the ids of the linked sessions."""
         self.links, self.direct, self.answers = set(links), direct, answers
         self.asked: list[str] = []
         self.meanwhile: Any = lambda: None
+
+    def answer_timeout_s(self) -> float:
+        return 0.0
 
     def links_directly(self) -> bool:
         return self.direct

@@ -8,7 +8,9 @@ import signal
 import time
 
 import pytest
-from helpers.processes.mesh import eventually, every_pair_talks, members
+from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
+from bot_console.runtime.rmw.zenoh.domain.roll_call import await_answers
+from helpers.processes.mesh import TIMEOUT_S, eventually, every_pair_talks, members
 
 
 def sockets_of(folder: str) -> set[str]:
@@ -48,6 +50,16 @@ def test_leaving_process_removes_dead_sockets(socket_folder):
         leaving.report("exit")
         assert leaving.read()
     assert sockets_of(socket_folder) == set()
+
+
+def test_first_link_to_a_process_of_very_many_declarations_lasts(socket_folder):
+    with members(1, "crowded"):
+        for _ in range(5):
+            newcomer, links = open_session(0), list[bool]()
+            newcomer.watch_links(lambda zid, there, links=links: links.append(there))
+            assert await_answers(newcomer, TIMEOUT_S) == []
+            assert links == [True]
+            newcomer.close()
 
 
 @pytest.mark.slow
