@@ -24,7 +24,7 @@ def stop_text(drive: DriveInfo) -> str:
         return f"STOP NOT SENT YET: looking for the robot ({stop_key(drive, 'ends it')})"
     if drive.nothing_to_stop:
         key = stop_key(drive, "ends it")
-        return f"STOP REACHES NOBODY: nothing is here to stop, no robot listens for commands ({key})"
+        return f"STOP REACHES NOBODY: no robot listens for commands ({key})"
     if not drive.lockable and drive.stop_confirmed:
         return f"ALL STOP held by {sanitize(drive.held_by_means)} ({stop_key(drive, 'releases')})"
     if not drive.lockable:

@@ -84,9 +84,10 @@ class Stopping:
         return "" if any(each.key in held for each in others) else "These stops have been released meanwhile."
 
     def _release(self, others: Sequence[RobotStop]) -> None:
+        drive = self._console.snapshot().drive
         if others:
             self._console.drive.release([each.key for each in others])
         else:
             self._console.drive.stop(False)
-        if not self._console.snapshot().drive.refused:
-            self._app.notify("The robot may move again.")
+        if not drive.refused:
+            self._app.notify("The robot may move again." if drive.is_robot_known else "The stop is withdrawn.")

@@ -298,7 +298,7 @@ def test_a_stop_that_is_not_acknowledged_is_not_called_held() -> None:
         assert session.console.asked[-1] == ("all_stop", True), "it is sent again, not released"
         session.console.change(drive=DriveInfo(stopped=True, stopped_here=True))
         await session.settle()
-        assert "nothing is here to stop" in session.text() and "NOT CONFIRMED" not in session.text()
+        assert "STOP REACHES NOBODY" in session.text() and "NOT CONFIRMED" not in session.text()
         session.console.change(drive=replace(sent, stop_confirmed=True, stop_holder="anna@pc", stop_reason="the arm"))
         await session.settle()
         assert "ALL STOP held (! holds it too, once more releases) by anna@pc: the arm" in session.text()

@@ -58,6 +58,8 @@ def test_stop_key_only_repeats_the_stop_while_searching_for_robots() -> None:
         assert "STOP REACHES NOBODY" in session.text()
         await session.press(STOP)
         assert session.console.asked[-1] == ("all_stop", False)
+        await session.settle()
+        assert "The stop is withdrawn." in session.text() and "may move again" not in session.text()
 
     run(live(), play, (80, 24))
 

@@ -83,6 +83,20 @@ def test_stop_key_locks_the_robot_in_every_state(state: str, base: Base, monkeyp
         console.close()
 
 
+def test_second_press_withdraws_no_stop_that_waits_for_the_connection(base: Base) -> None:
+    console = RosConsole()
+
+    def play(app: BotConsoleApp) -> None:
+        assert "STOP NOT SENT: still connecting" in status(app)
+        connect(console)
+        until(base.is_held, "the lock")
+
+    try:
+        press_stop(console, play, "exclamation_mark")
+    finally:
+        console.close()
+
+
 @pytest.mark.parametrize(("state", "why"), [("read-only", READ_ONLY), ("closed", CLOSED)])
 def test_second_press_releases_nothing_where_commands_are_refused(state: str, why: str, base: Base) -> None:
     console = RosConsole()

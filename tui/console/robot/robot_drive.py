@@ -32,14 +32,10 @@ NOT_YET = DriveInfo(
     stopped=True,
     stopped_here=True,
     own_stops=UNSENT,
+    searching=True,
     unsent="still connecting; it is sent once connected",
 )
-NOT_CONNECTED = DriveInfo(
-    stopped=True,
-    stopped_here=True,
-    own_stops=UNSENT,
-    unsent="not connected; run bot-console stop in another terminal",
-)
+NOT_CONNECTED = replace(NOT_YET, unsent="not connected; run bot-console stop in another terminal")
 
 
 class RobotDrive:
@@ -76,8 +72,8 @@ class RobotDrive:
         self._presses: set[str] = set()
         self._zeroed = False
         """Whether the network was silent when the last command was sent."""
-        self._shown: tuple[DriveInfo | None, DriveInfo] = None, IDLE
-        """What is known of a robot that may not be released from here, and how that is shown."""
+        self._shown: tuple[DriveInfo | None, bool, DriveInfo] = None, False, IDLE
+        """What its link knows, whether the network is silent, and what is shown of both."""
         self._reopening: threading.Thread | None = None
 
     def connect(self) -> DriveNode:
@@ -103,17 +99,19 @@ class RobotDrive:
 
     def info(self, world: WorldInfo) -> DriveInfo:
         """The state of the command chain; the same object while nothing changes."""
-        if not self._network().silent_s:
+        is_silent = bool(self._network().silent_s)
+        if not is_silent:
             self._zero_again()
         if self._is_unsent:
             unsent = NOT_YET if self._gate.unreached == STARTING else NOT_CONNECTED
             return unsent if self._requests else replace(unsent, own_stops=frozenset())
         known = self._link.info(world) if self._link else IDLE
-        if not self._gate.read_only:
+        if not (is_silent or self._gate.read_only):
             return known
-        if self._shown[0] is not known:
-            self._shown = known, replace(known, refused=self._gate.read_only)
-        return self._shown[1]
+        if self._shown[0] is not known or self._shown[1] != is_silent:
+            searching = known.searching or is_silent  # a robot behind a silent link is not absent
+            self._shown = known, is_silent, replace(known, searching=searching, refused=self._gate.read_only)
+        return self._shown[2]
 
     @property
     def _is_unsent(self) -> bool:
