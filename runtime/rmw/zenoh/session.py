@@ -130,8 +130,7 @@ class Session(Lifetime):
 
     def close(self) -> None:
         """Close the session and its declarations; does nothing if it is already closed."""
-        if self._waker:
-            self._waker.end()
+        self._stop_polling()
         super().close()
 
     @staticmethod
@@ -170,6 +169,12 @@ class Session(Lifetime):
 
     def leave(self) -> None:
         """Remove what would be left behind, for a process that exits at once without waiting for `close`."""
+        self._stop_polling()
+
+    def _stop_polling(self) -> None:
+        """End the session's threads: one that the interpreter ended inside Zenoh would abort the process."""
+        if self._waker:
+            self._waker.end()
 
     def declare_publisher(
         self, key: str, *, reliable: bool = True, cache: int = 0, blocking: bool = False

@@ -190,6 +190,7 @@ class MeshSession(Session):
             remove_dead(os.path.dirname(self.socket.path))
 
     def _stop_polling(self) -> None:
+        super()._stop_polling()
         for each in (self._watch, self._tokens):
             if each:
                 each.end()
