@@ -10,18 +10,17 @@ from typing import NamedTuple
 
 @dataclass(frozen=True)
 class Key:
-    """One action: its keys (alternatives, separated by commas), what it does, and whether the key bar names it."""
+    """One action: its keys (alternatives, separated by commas), what it does, and how the key bar names it."""
 
     id: str
     keys: str
     action: str
     text: str
-    footer: bool = False
+    footer: str = ""
+    """The word for it in the key bar; empty if that does not name it."""
     shown: str = ""
-    """The displayed name of the key; empty for Textual's."""
+    """The key as the bar shows it, if not by `key_text`."""
     priority: bool = False
-    short: str = ""
-    """The footer's text, if `text` is too long for it."""
 
 
 class Mode(NamedTuple):

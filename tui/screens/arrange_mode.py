@@ -199,5 +199,5 @@ def _line(keys: Iterable[Key]) -> Text:
     line.append("Arrange", Style(bold=True))
     for key in keys:
         line.append(f"  {key.shown or key_text(key, 1)}", Style(bold=True))
-        line.append(f" {key.short or key.text}")
+        line.append(f" {key.footer}")
     return line

@@ -112,7 +112,7 @@ def fitting(first: Sequence[Shown], keys: Sequence[Shown], columns: int) -> list
 def named(keys: Iterable[Key], words: Mapping[str, str]) -> Iterator[Shown]:
     """The keys that the bar names."""
     for key in keys:
-        word = words.get(key.id, key.short or key.text)
+        word = words.get(key.id, key.footer)
         if key.footer and word:
             yield _shown(key, word)
 

@@ -55,4 +55,4 @@ def test_keys_of_a_mode_come_first_and_are_left_out_last() -> None:
 
 
 def test_no_key_is_named_without_a_word() -> None:
-    assert [*named([Key("a.b", "x", "do", "What it does", footer=True)], {"a.b": ""})] == []
+    assert [*named([Key("a.b", "x", "do", "What it does", footer="Do")], {"a.b": ""})] == []
