@@ -14,7 +14,7 @@ from bot_console.tui.cli.undecodable import undecodable
 from bot_console.tui.cli.verbs import ros2
 from bot_console.tui.learn.command_log import recorded
 from bot_console.tui.session.embedded.domain import begin_program, end_program, others_take_part
-from bot_console.tui.session.embedded.reaching import report_left_router
+from bot_console.tui.session.embedded.reaching import report_left_router, without_connect
 
 Words = list[str]
 
@@ -48,6 +48,9 @@ _COMMANDS = {
 }
 """Each command's module below this package and its function, which takes the words; imported when needed."""
 
+_REACHING = ("bag", "check", "graph", "lint", "release", "reset", "status", "stop")
+"""Commands that reach the robot which the environment names, besides the verbs."""
+
 _ROS2 = {
     "bag": _COMMANDS["bag"],
     "daemon": "verbs.daemon:run",
@@ -74,6 +77,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 2
     sent = not words or words[0] in ("launch", "run", *ros2.VERBS) or words[0] not in _COMMANDS
     if sent and (problem := undecodable(words)):
+        print(f"bot-console: {problem}", file=sys.stderr)
+        return 2
+    verb = words[1:2] if words[:1] == ["ros2"] else words[:1]
+    if verb and verb[0] in (*ros2.VERBS, *_REACHING) and (problem := without_connect(words)):
         print(f"bot-console: {problem}", file=sys.stderr)
         return 2
     if words and words[0] in ros2.VERBS:  # The fastest path first.

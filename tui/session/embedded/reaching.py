@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from bot_console.tui.session.embedded.domain import CONNECT_VARIABLE, domain, join_domain
@@ -15,6 +16,23 @@ if TYPE_CHECKING:
 def named_routers() -> list[str]:
     """The endpoints of the robot's router that the environment names; empty if it names none."""
     return os.environ.get(CONNECT_VARIABLE, "").split()
+
+
+def without_connect(words: Sequence[str]) -> str:
+    """How to write a command line with `--connect`, which only `attach` and `doctor` take, without it; empty if it has
+    none.
+    """
+    from shlex import join
+
+    place = next((at for at, each in enumerate(words) if each.partition("=")[0] == "--connect"), None)
+    if place is None:
+        return ""
+    _, given, endpoint = words[place].partition("=")
+    rest = [*words[:place], *words[place + 1 :]]
+    if not given and place < len(rest) and rest[place].find("/") > 0:  # not a node or a topic
+        endpoint = rest.pop(place)
+    line = f"{CONNECT_VARIABLE}={endpoint or 'tcp/robot:7447'} bot-console {join(rest)}"
+    return f"only attach and doctor take --connect; write `{line}`"
 
 
 def leave_router() -> str:

@@ -16,6 +16,10 @@ CONFIG_VARIABLE = "ZENOH_SESSION_CONFIG_URI"
 """Environment variable that names the session's configuration file, as in rmw_zenoh."""
 OVERRIDE_VARIABLE = "ZENOH_CONFIG_OVERRIDE"
 """Environment variable that overrides single settings, as in rmw_zenoh: `path=json5;path=json5`."""
+UNANSWERED = (
+    "{}: the port is open, but no router answered within {:g} s: try again if the link is slow; otherwise restart the "
+    "router, or check the port: something else may listen there"
+)
 QUERY_TIMEOUT_MS = 600_000
 """Timeout of a query, in ms, unless the caller sets another."""
 
@@ -88,7 +92,8 @@ class NetworkSession(Session):
         except SettingsError:
             raise
         except SessionError as error:
-            raise SessionError(why_unreachable(way.endpoints, way.tls) or str(error)) from None
+            unanswered = UNANSWERED.format(way, way.timeout_s) if str(error).endswith("Timeout!") else str(error)
+            raise SessionError(why_unreachable(way.endpoints, way.tls) or unanswered) from None
         self.declare_token(ROLL_CALL_KEY + self.zid[:8])
         self._probe: LinkProbe | None = None
         self._stopped: StoppedBehind | None = None

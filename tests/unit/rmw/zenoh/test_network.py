@@ -103,6 +103,13 @@ def test_unreachable_router_is_reported_with_what_to_start():
     assert "no host of the name" in refusal(Way((f"tcp/{'a' * 64}:7447",), timeout_s=0.3))
 
 
+def test_port_that_is_open_but_does_not_answer_is_reported_with_what_to_check():
+    with socket.create_server(("127.0.0.1", 0)) as listening:
+        endpoint = f"tcp/127.0.0.1:{listening.getsockname()[1]}"
+        reported = refusal(Way((endpoint,), timeout_s=0.3))
+    assert reported.startswith(f"{endpoint}: the port is open, but no router answered within 0.3 s: try again")
+
+
 @pytest.mark.parametrize("text", ["robot", "robot:7447", "tcp/robot", "tcp/:7447", "tcp/robot:70000", "tcp/robot:x"])
 def test_invalid_endpoint_is_reported_with_an_example(text):
     with pytest.raises(ValueError, match="tcp/robot:7447"):

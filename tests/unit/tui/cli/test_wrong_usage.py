@@ -70,3 +70,20 @@ def test_file_that_cannot_be_read_is_a_finding_of_lint(tmp_path: Path, capsys: p
     assert first.startswith(f"{latin}: not UTF-8: the file cannot be read; ")
     assert second.startswith(f"{wrong}:2: invalid syntax: the file is not valid Python; ")
     assert "nothing found" not in err
+
+
+@pytest.mark.parametrize(
+    ("words", "written"),
+    [
+        ("node list --connect tcp/robot:7447", "BOT_CONSOLE_CONNECT=tcp/robot:7447 bot-console node list"),
+        ("topic hz --connect=tcp/robot:7447 /scan", "BOT_CONSOLE_CONNECT=tcp/robot:7447 bot-console topic hz /scan"),
+        ("param set --connect /a b 1", "BOT_CONSOLE_CONNECT=tcp/robot:7447 bot-console param set /a b 1"),
+        ("ros2 param get /a b --connect", "BOT_CONSOLE_CONNECT=tcp/robot:7447 bot-console ros2 param get /a b"),
+        ("status --connect tcp/robot:7447", "BOT_CONSOLE_CONNECT=tcp/robot:7447 bot-console status"),
+    ],
+)
+def test_a_command_that_takes_no_connect_says_how_to_reach_the_robot(
+    words: str, written: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(words.split()) == 2
+    assert capsys.readouterr().err.endswith(f"only attach and doctor take --connect; write `{written}`\n")
