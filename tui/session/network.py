@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import sys
+import threading
+from functools import partial
 
 from bot_console.tui.cli.attach_options import AttachOptions
 from bot_console.tui.console.model import Capabilities, Severity
@@ -12,7 +14,7 @@ from bot_console.tui.session.attached import AttachedSession
 from bot_console.tui.session.embedded.connecting import connect, lead_children_to
 from bot_console.tui.session.embedded.domain import domain
 from bot_console.tui.session.embedded.hooks import DomainTypes, graph_events, halted_nodes, take_over_streams
-from bot_console.tui.session.embedded.link_state import LinkWords
+from bot_console.tui.session.embedded.link_state import LinkWords, report_other_domains
 from bot_console.tui.session.embedded.process_report_lines import log_process_reports
 from bot_console.tui.session.embedded.ros2_command_line import Ros2CommandLine
 from bot_console.tui.session.embedded.workspaces import choose, config_folders
@@ -54,7 +56,9 @@ def run_network(options: AttachOptions) -> int:
     )
     message = [(Severity.INFO, OUTPUT.format(options.way, domain()))]
 
-    forget = log_process_reports(console.printed, console.learn)
+    forget, ended = log_process_reports(console.printed, console.learn), threading.Event()
+    looking = partial(report_other_domains, buses, lambda: console.graph.info, console.printed, ended)
+    threading.Thread(target=looking, name="other-domains", daemon=True).start()
     try:
         return AttachedSession(
             console,
@@ -64,5 +68,6 @@ def run_network(options: AttachOptions) -> int:
             on_first_frame=take_over_streams,
         ).run()
     finally:
+        ended.set()
         forget()
         buses.close()

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from bot_console.runtime.rmw.zenoh.declarations import Declaration
+from bot_console.runtime.rmw.zenoh.network.other_domains import other_domains
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.wire.attachment import unpack
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError, data_key
@@ -35,6 +36,8 @@ class Wire:
     """The traffic that was observed: tokens as text, and (attachment, size, arrival time in ns) by key."""
 
     domain: int
+    elsewhere: str = ""
+    """The domains that have nodes, if this one has none."""
     tokens: list[str] = field(default_factory=list[str])
     samples: dict[str, list[tuple[bytes | None, int, int]]] = field(
         default_factory=dict[str, "list[tuple[bytes | None, int, int]]"]
@@ -63,6 +66,7 @@ def watch_wire(session: Session, seconds: float) -> Wire:
         each.undeclare()
     # If the system has just started or is busy, not all of its tokens had reached the router.
     wire.tokens = sorted({*wire.tokens, *_tokens(session)})
+    wire.elsewhere = other_domains(session)
     return wire
 
 
@@ -99,7 +103,10 @@ def wire_findings(wire: Wire, delay: float) -> list[DoctorFinding]:
     findings = [
         DoctorFinding(Level.OK if nodes else Level.WARN, "graph", f"{nodes} nodes, {len(good) - nodes} endpoints")
     ]
-    if not nodes:
+    if wire.elsewhere:
+        hint = "consoles and other tools do not count"
+        findings = [DoctorFinding(Level.WARN, "graph", wire.elsewhere, hint)]
+    elif not nodes:
         hint = "does it use the same ROS_DOMAIN_ID, and RMW_IMPLEMENTATION=rmw_zenoh_cpp?"
         findings = [DoctorFinding(Level.WARN, "graph", f"no node is visible in ROS domain {wire.domain}", hint)]
     if bad:

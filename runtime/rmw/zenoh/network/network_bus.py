@@ -10,6 +10,7 @@ from bot_console.runtime.rmw.qos_matching import RMW_ZENOH
 from bot_console.runtime.rmw.zenoh.bus import ZenohBus
 from bot_console.runtime.rmw.zenoh.link_probe import LinkState
 from bot_console.runtime.rmw.zenoh.network.client import NetworkSession, Way, open_network_session
+from bot_console.runtime.rmw.zenoh.network.other_domains import other_domains
 
 
 class NetworkBuses:
@@ -34,6 +35,12 @@ class NetworkBuses:
         with self._lock:
             states = [session.link for session, _ in self._open.values()]
         return min(states, key=lambda each: each.heard or 0.0, default=LinkState(str(self._way)))
+
+    def other_domains(self, domain: int) -> str:
+        """The domains of the router that have nodes if this one has none, in one line; empty otherwise."""
+        with self._lock:
+            opened = self._open.get(domain)
+        return other_domains(opened[0]) if opened else ""
 
     def close(self) -> None:
         """Close all sessions."""

@@ -15,6 +15,8 @@ NODE_PARTS = 9
 ENTITY_PARTS = 13
 """The parts between slashes, of the token of a node and of those of other entities."""
 SPACE = "@ros2_lv"
+NODES_OF_ALL_DOMAINS = f"{SPACE}/*/*/*/*/NN/**"
+"""The key expression that matches the tokens of all nodes in all domains."""
 DEFAULT_QOS = WireQos()
 KINDS: tuple[str, ...] = get_args(Kind)
 

@@ -11,11 +11,14 @@ import pytest
 import rclpy
 from bot_console.runtime.rmw.zenoh.link_probe import LinkState
 from bot_console.runtime.rmw.zenoh.network.client import Way
+from bot_console.runtime.rmw.zenoh.network.network_bus import NetworkBuses
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.attach_options import AttachOptions
 from bot_console.tui.console.graph import unresponsive_nodes
+from bot_console.tui.console.model import GraphInfo, NodeInfo
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.session import network
+from bot_console.tui.session.embedded import link_state
 from domains import unused_domain
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
@@ -77,3 +80,20 @@ def test_console_on_a_network_finds_the_node_that_hangs(monkeypatch: pytest.Monk
 def spin(executor: SingleThreadedExecutor) -> None:
     with contextlib.suppress(ExternalShutdownException):
         executor.spin()
+
+
+@pytest.mark.parametrize(("here", "logged"), [("/_bot_console", ["nodes are in 0"]), ("/robot", [])])
+def test_console_says_once_that_the_nodes_are_in_another_domain(
+    monkeypatch: pytest.MonkeyPatch, here: str, logged: list[str]
+) -> None:
+    class Elsewhere(NetworkBuses):
+        def other_domains(self, domain: int) -> str:
+            return next(answers)
+
+    answers, lines = iter(["", "nodes are in 0"]), list[str]()
+    monkeypatch.setattr(link_state, "LOOK_EVERY_S", 0.001)
+    graph = GraphInfo(nodes=(NodeInfo(here),))
+    link_state.report_other_domains(
+        Elsewhere(Way()), lambda: graph, lambda _, __, text: lines.append(text), threading.Event()
+    )
+    assert lines == logged

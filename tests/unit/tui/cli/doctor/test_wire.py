@@ -124,3 +124,13 @@ def test_tokens_that_arrive_while_listening_count(place, robot):
 def test_empty_domain_says_what_to_check(place):
     ((level, text),) = levels(watched(place), "graph")
     assert level is Level.WARN and "no node is visible" in text
+
+
+def test_nodes_in_another_domain_are_reported_with_the_domain_to_start_in(place, robot):
+    for number, found in ((0, ""), (5, "no node in domain 5: set ROS_DOMAIN_ID=0; nodes are in 0")):
+        session = open_network_session(number, Way((place,)))
+        session.declare_token(node_token(5, TokenNode(session.zid, 0, "", "/", "_console")))
+        wire = watch_wire(session, 0.0)
+        session.close()
+        level = Level.WARN if found else Level.OK
+        assert levels(wire, "graph") == [(level, found or "1 nodes, 0 endpoints")]

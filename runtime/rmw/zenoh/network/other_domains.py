@@ -1,0 +1,40 @@
+"""Which ROS domains a router knows nodes of: a console in the wrong one sees none, without any error."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from bot_console.runtime.rmw.zenoh.session import Session
+from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
+from bot_console.runtime.rmw.zenoh.wire.tokens import NODES_OF_ALL_DOMAINS, parse_token
+
+TIMEOUT_S = 5.0
+"""Timeout of the question, in seconds."""
+MAX_NAMED = 4
+"""Domains that are named one by one."""
+
+
+def other_domains(session: Session) -> str:
+    """The domains that have nodes, if that of the session has none, and how to get there; empty otherwise.
+
+    Tools and consoles, whose names begin with an underscore, do not count. Only names of nodes are asked for, which
+    even a slow link carries.
+    """
+    tokens, _ = session.collect_tokens(NODES_OF_ALL_DOMAINS, TIMEOUT_S)
+    domains = _domains(tokens)
+    if not domains or session.domain in domains:
+        return ""
+    named = ", ".join(map(str, domains[:MAX_NAMED])) + (" and more" if len(domains) > MAX_NAMED else "")
+    return f"no node in domain {session.domain}: set ROS_DOMAIN_ID={domains[0]}; nodes are in {named}"
+
+
+def _domains(tokens: Iterable[str]) -> list[int]:
+    found: set[int] = set()
+    for each in tokens:
+        try:
+            token = parse_token(each)
+        except FormatError:
+            continue
+        if not token.node.name.startswith("_"):
+            found.add(int(each.split("/", 2)[1]))
+    return sorted(found)
