@@ -29,6 +29,7 @@ IMPORTED = (
 def main() -> None:
     """Fork for each request of a socket; a fork becomes the command line."""
     from bot_console.runtime.importer import install
+    from bot_console.runtime.workspace import discover
 
     install()
     for each in IMPORTED:
@@ -39,6 +40,7 @@ def main() -> None:
     os.chdir(folder)
     os.environ.clear()
     os.environ.update(environment)
+    discover._current.clear()  # an import of what a Python lacks, such as tomllib, has looked in this process's folder
     sys.path[0] = folder
     sys.argv[1:] = words
     sys.orig_argv[1:] = ["-m", "bot_console.tui", *words]
