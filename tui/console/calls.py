@@ -67,7 +67,8 @@ class Calls:
             if away >= GONE_POLLS:
                 self._give_up(answer, client, f"{service} went away before it answered; has its node ended?")
             elif next(polls) * period >= timeout_s:
-                why = f"{service} did not answer within {timeout_s:g} s; its node may be busy or hung"
+                slow = "its node may be busy or hung, or its link slow, and may still carry out the request"
+                why = f"{service} did not answer within {timeout_s:g} s; {slow}"
                 self._give_up(answer, client, why)
 
         timer = self._node.create_timer(period, poll)

@@ -44,6 +44,16 @@ def test_time_lost_by_the_console_itself_does_not_count_towards_the_timeout():
         asking.send(None)
 
 
+def test_request_without_an_answer_may_still_be_carried_out():
+    node = StubNode()
+    asking = Calls(node, None).ask(Trigger, "/slow", Trigger.Request())
+    asking.send(None)
+    for _ in range(MIN_POLLS):
+        node.fire()
+    with pytest.raises(NoAnswer, match=r"may still carry out the request$"):
+        asking.send(None)
+
+
 def test_a_server_that_disappears_is_reported_before_the_timeout():
     node = StubNode()
     asking = Calls(node, None).ask(Trigger, "/home", Trigger.Request(), 30.0)
