@@ -21,7 +21,7 @@ def stop_text(drive: DriveInfo) -> str:
     if drive.unsent:
         return f"STOP NOT SENT: {drive.unsent}"
     if drive.awaits_robot:
-        return f"STOP NOT SENT YET: looking for the robot ({stop_key(drive, 'ends it')})"
+        return f"STOP NOT CONFIRMED: looking for the robot ({stop_key(drive, 'ends it')})"
     if drive.nothing_to_stop:
         key = stop_key(drive, "ends it")
         return f"STOP REACHES NOBODY: no robot listens for commands ({key})"

@@ -52,7 +52,7 @@ def test_stop_key_only_repeats_the_stop_while_searching_for_robots() -> None:
         assert session.console.asked[-1] == ("all_stop", True)
         session.console.change(drive=pending)
         await session.settle()
-        assert "STOP NOT SENT YET: looking for the robot (! sends it again)" in session.text()
+        assert "STOP NOT CONFIRMED: looking for the robot (! sends it again)" in session.text()
         session.console.change(drive=replace(pending, searching=False))
         await session.settle()
         assert "STOP REACHES NOBODY" in session.text()

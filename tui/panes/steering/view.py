@@ -124,7 +124,7 @@ def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
     if drive.unsent:
         return ((" STOP NOT SENT ", "error"), (f" {drive.unsent}", ""))
     if drive.awaits_robot:
-        return ((" STOP NOT SENT YET ", "error"), (" looking for the robot", ""))
+        return ((" STOP NOT CONFIRMED ", "error"), (" looking for the robot", ""))
     if drive.stopped and drive.nothing_to_stop:
         return ((" STOP ", "warn"), (f" nothing is here to stop: {topic}", ""))
     if drive.refused:

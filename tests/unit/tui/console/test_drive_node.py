@@ -72,6 +72,6 @@ def test_stop_is_pending_until_the_graph_is_known(monkeypatch: pytest.MonkeyPatc
     console.drive.connect()
     try:
         console.drive.stop()
-        assert "STOP NOT SENT YET" in status_text(console.snapshot())
+        assert "STOP NOT CONFIRMED: looking for the robot" in status_text(console.snapshot())
     finally:
         console.close()

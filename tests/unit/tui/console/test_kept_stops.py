@@ -229,6 +229,25 @@ def test_a_release_is_repeated_as_long_as_the_locks_report(
     assert all(lock.lock.held for lock in rig.locks.values())
 
 
+def test_robot_is_held_again_where_a_release_that_was_given_up_arrives_late(
+    rig: StopRig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    now = [0.0]
+    monkeypatch.setattr(stop_link, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    anna = rig.links["anna"]
+    anna.stop("ALL STOP")
+    rig.settle()
+    anna.release()  # it waits in the link, as nothing is received meanwhile
+    now[0] = RELEASE_TIMEOUT_S + REPORT_TIMEOUT_S + 0.5
+    anna.repeat()
+    assert anna.info.stopped and not anna.info.confirmed
+    rig.settle(3)
+    assert anna.info.confirmed and anna.info.reason == stop_link.UNANSWERED
+    anna.release()
+    rig.settle()
+    assert not anna.info.stopped and not any(lock.lock.held for lock in rig.locks.values())
+
+
 def test_a_stop_without_locks_is_unconfirmed_and_sent_to_new_locks(
     rig: StopRig,
 ) -> None:
