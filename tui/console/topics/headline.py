@@ -27,6 +27,8 @@ MAX_PARTS = 4
 """Fields that are named on one line."""
 MAX_CHARACTERS = 80
 """Characters of the line; no column is wider."""
+NOT_A_NUMBER = "nan"
+"""Left out like a zero beside other values, but not where it is all that a message says."""
 
 PREFERRED: Mapping[str, tuple[str, ...]] = {
     "diagnostic_msgs/DiagnosticStatus": ("level", "message"),
@@ -64,7 +66,7 @@ def headline(message: Any, type_name: str) -> str:
         found = [("", f"{found[0][1].split()[0]} x {found[1][1]}"), *found[2:]]
     if not found:
         found = list(_parts(message, short, "", ""))
-    shown = [each for each in found if each[1] not in ("0", "")] or found[:1]
+    shown = [each for each in found if each[1] not in ("0", "", NOT_A_NUMBER)] or found[:1]
     is_named = len(fields_of(message)) > 1
     return "  ".join(f"{name} {text}" if name and is_named else text for name, text in shown[:MAX_PARTS])[
         :MAX_CHARACTERS
@@ -117,9 +119,9 @@ def _value_text(owner: Any, value: Any, name: str, unit: str) -> str:
 
 
 def _number(value: float, unit: str) -> str:
-    """A number as short as it can be read; nothing where none was measured."""
+    """A number as short as it can be read; without its unit where none was measured."""
     if math.isnan(value):
-        return ""
+        return NOT_A_NUMBER
     text = f"{value:.2f}" if 0.005 <= abs(value) < 1000 else f"{value:.3g}" if abs(value) >= 1000 else "0"
     return f"{text} {unit}" if unit and text != "0" else text
 

@@ -12,7 +12,7 @@ from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion, Twist, TwistStamped, Vector3
 from nav_msgs.msg import Odometry, Path
 from rclpy.serialization import serialize_message
-from sensor_msgs.msg import BatteryState, Image, Imu, JointState, LaserScan
+from sensor_msgs.msg import BatteryState, Image, Imu, JointState, LaserScan, Range
 from std_msgs.msg import Bool, Empty, Float64, String, UInt32
 
 DRIVES = Twist(linear=Vector3(x=0.6), angular=Vector3(z=-0.2))
@@ -32,6 +32,8 @@ CASES: list[tuple[Any, str]] = [
     (LaserScan(), "ranges empty"),
     (BatteryState(percentage=0.98, voltage=12.59), "percentage 0.98  voltage 12.59 V"),
     (BatteryState(percentage=math.nan, voltage=12.59), "voltage 12.59 V"),
+    (Float64(data=math.nan), "nan"),
+    (Range(range=math.nan), "range nan"),
     (Image(width=640, height=480, encoding="rgb8"), "640 x 480 pixels  encoding rgb8"),
     (Path(poses=[PoseStamped(), PoseStamped()]), "poses 2"),
     (JointState(name=["a", "b"], position=[0.1, -0.5]), "position -0.50 .. 0.10"),
