@@ -336,6 +336,9 @@ def test_empty_pane_explains_what_to_do_and_new_process_appears() -> None:
     async def play(session: Session) -> None:
         await session.press("8", "x", "s", "enter", "left", "right")
         assert "o  Open a launch file" in session.text()
+        await session.press("t")
+        assert "Nothing has been launched yet." in session.text()
+        await session.press("escape")
         session.console.change(launch=launched())
         await session.settle()
         assert "sensor_handler-1" in session.text()

@@ -421,6 +421,29 @@ def test_key_bar_describes_keys_for_topics_services_and_actions() -> None:
         await session.press("m", "4")
         assert "enter Call" not in bar(), "words of one pane are none of another"
 
+    console = live()
+    console.change(graph=with_services())
+    run(console, play, (140, 40))
+
+
+@pytest.mark.slow
+def test_key_bar_has_no_key_for_a_call_that_cannot_be_made() -> None:
+    async def play(session: Session) -> None:
+        def bar() -> str:
+            return session.lines()[-1]
+
+        pane = await opened(session, "m")
+        assert "Call" not in bar(), "no service is listed"
+        session.console.change(graph=with_services())
+        await session.settle()
+        assert "enter Call" in bar()
+        session.console.change(capabilities=replace(session.console.current.capabilities, change="read-only here"))
+        await session.settle()
+        assert "Call" not in bar()
+        await at(session, "/enable")
+        await session.press("enter")
+        assert session.app.screen is pane.screen and "read-only here" in session.text()
+
     run(live(), play, (140, 40))
 
 

@@ -282,7 +282,8 @@ class LaunchPane(ListPane):
 
         find = partial(narrowed, [Option(event_text(each), value=seq) for seq, each in events.items()])
         hint = "type to filter, Enter shows that moment in Logs, Plot and World"
-        self.ask(Choice("Launch events", poll, find=find, hint=hint, empty="No event matches."))
+        empty = "No event matches." if events else "Nothing has been launched yet."
+        self.ask(Choice("Launch events", poll, find=find, hint=hint, empty=empty))
 
     def action_do(self, verb: str) -> None:
         """Start, stop, restart or kill what is at the cursor."""

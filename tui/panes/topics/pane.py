@@ -88,11 +88,13 @@ class TopicsPane(ListPane):
 
     @property
     def key_words(self) -> Mapping[str, str]:
-        """The action of Enter, and no key that is for topics alone where services or actions are listed."""
+        """The action of Enter, if there is one, and no key that is for topics alone where others are listed."""
         if self._kind is Kind.TOPICS:
             return {}
         for_topics = dict.fromkeys(("topics.fill", "topics.plot", "topics.freeze"), "")
         do = "Call" if self._kind is Kind.SERVICES else "Send a goal"
+        if not self._listed or self.console.snapshot().capabilities.change:
+            do = ""
         return {**for_topics, "topics.open": do, "topics.kind": _next(self._kind).value.capitalize()}
 
     @property
@@ -133,6 +135,7 @@ class TopicsPane(ListPane):
         found = [each for each in every if matches(self._query, each)]
         shown.exchange(grouped(found, self._folds(every)))
         self._listed = len(found)
+        self.keys_changed()
         self._head()
         self._report()
 
@@ -451,7 +454,7 @@ class TopicsPane(ListPane):
     def action_fill(self) -> None:
         """Fill in a message, a request or a goal, and send it."""
         row = self._current
-        if row is None:
+        if row is None or not self.may_change():
             return
         if not row.type:
             self.notify(f"The type of {row.name} is not known.", severity="warning")
