@@ -71,6 +71,19 @@ def test_refusal_is_readable_beside_a_short_value_where_another_value_is_long() 
     run(live(), play, (60, 20))
 
 
+def test_editing_a_read_only_parameter_says_so_instead_of_asking_for_a_value() -> None:
+    async def play(session: Session) -> None:
+        await session.press("1")
+        await go_to(session, "seed")
+        for key in ("enter", "e"):
+            await session.press(key)
+            assert "seed is read-only: a parameter file" in session.text()
+            await session.press("4", "1")  # no line is open that would take them as text
+            assert not session.pane(ParametersPane).edits.refused
+
+    run(live(), play)
+
+
 def test_number_is_edited_and_stepped() -> None:
     async def play(session: Session) -> None:
         await session.press("1")

@@ -16,6 +16,7 @@ from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.parameters import editing, tuning_questions
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.text.refusals import of_many
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.text.value_text import value_text
 from bot_console.tui.tuning.port import NO_TUNER
 from bot_console.tui.tuning.tunable import Setting, Tunable, find_tunables
@@ -84,7 +85,7 @@ class EditPane(ListPane):
             self.action_fold(not row.folded)
         elif parameter.kind not in ARRAYS:
             self.action_edit_text()
-        elif self.may_change():
+        elif self._may_edit(parameter):
             now = self.edits.now(parameter)
             values = now if isinstance(now, tuple) else ()
             then, gone = partial(self.edits.set, parameter), partial(self._gone, parameter)
@@ -93,7 +94,7 @@ class EditPane(ListPane):
     def action_edit_text(self) -> None:
         """Edit a value on one line; toggle a boolean."""
         parameter = self._at()
-        if parameter is None or not self.may_change():
+        if parameter is None or not self._may_edit(parameter):
             return
         now = self.edits.now(parameter)
         if parameter.kind is Kind.BOOL and isinstance(now, bool):
@@ -109,6 +110,13 @@ class EditPane(ListPane):
                 preview=partial(_preview, parameter),
             )
         )
+
+    def _may_edit(self, parameter: ParameterInfo) -> bool:
+        """Whether its value can be changed from here; says why not, before a person types one in vain."""
+        if parameter.read_only:
+            text = f"{parameter.name} is read-only: a parameter file sets it when {parameter.node} starts."
+            self.notify(sanitize(text), severity="warning", markup=False)
+        return not parameter.read_only and self.may_change()
 
     def _switch(self, parameter: ParameterInfo, now: bool, then: bool) -> None:
         """Set a boolean; one that makes the robot less safe only after a question, as one key would switch it."""
