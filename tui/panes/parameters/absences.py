@@ -40,13 +40,15 @@ class Absences:
         return self._trees
 
     def note(self, before: ConsoleSnapshot, snapshot: ConsoleSnapshot, now: float) -> None:
-        """Note the nodes whose parameters are gone."""
-        if before.parameters is not snapshot.parameters:
+        """Note the nodes whose parameters are gone, unless they are only out of sight behind a silent link."""
+        if before.parameters is not snapshot.parameters and not snapshot.link.silent_s:
             for name in before.parameters.keys() - snapshot.parameters.keys():
                 self._left[name] = now
 
     def text(self, snapshot: ConsoleSnapshot, now: float) -> str:
-        """Which nodes have left lately, and which do not answer; empty if none."""
+        """Which nodes have left lately, and which do not answer; empty if none, or if it is the link that is silent."""
+        if snapshot.link.silent_s:
+            return ""
         trees, graph = snapshot.parameters, snapshot.graph
         self._left = {name: at for name, at in self._left.items() if now - at < LEFT_SHOWN_S and name not in trees}
         debugged = trees.keys() & {name for name, _ in graph.debugged}
