@@ -57,8 +57,8 @@ def run_network(options: AttachOptions) -> int:
     message = [(Severity.INFO, OUTPUT.format(options.way, domain()))]
 
     forget, ended = log_process_reports(console.printed, console.learn), threading.Event()
-    looking = partial(report_other_domains, buses, lambda: console.graph.info, console.printed, ended)
-    threading.Thread(target=looking, name="other-domains", daemon=True).start()
+    report = partial(report_other_domains, buses, lambda: console.graph.info, console.printed, ended)
+    threading.Thread(target=report, name="other-domains", daemon=True).start()
     try:
         return AttachedSession(
             console,

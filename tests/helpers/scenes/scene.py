@@ -64,13 +64,19 @@ def _parameter(each: ParameterInfo) -> dict[str, Any]:
 def sets(rig: Rig) -> Any:
     """Setting: each outcome with who refused it and why; the node's own callback; several at once; undo and redo."""
     console, before = rig.console, len(rig.console.parameters.changes())
-    reported = [_outcome(each) for node, name, value in SETS for each in _set(console, node, {name: value})]
-    reported += [_outcome(each) for each in _set(console, ROBOT, {"speed": 9.0, "count": 5}, atomically=True)]
+    reported: list[Any] = []
+
+    def ask(node: str, values: Mapping[str, Any], *, atomically: bool = False) -> None:
+        """Set, and wait for the journal: the event of an accepted value may follow the next answer."""
+        reported.extend(_outcome(each) for each in _set(console, node, values, atomically=atomically))
+        until(lambda: len(console.parameters.changes()[before:]) == len(reported), "the journal")
+
+    for node, name, value in SETS:
+        ask(node, {name: value})
+    ask(ROBOT, {"speed": 9.0, "count": 5}, atomically=True)
     rig.forbid_speed()
-    reported += [_outcome(each) for each in _set(console, ROBOT, {"speed": 1.0})]
-    changes = until(
-        lambda: new if len(new := console.parameters.changes()[before:]) == len(reported) else None, "the journal"
-    )
+    ask(ROBOT, {"speed": 1.0})
+    changes = console.parameters.changes()[before:]
     journal = [[each.name, _plain(each.old), _plain(each.new), each.source.value, each.accepted] for each in changes]
     taken_back = console.parameters.undo().result(TIMEOUT_S).ok
     until(lambda: _value(console, ARM, "reach") == 1.0, "the value before")

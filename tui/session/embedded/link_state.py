@@ -15,8 +15,8 @@ from bot_console.tui.session.embedded.domain import domain
 NO_ANSWER_AFTER_S = 1
 """Seconds without an answer after which the status line counts them."""
 
-LOOK_EVERY_S = 3.0
-"""Seconds without a node after which other domains are looked at, and after which again."""
+OTHER_DOMAINS_POLL_S = 3.0
+"""Seconds between two queries for nodes in other domains, while there is none in this one."""
 
 
 class LinkWords:
@@ -52,7 +52,7 @@ def report_other_domains(
     ended: threading.Event,
 ) -> None:
     """Log once that the nodes are in another domain; return when one appears in this one, or when `ended` is set."""
-    while not ended.wait(LOOK_EVERY_S):
+    while not ended.wait(OTHER_DOMAINS_POLL_S):
         if any("/_" not in each.name for each in graph().nodes):
             return
         with contextlib.suppress(RuntimeError):  # the session is being closed

@@ -91,7 +91,7 @@ def test_console_says_once_that_the_nodes_are_in_another_domain(
             return next(answers)
 
     answers, lines = iter(["", "nodes are in 0"]), list[str]()
-    monkeypatch.setattr(link_state, "LOOK_EVERY_S", 0.001)
+    monkeypatch.setattr(link_state, "OTHER_DOMAINS_POLL_S", 0.001)
     graph = GraphInfo(nodes=(NodeInfo(here),))
     link_state.report_other_domains(
         Elsewhere(Way()), lambda: graph, lambda _, __, text: lines.append(text), threading.Event()
