@@ -79,8 +79,9 @@ def main(argv: Sequence[str] | None = None) -> int:
     if sent and (problem := undecodable(words)):
         print(f"bot-console: {problem}", file=sys.stderr)
         return 2
-    verb = words[1:2] if words[:1] == ["ros2"] else words[:1]
-    if verb and verb[0] in (*ros2.VERBS, *_REACHING) and (problem := without_connect(words)):
+    verb = next(iter(words[words[:1] == ["ros2"] :]), "")
+    reaches = verb in (*ros2.VERBS, *_REACHING) or verb.startswith("--connect")
+    if reaches and (problem := without_connect(words)):
         print(f"bot-console: {problem}", file=sys.stderr)
         return 2
     if words and words[0] in ros2.VERBS:  # The fastest path first.

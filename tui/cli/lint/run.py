@@ -104,7 +104,7 @@ def _of_packages(files: Iterable[Path], where: Path) -> Iterator[LintFinding]:
         for each in obstacles(read_package(folder)):
             # Relative to the folder as the user named it, like the paths of the other findings.
             file = where / each.file.relative_to(named) if named in each.file.parents else each.file
-            yield LintFinding(str(file), each.line, "not on ROS 2", each.problem, each.fix)
+            yield LintFinding(str(file), each.line, "works here, but not on ROS 2", each.problem, each.fix)
 
 
 def files_of(what: str) -> list[Path]:

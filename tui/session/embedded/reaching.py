@@ -31,7 +31,10 @@ def without_connect(words: Sequence[str]) -> str:
     rest = [*words[:place], *words[place + 1 :]]
     if not given and place < len(rest) and rest[place].find("/") > 0:  # not a node or a topic
         endpoint = rest.pop(place)
-    line = f"{CONNECT_VARIABLE}={endpoint or 'tcp/robot:7447'} bot-console {join(rest)}"
+    endpoint = endpoint or "tcp/robot:7447"
+    if place == 0:
+        return f"--connect follows a command; write `bot-console attach --connect {endpoint}`"
+    line = f"{CONNECT_VARIABLE}={endpoint} bot-console {join(rest)}"
     return f"only attach and doctor take --connect; write `{line}`"
 
 

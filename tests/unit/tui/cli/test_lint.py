@@ -230,7 +230,7 @@ def test_what_would_not_work_on_ros_is_found_in_packages(tmp_path: Path, capsys:
     )
     assert run([str(tmp_path)]) == 1
     lines = capsys.readouterr().out.splitlines()
-    assert any("setup.cfg: is missing" in each and "not on ROS 2" in each for each in lines)
+    assert any("setup.cfg: is missing" in each and "works here, but not on ROS 2" in each for each in lines)
     assert any("setup.py:2: setup() is called with the name 'q'" in each for each in lines) and len(lines) == 2
 
 

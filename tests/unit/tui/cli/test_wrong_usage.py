@@ -72,6 +72,11 @@ def test_file_that_cannot_be_read_is_a_finding_of_lint(tmp_path: Path, capsys: p
     assert "nothing found" not in err
 
 
+def test_connect_without_a_command_names_the_one_that_opens_a_console(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--connect", "tcp/robot:7447"]) == 2
+    assert capsys.readouterr().err.endswith("write `bot-console attach --connect tcp/robot:7447`\n")
+
+
 @pytest.mark.parametrize(
     ("words", "written"),
     [
