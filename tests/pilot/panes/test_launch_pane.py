@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from bot_console.tui.console.answer import Answer
@@ -278,15 +279,20 @@ def test_argument_outside_its_choices_is_rejected() -> None:
     run(live(), play, (100, 30))
 
 
-def test_a_path_may_be_typed_and_a_file_without_arguments_starts_at_once() -> None:
+def test_a_path_may_be_typed_and_a_file_without_arguments_starts_at_once(tmp_path: Path) -> None:
+    path = str(tmp_path / "x.launch.py")
+
     async def play(session: Session) -> None:
         session.launcher.declared = ()
         await session.press("8", "o")
-        session.app.focused.value = "/elsewhere/x.launch.py"
+        session.app.focused.value = path
+        await session.press("enter")
+        assert "There is no file" in session.text() and session.app.focused.value == path
+        Path(path).touch()
         await session.press("enter")
         await session.app.workers.wait_for_complete()
         await session.settle()
-        assert session.launcher.asked == [("launch", "/elsewhere/x.launch.py", {})]
+        assert session.launcher.asked == [("launch", path, {})]
 
     run(live(), play)
 

@@ -371,11 +371,13 @@ class LaunchPane(ListPane):
             return
         if not self.may_change():
             return
+        files = self.console.launcher.files()
         self.ask(
             Choice(
                 "Open a launch file",
                 self._chosen,
-                find=partial(files_for, self.console.launcher.files()),
+                attempt=partial(_why_no_file, files),
+                find=partial(files_for, files),
                 hint="type part of a name, or a path",
                 empty="No launch files in the workspace; type a path.",
             )
@@ -410,6 +412,11 @@ class LaunchPane(ListPane):
         shown = self.console.snapshot().launch.problem
         if done.exception() is not None or not shown or done.result().text != shown:
             self._answered(done)
+
+
+def _why_no_file(files: Sequence[str], path: str) -> str:
+    """Why a path that was typed cannot be a launch file; empty if it can, or if it is one of the known files."""
+    return "" if path in files or Path(path).is_file() else f"There is no file {sanitize(path)}."
 
 
 def files_for(files: Sequence[str], typed: str) -> Sequence[Option]:
