@@ -410,6 +410,7 @@ def test_key_bar_describes_keys_for_topics_services_and_actions() -> None:
         def bar() -> str:
             return session.lines()[-1]
 
+        session.console.change(graph=with_services())
         await session.press("9")
         assert all(each in bar() for each in ("enter Open", "P Publish", "p Plot", "m Services", "space Freeze"))
         for do, following in (("Call", "Actions"), ("Send a goal", "Topics")):
@@ -421,9 +422,7 @@ def test_key_bar_describes_keys_for_topics_services_and_actions() -> None:
         await session.press("m", "4")
         assert "enter Call" not in bar(), "words of one pane are none of another"
 
-    console = live()
-    console.change(graph=with_services())
-    run(console, play, (140, 40))
+    run(live(), play, (140, 40))
 
 
 @pytest.mark.slow
