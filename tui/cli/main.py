@@ -79,7 +79,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     if sent and (problem := undecodable(words)):
         print(f"bot-console: {problem}", file=sys.stderr)
         return 2
-    verb = next(iter(words[words[:1] == ["ros2"] :]), "")
+    verb = next(iter(words[1:] if words[:1] == ["ros2"] else words), "")
     reaches = verb in (*ros2.VERBS, *_REACHING) or verb.startswith("--connect")
     if reaches and (problem := without_connect(words)):
         print(f"bot-console: {problem}", file=sys.stderr)

@@ -67,9 +67,8 @@ class Calls:
             if away >= GONE_POLLS:
                 self._give_up(answer, client, f"{service} went away before it answered; has its node ended?")
             elif next(polls) * period >= timeout_s:
-                slow = "its node may be busy or hung, or its link slow, and may still carry out the request"
-                why = f"{service} did not answer within {timeout_s:g} s; {slow}"
-                self._give_up(answer, client, why)
+                hint = "its node may be busy or hung, or its link slow, and it may still carry out the request"
+                self._give_up(answer, client, f"{service} did not answer within {timeout_s:g} s; {hint}")
 
         timer = self._node.create_timer(period, poll)
         try:

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 import threading
+from collections.abc import Callable
 from functools import partial
 
 from bot_console.tui.cli.attach_options import AttachOptions
-from bot_console.tui.console.model import Capabilities, Severity
+from bot_console.tui.console.model import Capabilities, GraphInfo, Severity
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.session.attached import AttachedSession
 from bot_console.tui.session.embedded.connecting import connect, lead_children_to
 from bot_console.tui.session.embedded.domain import domain
 from bot_console.tui.session.embedded.hooks import DomainTypes, graph_events, halted_nodes, take_over_streams
-from bot_console.tui.session.embedded.link_state import LinkWords, report_other_domains
+from bot_console.tui.session.embedded.link_state import LinkWords
 from bot_console.tui.session.embedded.process_report_lines import log_process_reports
 from bot_console.tui.session.embedded.ros2_command_line import Ros2CommandLine
 from bot_console.tui.session.embedded.workspaces import choose, config_folders
@@ -27,6 +29,9 @@ OUTPUT = (
     "Connected to {} in ROS domain {}: q ends the console, not the robot. If the link is lost, the robot has to stop "
     "by itself: `bot-console doctor` checks whether it has a time-out for commands."
 )
+
+OTHER_DOMAINS_POLL_S = 3.0
+"""Seconds between two queries for nodes in other domains, while there is none in this one."""
 
 
 def run_network(options: AttachOptions) -> int:
@@ -57,7 +62,7 @@ def run_network(options: AttachOptions) -> int:
     message = [(Severity.INFO, OUTPUT.format(options.way, domain()))]
 
     forget, ended = log_process_reports(console.printed, console.learn), threading.Event()
-    report = partial(report_other_domains, buses, lambda: console.graph.info, console.printed, ended)
+    report = partial(report_other_domains, buses.other_domains, lambda: console.graph.info, console.printed, ended)
     threading.Thread(target=report, name="other-domains", daemon=True).start()
     try:
         return AttachedSession(
@@ -71,3 +76,19 @@ def run_network(options: AttachOptions) -> int:
         ended.set()
         forget()
         buses.close()
+
+
+def report_other_domains(
+    other_domains: Callable[[int], str],
+    graph: Callable[[], GraphInfo],
+    printed: Callable[[int, str, str], None],
+    ended: threading.Event,
+) -> None:
+    """Log once that the nodes are in another domain; return when one appears in this one, or when `ended` is set."""
+    while not ended.wait(OTHER_DOMAINS_POLL_S):
+        if not all(each.hidden for each in graph().nodes):
+            return
+        with contextlib.suppress(RuntimeError):  # the session is being closed
+            if found := other_domains(domain()):
+                printed(Severity.WARN, "bot-console", found)
+                return

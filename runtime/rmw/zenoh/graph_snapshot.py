@@ -20,19 +20,20 @@ def watch_all(session: Session, key: str, seen: TokenCallback, known: Known) -> 
     """
     watch = session.watch_tokens(key, seen, apart=True)
     watch.begin_question()
-    there = known() if session.links_directly() and _all_links_carry(session) else None
-    watch.found(session.collect_tokens(key, session.answer_timeout_s())[0] if there is None else there)
+    timeout_s = session.answer_timeout_s()
+    there = known() if session.links_directly() and _all_links_carry(session, timeout_s) else None
+    watch.found(session.collect_tokens(key, timeout_s)[0] if there is None else there)
     if watch.taking is not None:
         watch.taking.take_waiting()
     watch.end_question()
     return watch
 
 
-def _all_links_carry(session: Session) -> bool:
+def _all_links_carry(session: Session, timeout_s: float) -> bool:
     """Whether all linked processes have answered a small query, over links on which their first tokens precede it.
 
     A link delivers in order, so no token that existed when the link was made is still under way.
     """
     linked = session.linked()
-    here, answered = session.collect_tokens(f"{ROLL_CALL_KEY}*", session.answer_timeout_s())
+    here, answered = session.collect_tokens(f"{ROLL_CALL_KEY}*", timeout_s)
     return answered and {each[:8] for each in linked} <= {each.removeprefix(ROLL_CALL_KEY) for each in here}

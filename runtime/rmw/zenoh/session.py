@@ -117,7 +117,7 @@ class Session(Lifetime):
             self.watch_links(self._waker.link_changed)
 
     def _wake(self) -> None:
-        """Wake an idle one of the threads that make links: its task is the timeout of a query that is sent nowhere."""
+        """Give an idle thread of those that make links a task: the timeout of a query that is sent nowhere."""
         import zenoh
 
         with contextlib.suppress(zenoh.ZError):  # no session is open
@@ -148,7 +148,7 @@ class Session(Lifetime):
         """Watch the session's connection while it is open; not for short-lived programs."""
 
     def answer_timeout_s(self) -> float:
-        """The timeout of the first graph query, in s: short if a process is known not to answer."""
+        """The timeout of a graph query, in s: short if a process is known not to answer."""
         return self.timeout_s
 
     def stopped(self) -> Mapping[str, int]:

@@ -104,8 +104,8 @@ class StopLink:
         self._releasing_own: frozenset[str] = frozenset()
         """Those of them that are this requester's own."""
         self._release_until = 0.0
-        self._is_given_back = False
-        """Whether a release of stops that this requester held is on its way."""
+        self._withdrawn: frozenset[str] = frozenset()
+        """The ids of this requester's stops that `release` has ended last; not those that `withdraw` has."""
         self._steered_at = 0.0
         self.steering = False
         """Whether this console has control of the robot."""
@@ -181,7 +181,7 @@ class StopLink:
         confirmed = held and all(state.holds(id, self._key) for state in states for id in self._requested)
         confirmed = confirmed and not self._silent_locks()
         if states and all(each.heard and self._has_released(each) for each in states):
-            self._releasing, self._is_given_back = frozenset(), False
+            self._releasing = frozenset()
         known = {each.id: each for state in states for each in state.stops}
         stops = tuple(
             RobotStop(each.id, each.holder, each.reason, here=self._is_own(each.id, each.key), by_node=each.key == NODE)
@@ -259,7 +259,7 @@ class StopLink:
         with self._changed:
             own = {each.id for state in self._states.values() for each in state.stops if each.key == self._key}
             left = {id: each for id, each in self._requested.items() if each.alone}
-            self._is_given_back |= bool(self._requested.keys() - left.keys())
+            self._withdrawn = (self._withdrawn & self._releasing) | (self._requested.keys() - left.keys())
             ids = {*self._requested, *own, *others} - left.keys()
             self._requested = left
         self._release(ids, ids - set(others))
@@ -317,9 +317,8 @@ class StopLink:
         """Repeat requests that have not been acknowledged; to be called ten times a second."""
         now = time.monotonic()
         if now > self._release_until:
-            if self._is_given_back and self._silent_locks():
-                # It may be waiting in a slow link, and would let the robot go unexpectedly: a stop follows it.
-                self._is_given_back = False
+            if self._withdrawn & self._releasing and self._silent_locks():
+                # The release may be waiting in a slow link, and would let the robot go unexpectedly: a stop follows it.
                 self.stop(UNANSWERED)
             self._releasing &= self._still_held()
         if self._releasing:

@@ -1,22 +1,15 @@
-"""The state of the link to a robot's router: its delay, since when it is silent, and nodes in other domains."""
+"""The state of the link to a robot's router, for the status line: its delay, and since when it is silent."""
 
 from __future__ import annotations
 
-import contextlib
-import threading
 import time
-from collections.abc import Callable
 
 from bot_console.runtime.rmw.zenoh.link_probe import LinkState
 from bot_console.runtime.rmw.zenoh.network.network_bus import NetworkBuses
-from bot_console.tui.console.model import GraphInfo, LinkInfo, Severity
-from bot_console.tui.session.embedded.domain import domain
+from bot_console.tui.console.model import LinkInfo
 
 NO_ANSWER_AFTER_S = 1
 """Seconds without an answer after which the status line counts them."""
-
-OTHER_DOMAINS_POLL_S = 3.0
-"""Seconds between two queries for nodes in other domains, while there is none in this one."""
 
 
 class LinkWords:
@@ -43,19 +36,3 @@ def words_of(state: LinkState, now: float) -> LinkInfo:
     if delay is not None and delay > 20:
         delay = round(delay, -1)
     return LinkInfo(state.to, delay, int(silent_s) if silent_s >= NO_ANSWER_AFTER_S else 0, state.lost)
-
-
-def report_other_domains(
-    buses: NetworkBuses,
-    graph: Callable[[], GraphInfo],
-    printed: Callable[[int, str, str], None],
-    ended: threading.Event,
-) -> None:
-    """Log once that the nodes are in another domain; return when one appears in this one, or when `ended` is set."""
-    while not ended.wait(OTHER_DOMAINS_POLL_S):
-        if any("/_" not in each.name for each in graph().nodes):
-            return
-        with contextlib.suppress(RuntimeError):  # the session is being closed
-            if found := buses.other_domains(domain()):
-                printed(Severity.WARN, "bot-console", found)
-                return

@@ -148,7 +148,7 @@ class MeshSession(Session):
         return False
 
     def answer_timeout_s(self) -> float:
-        """The timeout of the first graph query, in s: short if a process is frozen."""
+        """The timeout of a graph query, in s: short if a process is frozen."""
         return FROZEN_TIMEOUT_S if self.stopped() else self.timeout_s
 
     def stopped(self) -> Mapping[str, int]:

@@ -92,8 +92,8 @@ class NetworkSession(Session):
         except SettingsError:
             raise
         except SessionError as error:
-            unanswered = UNANSWERED.format(way, way.timeout_s) if str(error).endswith("Timeout!") else str(error)
-            raise SessionError(why_unreachable(way.endpoints, way.tls) or unanswered) from None
+            reason = UNANSWERED.format(way, way.timeout_s) if str(error).endswith("Timeout!") else str(error)
+            raise SessionError(why_unreachable(way.endpoints, way.tls) or reason) from None
         self.declare_token(ROLL_CALL_KEY + self.zid[:8])
         self._probe: LinkProbe | None = None
         self._stopped: StoppedBehind | None = None

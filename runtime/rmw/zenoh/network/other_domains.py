@@ -8,8 +8,6 @@ from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
 from bot_console.runtime.rmw.zenoh.wire.tokens import NODES_OF_ALL_DOMAINS, parse_token
 
-TIMEOUT_S = 5.0
-"""Timeout of the question, in seconds."""
 MAX_NAMED = 4
 """Domains that are named one by one."""
 
@@ -20,7 +18,7 @@ def other_domains(session: Session) -> str:
     Tools and consoles, whose names begin with an underscore, do not count. Only names of nodes are asked for, which
     even a slow link carries.
     """
-    tokens, _ = session.collect_tokens(NODES_OF_ALL_DOMAINS, TIMEOUT_S)
+    tokens, _ = session.collect_tokens(NODES_OF_ALL_DOMAINS, session.answer_timeout_s())
     domains = _domains(tokens)
     if not domains or session.domain in domains:
         return ""

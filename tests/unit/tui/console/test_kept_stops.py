@@ -248,6 +248,25 @@ def test_robot_is_held_again_where_a_release_that_was_given_up_arrives_late(
     assert not anna.info.stopped and not any(lock.lock.held for lock in rig.locks.values())
 
 
+def test_lock_that_falls_silent_long_after_a_release_causes_no_stop(
+    rig: StopRig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    now = [0.0]
+    monkeypatch.setattr(stop_link, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    anna = rig.links["anna"]
+    anna.stop("ALL STOP")
+    rig.settle()
+    anna.follow([])  # the locks are gone, and with them what could still answer
+    anna.release()
+    now[0] = RELEASE_TIMEOUT_S + 0.5
+    anna.repeat()
+    rig.settle()
+    rig.report()
+    now[0] += REPORT_TIMEOUT_S + 0.5
+    anna.repeat()
+    assert not anna.has_stop
+
+
 def test_a_stop_without_locks_is_unconfirmed_and_sent_to_new_locks(
     rig: StopRig,
 ) -> None:

@@ -11,14 +11,12 @@ import pytest
 import rclpy
 from bot_console.runtime.rmw.zenoh.link_probe import LinkState
 from bot_console.runtime.rmw.zenoh.network.client import Way
-from bot_console.runtime.rmw.zenoh.network.network_bus import NetworkBuses
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.attach_options import AttachOptions
 from bot_console.tui.console.graph import unresponsive_nodes
 from bot_console.tui.console.model import GraphInfo, NodeInfo
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.session import network
-from bot_console.tui.session.embedded import link_state
 from domains import unused_domain
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
@@ -27,6 +25,9 @@ from rigs import until
 
 class Connection:
     """Stands for the connection to a router: the robot is in this process."""
+
+    def other_domains(self, domain: int) -> str:
+        return ""
 
     def link(self) -> LinkState:
         return LinkState()
@@ -86,14 +87,10 @@ def spin(executor: SingleThreadedExecutor) -> None:
 def test_console_says_once_that_the_nodes_are_in_another_domain(
     monkeypatch: pytest.MonkeyPatch, here: str, logged: list[str]
 ) -> None:
-    class Elsewhere(NetworkBuses):
-        def other_domains(self, domain: int) -> str:
-            return next(answers)
-
     answers, lines = iter(["", "nodes are in 0"]), list[str]()
-    monkeypatch.setattr(link_state, "OTHER_DOMAINS_POLL_S", 0.001)
+    monkeypatch.setattr(network, "OTHER_DOMAINS_POLL_S", 0.001)
     graph = GraphInfo(nodes=(NodeInfo(here),))
-    link_state.report_other_domains(
-        Elsewhere(Way()), lambda: graph, lambda _, __, text: lines.append(text), threading.Event()
+    network.report_other_domains(
+        lambda domain: next(answers), lambda: graph, lambda _, __, text: lines.append(text), threading.Event()
     )
     assert lines == logged

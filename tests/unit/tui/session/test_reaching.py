@@ -55,6 +55,9 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[tuple[Any, ...]]:
 class Closed:
     """Stands for a connection."""
 
+    def other_domains(self, domain: int) -> str:
+        return ""
+
     def close(self) -> None:
         pass
 
