@@ -46,12 +46,12 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).parent
 MAX_NOTIFICATIONS = 5
-"""Notifications that are kept; the newest is shown, and those before it once it has gone."""
+"""Maximum number of notifications kept; the newest is shown, and the earlier ones when it has expired."""
 PLOT = "plot"
 
 
 class BotConsoleApp(GuardedApp):
-    """rqt for the terminal."""
+    """The app of the console: rqt for the terminal."""
 
     TITLE = "bot-console"
     CSS_PATH: ClassVar[CSSPathType | None] = [
@@ -73,9 +73,9 @@ class BotConsoleApp(GuardedApp):
         plugins: Callable[[], Sequence[PaneEntry]] = tuple,
         reach: Callable[[], System] | None = None,
     ) -> None:
-        """Show a console; with `reach` instead of one, a frame first, then what that gives, with keys typed meanwhile.
+        """Show a console. With `reach` instead, draw an empty frame first, then connect by calling `reach`.
 
-        `on_first_frame` is called once the first frame of the panes has been seen.
+        Keys typed meanwhile are handled afterwards. `on_first_frame` is called after the panes' first frame.
         """
         super().__init__()
         for each in THEMES.values():
@@ -102,7 +102,7 @@ class BotConsoleApp(GuardedApp):
         )  # fmt: skip
         self._reach, self._reached = reach, False
         self.tuner: Tuner | None = None
-        """Makes the runs of a tuning; None: tuning is not available."""
+        """Makes the runs of a tuning; None if tuning is not available."""
         if console is not None:
             self._below = self.attach(System(console, command_line))
         else:
@@ -127,7 +127,7 @@ class BotConsoleApp(GuardedApp):
         return StreamPanels(), self.controls.commands.field(), self.controls.status
 
     async def on_event(self, event: events.Event) -> None:
-        """Handle keys one at a time, in order; those that quit from anywhere wait for nothing."""
+        """Handle keys one at a time and in order, except those that quit from anywhere, which act at once."""
         if not isinstance(event, (events.Key, events.Paste)) or event.is_forwarded:
             await self._deal(event)
         elif isinstance(event, events.Paste) and len(event.text) > MAX_PASTE_CHARACTERS:
@@ -146,9 +146,9 @@ class BotConsoleApp(GuardedApp):
             await super().on_event(event)
 
     def _is_spent(self, key: events.Key) -> bool:
-        """Whether a key means nothing any more.
+        """Whether a key is to be ignored: its stop has taken effect already, or a later key has asked to quit.
 
-        The question whether to quit is not answered by what was typed before the key that asked it.
+        Keys typed before that one must not answer the question whether to quit.
         """
         overtaken = self._keyboard.was_overtaken(key)
         if not self._reached:
@@ -158,7 +158,10 @@ class BotConsoleApp(GuardedApp):
         )
 
     def compose(self) -> ComposeResult:
-        """Tabs, panes, status bar, key bar, and a notice for terminals that are too small; empty frames at first."""
+        """Compose tabs, panes, status bar, key bar, and a notice for terminals that are too small.
+
+        Before a system is connected, empty frames stand for the panes.
+        """
         yield Tabs()
         with PaneArea(id="panes"):
             if self._reached:
@@ -172,7 +175,7 @@ class BotConsoleApp(GuardedApp):
         yield Static("", id="too-small", markup=False)
 
     def _all_panes(self) -> Iterator[Pane]:
-        """Make all panes; hidden ones make their parts later."""
+        """Make all panes; hidden ones compose their content later."""
         seen = self.stage.seen_at(self.size)
         for each in ORDERED:
             pane = self.controls.panes.made(each.load(), each.id)
@@ -204,11 +207,11 @@ class BotConsoleApp(GuardedApp):
             self.open(self._opening)
 
     def make_pane(self, entry: PaneEntry) -> Pane:
-        """Make a pane, or one in its place that says why it cannot be made."""
+        """Make a pane, or a placeholder that says why it cannot be made."""
         return self.controls.faults.made(entry)
 
     def waits_for_answer(self) -> bool:
-        """Whether a key was pressed just now, whose effect should be drawn before anything else."""
+        """Whether a key was pressed just now: its effect should be drawn before anything else."""
         return self.gate.is_eager
 
     def _all_there(self) -> None:
@@ -233,7 +236,7 @@ class BotConsoleApp(GuardedApp):
             self.controls.commands.poll()
             self.controls.status.heartbeat()
             if len(self._notifications):
-                place_toasts(self.screen)  # the newest one that is left, clear of the cursor
+                place_toasts(self.screen)  # keeps the newest remaining one clear of the cursor
             self.stage.drop_unused()
 
     def pull(self) -> None:
@@ -246,7 +249,7 @@ class BotConsoleApp(GuardedApp):
             self.stage.observe(snapshot)
             for pane in self.visible_panes():
                 pane.show(snapshot)
-            if self.controls.status.is_attached:  # not while the screen is made or taken away
+            if self.controls.status.is_attached:  # it is not while the screen is being built or removed
                 self.controls.status.show(snapshot, self.gate.held_back)
         for requester in self.controls.screens.requesters():
             requester.poll()
@@ -275,7 +278,7 @@ class BotConsoleApp(GuardedApp):
         self.stage.show_keys()
 
     def on_pane_area_dragged(self, event: PaneArea.Dragged) -> None:
-        """Take over a border that was moved with the mouse."""
+        """Adopt the position of a border that was dragged with the mouse."""
         self.stage.arranging.dragged(event.tree, event.first)
 
     def on_tabs_chosen(self, event: Tabs.Chosen) -> None:
@@ -287,7 +290,7 @@ class BotConsoleApp(GuardedApp):
         if self.stage.typing() and action in ("pane", "all_stop", "zoom", "next_pane", "arrange"):
             return False
         if len(self.screen_stack) > 1 and action in ("pane", "zoom", "next_pane", "help", "arrange"):
-            # What lies over the panes has keys of its own.
+            # A screen over the panes has its own keys.
             return False
         return super().check_action(action, parameters)
 
@@ -335,7 +338,7 @@ class BotConsoleApp(GuardedApp):
         self.controls.commands.ask_line()
 
     def action_record(self) -> None:
-        """Record all topics into a bag, or end the bag."""
+        """Start recording all topics into a bag, or stop the recording."""
         if pane := self.current_pane:
             self.controls.recording.toggle(pane)
 
@@ -363,7 +366,7 @@ class BotConsoleApp(GuardedApp):
         self.stage.show_keys()
 
     def on_pane_pane_wanted(self, event: Pane.PaneWanted) -> None:
-        """Show another pane, at the item that one names."""
+        """Show another pane, at the item named in the message."""
         event.stop()
         self.action_pane(event.pane)
         cast("Pane", self.query_one(f"#{event.pane}")).go_to(event.name)
@@ -433,7 +436,7 @@ class BotConsoleApp(GuardedApp):
         super().notify(brief(message), title=sanitize(title), severity=severity, timeout=timeout, markup=False)
 
     def on_notify(self, event: Notify) -> None:
-        """Make room for a notification above the status line, and say in it how many others there are."""
+        """Make room for a notification above the status line, and add to it how many others there are."""
         others = len(self._notifications)
         if others >= MAX_NOTIFICATIONS:
             self.clear_notifications()
@@ -459,7 +462,7 @@ class BotConsoleApp(GuardedApp):
 
     def last_words(self, error: BaseException) -> str:
         """Stop the robot, save the traceback, and return a one-line summary."""
-        with contextlib.suppress(Exception):  # nothing may come between a fault and the restored terminal
+        with contextlib.suppress(Exception):  # after a fault, nothing may keep the terminal from being restored
             self.console_of_robot.drive.stop(True, "bot-console has failed")
         details = keep(error)
         text = f"bot-console: ended by a fault of its own, the robot was stopped: {reason(error)}"

@@ -1,4 +1,4 @@
-"""The console of a bag: the bag can be played, and its position is the moment that all panes look at."""
+"""The console of a bag, which can be played: all panes show the moment at the player's position."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from textual.binding import BindingType
 from textual.widget import Widget
 
 FOLLOW_S = 0.1
-"""Time between two readings of the position of the player."""
+"""Seconds between two polls of the player's position."""
 SEEK_S = 5.0
-"""Seconds of the bag that a key moves."""
+"""Seconds of the bag by which a key seeks."""
 RATE_FACTOR = 1.1
 KEYS = "; play  # step  ( ) ±5 s  { } rate  @ loop"
 
@@ -31,7 +31,7 @@ class BagApp(BotConsoleApp):
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("player")]
 
     def __init__(self, *args: Any, playback: Playback, plays: bool = False, **kwargs: Any) -> None:
-        """With `plays`, it begins to play at once."""
+        """Show the bag of `playback`; with `plays`, start playing at once."""
         super().__init__(*args, **kwargs)
         self._playback = playback
         self._plays = plays
@@ -49,7 +49,7 @@ class BagApp(BotConsoleApp):
             self.call_after_refresh(self.action_player, "toggle")
 
     def time_moved(self, stamp: int | None) -> None:
-        """Continue at a moment that was chosen in a pane; the end of the bag counts as the present."""
+        """Seek to a moment that was chosen in a pane; None, the present, is the end of the bag."""
         self._playback.seek(self._playback.state.end if stamp is None else stamp)
         self._shown_position = self._playback.state.position
 

@@ -24,7 +24,7 @@ SEVERITY_CHARACTERS = {
 
 
 def profile_label(snapshot: ConsoleSnapshot) -> str:
-    """The active profile, and how many values differ from it; empty where there is none."""
+    """The name of the active profile and the number of values that differ from it; empty if no profile is active."""
     changed = f", {snapshot.profile_changes} changed" if snapshot.profile_changes else ""
     return sanitize(snapshot.active_profile) + changed if snapshot.active_profile else ""
 
@@ -43,7 +43,7 @@ def figure(value: float, sign: str = "") -> str:
 
 
 def range_text(limits: Range | None, kind: Kind) -> str:
-    """A range as `0.1 .. 5.0`, with its step when it has one."""
+    """A range as `0.1 .. 5.0`, with its step if it has one."""
     if limits is None:
         return ""
 
@@ -151,12 +151,12 @@ def _byte(text: str) -> bytes:
 
 
 def command_of(parameter: ParameterInfo, value: Value) -> str:
-    """The equivalent `ros2` command, quoted for a shell; where there is none, a comment that says why."""
+    """The equivalent `ros2` command, quoted for a shell; if there is none, a shell comment that says why."""
     if value is None or value == () or parameter.kind is Kind.BYTE_ARRAY:
         what = "removes a value" if value is None else "sets an empty array" if value == () else "sets bytes"
         return f"# no ros2 param command {what}"
     text = yaml_text(value) if isinstance(value, str) else value_text(value, exact=True)
-    # What begins with a dash is an option for ros2, unless a blank stands in it, which YAML ignores.
+    # To ros2, a word that begins with a dash is an option unless it contains a blank, which YAML ignores.
     text = f" {text}" if text.startswith("-") and not re.fullmatch(r"-\d+|-\d*\.\d+", text) else text
     return f"ros2 param set {quote(parameter.node)} {quote(parameter.name)} {quote(text)}"
 

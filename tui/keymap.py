@@ -1,4 +1,4 @@
-"""The one key table. Footer, help screen, palette and all bindings are made from it; tests check it.
+"""The only key table. Key bar, help screen, palette and all bindings are made from it; tests check it.
 
 Keys are chosen to survive SSH, tmux and browsers' terminals: letters, digits, Enter, Space, arrows, Escape.
 """
@@ -472,7 +472,7 @@ CHANGING: Mapping[str, str] = MappingProxyType(
         "",
     )
 )
-"""No word for the keys that a console which changes nothing does not name."""
+"""Empty key bar words for the actions that a read-only console does not name."""
 
 
 def stops(key: str) -> bool:

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class PaneEntry:
-    """A pane: its id (also the name of its folder), the key that opens it, mostly a digit, and its class."""
+    """A pane: its id (also the name of its folder), the key that opens it (mostly a digit), and its class."""
 
     id: str
     key: str
@@ -21,7 +21,7 @@ class PaneEntry:
     place: int = 9
     """Its place among the panes on the screen, from the upper left; Tab goes through them in this order."""
     short: str = ""
-    """The title where there is little room; empty: the title."""
+    """A shorter title for narrow places; empty: the same title."""
 
     def load(self) -> type[Pane]:
         """The class of the pane."""

@@ -1,4 +1,4 @@
-"""The objects that act on a system, made once that is reached: the command line, stopping, fault handling, quitting,
+"""The objects that act on a system, made once it is connected: command line, stopping, fault handling, quitting,
 suspending.
 
 The app imports this module only after its first frame: it imports the whole model, which would delay the frame by a
@@ -32,7 +32,7 @@ from textual.app import App
 
 @dataclass(frozen=True)
 class Controls:
-    """One object for each thing that a person can do with a system, or must learn about it."""
+    """One object for each thing that a person can do with a system or has to be told about it."""
 
     quitting: Quitting
     stopping: Stopping
@@ -58,9 +58,9 @@ def controls_of(
     open: Callable[[Opening], None],
     changed: Callable[[], None],
 ) -> Controls:
-    """Compose them for an app and a console.
+    """Create the controls of an app for a console.
 
-    `redraw` sends every cell again, `open` shows what was asked for, `changed` follows a replaced pane.
+    `redraw` sends every cell again, `open` shows an opening, and `changed` is called after a pane was replaced.
     """
     quitting = Quitting(app, console)
     stopping = Stopping(app, console, quitting, stage.typing)

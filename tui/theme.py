@@ -115,7 +115,7 @@ TERMINAL = _theme(
     ansi_background="ansi_default",
     ansi_foreground="ansi_default",
 )
-"""The sixteen colours that the terminal's own settings name, on its own ground."""
+"""Uses the terminal's own sixteen colours, on its own background."""
 
 THEMES: Mapping[str, Theme] = {
     "dark": DARK,

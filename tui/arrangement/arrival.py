@@ -1,4 +1,4 @@
-"""A start in steps: first the frames of all panes, then the console, the visible panes, and the others."""
+"""Starts the app in steps: first the frames of all panes, then the console, the visible panes, and the hidden ones."""
 
 from __future__ import annotations
 
@@ -31,20 +31,20 @@ KEY_POLL_S = 0.005
 """Seconds between two checks whether a key has been handled."""
 HIDDEN_PANE_PAUSE_S = 0.02
 MAX_HIDDEN_PANE_PAUSE_S = 3.0
-"""Seconds for which hidden panes wait at a time, and at most in all, while keys are pressed."""
+"""Seconds by which a pressed key delays the next hidden pane, and their maximum in total."""
 ORDERED = sorted(PANES, key=lambda entry: entry.place)
-"""The panes in the order of the screen, from the upper left."""
+"""The panes in screen order, from the upper left."""
 
 
 class System(NamedTuple):
-    """The console that is shown, and the command line that it runs lines with."""
+    """The console that is shown, and the command line with which it runs lines."""
 
     console: Console
     command_line: CommandLine | None = None
 
 
 class Host(Protocol):
-    """The app, as far as its start goes."""
+    """The operations of the app that its start needs."""
 
     def attach(self, system: System) -> Sequence[Widget]:
         """Start acting on a system; returns the widgets between the panes and the key bar."""
@@ -63,15 +63,14 @@ class Host(Protocol):
         ...
 
     def waits_for_answer(self) -> bool:
-        """Whether a key was pressed just now, whose effect should be drawn before anything else."""
+        """Whether a key was pressed just now: its effect should be drawn before anything else."""
         ...
 
 
 class Arrival:
-    """Brings up one part after the other, and lets the app handle its messages in between.
+    """Creates one part after the other, and lets the app handle its messages in between.
 
-    A stop is handled before anything else, keys for the visible panes once those exist, and all others once everything
-    does.
+    Stop keys are handled at once, keys for the visible panes as soon as those exist, all others once every pane exists.
     """
 
     def __init__(self, app: App[None], host: Host, stage: Stage, keyboard: Keyboard) -> None:
@@ -80,18 +79,18 @@ class Arrival:
         self._stage = stage
         self._keyboard = keyboard
         self._only_unseen = False
-        """Whether everything visible exists, and only hidden parts are still to come."""
+        """Whether everything visible exists, and only hidden panes are still missing."""
         self._rests = 0
         self._steps: deque[Callable[[], Awaitable[None]]] = deque()
 
     def begin(self, reach: Callable[[], System], there: Callable[[], None]) -> None:
-        """Bring up everything; `reach` connects to the system, `there` is called once all of it exists."""
+        """Create everything; `reach` connects to the system, `there` is called once every pane exists."""
         self._there = there
         self._steps.append(partial(self._bring_system, reach))
         self._app.call_after_refresh(self.bring_next)
 
     async def bring_next(self) -> None:
-        """Bring up the next part, and continue once the app has handled its messages."""
+        """Create the next part, and continue once the app has handled its messages."""
         if not self._app.is_running:
             return
         if self._keyboard.is_busy:
@@ -113,7 +112,7 @@ class Arrival:
             self._there()
 
     def _is_resting(self) -> bool:
-        """Whether hidden parts should wait, to stay out of the way of the next key."""
+        """Whether hidden panes should wait, so that they do not delay the next key."""
         return (
             self._only_unseen
             and self._host.waits_for_answer()
@@ -140,17 +139,17 @@ class Arrival:
         ]
 
     async def _import_pane(self, entry: PaneEntry) -> None:
-        """Import the modules of a pane; an error is reported where the pane is made."""
+        """Import the modules of a pane; an error is reported later, when the pane is made."""
         try:
             entry.load()
-        except Exception:  # the border to whatever a pane imports
+        except Exception:  # importing a pane may raise anything
             return
 
     async def _bring_seen(self, entries: list[PaneEntry]) -> None:
         area = self._app.screen_stack[0].query_one(PaneArea)
         await area.mount(*map(self._made, entries))
         coming = area.query(PanePlaceholder)
-        for each in coming:  # all in one frame: else there is one without any panes in between
+        for each in coming:  # all at once, so that no frame without panes is drawn in between
             each.display = False
         self._host.panes_changed()
         await coming.remove()
@@ -158,7 +157,7 @@ class Arrival:
         await self._keyboard.hold(self._may_act)
 
     async def _choose_hidden(self, hidden: deque[PaneEntry]) -> None:
-        """Bring up one of the hidden panes, starting with one that a key waits for."""
+        """Create the next hidden pane: one that a key is waiting for, if there is one."""
         wanted = self._awaited()
         entry = next((each for each in hidden if each.id in wanted), hidden[0])
         hidden.remove(entry)
@@ -191,7 +190,7 @@ class Arrival:
 
     def _made(self, entry: PaneEntry) -> Pane:
         pane = self._host.make_pane(entry)
-        pane.display = False  # until it is laid out, and shown the newest
+        pane.display = False  # until it is laid out and has the newest snapshot
         return pane
 
 

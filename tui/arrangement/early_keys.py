@@ -23,7 +23,7 @@ AT_ONCE = {
 } | {each.id for scope in ("list", "overlay", "box", "help") for each in TABLE[scope]}
 """Actions on the focused pane, on an overlay, or on the app as a whole, by their ids.
 
-Any other action may need a pane that does not exist yet, as a curve needs the plot.
+Any other action may need a pane that does not exist yet: plotting a curve needs the plot.
 """
 NEXT = ("app.next", "app.previous")
 PANE = "pane('"

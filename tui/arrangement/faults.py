@@ -1,4 +1,4 @@
-"""The end of a pane or a screen whose code raises: it ends alone, with a way to reopen it."""
+"""Handles exceptions in the code of a pane or a screen: only that one ends, and a pane can be reopened."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from textual.dom import DOMNode
 
 
 class Faults:
-    """Ends only what is at fault, and reopens panes."""
+    """Ends only the pane or screen at fault, and reopens panes."""
 
     def __init__(self, app: App[None], maker: PaneMaker, changed: Callable[[], None]) -> None:
         self._app = app
@@ -29,7 +29,7 @@ class Faults:
         self._ending: set[Pane] = set()
 
     def contain(self, error: Exception, culprits: list[DOMNode]) -> bool:
-        """End the innermost pane or screen in whose code an exception was raised; False where there is none."""
+        """End the innermost pane or screen in whose code an exception was raised; return False if there is none."""
         for node in culprits:
             for each in node.ancestors_with_self:
                 if isinstance(each, Pane) and not isinstance(each, BrokenPane):
@@ -47,7 +47,7 @@ class Faults:
             return
         self._ending.add(pane)
         pane.display = False
-        with contextlib.suppress(Exception):  # the fault may lie there as well
+        with contextlib.suppress(Exception):  # `detach` may be faulty too
             pane.detach()
         self._app.call_later(self._replace, pane, self._broken(pane.id or "", error))
 
@@ -62,25 +62,25 @@ class Faults:
         self._app.notify(f"{reason(error)}{f', details: {details}' if details else ''}", title="Closed")
 
     async def reopen(self, broken: BrokenPane) -> None:
-        """Put the pane itself back in its place."""
+        """Make the pane again, in the place of its placeholder."""
         entry = next(each for each in self._maker.entries() if each.id == broken.id)
         await self._replace(broken, self.made(entry))
 
     async def add(self, entries: Sequence[PaneEntry]) -> None:
-        """Add the panes of plug-ins after the built-in ones; one that cannot be made shows why in its place."""
+        """Add the panes of plug-ins after the built-in ones, with a placeholder for each that cannot be made."""
         made = [self.made(entry) for entry in entries]
         for pane in made:
             pane.display = False
         panes = self._app.screen_stack[0].query_one("#panes", Container)
-        if panes.is_attached:  # not where a signal has ended the app meanwhile
+        if panes.is_attached:  # it is not if a signal has ended the app meanwhile
             await panes.mount(*made)
             self._changed()
 
     def made(self, entry: PaneEntry) -> Pane:
-        """The pane, or a placeholder that says why it cannot be made."""
+        """Make a pane, or a placeholder that says why it cannot be made."""
         try:
             return self._maker.made(entry.load(), entry.id)
-        except Exception as error:  # the border to the code of others, which may not even be importable
+        except Exception as error:  # the code of others, which may not even be importable
             return self._broken(entry.id, error)
 
     async def _replace(self, old: Pane, new: Pane) -> None:

@@ -15,7 +15,7 @@ from bot_console.tui.widgets.prompt.question import Choice, Line, Option, Questi
 from textual.fuzzy import Matcher
 
 STEP = 0.05
-"""The part of a split by which a key moves a border."""
+"""The fraction of a split by which a key moves a border."""
 NAME = re.compile(r"\w[\w .-]{0,40}")
 
 
@@ -59,14 +59,14 @@ class Arranging:
         self.arrangement = arrangement
 
     def begin(self) -> bool:
-        """Return whether there is room to arrange panes; reports it if there is none."""
+        """Return whether there is room to arrange panes; if not, say so."""
         if self.tree is not None:
             return True
         self._screen.report(f"Layout '{self.arrangement.name}' {self._needs()}; :layout NAME shows another.")
         return False
 
     def _needs(self) -> str:
-        """The room that the hidden layout needs, and the room there is."""
+        """A text with the size that the hidden layout needs, and the size of the terminal."""
         least, there = self.arrangement.least(), self._screen.cells()
         return f"needs {least[0]}x{least[1]}, this terminal has {there[0]}x{there[1]}"
 
@@ -157,7 +157,7 @@ class Arranging:
         self._screen.lay_out()
 
     def dragged(self, tree: Tree, first: bool) -> None:
-        """Take over a border that was moved with the mouse."""
+        """Adopt the position of a border that was dragged with the mouse."""
         if fits(self._places(tree)):
             (self.arrangement.change if first else self.arrangement.drag)(tree)
             self._screen.lay_out()

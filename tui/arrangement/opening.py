@@ -1,4 +1,4 @@
-"""The pane that the console should open, with its topics or its node; reads the command lines of rqt programs too."""
+"""The pane that the console opens first, with its topics or its node; parses the command lines of rqt programs too."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ RQT_PANES = {
     "rqt_image_view": "images",
     "rviz2": "world",
 }
-"""Programs of rqt, as packages and as executables, and the pane that does their work."""
+"""The rqt programs, by package and by executable, each with the pane that replaces it."""
 STANDALONE = ("-s", "--standalone")
 PERSPECTIVE = ("--perspective-file", "-p", "--perspective")
 TOPIC_OPTION = "--default_topic"
 TOPIC_PARAMETER, RATE_PARAMETER = "default_topic", "publish_rate"
 """The parameters of `rqt_robot_steering`, given after `--ros-args`."""
 WITH_VALUE = (TOPIC_OPTION, "-d", "--display-config", "-f", "--fixed-frame")
-"""Options with a value that nothing here answers to."""
+"""Options with a value that have no effect here."""
 WITHOUT_VALUE = (
     "-P",
     "--plot-start-paused",
@@ -64,22 +64,22 @@ class Opening(NamedTuple):
     node: str = ""
     notes: tuple[str, ...] = ()
     perspective: str = ""
-    """A layout file or a perspective of rqt whose panes are to stand on the screen; empty: none."""
+    """A layout file or an rqt perspective whose panes are to be shown; empty: none."""
     topic: str = ""
     """The topic on which to steer; empty: that of the first robot."""
     rate: float | None = None
-    """The rate of the commands with which to steer (Hz); None: the usual one."""
+    """The rate (Hz) of steering commands; None: the default."""
 
 
 def is_rqt(words: Sequence[str]) -> bool:
-    """Whether a command line names a program of rqt: `rqt_plot`, `run rqt_plot rqt_plot`, `ros2 run ...`."""
+    """Whether a command line starts an rqt program: `rqt_plot`, `run rqt_plot rqt_plot`, `ros2 run ...`."""
     return _program(words)[0] in RQT_PANES
 
 
 def names_system(words: Sequence[str]) -> bool:
-    """Whether the command line of an rqt program also says what to run, before options of the console's own.
+    """Whether the command line of an rqt program also names a system to run, before options of the console.
 
-    `rqt_plot /a/b outdoor` does. Raises `ValueError` when the words name no program of rqt.
+    `rqt_plot /a/b outdoor` does. Raises `ValueError` if the words do not name an rqt program.
     """
     return any(not each.startswith("-") for each in rqt_opening(words)[1][:1])
 
@@ -87,7 +87,7 @@ def names_system(words: Sequence[str]) -> bool:
 def rqt_opening(words: Sequence[str]) -> tuple[Opening, list[str]]:
     """The pane that the command line of an rqt program asks for, and the words that are not rqt's.
 
-    Raises `ValueError` when the words name no program of rqt.
+    Raises `ValueError` if the words do not name an rqt program.
     """
     program, rest = _program(words)
     if program not in RQT_PANES:
@@ -131,7 +131,7 @@ def rqt_opening(words: Sequence[str]) -> tuple[Opening, list[str]]:
 
 
 def _ros_parameters(program: str, words: Sequence[str]) -> tuple[dict[str, str], list[str]]:
-    """The parameters that are given after `--ros-args`, and the other words."""
+    """Split a command line into the parameters given after `--ros-args`, and the other words."""
     found: dict[str, str] = {}
     others: list[str] = []
     at, ros = 0, False
@@ -164,7 +164,7 @@ def _rate(text: str, notes: list[str]) -> float | None:
 
 
 def _program(words: Sequence[str]) -> tuple[str, list[str]]:
-    """The program that the words name, and the words after it."""
+    """Split a command line into the name of the program and the words after it."""
     rest = [*words[1:]] if words[:1] == ["ros2"] else [*words]
     if rest[:1] == ["run"]:
         rest = rest[1:]
@@ -174,7 +174,7 @@ def _program(words: Sequence[str]) -> tuple[str, list[str]]:
 
 
 def _curves(word: str) -> list[str]:
-    """`/topic/pose/x:y` is two curves, as rqt_plot has it."""
+    """Split a word as rqt_plot does: `/topic/pose/x:y` is two curves."""
     first, *others = word.split(":")
     return [first, *(f"{first.rpartition('/')[0]}/{each}" for each in others)]
 
@@ -182,7 +182,7 @@ def _curves(word: str) -> list[str]:
 def matching(wanted: str, known: Sequence[str]) -> list[str]:
     """The paths that a word of `rqt_plot` stands for: itself, or every number below it, except in arrays.
 
-    rqt writes `/odom/twist/twist/linear/x` for what is `/odom/twist.twist.linear.x` here.
+    The path `/odom/twist.twist.linear.x` is written `/odom/twist/twist/linear/x` in rqt.
     """
     path = wanted if wanted.startswith("/") else f"/{wanted}"
     if path in known:

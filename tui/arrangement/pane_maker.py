@@ -14,7 +14,7 @@ P = TypeVar("P", bound=Pane)
 
 
 class PaneMaker:
-    """Gives each pane the ports and the time cursor that all of them share."""
+    """Makes panes that share the console's ports and the time cursor."""
 
     def __init__(self, console: Console, time_cursor: TimeCursor, entries: Callable[[], Sequence[PaneEntry]]) -> None:
         """`entries` returns all available panes."""

@@ -1,4 +1,4 @@
-"""The console as panes of other packages see it: its ports, and for one release the names they had before."""
+"""The console as panes of other packages see it: its ports and, for one release, the ports' former names."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ EARLIER_NAMES: Mapping[str, str] = {
 
 
 class PluginConsole:
-    """A console that still answers to the names of the last release, with a warning."""
+    """A console that also has the names of the last release; using one of them warns."""
 
     def __init__(self, console: Console) -> None:
         self._console = console
@@ -64,7 +64,7 @@ class PluginConsole:
 
 
 class _EarlierDrive:
-    """The port for the robot; it was a method before."""
+    """The port for the robot, which can still be called as the method that it was before."""
 
     def __init__(self, console: Console) -> None:
         self._console = console

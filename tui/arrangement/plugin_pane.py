@@ -3,7 +3,7 @@
 A package names them as entry points of the group `bot_console.panes`, `name = module:Class`. The class is called with
 the `Console` (`tui/console/protocol.py`). Optional members: `TITLE`, a word for the tabs; `HELP`, the purpose;
 `show(snapshot)`, called with each new `ConsoleSnapshot` while the pane is visible; `tick()`, called ten times a second,
-also while it is hidden; `detach()`, called when it ends by a fault. A subclass of `Pane` is used as it is.
+also while it is hidden; `detach()`, called when a fault ends it. A subclass of `Pane` is used without a frame.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class PluginEntry(PaneEntry):
     """The package that it comes from, for display."""
 
     def load(self) -> type[Pane]:
-        """The class of the pane, or one that frames the widget; raises `TypeError` if it is neither."""
+        """The pane's class, or a class that frames the widget; raises `TypeError` for anything else."""
         found = self.find()
         if not (isinstance(found, type) and issubclass(found, Widget)):
             raise TypeError(f"{self.source}: {found!r} is not a Textual widget class")
@@ -59,7 +59,7 @@ class PluginPane(Pane):
             warnings.warn(f"{name}: rename let_go to detach, its name from now on", FutureWarning, stacklevel=2)
 
     def compose(self) -> ComposeResult:
-        """The widget fills the frame."""
+        """Fill the frame with the widget."""
         yield self._widget
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
@@ -75,11 +75,11 @@ class PluginPane(Pane):
         self._hand_on("detach" if hasattr(self._widget, "detach") else "let_go")
 
     def focus_target(self) -> None:
-        """The first part of the widget that takes keys, else the frame."""
+        """Focus the first focusable part of the widget, else the frame."""
         next(iter(self._parts()), self).focus()
 
     def next_part(self, step: int) -> bool:
-        """Tab goes through the widget's parts before it leaves the pane."""
+        """Move the focus within the widget; return False at its last part, where Tab leaves the pane."""
         parts, focused = self._parts(), self.screen.focused
         at = parts.index(focused) + step if focused in parts else -1
         if not 0 <= at < len(parts):

@@ -1,4 +1,4 @@
-"""The arrangement on the screen: the layout or a single pane, the focused pane, and the tabs and keys to match."""
+"""The arrangement on the screen: the layout or a single pane, the focused pane, and the matching tabs and keys."""
 
 from __future__ import annotations
 
@@ -47,12 +47,12 @@ class Stage:
         self._panes: list[Pane] = []
         self._unused = UnusedPanes()
         self._changes = True
-        """Whether this console changes anything; otherwise the keys for that are not named."""
+        """Whether this console may change anything; if not, the key bar leaves out the keys for that."""
         self.plugins: list[PaneEntry] = []
         """Panes from other packages."""
         self.arrangement = arrangement
         self.opened: set[str] = set()
-        """The panes that were shown alone, however short."""
+        """The panes that were shown alone, even for a moment."""
 
     @cached_property
     def arranging(self) -> Arranging:
@@ -77,7 +77,7 @@ class Stage:
         return sorted(seen, key=lambda each: order.index(each.id or ""))
 
     def observe(self, snapshot: ConsoleSnapshot) -> None:
-        """Pass a snapshot to all panes, for what even hidden ones must not miss."""
+        """Pass a snapshot to all panes, including hidden ones, for events that none may miss."""
         changes = not snapshot.capabilities.change
         if changes != self._changes:
             self._changes = changes
@@ -87,16 +87,14 @@ class Stage:
                 pane.observe(snapshot)
 
     def drop_unused(self) -> None:
-        """Give the place of a pane that would stay empty to another one, and give it back later; called ten times a
-        second.
-        """
+        """Replace a pane that would stay empty by another one, and restore it later; called ten times a second."""
         empty = self._unused.panes(self._newest())
         if empty != self.arrangement.empty:
             self.arrangement.empty = empty
             self.lay_out()
 
     def current(self) -> Pane | None:
-        """The focused pane, else the one chosen last."""
+        """The focused pane; if none has the focus, the one chosen last."""
         focused, known = self._app.screen_stack[0].focused, self.panes()
         for widget in focused.ancestors_with_self if focused else ():
             if widget in known:
@@ -129,14 +127,14 @@ class Stage:
         self._app.notify(text, markup=False)
 
     def at_first(self, size: Size) -> list[tuple[str, str, bool]]:
-        """The first panes of a terminal of some size: their ids and titles, and which gets the focus."""
+        """The panes that a terminal of this size shows first: id, title, and whether it gets the focus."""
         shown = self.seen_at(size)
         if self._focused not in shown:
             self._focused = shown[0]
         return [(each.id, each.title, each.id == self._focused) for each in PANES if each.id in shown]
 
     def seen_at(self, size: Size) -> Sequence[str]:
-        """The ids of the panes that a terminal of a size shows; also notes that the screen has that size now."""
+        """The ids of the panes that a terminal of this size shows; also records the size as that of the screen."""
         self._extent = size
         return panes(self._shown())
 
@@ -146,7 +144,7 @@ class Stage:
         self.lay_out()
 
     def poll_again(self) -> None:
-        """Take note of a new hidden pane."""
+        """Register a new hidden pane."""
         self._panes = []
 
     def seen_with(self, name: str) -> Sequence[str]:
@@ -155,7 +153,7 @@ class Stage:
         return panes(tree or (self._focused if name == OVERVIEW else name))
 
     def changed(self) -> None:
-        """Take note that a pane was replaced or added."""
+        """Lay out again after a pane was replaced or added."""
         self.poll_again()
         if self._app.is_running:  # else the screen is being removed
             self.lay_out()
@@ -172,7 +170,7 @@ class Stage:
         self.lay_out()
 
     def next(self, step: int) -> None:
-        """Go to the next pane, among those on the screen, else among all; through a plug-in's parts on the way."""
+        """Go to the next pane on the screen (of all if only one is shown), via the parts of a plug-in's widget."""
         now = self.current()
         if now is not None and now.display and now.next_part(step):
             return
@@ -191,7 +189,7 @@ class Stage:
         self.go(OVERVIEW if self._wanted != OVERVIEW or pane is None else pane.id or OVERVIEW)
 
     def lay_out(self) -> None:
-        """Show what was chosen, as far as there is room for it."""
+        """Show the chosen pane or layout, as far as there is room."""
         screen = self._app.screen_stack[0]
         width, height = self._extent
         small = width < MIN_SIZE[0] or height < MIN_SIZE[1]

@@ -1,4 +1,4 @@
-"""Runs what a person types or picks: the palette, the command line, and their effects on the screen."""
+"""Carries out commands from the palette and the command line, and their effects on the screen."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ class CommandHandler:
         return self._app.call_later(callback, *args)
 
     def open(self, opening: Opening) -> None:
-        """Show a pane with what is asked for."""
+        """Show a pane with the requested curves or node."""
         self._open(opening)
 
     def show_stream(self, line: str, stream: Stream) -> None:
@@ -136,13 +136,13 @@ class CommandHandler:
         return sorted(self._stage.arranging.arrangement.layouts())
 
     def show_bag(self, folder: str, *, play: bool) -> None:
-        """Show a bag, or play it, in a console of its own, which has the terminal until it quits."""
+        """Show or play a bag in a separate console, which takes over the terminal until it quits."""
         options = [*["--play"] * play, *self._console.snapshot().capabilities.bag_options]
         if self._run_outside([*child_command("bot_console.tui"), "bag", "open", folder, *options]):
             self.notify(f"{folder} cannot be shown; bot-console bag info {folder} says why", severity="error")
 
     def hold_robot(self, hold: bool) -> None:
-        """Stop and hold the robot, or release it; asks first where others hold it too."""
+        """Stop and hold the robot, or release it; asks first if others hold it too."""
         (self._stopping.hold if hold else self._stopping.release)()
 
 
@@ -150,7 +150,7 @@ ALL = "all"
 
 
 def which_stream(streams: StreamPanels) -> Choice:
-    """Ask which line to stop; if it has ended meanwhile, no other is stopped instead."""
+    """The question which line to stop; if the chosen one has ended meanwhile, no other is stopped instead."""
     offered = {str(number): each for number, each in enumerate(streams.panels, 1)}
 
     def find(typed: str) -> Sequence[Option]:

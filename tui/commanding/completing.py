@@ -9,7 +9,7 @@ from itertools import takewhile
 from bot_console.tui.console.model import ConsoleSnapshot
 
 Place = Callable[[Sequence[str]], Sequence[str]]
-"""Gives what may stand at a place, from the words before it."""
+"""Returns the candidates for a position, given the words before it."""
 
 
 def split(text: str) -> tuple[list[str], str]:
@@ -25,15 +25,15 @@ def fitting(offered: Sequence[str], begun: str) -> list[str]:
 
 
 def extended(found: Sequence[str], begun: str) -> str:
-    """The word, extended as far as all candidates agree."""
+    """The word, extended to the longest common prefix of the candidates."""
     first, last = min(found, default=""), max(found, default="")
-    # In sorted order, the first and the last word differ the earliest.
+    # The common prefix of the first and the last candidate in sorted order is that of all candidates.
     same = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(first, last, strict=False)))
     return first[:same] if first[:same].startswith(begun) else begun
 
 
 def live_names(snapshot: ConsoleSnapshot, words: Sequence[str]) -> list[str] | None:
-    """The output of `ros2 node list` and the like, from what the console knows; None for other lines."""
+    """The output of `ros2 node list` and similar lines, from what the console knows; None for other lines."""
     graph = snapshot.graph
     if [*words[:2]] == ["param", "list"] and len(words) == 3:
         tree = snapshot.parameters.get(words[2])
@@ -51,7 +51,7 @@ class Completion:
     """Finds candidates for the end of a line: asks once per position, then narrows while the word is typed."""
 
     def __init__(self, ask: Callable[[Sequence[str]], Future[Sequence[str]]]) -> None:
-        """`ask` is given the words before the one being typed, which is empty or begins an option."""
+        """`ask` receives the words before the one being typed, then an empty word, or `-` if that begins an option."""
         self._ask = ask
         self._asked: tuple[str, ...] = ()
         self._answer: Future[Sequence[str]] | None = None
@@ -67,7 +67,7 @@ class Completion:
         return fitting(sorted(self._answer.result()), begun)
 
     def forget(self) -> None:
-        """Forget everything when the line is closed: what exists may have changed."""
+        """Forget the candidates when the line is closed, since they may change until the next one."""
         self._answer = None
 
     @property

@@ -16,13 +16,13 @@ MAX_FILE_BYTES = 1 << 20
 
 
 class LineHistory:
-    """Lines, newest last, and a walk through those that begin with a text or contain it."""
+    """The lines, newest last, and a walk through those that begin with a text or contain it."""
 
     def __init__(self, path: Path | None = None) -> None:
         self._path = path
         self._lines: list[str] | None = None
         self._sought: str | None = None
-        """What was typed when the walk began."""
+        """The text in the field when the walk began."""
         self._at = 0
 
     @property
@@ -48,14 +48,14 @@ class LineHistory:
             save_file(self.file, "".join(f"{each}\n" for each in self._lines))
 
     def stay(self) -> None:
-        """Start a new walk at the next step, since the text was edited."""
+        """Make the next step start a new walk, since the text was edited."""
         self._sought = None
 
     def step(self, typed: str, step: int, *, anywhere: bool = False) -> str:
         """The line before (`step` -1) or after the current one, among those that begin with what was typed.
 
-        With `anywhere`, among those that contain it. After the newest comes what was typed; beyond either end nothing
-        changes.
+        With `anywhere`, among those that contain it. The typed text comes after the newest line; beyond either end,
+        nothing changes.
         """
         lines = self.lines()
         if self._sought is None:

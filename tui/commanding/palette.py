@@ -19,7 +19,7 @@ from textual.fuzzy import Matcher
 HIDDEN = ("app.palette",)
 """Actions that make no sense in the palette."""
 INSIDE = ("list", "diagram")
-"""Scopes of the parts of a pane; moving about in them needs no palette."""
+"""Scopes of the parts of a pane; their keys only move about, which needs no palette."""
 
 
 WORDS = {
@@ -69,7 +69,7 @@ ANYWHERE = (
 depend on the selected row. Of several that match equally, the first here is listed first.
 """
 MIN_OWN_WORD_CHARACTERS = 3
-"""Characters of one of `OWN_WORDS` that must be typed at least."""
+"""Minimum number of characters of one of `OWN_WORDS` that must be typed."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ class Command:
     words: str = ""
     """Further words by which it is found."""
     own_words: str = ""
-    """The only words by which it is found; empty: by all."""
+    """The only words by which it is found; empty: also by its text and `words`."""
 
 
 def all_commands(app: App[None], pane: Pane | None, go: Callable[[str], Pane | None]) -> Mapping[str, Command]:
@@ -138,9 +138,9 @@ SCATTERED = (6, float("-inf"))
 
 
 def _rank(command: Command, typed: str, matcher: Matcher) -> tuple[int, float] | None:
-    """The rank of a command among those found, the smallest first; None if it does not match.
+    """The rank of a command among the matches, the best being the smallest; None if it does not match.
 
-    The order is: the title, its beginning, whole words, beginnings of words, scattered characters.
+    From best to worst: the title, its beginning, whole words, beginnings of words, scattered characters.
     """
     wanted = _split(typed)
     if command.own_words:

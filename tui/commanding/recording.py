@@ -22,7 +22,7 @@ class BagRecording:
         self._bags = bags
 
     def toggle(self, pane: Pane) -> None:
-        """Ask for a folder and record all topics into it, or end the bag."""
+        """Ask for a folder and record all topics into it, or stop the recording."""
         if self._bags.info.folder:
             pane.report_later(self._bags.stop())
         else:
@@ -44,5 +44,5 @@ class BagRecording:
 
 
 def _wrong_folder(text: str) -> str:
-    """Why a bag cannot be written there: no bag replaces what exists."""
+    """Why a bag cannot be written to a path, for example because it exists; empty if it can."""
     return wrong_path(text) or (f"{text.strip()} exists already" if os.path.lexists(typed_path(text)) else "")

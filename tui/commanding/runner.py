@@ -1,4 +1,4 @@
-"""Runs the lines that a person types, by their first word, or reports what to type instead."""
+"""Runs typed command lines according to their first word, or reports what to type instead."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ STAMP = "%Y_%m_%d-%H_%M_%S"
 
 
 class Host(Protocol):
-    """The screen, as far as command lines affect it."""
+    """The operations on the screen that command lines need."""
 
     def notify(self, message: str, *, severity: Any = ..., title: str = ...) -> None:
         """Show a notification."""
@@ -42,7 +42,7 @@ class Host(Protocol):
         ...
 
     def open(self, opening: Opening) -> None:
-        """Show a pane with what is asked for."""
+        """Show a pane with the requested curves or node."""
         ...
 
     def show_stream(self, line: str, stream: Stream) -> None:
@@ -66,7 +66,7 @@ class Host(Protocol):
         ...
 
     def hold_robot(self, hold: bool) -> None:
-        """Stop and hold the robot, or release it; asks first where others hold it too."""
+        """Stop and hold the robot, or release it; asks first if others hold it too."""
         ...
 
 
@@ -167,7 +167,7 @@ class LineRunner:
         printed = str(error) if error else done.result()
         words = line.split()
         starts = words[words[:1] == ["ros2"] :][:1] in (["run"], ["launch"])
-        # the console shows what was started elsewhere: no key closes this
+        # A program that was started has no output here to read and close: the Launch pane shows it.
         if starts and len(printed.strip().splitlines()) <= 1:
             reported_text = printed.strip() or f"{line}: done, no output"
             self._host.notify(sanitize(reported_text), severity="error" if error else "information")

@@ -13,7 +13,7 @@ from bot_console.tui.text.expression.parse import Incomplete, parse
 
 @dataclass(frozen=True)
 class Verb:
-    """A verb: its usage, what it does, and what goes in each of its positions."""
+    """A verb: its usage, its description, and how many words may follow it."""
 
     usage: str
     about: str

@@ -1,4 +1,4 @@
-"""The record of a crash of the console itself: one line for the person, the full traceback in a file."""
+"""Records a crash of the console itself: one line for the person, the full traceback in a file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A lock on a folder, for steps in which two programs would disturb each other."""
+"""A lock on a folder, for steps that two programs must not take at the same time."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ POLL_S = 0.02
 
 @contextmanager
 def folder_lock(folder: Path, timeout_s: float) -> Generator[bool]:
-    """Lock a folder for the length of a `with` block; yields whether that succeeded within `timeout_s` seconds.
+    """Lock a folder during a `with` block; yields whether that succeeded within `timeout_s` seconds.
 
     The lock leaves no file behind and ends with the program. If folders cannot be locked, every program gets the lock.
     Raises `OSError` for a folder that cannot be opened.
@@ -40,6 +40,6 @@ def _lock(fcntl: Any, handle: int) -> bool:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
         return False
-    except OSError:  # a file system without locks
+    except OSError:  # the file system does not support locks
         return True
     return True

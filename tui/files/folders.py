@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 
 OVERRIDE = "BOT_CONSOLE_USER_DIR"
-"""Environment variable that names one folder for everything, for instance on a borrowed account."""
+"""Environment variable that names one folder for all files, for instance on a borrowed account."""
 
 
 def config_folder() -> Path:
@@ -24,7 +24,7 @@ def state_folder() -> Path:
 
 
 def expanded_path(text: str) -> Path:
-    """The path of a text with `~` for a home folder; that of an unknown user stays, where `Path.expanduser` raises."""
+    """The path with `~` expanded; that of an unknown user is left as it is, whereas `Path.expanduser` would raise."""
     return Path(os.path.expanduser(text))
 
 

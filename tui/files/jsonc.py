@@ -1,4 +1,4 @@
-"""Reads JSON with comments and trailing commas, as editors use it, and changes it without losing comments."""
+"""Reads JSON with comments and trailing commas, the format of editors' settings, and edits it, keeping the comments."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def load(text: str) -> Any:
 
 
 def with_member(text: str, key: str, value: Any) -> str:
-    """The text of an object with one more member in front, unless it has a member of that name."""
+    """The text of an object with a member added in front, unless it already has one of that name."""
     found = load(text)
     if not isinstance(found, dict):
         raise JsoncError("it is no JSON object")

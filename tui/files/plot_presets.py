@@ -19,7 +19,7 @@ MAX_CURVES = 200
 
 
 class NoPreset(ValueError):
-    """There is no preset of that name; the message says why."""
+    """A preset does not exist or cannot be read; the message says why."""
 
 
 @dataclass(frozen=True)

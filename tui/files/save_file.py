@@ -1,4 +1,4 @@
-"""How every file that the console writes is saved: whole or not at all."""
+"""Saves every file that the console writes: completely or not at all."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 PREFIX, SUFFIX = ".bot-console-", ".saving"
-"""Prefix and suffix of a file that is being written; its own name is left out, since that may have the maximum
-length.
+"""Prefix and suffix of the temporary file; it does not contain the file's own name, which may have the maximum length
+already.
 """
 LEFT_OVER_AGE_S = 600.0
-"""Seconds after which a file with such a name was left behind by a killed program."""
+"""Seconds after which a temporary file counts as left behind by a killed program."""
 
 
 class NotSaved(OSError):
@@ -37,7 +37,7 @@ def typed_path(text: str) -> Path:
 
 
 def save_file(path: Path, content: str | bytes, check: Callable[[bytes], None] | None = None) -> None:
-    """Write a file, creating its folder if necessary; text is written as UTF-8 with the line ends it has.
+    """Write a file, creating its folder if necessary; text is written as UTF-8 with its line ends unchanged.
 
     The content is written beside the file, synced to disk, read back, passed to `check`, and only then renamed: after a
     full disk, a crash or an error in `check` the old content is intact. A symbolic link stays a link; mode and owner

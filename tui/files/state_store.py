@@ -1,27 +1,27 @@
-"""The protocol of what panes remember between runs: plain data by name. Where it is stored is not their concern."""
+"""The protocol by which panes keep plain data, by name, between runs, wherever it is stored."""
 
 from __future__ import annotations
 
 from typing import Protocol, cast
 
 LAST_FILE = "parameter-file"
-"""The name of the parameter file that was saved or opened last; its path is kept whole."""
+"""The name under which the path of the parameter file that was saved or opened last is stored."""
 
 
 class StateStore(Protocol):
-    """Plain data (texts, numbers, lists, mappings) by name."""
+    """Stores plain data (texts, numbers, lists, mappings) by name."""
 
     def get(self, name: str) -> object:
-        """The value stored last, in an earlier run too; None where there is nothing, or it cannot be read."""
+        """The data stored last, possibly in an earlier run; None if there is none or it cannot be read."""
         ...
 
     def put(self, name: str, data: object) -> str:
-        """Store data; returns why that failed, and an empty text when it did not."""
+        """Store data; returns why that failed, or an empty text."""
         ...
 
 
 def texts_in(data: object) -> list[str]:
-    """The texts of a stored list, without anything else in it; none if it is no list."""
+    """The texts in a stored list, ignoring other elements; none if the data are not a list."""
     found = cast("list[object]", data) if isinstance(data, list) else list[object]()
     return [each for each in found if isinstance(each, str)]
 
@@ -33,10 +33,10 @@ class MemoryStore:
         self._data: dict[str, object] = {}
 
     def get(self, name: str) -> object:
-        """The value stored last."""
+        """The data stored last in this run."""
         return self._data.get(name)
 
     def put(self, name: str, data: object) -> str:
-        """Store it while the program runs."""
+        """Store data until the program ends."""
         self._data[name] = data
         return ""

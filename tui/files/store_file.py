@@ -11,7 +11,7 @@ from pathlib import Path
 
 
 def read_store(path: Path, maximum: int, *, end: bool = False) -> bytes:
-    """The content of a file of at most `maximum` bytes; with `end`, the last ones of a larger file.
+    """Read a file of at most `maximum` bytes; with `end`, the last `maximum` bytes of a larger file.
 
     Raises `OSError`, in particular `FileNotFoundError` if there is no file. A pipe in its place is refused, since it
     would never end.

@@ -1,4 +1,4 @@
-"""Tells Esc followed by a key from Alt with that key: many terminals send the same bytes for both.
+"""Distinguishes Esc followed by a key from Alt with that key, for which many terminals send the same bytes.
 
 Over a slow link both keys arrive at once and cannot be told apart. Textual takes them for Alt and the key, or loses the
 Esc. Here, as in vi, they are Esc and the key, unless a key with Alt is bound. The keyboard protocol in which some
@@ -20,7 +20,7 @@ ESC = "\x1b"
 BEGIN = frozenset("[OP]^_X")
 """Characters that may begin a sequence after an Esc: a key of several bytes, or a report of the terminal."""
 EDITING = frozenset("bf\t\x7f")
-"""The characters that terminals send after an Esc for keys that move by words or delete one; Textual knows them."""
+"""The characters that terminals send after an Esc for keys that move by or delete a word; Textual knows them."""
 ALT = "alt+"
 
 
@@ -60,9 +60,9 @@ class EscapeParser(XTermParser):
 
 
 def split_alt_key(event: events.Key, screen: Screen[Any]) -> list[events.Key]:
-    """Split a letter with Alt into Esc and the letter, if it may have been typed so and has no binding.
+    """Split a letter with Alt into Esc and the letter, if it may have been typed that way and has no binding.
 
-    Empty for any other key: in the keyboard protocol that reports Alt, such a key has no character.
+    Empty for any other key. In the keyboard protocol that reports Alt, a key with Alt has no character, so it stays.
     """
     if not event.key.startswith(ALT) or not event.character or event.key in screen.active_bindings:
         return []

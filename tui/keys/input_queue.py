@@ -26,8 +26,8 @@ Mergeable = (events.MouseMove, events.Resize, *Wheel)
 class InputQueue:
     """Passes new input to the app once the earlier input is handled.
 
-    Of mouse moves and resizes that wait with no key or click in between, only the last one is kept, and of wheel steps
-    the last few.
+    Of the waiting mouse moves and resizes with no key or click in between, only the last is kept; of wheel steps, the
+    last few.
     """
 
     def __init__(self, app: Any, loop: asyncio.AbstractEventLoop) -> None:
@@ -55,7 +55,7 @@ class InputQueue:
     def resized(self, event: Callable[[], events.Resize]) -> None:
         """Pass on a resize; `event` is called when the app handles it, so that it has the size of that time.
 
-        May be called from a signal handler, in which no lock may be awaited.
+        May be called from a signal handler, which must not wait for a lock.
         """
         if not self._has_resized:
             self._has_resized = True

@@ -1,7 +1,7 @@
 """The thread that reads keys from the terminal, in place of Textual's own (8.2).
 
-It notices keys that stop the robot immediately, and ends as soon as it is asked to. Textual's thread polls ten times a
-second whether it should end, and once more with nothing to read, which delays quitting by 0.1 to 0.2 s.
+It notices at once keys that stop the robot, and ends as soon as it is asked to. Textual's thread checks only ten times
+a second whether it should end, and then waits once more for input, which delays quitting by 0.1 to 0.2 s.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ from textual.message import Message
 ESCAPE_TIMEOUT_S = 0.1
 """Seconds between two checks whether the thread should end, if it cannot be woken."""
 READ_BYTES = 4096
-"""Bytes that a terminal buffers."""
+"""Bytes that the kernel buffers for a terminal."""
 MAX_READ_BYTES = 65536
 """Bytes that are read before the keys in them are passed on."""
 INPUT = (events.InputEvent, events.Resize, events.AppFocus, events.AppBlur)
 
 
 class Ending(threading.Event):
-    """An event that also wakes a thread waiting for a descriptor; without free descriptors, it is polled."""
+    """An event that also wakes a thread waiting for a descriptor; if no descriptors are free, it has to be polled."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -62,14 +62,14 @@ class Ending(threading.Event):
         """Wait until a descriptor is readable, the event is set or the time is over; returns whether it is readable."""
         try:
             ready, _, _ = select.select([descriptor, *self._ends[:1]], [], [], seconds)
-        except (OSError, ValueError):  # a program in this process has closed our descriptor, or all of them
+        except (OSError, ValueError):  # other code in this process has closed our descriptor, or all of them
             self._ends.clear()
             ready, _, _ = select.select([descriptor], [], [], seconds)
         return descriptor in ready
 
 
 class Watch(Protocol):
-    """Receives the keys that stop the robot in the thread that reads them."""
+    """Receives keys that stop the robot, in the thread that reads them."""
 
     @property
     def due(self) -> float | None:
@@ -81,11 +81,11 @@ class Watch(Protocol):
         ...
 
     def typed(self, event: events.Key, *, alone: bool) -> None:
-        """Note such a key before it is passed on; `alone` says whether nothing was read before it."""
+        """Note a stop key before it is passed on; `alone` says whether nothing was read before it."""
         ...
 
     def poll(self) -> None:
-        """Perform what is due."""
+        """Act on the keys that are due."""
         ...
 
 
@@ -95,25 +95,25 @@ class Unwatched:
     due = None
 
     def is_stop(self, event: events.Key) -> bool:
-        """No."""
+        """Always False."""
         return False
 
     def typed(self, event: events.Key, *, alone: bool) -> None:
-        """Nothing."""
+        """Do nothing."""
 
     def poll(self) -> None:
-        """Nothing."""
+        """Do nothing."""
 
 
 def reads_input(driver: Any, app: Any, watch: Watch) -> InputQueue:
-    """Make a Linux driver of Textual read in our thread, and pass on input without letting it pile up."""
+    """Make Textual's Linux driver read in our thread, and merge input that is not handled in time."""
     driver.exit_event = ending = Ending()
     queue = InputQueue(app, driver._loop)
     driver.run_input_thread = partial(take_keys, driver, ending, watch)
     send, start = driver.send_message, driver.start_application_mode
 
     def pass_on(message: Message) -> None:
-        # Replies of the terminal are not input; they tell when it can take more output.
+        # Replies of the terminal are not input: they say when it can take more output, and must not wait.
         (queue.put if isinstance(message, INPUT) else send)(message)
 
     def signalled(number: int, frame: FrameType | None) -> None:
@@ -134,9 +134,9 @@ def reads_input(driver: Any, app: Any, watch: Watch) -> InputQueue:
 
 
 def take_keys(driver: Any, ending: Ending, watch: Watch) -> None:
-    """Pass on what is typed until asked to end, or until the terminal closes.
+    """Pass on input until asked to end, or until the terminal closes.
 
-    Bytes that are not text are shown as such.
+    Bytes that are not UTF-8 become replacement characters.
     """
     source = TerminalEvents(driver._debug, watch.is_stop, lambda event, alone: watch.typed(event, alone=alone))
     while not ending.is_set():

@@ -17,14 +17,14 @@ class Key:
     action: str
     text: str
     footer: str = ""
-    """The word for it in the key bar; empty if that does not name it."""
+    """The word for it in the key bar; empty if the key bar leaves it out."""
     shown: str = ""
-    """The key as the bar shows it, if not by `key_text`."""
+    """The key as the bar shows it, if different from `key_text`."""
     priority: bool = False
 
 
 class Mode(NamedTuple):
-    """A state of a pane in which some keys matter most: what the key bar says of them, by their ids, and the help."""
+    """A state of a pane in which some keys matter most: their words in the key bar, by id, and the help for it."""
 
     keys: Mapping[str, str] = MappingProxyType({})
     help: str = ""

@@ -1,7 +1,7 @@
 """Handles keys in the order in which they were typed: each one waits for all effects of the one before.
 
 Textual passes a key to the widget that has the focus at that moment, and a widget that a key opens gets the focus a
-little later. Without this queue, characters typed fast or on a busy machine would be commands instead of text.
+little later. Without this queue, characters typed fast, or on a busy machine, would act as commands instead of text.
 """
 
 from __future__ import annotations
@@ -61,9 +61,9 @@ class Keyboard:
         """The number of the key being handled; 0 if none is."""
         self._count = 0
         self.passes: Callable[[Typed], bool] = lambda _: True
-        """Whether a key may be handled yet; one that may not holds up those behind it."""
+        """Whether a key may be handled yet; a key that may not also holds up those behind it."""
         self._overtaken = 0.0
-        """When the last key that did not wait was typed, by the clock of Textual's events."""
+        """When the last key that overtook others was typed, by the clock of Textual's events."""
 
     @property
     def is_idle(self) -> bool:
@@ -81,15 +81,15 @@ class Keyboard:
         return self._waiting[0] if self._waiting else None
 
     def overtake(self, event: events.Key) -> None:
-        """Note a key that does not wait for those before it."""
+        """Note that a key is handled before those typed earlier."""
         self._overtaken = event.time
 
     def was_overtaken(self, event: events.Key) -> bool:
-        """Whether a key was typed before one that did not wait for it."""
+        """Whether a key was typed before one that has overtaken it."""
         return event.time < self._overtaken
 
     async def typed(self, event: Typed) -> None:
-        """Handle a key now, or after those before it."""
+        """Handle a key now, or after those typed before it."""
         if self._is_one_too_many(event):
             return
         self._waiting.append(event)
@@ -118,7 +118,7 @@ class Keyboard:
                 self._wait_for_key()
 
     def _first(self) -> Typed:
-        """The next key to handle, in the form for the focused widget."""
+        """The next key to handle; a key with Alt is split into two if the focused screen has no binding for it."""
         event = self._waiting[0]
         if isinstance(event, events.Key) and (both := split_alt_key(event, self._app.screen)):
             self._waiting.popleft()
@@ -126,12 +126,12 @@ class Keyboard:
         return self._waiting[0]
 
     async def hold(self, passes: Callable[[Typed], bool]) -> None:
-        """Hold keys back, except those that may pass while they are first in line."""
+        """From now on, handle the first waiting key only if `passes` allows it."""
         self.passes = passes
         await self._next()
 
     async def detach(self) -> None:
-        """Handle all held keys, and hold no more."""
+        """Stop holding keys back, and handle those that wait."""
         await self.hold(lambda _: True)
 
     def release(self) -> None:

@@ -51,7 +51,7 @@ def wrong_keys(keys: Mapping[str, str]) -> str:
 
 
 def _new(key: Key, keys: Mapping[str, str], pressed: str) -> bool:
-    """Whether an action has a key only by remapping."""
+    """Whether an action has a key only because of the remapping."""
     return key.id in keys and pressed not in key.keys.split(",")
 
 

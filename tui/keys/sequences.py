@@ -1,4 +1,4 @@
-"""Splits terminal input into text, escape sequences and pastes, wherever its bytes are split. Pure.
+"""Splits terminal input into text, escape sequences and pastes, however its bytes are divided among reads. Pure.
 
 This works on bytes: the coordinates of old mouse reports (X10) are three bytes of any value, which need not be UTF-8.
 """
@@ -20,7 +20,7 @@ SEQUENCE_TIMEOUT_S = 0.2
 PASTE_SILENCE_S = 1.0
 """Seconds of silence after which a key inside a paste ends it: the terminal has lost the end of the paste."""
 MAX_PASTE_BYTES = 1_000_000
-"""Bytes of a paste beyond this are dropped; far shorter pastes are refused as well."""
+"""Further bytes of a paste are dropped; `MAX_PASTE_CHARACTERS` refuses far shorter pastes anyway."""
 
 SEQUENCE = re.compile(
     rb"""\x1b(?:
@@ -44,7 +44,7 @@ BEGINNING = re.compile(
     )?""",
     re.VERBOSE,
 )
-"""The beginning of such a sequence; if it matches all input, more is awaited."""
+"""The beginning of a sequence; if it matches all of the input, more bytes are awaited."""
 
 
 class Kind(Enum):
@@ -53,7 +53,7 @@ class Kind(Enum):
     TEXT = "text"
     SEQUENCE = "sequence"
     KEYS = "keys"
-    """Input that began like an escape sequence but is none: Esc, and the keys typed after it."""
+    """Input that began like an escape sequence but is not one: Esc, and the keys typed after it."""
     PASTE = "paste"
     STOP = "stop"
     """A character in a text that stops the robot."""

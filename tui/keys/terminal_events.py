@@ -1,8 +1,8 @@
 """Turns terminal input into Textual's events, with Textual's own parser (8.2) for keys and mouse reports.
 
-The parser gets complete sequences only. Unknown ones are dropped, since it would wait for more and swallow the next
-keys. It takes a tenth of a millisecond per sequence, so keys that stop the robot are searched for first, and mouse
-moves that a later one makes redundant are not parsed at all.
+The parser gets only complete sequences. Unknown ones are dropped: it would wait for more bytes and swallow the next
+keys. It takes a tenth of a millisecond per sequence, so the input is searched first for keys that stop the robot, and
+redundant mouse moves are not parsed at all.
 """
 
 from __future__ import annotations
@@ -109,7 +109,7 @@ class TerminalEvents:
             return []
 
     def _once(self, text: str, parse: Callable[[str], list[Message]]) -> list[Message]:
-        """Mostly keys; the keys of a text are parsed once."""
+        """Parse a text, and cache the result if it consists of keys only."""
         known = self._known.get(text)
         if known is not None:
             return [events.Key(key, character) for key, character in known]
@@ -140,8 +140,8 @@ class TerminalEvents:
 
 
 def _without_needless_moves(pieces: Iterable[Piece]) -> Iterator[Piece]:
-    """The pieces without redundant ones: of consecutive mouse moves with the same button the last one is kept, of wheel
-    steps the last few.
+    """The pieces without redundant ones: of consecutive mouse moves with the same button, the last one is kept, and of
+    wheel steps the last few.
     """
     for button, same in groupby(pieces, _moved_button):
         if button is None:

@@ -10,9 +10,9 @@ from bot_console.tui.layout.placing import Box, boxes, fits
 from bot_console.tui.layout.tree import Tree, close, exchange, panes
 
 CHROME_ROWS = 3
-"""Lines that do not belong to panes: tabs, status, keys."""
+"""Lines of the screen that do not belong to panes: tabs, status, keys."""
 MAX_TERMINAL_CELLS = 1000
-"""More columns or lines than any terminal has."""
+"""An upper limit for the columns and lines of any terminal."""
 MAX_UNDO_STEPS = 50
 """Changes that can be undone."""
 
@@ -22,7 +22,7 @@ IN_PLACE_OF_EMPTY = "graph"
 
 
 def without(tree: Tree, pane: str) -> Tree:
-    """A tree without a pane: another one takes its place, or else its neighbours do."""
+    """The tree without a pane: `IN_PLACE_OF_EMPTY` takes its place, or else its neighbours grow."""
     shown = panes(tree)
     if pane not in shown:
         return tree
@@ -41,7 +41,7 @@ class LayoutStore(Protocol):
         ...
 
     def remember(self, name: str, tree: Tree | None) -> None:
-        """Save what is on the screen at the end: a layout, and its tree if it was changed; never raises."""
+        """Save what the screen shows at the end: the layout's name, and its tree if it was changed; never raises."""
         ...
 
 
@@ -97,7 +97,7 @@ class Arrangement:
         return tree if fits(boxes(tree, Box(0, 0, width, height - CHROME_ROWS))) else None
 
     def least(self) -> tuple[int, int]:
-        """The columns and lines it needs to be shown."""
+        """The minimum columns and lines of a terminal that can show it."""
         columns = next(
             (each for each in range(1, MAX_TERMINAL_CELLS) if self.tree(each, MAX_TERMINAL_CELLS) is not None),
             MAX_TERMINAL_CELLS,
@@ -143,7 +143,7 @@ class Arrangement:
         return kept
 
     def remember(self) -> None:
-        """Save what is on the screen for the next start."""
+        """Save what the screen shows, for the next start."""
         self._store.remember(self.name, self._changed)
 
     def _note(self) -> None:

@@ -32,7 +32,7 @@ def perspective_tree(text: str, panes: Mapping[str, str]) -> tuple[Tree, list[st
 
 
 def tiled(panes: list[str]) -> Tree:
-    """Panes in equal tiles, two beside each other, from the upper left."""
+    """A tree of equal tiles, two in each row, from the upper left."""
     pairs = [panes[at : at + 2] for at in range(0, len(panes), 2)]
     rows: list[Tree] = [beside(*pair) if len(pair) == 2 else pair[0] for pair in pairs]
     return rows[0] if len(rows) == 1 else below(*rows)

@@ -59,9 +59,7 @@ def borders(tree: Tree, box: Box, path: tuple[int, ...] = ()) -> Iterator[Border
 
 
 def _parts(tree: Split, box: Box) -> list[Box]:
-    """The boxes of the parts; cells left over by the division are given out one by one, where they are noticed
-    least.
-    """
+    """The boxes of the parts; the cells left over by rounding are spread evenly among them."""
     whole = box.width if tree.way == "beside" else box.height
     total = sum(tree.shares)
     found: list[Box] = []
@@ -83,7 +81,7 @@ def fits(places: Mapping[str, Box]) -> bool:
 
 
 def neighbour(places: Mapping[str, Box], pane: str, dx: int, dy: int) -> str:
-    """The pane reached from another by going in a direction; itself if there is none."""
+    """The next pane in a direction; `pane` itself if there is none."""
     here = places[pane]
     others = [(name, box) for name, box in places.items() if name != pane and _lies(here, box, dx, dy)]
     return min(others, key=lambda each: _distance(here, each[1], dx, dy), default=(pane, here))[0]
@@ -96,7 +94,7 @@ def _lies(here: Box, there: Box, dx: int, dy: int) -> bool:
 
 
 def _distance(here: Box, there: Box, dx: int, dy: int) -> tuple[int, int]:
-    """The distance of a box in the direction, and its offset to the side: the nearest one that is most in line wins."""
+    """The distance of a box in the direction, then how far its centre is to the side, as a key for sorting."""
     if dx:
         ahead = there.x - here.x - here.width if dx > 0 else here.x - there.x - there.width
         return ahead, _apart((here.y, here.height), (there.y, there.height))

@@ -48,7 +48,7 @@ def panes(tree: Tree) -> tuple[str, ...]:
 
 
 def split(tree: Tree, pane: str, new: str, way: Way) -> Tree:
-    """Put a pane beside or below another one, which gives it half of its room; a pane that is in the tree already
+    """Put a pane beside or below another one, which gives it half of its room; if the tree has the pane already, it
     moves.
     """
     rest = close(tree, new) if new in panes(tree) and new != pane else tree

@@ -1,4 +1,4 @@
-"""Which panes would stay empty in a system: a world that no node publishes."""
+"""Finds panes that would stay empty in a system: the World pane if no node publishes a world."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from bot_console.tui.console.model import ConsoleSnapshot
 WORLD = "world"
 WORLD_TYPES = ("nav_msgs/msg/OccupancyGrid", "nav_msgs/msg/Odometry", "turtlesim/msg/Pose")
 GIVE_UP_AFTER_S = 3.0
-"""Seconds after the first node until a pane without anything to show is given up, since a robot starts node by node."""
+"""Seconds after the first node until a pane without data counts as unused, since a robot starts node by node."""
 
 
 class UnusedPanes:
-    """Follows the snapshots."""
+    """Finds out from consecutive snapshots which panes would stay empty."""
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self._clock = clock
@@ -23,7 +23,7 @@ class UnusedPanes:
         self._since: float | None = None
 
     def panes(self, snapshot: ConsoleSnapshot) -> frozenset[str]:
-        """The panes that would stay empty, as far as this and the earlier snapshots tell."""
+        """The ids of the panes that would stay empty, judging by this and the earlier snapshots."""
         world = snapshot.world
         if snapshot.graph is not self._graph:
             self._graph = snapshot.graph

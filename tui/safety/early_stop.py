@@ -1,4 +1,4 @@
-"""Notices a stop where keys are read: the robot does not wait for input that came before the key."""
+"""Notices a stop key as soon as it is read, so that the robot does not wait until earlier input has been handled."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from bot_console.tui.keys.escape_parser import ALT
 from textual import events
 
 TURN_TIMEOUT_S = 0.1
-"""How long a stop key may wait for its turn when there is nothing before it: the screen may hang."""
+"""Seconds that a stop key with no input before it may wait for its turn; the screen may be hanging."""
 
 
 class Holder(Protocol):
-    """Holds the robot for single key presses; the methods may be called from any thread."""
+    """Holds the robot for individual key presses; the methods may be called from any thread."""
 
     def hold_early(self, press: str) -> None:
-        """Hold the robot for a key press whose turn has not come."""
+        """Hold the robot for a key press that has not had its turn."""
         ...
 
     def settle_early(self, press: str, *, keep: bool) -> None:
-        """Keep that stop until it is released like any other, or withdraw it and nothing else."""
+        """Keep that press's stop until it is released like any other, or withdraw only that stop."""
         ...
 
 
@@ -36,7 +36,7 @@ class Press:
     id: str
     event: events.Key
     due: float
-    """When the robot is held for it."""
+    """The time at which the robot is held for it, if it has not had its turn by then."""
     seen: Set[str]
     """The ids of this console's stops that the screen showed: those that the person may have meant to release."""
     is_held: bool = False
@@ -70,7 +70,7 @@ class EarlyStop:
         self._lock = threading.Lock()
 
     def attach(self, holder: Holder, stop: Callable[[], None], own_stops: Callable[[], Set[str]]) -> None:
-        """Act on a robot from now on, also for keys pressed before.
+        """Act on a robot from now on, and for keys pressed before.
 
         `stop` is the action of the stop key; `own_stops` returns the ids of this console's present stops, which may be
         ahead of the screen.
@@ -117,7 +117,7 @@ class EarlyStop:
         if self._holder is not None:
             try:
                 self._holder.hold_early(press.id)
-            except Exception:  # an error of the link to the robot: keys must still be read
+            except Exception:  # keys must still be read if the link to the robot fails
                 press.is_held, press.due = False, math.inf
 
     def has_acted(self, event: events.Key) -> bool:
@@ -134,7 +134,7 @@ class EarlyStop:
         is_text = not stops(event.key) or (event.is_printable and self._typing())
         releases = bool(press.seen & self._own_stops())
         if press.is_held and self._holder is not None:
-            # One that is to release would otherwise only find a stop that is not acknowledged yet, its own.
+            # Otherwise a key that is to release would only find its own stop, which is not acknowledged yet.
             self._holder.settle_early(press.id, keep=not (is_text or releases))
         if not (is_text or releases):
             self._stop()

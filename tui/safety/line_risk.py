@@ -10,12 +10,10 @@ from bot_console.tui.format import parse_value
 
 
 def risk_of(line: str, snapshot: ConsoleSnapshot) -> str:
-    """The way in which a line makes the robot less safe, as the end of a sentence; empty if nothing does, and for every
-    other line.
-    """
+    """How a `ros2 param set` line makes the robot less safe, as the end of a sentence; empty for all others."""
     try:
         words = shlex.split(line)
-    except ValueError:  # a quotation mark that is still open
+    except ValueError:  # a quotation mark is still open
         return ""
     if words[:3] != ["ros2", "param", "set"] or len(words) < 6:
         return ""

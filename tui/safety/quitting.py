@@ -12,11 +12,11 @@ from textual.app import App
 
 REASON = "bot-console is asked to quit"
 MAX_NAMED_VALUES = 8
-"""Values that are named one by one."""
+"""Maximum number of values that are listed."""
 
 
 class Quitting:
-    """Ends the app. A second request is not questioned; signals end the app without coming here."""
+    """Ends the app. A second request ends it without a question; signals end it without using this class."""
 
     def __init__(self, app: App[None], console: Console) -> None:
         self._app = app
@@ -27,7 +27,7 @@ class Quitting:
         """Whether the robot is held only during the question, and may move again if the answer is no."""
 
     def wanted(self) -> None:
-        """End, or ask first; a second request while the question is open ends at once."""
+        """Quit, or ask first if values would be lost; a second request while the question is open quits at once."""
         snapshot = self._console.snapshot()
         if self.asking or not lost_names(snapshot):
             self._app.exit()
@@ -60,16 +60,16 @@ class Quitting:
         self.asking = False
         if self.holding:
             self.holding = False
-            self._console.drive.stop(False)  # which withdraws only this console's stop
+            self._console.drive.stop(False)  # withdraws only this console's stop
 
 
 def lost_names(snapshot: ConsoleSnapshot) -> list[tuple[str, str]]:
-    """Node and name of the values that are in no file; those of nodes that have ended can no longer be saved."""
+    """Node and name of the values saved in no file, without those of ended nodes, which can no longer be saved."""
     return [each for each in snapshot.journal.unsaved if each[0] in snapshot.parameters]
 
 
 def lost(snapshot: ConsoleSnapshot) -> str:
-    """The values that are in no file, one per line."""
+    """A text that lists the values not saved in any file, one per line."""
     names = lost_names(snapshot)
     lines = [f"{counted(len(names), 'value')} set here and saved nowhere:"]
     for node, name in names[:MAX_NAMED_VALUES]:

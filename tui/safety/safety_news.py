@@ -10,17 +10,15 @@ from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.text.value_text import value_text
 
 BACK = {ChangeSource.EDIT: "u", ChangeSource.REDO: "u", ChangeSource.UNDO: "U"}
-"""The sources of changes that are announced, with the key that takes each back; for others, a question is asked
-before.
-"""
+"""The sources of changes that are announced, with the key that undoes each; other changes are confirmed beforehand."""
 MAX_WAITING_CALLS = 10
-"""Calls, ten per second, for which a change may wait until a key can take it back: other nodes of the same set may
-still refuse it, which takes it back automatically.
+"""Maximum number of calls, ten per second, for which an announcement waits until a key can undo the change: another
+node may still refuse its part of the same edit, which undoes the change automatically.
 """
 
 
 class SafetyNews:
-    """Follows the journal; a parameter that keeps changing the same way, as when nudged, is announced once."""
+    """Finds edits in the journal to announce; a parameter that keeps changing in one direction is announced once."""
 
     def __init__(self, parameters: Parameters) -> None:
         self._parameters = parameters
@@ -38,7 +36,7 @@ class SafetyNews:
         return [text for key in [*self._waiting] if (text := self._news(key, snapshot))]
 
     def _notice(self, change: Change, snapshot: ConsoleSnapshot) -> None:
-        """Queue a change that is to be announced."""
+        """Queue a change for announcement if it made the robot less safe."""
         tree = snapshot.parameters.get(change.node)
         parameter = tree.get(change.name) if tree else None
         if parameter is None or not change.accepted:
@@ -51,7 +49,7 @@ class SafetyNews:
             self._waiting[key] = change, why, 0
 
     def _news(self, key: tuple[str, str], snapshot: ConsoleSnapshot) -> str:
-        """The text about a queued change, once it is certain what takes it back; empty until then."""
+        """The announcement of a queued change, once it is certain what undoes it; empty until then."""
         change, why, calls = self._waiting[key]
         journal = snapshot.journal
         goes_back = key in (journal.redoes if change.source is ChangeSource.UNDO else journal.undoes)
@@ -62,7 +60,7 @@ class SafetyNews:
         tree = snapshot.parameters.get(change.node)
         parameter = tree.get(change.name) if tree else None
         if parameter is None or not same(parameter.value, change.new):
-            return ""  # it has been taken back already
+            return ""  # it has been undone already
         self._reported.add(key)
         values = f"{value_text(change.old)} → {value_text(change.new)}"
         way_back = f"{BACK[change.source]} in the Parameters pane" if goes_back else "b in the History pane"

@@ -11,13 +11,13 @@ from bot_console.tui.widgets.prompt.question import Confirmation
 
 HOLDS_AGAIN = "What persons have requested holds it again as soon as it is back; ! and bot-console release end that."
 IS_TEXT = "! is a letter here"
-"""Of the stop key while a text field has the focus."""
+"""What the stop key does while a text field has the focus."""
 MAX_NAMED_STOPS = 5
-"""Stops that are named one by one."""
+"""Maximum number of stops that are listed."""
 
 
 def stop_text(drive: DriveInfo) -> str:
-    """The state of a stop; it reads "held" only once the robot has acknowledged it."""
+    """The state of a stop; it says "held" only once the robot has acknowledged the stop."""
     if drive.unsent:
         return f"STOP NOT SENT: {drive.unsent}"
     if drive.awaits_robot:
@@ -61,7 +61,7 @@ def sending_key(drive: DriveInfo) -> str:
 
 
 def may_move(drive: DriveInfo) -> str:
-    """The warning that robots without an emergency stop may move, and what is being tried."""
+    """A warning that robots without an emergency stop may move, and what is being tried to stop them."""
     who = sanitize(", ".join(drive.unlocked)) if drive.lockable else "THE ROBOT"
     return f"{who} MAY MOVE, {sanitize(drive.means_news) or 'zeros only'}"
 
@@ -81,7 +81,7 @@ def holder_is_gone(drive: DriveInfo) -> bool:
 
 
 def stops_of_ending(snapshot: ConsoleSnapshot, processes: Sequence[ProcessInfo]) -> list[str]:
-    """Lines that name who holds the robot, if the end of these processes would end a lock; empty otherwise."""
+    """Lines that name who holds the robot, if ending these processes would end a lock; empty otherwise."""
     stops = snapshot.drive.stops
     locks = {node.name for node in snapshot.graph.nodes if any(map(_is_lock, node.publishers))}
     if not stops or not any(locks.intersection(each.nodes) for each in processes):
@@ -101,6 +101,6 @@ def _lines(stops: Sequence[RobotStop]) -> list[str]:
 def release_question(
     others: Sequence[RobotStop], then: Callable[[None], object], gone: Callable[[], str]
 ) -> Confirmation:
-    """Asks whether to release the stops of others too; `gone` is called to check whether there are none any more."""
+    """The question whether to release the stops of others; `gone` returns a text once these have been released."""
     reasons = ["These stops are not this console's:", *_lines(others), "", "With no the robot stays held, by you too."]
     return Confirmation("Release the robot all the same?", then, gone, reasons="\n".join(reasons))

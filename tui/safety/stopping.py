@@ -1,4 +1,4 @@
-"""The one key that holds the robot and releases it."""
+"""The stop key, which holds the robot and releases it."""
 
 from __future__ import annotations
 
@@ -25,15 +25,15 @@ class Stopping:
         self._quitting = quitting
         self._typing = typing
         self._question: Screen[None] | None = None
-        """The question whether to release what others hold; on the screen, or answered."""
+        """The question whether to release the stops of others; may have been answered already."""
         self._marked: tuple[ConsoleSnapshot, ConsoleSnapshot] | None = None
-        """The last snapshot for which the key had another meaning, as given and as returned by `with_key`."""
+        """The last snapshot that `with_key` has changed, as given and as returned."""
 
     def pressed(self) -> None:
         """Hold the robot, or release it; a stop that nobody has acknowledged is sent again.
 
-        While the question whether to quit holds the robot, it is held by the person instead. The question whether to
-        release has keys of its own: pressed again meanwhile, this key leaves the robot held.
+        If the robot is held only while the console asks whether to quit, the key turns that into the person's own stop.
+        While the console asks whether to release the stops of others, which has its own keys, it keeps the robot held.
         """
         drive = self._console.snapshot().drive
         holds = self._quitting.keeps_held() or self._asking
@@ -49,7 +49,7 @@ class Stopping:
         self.hold()
 
     def with_key(self, snapshot: ConsoleSnapshot) -> ConsoleSnapshot:
-        """The snapshot; it says so if the key is a letter of a text field, or if a question lets it only hold."""
+        """The snapshot, marked if the stop key is a letter in a text field or can only hold while a question is open."""
         is_text, only_holds = self._typing(), self._asking or self._quitting.holding
         if not (is_text or only_holds):
             return snapshot
@@ -63,7 +63,7 @@ class Stopping:
         self._console.drive.stop(True)
 
     def release(self) -> None:
-        """Withdraw all stops, those of others after a question."""
+        """Release all stops, those of others only after a question."""
         drive = self._console.snapshot().drive
         others = [each for each in drive.stops if not each.here]
         if not drive.stopped_here and not others:

@@ -1,4 +1,4 @@
-"""Layouts as files, one each, and the last screen."""
+"""Stores layouts as files, one for each, and what the screen showed last."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ MAX_FILE_BYTES = 1_000_000
 
 
 class FileLayouts:
-    """Layouts in the user's folder, `<name>.yaml` each; the last screen in the state folder."""
+    """Stores layouts as `<name>.yaml` in the user's folder, and the last screen in the state folder."""
 
     def __init__(self, panes: Collection[str]) -> None:
         self._panes = panes
@@ -55,7 +55,7 @@ class FileLayouts:
         return str(path)
 
     def remember(self, name: str, tree: Tree | None) -> None:
-        """Save what is on the screen; a failure is ignored, since the program is about to end."""
+        """Save what the screen shows; a failure is ignored, since the program is about to end."""
         data: dict[str, object] = {"name": name}
         if tree is not None:
             data["layout"] = data_of(tree)

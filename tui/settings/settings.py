@@ -75,7 +75,7 @@ keys: {{}}
 
 @dataclass(frozen=True)
 class Settings:
-    """The contents of the settings file; `problems` lists what cannot be used, line by line."""
+    """The contents of the settings file; `problems` has a line for each value that cannot be used."""
 
     theme: str = "dark"
     glyphs: str = "auto"
@@ -88,14 +88,14 @@ class Settings:
     graph_hides: tuple[str, ...] = TOOL_NAMES
     """Patterns of the names of topics and nodes that the graph leaves out."""
     expected: str = ""
-    """The file with the rates that topics should have; empty: none."""
+    """The file with the expected rates of topics; empty: none."""
     restarts: bool = False
-    """Whether all processes that fail are restarted."""
+    """Whether every process that fails is restarted."""
     restart_policy: RestartPolicy = DEFAULT_RESTARTS
 
     @property
     def kept(self) -> SnapshotSize | None:
-        """How much of the last minutes is kept in memory; None: nothing."""
+        """How much of the last minutes is kept in memory; None: nothing is kept."""
         size = SnapshotSize(self.keep_minutes * 60, int(self.keep_megabytes * 1_000_000))
         return size if size.seconds and size.bytes else None
 

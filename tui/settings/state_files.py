@@ -1,4 +1,4 @@
-"""The memory of panes, as the user's files: alarms next to the settings, view state in the state folder."""
+"""Stores the state of panes in files: alarms next to the settings, everything else in the state folder."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from bot_console.tui.settings.yaml_reader import NotPlainData, read, written
 MAX_FILE_BYTES = 1_000_000
 """Maximum size of a file that is read; the console writes no larger one."""
 HEADS = {"alarms": "# Alarms of bot-console: conditions over topics and parameters, each with a name.\n"}
-"""The first lines of files that users may edit, too; these are in the settings folder."""
+"""The first lines of the files that users may edit as well; these are in the settings folder."""
 
 
 class StateFiles:
-    """One YAML file per name and, unless it is for people to edit, per system shown."""
+    """One YAML file per name; those that are not for users to edit are also separate for each system shown."""
 
     def __init__(self, system: str = "") -> None:
         self._system = f"{crc32(system.encode()):08x}"
@@ -35,7 +35,7 @@ class StateFiles:
             return None
 
     def put(self, name: str, data: object) -> str:
-        """Write the file."""
+        """Write the file; returns why that failed, or an empty text."""
         text = HEADS.get(name, "") + written(data, allow_unicode=True)
         try:
             save_file(self._path(name), text)

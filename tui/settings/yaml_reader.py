@@ -1,7 +1,7 @@
-"""The console's own files as plain data, in YAML; PyYAML is imported when the first of them needs it.
+"""Reads and writes the console's own files as plain data in YAML; PyYAML is imported when a file first needs it.
 
-That is a twentieth of the time to the first frame. What the program alone writes and reads at each start is JSON, which
-is YAML too.
+Importing it takes a twentieth of the time to the first frame. Files that only the program itself writes, and reads at
+each start, are JSON, which is also YAML.
 """
 
 from __future__ import annotations

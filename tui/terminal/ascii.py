@@ -1,4 +1,4 @@
-"""ASCII replacements for the console's characters, for terminals and locales that have no others. Pure."""
+"""ASCII replacements for the console's characters, for terminals and locales that have only ASCII. Pure."""
 
 from __future__ import annotations
 

@@ -15,9 +15,9 @@ from rich.segment import Segment
 from textual.dom import DOMNode
 
 MAX_CUTS = 512
-"""A few screens full."""
+"""Maximum number of cached cuts: enough for a few screens."""
 MAX_ANSWERS = 32
-"""More queries than a pane or a screen makes between two changes."""
+"""Maximum number of cached answers: more than a pane or a screen asks for between two changes."""
 
 
 def limit_cut_cache() -> None:

@@ -19,7 +19,7 @@ from textual.strip import Strip
 NARROW = re.compile(
     r"[\x20-\x7e\xa0-\xac\xae-\u02ff\u2190-\u21a8\u21ab-\u21ff\u2500-\u25fc\u2713\u2717\u2718\u2800-\u28ff]*"
 )
-"""Texts whose characters take one cell each in every terminal; arrows that are emoji, too, are not among them."""
+"""Matches texts whose characters all take one cell in every terminal; it excludes arrows that are also emoji."""
 
 ACTING = frozenset(("Cc", "Cf", "Cs"))
 """Categories of characters that terminals obey or that cannot be encoded: controls, formatting, surrogates."""
@@ -61,8 +61,8 @@ def _spread(text: str, characters: list[str]) -> None:
     for character in text:
         width = get_character_cell_size(character)
         if unicodedata.category(character) in ACTING:
-            # A character that acts on a terminal never reaches it, whoever drew it; if it has a width, it leaves a
-            # mark.
+            # A character that acts on a terminal never reaches it, whoever drew it; one with a width leaves a
+            # `UNSHOWN`.
             characters += [UNSHOWN] * max(0, width)
             continue
         if width:

@@ -15,9 +15,9 @@ LAST_WORDS = (
     "\x18\x1b[m\x1b[?2026l\x1b[?1000l\x1b[?1002l\x1b[?1003l\x1b[?1006l\x1b[?1015l\x1b[?1004l\x1b[?2004l\x1b[?7h\x1b[<u"
     "\x1b[?1049l\x1b[?25h"
 )
-"""Ends a sequence that was cut off, then every mode that Textual has set, in case the terminal responds again."""
+"""Ends a truncated sequence, then resets every mode that Textual has set, in case the terminal responds again."""
 FLUSH_TIMEOUT_S = 1.0
-"""Seconds for which a terminal may take to accept the remaining output."""
+"""Seconds that a terminal may take to accept the remaining output."""
 
 
 @contextlib.contextmanager
@@ -48,7 +48,7 @@ def _watch(writer: threading.Thread, done: threading.Event) -> None:
     # Kept for the last words, and to be restored: the descriptor itself is redirected to the null device.
     terminal = os.dup(descriptor)
     sink = os.open(os.devnull, os.O_WRONLY)
-    # An interrupted write is retried on the same descriptor, which is the null device now.
+    # An interrupted write is retried on the same descriptor, which is the null device by then.
     os.dup2(sink, descriptor)
     while writer.is_alive() and not done.wait(0.01):
         with contextlib.suppress(ProcessLookupError):

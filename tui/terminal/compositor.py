@@ -1,7 +1,7 @@
 """A compositor that asks widgets only for the lines to be drawn.
 
-Textual asks every widget within the bounding box of all changes for all of its lines: a figure in the first line and
-one in the last cost what the whole screen costs, ten times a second.
+Textual asks every widget within the bounding box of all changes for all of its lines: a number that changes in the
+first line and one in the last cost as much as the whole screen, ten times a second.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class PartwiseCompositor(Compositor):
         return ChopsUpdate(self._chops(spans), spans, [cuts[1:] for cuts in self.cuts])
 
     def render_full_update(self, simplify: bool = False) -> LayoutUpdate:
-        """The update of the whole screen; simplified, for a screenshot, as Textual does it."""
+        """The update of the whole screen; with `simplify`, for screenshots, Textual's own."""
         if simplify:
             return super().render_full_update(simplify)
         self._dirty_regions.clear()

@@ -1,4 +1,4 @@
-"""The content of the terminal, cell by cell, and the shortest output that turns it into something else."""
+"""The content of the terminal, cell by cell, and the shortest output that turns it into a new content."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class ShownScreen:
         return len(self._characters[0]) if self._characters else 0, len(self._characters)
 
     def update(self, lines: Iterable[tuple[int, Mapping[int, Strip | None]]], colours: ColorSystem) -> str:
-        """Apply new strips by line and column; returns the text that shows them, empty if they are shown already."""
+        """Apply new strips by line and column; returns the output that draws them, empty if they are drawn already."""
         writer = Writer()
         for y, pieces in lines:
             if 0 <= y < len(self._characters):
@@ -48,7 +48,7 @@ class ShownScreen:
         return writer.text()
 
     def _changed(self, y: int, pieces: Mapping[int, Strip | None], colours: ColorSystem) -> Iterator[tuple[int, Cells]]:
-        """The strips of a line that are neither identical nor equal to those of the last time."""
+        """The strips of a line that differ from those drawn last."""
         known = self._strips[y]
         if known.keys() != pieces.keys():
             # Strips that begin in other columns overwrite parts of the old ones, which are no longer comparable.
@@ -83,7 +83,7 @@ class ShownScreen:
 
 
 def _first_uneven(characters: list[str]) -> int:
-    """The first cell of which terminals may disagree how wide it is; the number of cells if there is none."""
+    """The index of the first cell on whose width terminals may disagree; the number of cells if there is none."""
     if NARROW.fullmatch("".join(characters).replace(UNKNOWN, BLANK)):
         return len(characters)
     certain = (each == UNKNOWN or (len(each) == 1 and NARROW.fullmatch(each)) for each in characters)
@@ -110,7 +110,7 @@ class Writer:
         self._x = x + 1
 
     def _style_of(self, character: str, style: str) -> str:
-        """The style in which to write a cell: for a blank, one that looks the same and takes the shortest change."""
+        """The style in which to write a cell: for a blank, the one with the shortest change that looks the same."""
         return style if character != BLANK or self._style is None else codes_for_blank(self._style, style)
 
     def _move(self, y: int, x: int, characters: list[str], styles: list[str]) -> None:

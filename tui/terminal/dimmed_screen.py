@@ -24,10 +24,10 @@ from textual.strip import Strip
 
 
 class DimmedScreen(MouseTargets, ModalScreen[None]):
-    """A modal screen that composes only changes, and takes the screen below as lines."""
+    """A modal screen that composes only changes, and draws the screen below it line by line."""
 
     _is_over = False
-    """Whether it was to be left while it was not in front."""
+    """Whether it was dismissed while another screen was in front of it."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -35,10 +35,10 @@ class DimmedScreen(MouseTargets, ModalScreen[None]):
             self._compositor = PartwiseCompositor()
 
     def dismiss(self, result: None = None) -> AwaitComplete:
-        """Leave the screen, once: Textual takes whatever is in front off the stack, each time.
+        """Leave the screen once: each call of Textual's own method removes whatever screen is in front.
 
-        Clicks and keys that were on their way still reach a screen that has been left; and one that is over while
-        another lies in front of it is left as soon as that is gone.
+        Clicks and keys that were under way still reach a screen that has been left, and may dismiss it again. A screen
+        that is dismissed while another is in front of it is left as soon as that one has gone.
         """
         if self.is_active:
             return super().dismiss(result)
@@ -46,7 +46,7 @@ class DimmedScreen(MouseTargets, ModalScreen[None]):
         return AwaitComplete()
 
     def on_screen_resume(self) -> None:
-        """Leave the screen if it is over."""
+        """Leave the screen if it was dismissed meanwhile."""
         if self._is_over:
             self.dismiss()
 

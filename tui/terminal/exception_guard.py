@@ -1,7 +1,6 @@
-"""Contains exceptions: a message pump of Textual ends with the first one that leaves a handler.
+"""Contains exceptions: without this, the first one that leaves a handler ends a message pump of Textual.
 
-This relies on private parts of Textual, as `output` does; if their names differ, an exception ends the app, as it does
-without this module.
+This relies on private parts of Textual, as `output` does; if their names differ, an exception ends the app.
 """
 
 from __future__ import annotations
@@ -40,13 +39,13 @@ class GuardedApp(SparingApp, StyledOnceApp):
         return self.contain(error, culprits_of(error))
 
     async def _shutdown(self) -> None:
-        # A timer calls what it is for in a task of its own, also while the screens are being dismantled.
+        # A timer runs its callback in a separate task, even while the screens are being removed.
         self._exit = True
         await super()._shutdown()
 
     async def _dispatch_message(self, message: Message) -> None:
         if not (self.is_running or isinstance(message, Unmount)):
-            return  # it came before the screens were dismantled, and would act on what is left of them
+            return  # sent before the screens were removed, it would act on what is left of them
         try:
             await super()._dispatch_message(message)
         except Exception as error:  # boundary of all drawing and input
@@ -58,7 +57,7 @@ class GuardedApp(SparingApp, StyledOnceApp):
             super()._handle_exception(error)
 
     def _fatal_error(self) -> None:
-        # While an app runs, what is written to `sys.stderr` goes to the log of the robot, which ends with the app.
+        # While an app runs, `sys.stderr` is redirected to the robot's log, which ends with the app.
         self.error_console = Console(file=sys.__stderr__, markup=False, highlight=False, soft_wrap=True)
         self._exit_renderables[:] = [Text(self.last_words(self._exception or RuntimeError("unknown")))]
         self._close_messages_no_wait()

@@ -1,4 +1,4 @@
-"""When the next frame may be drawn: as fast as the terminal accepts them, and no faster than a person needs. Pure."""
+"""Paces frames: as fast as the terminal accepts them, but no faster than a person needs. Pure."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ MAX_IN_FLIGHT = 2
 """The maximum number of frames that the terminal has not answered yet."""
 
 SLOW_ANSWER_S = 0.25
-"""Seconds; if an answer takes longer, one frame in flight keeps the line busy enough."""
+"""Seconds; if an answer takes longer, only one frame may be in flight, which keeps such a slow line busy."""
 
 FRAME_TIMEOUT_S = 2.0
 MIN_BYTES_PER_S = 2000.0
 """The lowest speed of a line in bytes per second, from which the wait for an answer is computed.
 
-The wait doubles after each answer that does not come, up to a minute, so that nothing piles up in front of a stalled
+The wait doubles after each missing answer, up to a minute, so that output does not pile up in front of a stalled
 terminal.
 """
 MAX_FRAME_TIMEOUT_S = 60.0
 
 MERGED_NEWS_S = 5.0
-"""Seconds for which merged frames are reported."""
+"""Seconds for which a merged frame is reported."""
 MIN_MERGED_FRAMES = 10
 
 
@@ -50,7 +50,7 @@ class AnswerGate:
         while self._asked and now >= self._asked[0][1]:
             self._asked.popleft()
             self._missing_answers += 1
-        # Held back only if it has ever answered: many terminals and recorders never do.
+        # Frames are held back only if the terminal has ever answered: many terminals and recorders never do.
         if self._answers and len(self._asked) >= self._allowed:
             return self._asked[0][1] - now
         if self.is_eager:

@@ -1,4 +1,4 @@
-"""Answers that the terminal still owes when it is left: without us, the shell would take them for typed text."""
+"""Reads the answers that the terminal still owes when the app leaves it; the shell would take them for typed text."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from typing import Any
 
 STATUS_QUESTION = "\x1b[5n"
 STATUS = b"\x1b[0n"
-"""The answer to it. A terminal answers in order, so all earlier answers come before."""
+"""The answer to `STATUS_QUESTION`. A terminal answers in order, so all earlier answers come before it."""
 LATE_ANSWERS_S = 0.8
-"""Seconds to wait for it; less than `closing` allows for the remaining output."""
+"""Seconds to wait for `STATUS`; less than `closing` allows for the remaining output."""
 
 
 def takes_late_answers(driver: Any, owes: Callable[[], bool]) -> None:
-    """Make a Linux driver of Textual read what the terminal still owes before it leaves the terminal."""
+    """Make Textual's Linux driver read the answers that the terminal still owes before it leaves the terminal."""
     leave = driver.stop_application_mode
 
     def stop() -> None:
         if owes():
-            driver.disable_input()  # ends the thread that would read the answers
+            driver.disable_input()  # ends the input thread, which would take the answers
             driver.write(STATUS_QUESTION)
             _read_until(driver.fileno, STATUS, time.monotonic() + LATE_ANSWERS_S)
         leave()

@@ -1,7 +1,7 @@
-"""What the mouse finds on a screen: nothing that has been removed since the screen was composed.
+"""Keeps the mouse from finding widgets that have been removed since the screen was composed.
 
-Textual (8.2) looks for text to select below a button that goes down, and fails at a widget without a parent, such as a
-notification that the first click of two has removed. That would end the app.
+When a mouse button goes down, Textual (8.2) looks for text to select there, and fails at a widget without a parent,
+such as a notification that the first click of two has removed. That would end the app.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from textual.widget import Widget
 
 
 class MouseTargets:
-    """A part of screens; it is no widget, so that the style sheets find the same classes as without it."""
+    """A mixin for screens; it is not a widget, so that style sheets match the same classes as without it."""
 
     def get_widget_and_offset_at(self, x: int, y: int) -> tuple[Widget | None, Offset | None]:
         """The widget at a position, and the position within its content; none for one that was removed."""

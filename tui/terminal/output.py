@@ -1,9 +1,9 @@
 """Sends the terminal only the cells that have changed, and no faster than it accepts them.
 
 Every frame comes through `App._display`. There it is reduced to the cells that differ from what the terminal shows, and
-followed by a question (`CSI 6n`, where is the cursor). While the terminal owes answers nothing more is drawn: what is
-dirty stays dirty and merges into one later frame, so that a slow link shows fewer frames, not late ones, and a stalled
-one never blocks the event loop.
+followed by a query (`CSI 6n`, the position of the cursor). While the terminal owes answers, nothing more is drawn:
+dirty regions stay dirty and merge into one later frame, so that a slow link shows fewer frames instead of late ones,
+and a stalled one never blocks the event loop.
 
 This file uses private parts of Textual 8.2; with another version (see `SUPPORTED`) the app draws as Textual does.
 """
@@ -60,7 +60,7 @@ def installed_version(package: str) -> str:
 
 
 MAX_CLIPBOARD_BYTES = 32_768
-"""Bytes of text: terminals drop larger ones whole, some from 74,994 characters of base64 on; a slow line is held up."""
+"""Maximum bytes of text: some terminals drop 74,994 and more characters of base64, and a slow line would be blocked."""
 
 
 def osc52(text: str) -> str:
@@ -100,11 +100,11 @@ class SparingApp(App[None]):
         self._input: InputQueue | None = None
 
     def get_default_screen(self) -> Screen[Any]:
-        """A screen that composes nothing while nothing may be drawn."""
+        """Return a screen that composes nothing while nothing may be drawn."""
         return HoldingScreen() if SUPPORTED else Screen[Any](id="_default")
 
     def ask(self) -> None:
-        """Query the terminal before the first frame, to learn whether it answers."""
+        """Send the terminal a query before the first frame, to learn whether it answers."""
         if self._sparing():
             self._driver_or_none().write(QUESTION)
             self.gate.asked(0)
@@ -145,7 +145,7 @@ class SparingApp(App[None]):
             driver.write(text)
 
     def redraw(self) -> None:
-        """Send every cell again: others have written to the terminal."""
+        """Send every cell again, since other programs have written to the terminal."""
         self._shown = ShownScreen(self.plain)
         self.refresh(repaint=True, layout=True)
 
@@ -183,7 +183,7 @@ class SparingApp(App[None]):
 
     def _build_driver(self, *args: Any, **kwargs: Any) -> Driver:
         driver: Any = super()._build_driver(*args, **kwargs)
-        # Drivers without a terminal, such as those for tests, have none.
+        # Drivers without a terminal, such as those for tests, have no file.
         if hasattr(driver, "_file"):
             # Otherwise Textual draws for 80x24 until it learns the size, which wastes the first frame.
             driver._size = driver._size or driver._get_terminal_size()
@@ -211,8 +211,8 @@ class SparingApp(App[None]):
         return max(OUTPUT_POLL_S if busy else 0.0, self.gate.wait())
 
     def _poll_again(self) -> None:
-        # Never 0: a batch that is held open would make the event loop spin. A timer of Textual's is a task: one
-        # for each frame that comes too early costs a fifth of a millisecond before it does anything.
+        # Never 0, since a batch that is held open would make the event loop spin. Not a timer of Textual: that is a
+        # task, and one for each frame that comes too early would cost a fifth of a millisecond.
         wait = max(0.005, min(self._waiting(), 0.5) if not self._batch_count else OUTPUT_POLL_S)
         asyncio.get_running_loop().call_later(wait, self.call_next, self._draw_held)
 
@@ -242,7 +242,7 @@ class SparingApp(App[None]):
         self.post_display_hook()
 
     def _difference(self, size: tuple[int, int], lines: Mapping[int, Mapping[int, Strip | None]]) -> str:
-        # A new writer means that the terminal was handed to another program meanwhile.
+        # A new writer thread means that the terminal was handed to another program meanwhile.
         writer = getattr(self._driver, "_writer_thread", None)
         if self._shown.size != tuple(size) or writer is not self._writer:
             self._writer = writer
@@ -285,7 +285,7 @@ class HoldingScreen(MouseTargets, Screen[None]):
         super()._compositor_refresh()
 
     def _pass_on(self) -> None:
-        # Textual notifies only the foremost screen of changes below it; those in between keep what they have drawn.
+        # Textual notifies only the foremost screen of changes below it; those in between would keep their old lines.
         compositor: Any = self._compositor
         dirty = compositor._dirty_regions
         between = self.app.screen_stack  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- as above
@@ -309,7 +309,7 @@ def _lines(update: ChopsUpdate | LayoutUpdate) -> dict[int, Mapping[int, Strip |
 
 
 def _pieces(update: ChopsUpdate) -> dict[int, Mapping[int, Strip | None]]:
-    # A line also has the parts beneath what was to be drawn: widgets that were not dirty are missing there.
+    # A line of chops also covers what lies beneath the drawn parts, where widgets that were not dirty are missing.
     lines: dict[int, dict[int, Strip | None]] = {}
     for y, begin, end in update.spans:
         drawn = update.chops[y]

@@ -1,11 +1,11 @@
-"""Descriptors of the console's own, which other code of this process and its children leave alone."""
+"""Private descriptors of the console, which neither other code of this process nor its children touch."""
 
 from __future__ import annotations
 
 import fcntl
 
 FIRST_DESCRIPTOR = 100
-"""The lowest number of our descriptors, beyond those that programs usually close or count."""
+"""The lowest number of a private descriptor, beyond those that programs usually close or count."""
 
 
 def private_duplicate(descriptor: int) -> int:

@@ -11,7 +11,7 @@ OFF = {"1": "22", "2": "22", "3": "23", "4": "24", "5": "25", "6": "25", "7": "2
 
 
 LINES = frozenset(("4", "7", "9", "21", "53"))
-"""The attributes that a blank shows, too: lines and exchanged colours."""
+"""The attributes that are visible on a blank too: lines and exchanged colours."""
 
 
 class SgrStyle(NamedTuple):
@@ -58,7 +58,7 @@ def change(before: str | None, after: str) -> str:
     if not ended <= OFF.keys():
         return whole
     stops = sorted({OFF[each] for each in ended})
-    # Bold and faint share one end code, so that ending one of them ends both.
+    # Bold and faint share one end code, which ends both.
     kept = {each for each in old.attributes & new.attributes if OFF.get(each) not in stops}
     codes = [*stops, *sorted(new.attributes - kept)]
     if new.ground != old.ground:
@@ -73,7 +73,7 @@ def change(before: str | None, after: str) -> str:
 
 @lru_cache(maxsize=4096)
 def codes_on_blank(codes: str) -> str:
-    """The part of a style that a blank shows: its background, but all of it if there are lines or exchanged colours."""
+    """The part of a style that is visible on a blank: the background, or all of it with lines or exchanged colours."""
     style = parsed(codes)
     return codes if style.attributes & LINES else style.background
 

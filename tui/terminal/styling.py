@@ -1,7 +1,7 @@
 """A style sheet that matches the rules for a part of a widget (a component class) when the part is first drawn.
 
-Textual matches them for each part of each widget whenever the widget is styled, mostly for lists that are not visible
-yet. If the private parts of Textual have other names, all parts are styled as Textual does it.
+Textual matches them for every part of a widget whenever the widget is styled, mostly for lists that are not visible
+yet. If Textual's private parts have other names, Textual styles all parts itself.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class Rules(RuleSet):
 
 
 class PartwiseStylesheet(Stylesheet):
-    """A style sheet that leaves the parts of a `StyledByPart` to the widget."""
+    """A style sheet that leaves styling the parts of a `StyledByPart` to that widget."""
 
     def _parse_rules(self, *css: Any, **how: Any) -> list[RuleSet]:
         rules: list[RuleSet] = super()._parse_rules(*css, **how)
@@ -43,7 +43,7 @@ class PartwiseStylesheet(Stylesheet):
 
 
 class StyledByPart(Widget):
-    """A widget whose parts are styled as they are drawn, and that itself is styled once for all lines of a frame."""
+    """A widget whose parts are styled when they are drawn; its own style is computed once for all lines of a frame."""
 
     _own_style: Style | None = None
 
@@ -74,7 +74,8 @@ class StyledByPart(Widget):
     def part_style(self, name: str) -> Style:
         """The style of a part by the rules alone, without the widget's own; cached until they are matched again.
 
-        Textual drops it with every redraw, even of a single character. Raises `KeyError` as above.
+        Textual's own cache is cleared with every redraw, even of a single character. Raises `KeyError` for a name that
+        is not in `COMPONENT_CLASSES`.
         """
         style = self._drawn_parts.get(name)
         if style is None:
@@ -103,7 +104,7 @@ class StyledByPart(Widget):
 
 
 class StyledOnceApp(App[None]):
-    """An app whose style sheets are parsed in the colours of its theme from the start."""
+    """An app whose style sheets are parsed only once, with the colours of the chosen theme."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -120,7 +121,7 @@ class StyledOnceScreen(Screen[Any]):
     _was_shown = False
 
     def update_node_styles(self, animate: bool = True) -> None:
-        """Match the rules again for this screen and its widgets, except when it is first shown, as they just were."""
+        """Match the rules again for this screen and its widgets, except when it is first shown: they have just been."""
         is_shown = self.stack_updates > 0
         if self._was_shown or not is_shown:
             super().update_node_styles(animate)

@@ -1,4 +1,4 @@
-"""Leaving the terminal to another program for a while: an editor, or the shell on Ctrl-Z.
+"""Hands the terminal to another program for a while: to an editor, or on Ctrl-Z to the shell.
 
 The robot is stopped first.
 """
@@ -26,7 +26,7 @@ ASLEEP = "bot-console was put to sleep (Ctrl-Z)"
 
 
 class Leaving:
-    """Leaves the terminal and comes back to it."""
+    """Hands over the terminal and takes it back."""
 
     def __init__(self, app: App[None], console: Console, redraw: Callable[[], None], *, holds: bool) -> None:
         """`holds`: whether to hold the robot while the console is suspended; only a console that may release it may
@@ -85,12 +85,12 @@ class Leaving:
 
 
 def takes_up_again(driver: Any) -> None:
-    """Let a Linux driver of Textual continue after any stop, even an unnoticed one (SIGSTOP, a debugger).
+    """Let Textual's Linux driver continue after any suspension, even an unnoticed one (SIGSTOP, a debugger).
 
-    Textual sets the terminal up at each SIGCONT. If it had not been left before, a second thread would read the
-    keys alongside the first one: each gets some of them, and the end waits forever for the one that got nothing.
-    That is done from the running event loop, not in the signal handler: the code that it interrupts may hold the lock
-    of the queue of what is to be written, and would wait for itself.
+    Textual sets up the terminal at each SIGCONT. If the app has not left the terminal before, a second thread would
+    then read keys alongside the first one: each would get some of them, and at the end the app would wait forever for
+    the first. So this leaves the terminal first, from the event loop and not in the signal handler: the interrupted
+    code may hold the lock of the output queue, for which the handler would wait forever.
     """
     set_up = driver.resume_application_mode
     loop = asyncio.get_running_loop()
@@ -132,9 +132,9 @@ def takes_up_again(driver: Any) -> None:
 
 
 def leaves_an_empty_screen(driver: Any) -> None:
-    """Make a Linux driver of Textual clear the alternate screen before it leaves it.
+    """Make Textual's Linux driver clear the alternate screen before leaving it.
 
-    tmux moves full rows of it into the shell's screen if the terminal was enlarged meanwhile.
+    If the terminal was enlarged meanwhile, tmux would move non-empty rows of it into the shell's screen.
     """
     leave = driver.stop_application_mode
 

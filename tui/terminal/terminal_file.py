@@ -1,4 +1,4 @@
-"""Output to a terminal that is gone is discarded, so that nothing waits for it."""
+"""The output file of a terminal; once the terminal is gone, output is discarded, so that nothing waits for it."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ RETRY_S = 1.0
 class TerminalFile:
     """The file of a terminal that accepts text even after the terminal has gone or was made non-blocking.
 
-    Textual's writer ends with the first error. Nothing empties its queue then, and every write waits forever, at the
-    end of the app, too. The non-blocking flag is shared by all programs that have the terminal open: any of them may
-    set it, and then a full terminal raises an error, although it still exists.
+    Textual's writer thread ends with the first error. Its queue is not emptied any more, so that every write waits
+    forever, even at the end of the app. The non-blocking flag is shared by all programs that have the terminal open:
+    any of them may set it, and then writing to a full terminal raises an error, although the terminal still exists.
     """
 
     def __init__(self, file: TextIO) -> None:
         self._file = file
         self.gone = False
         with contextlib.suppress(OSError):
-            file.flush()  # writes here bypass it
+            file.flush()  # writes to the descriptor bypass the file's buffer
 
     def write(self, text: str) -> int:
         """Write text, unless the terminal has gone; waits while the terminal is full."""
@@ -47,7 +47,7 @@ class TerminalFile:
         """Do nothing: writes are unbuffered."""
 
     def isatty(self) -> bool:
-        """Whether it was a terminal."""
+        """Whether it was a terminal when it was opened."""
         return self._file.isatty()
 
     def fileno(self) -> int:

@@ -1,6 +1,6 @@
-"""A screen on which hidden widgets cost no drawing: Textual lays out and composes a screen whatever changes in it.
+"""A screen on which hidden widgets cause no drawing; Textual lays out and composes a screen for any change in it.
 
-A new hidden pane, or a change in one, would otherwise delay keys as much as a change of everything visible. This relies
+Otherwise a new hidden pane, or a change in one, would delay keys as much as a change of everything visible. This relies
 on private parts of Textual, as `output` does.
 """
 
@@ -16,13 +16,13 @@ from textual.widget import Widget
 
 
 class VisibleScreen(Screen[Any]):
-    """A screen that ignores layouts and updates of hidden widgets, as showing one lays the screen out anyway."""
+    """A screen that ignores layout and update messages of hidden widgets: showing one lays out the screen anyway."""
 
     def check_message_enabled(self, message: Message) -> bool:
-        """Keep layouts and updates of hidden widgets out of the queue.
+        """Keep layout and update messages of hidden widgets out of the queue.
 
-        In the queue, Textual replaces a layout by the one after it, whatever widget that is for: a hidden one's would
-        take the place of one that is needed.
+        In the queue, Textual replaces a layout message by the next one, whichever widget that is from, so that one of a
+        hidden widget would replace one that is needed.
         """
         if isinstance(message, messages.Layout):
             unneeded = self._is_hidden(message.widget) or _is_within_hidden(message.widget)
@@ -31,7 +31,7 @@ class VisibleScreen(Screen[Any]):
         return not unneeded and super().check_message_enabled(message)
 
     def _is_hidden(self, widget: Widget) -> bool:
-        """Whether a widget is hidden and was when the screen was last laid out."""
+        """Whether a widget is hidden, and was already when the screen was last laid out."""
         return widget.styles.display == "none" and widget not in self._compositor.widgets
 
 
@@ -40,7 +40,7 @@ def _is_within_hidden(widget: Widget) -> bool:
 
 
 async def mount_unseen(parent: Widget, widget: Widget, before: Widget | None) -> None:
-    """Mount a widget that is not displayed, and wait until it is mounted, without laying the screen out for it."""
+    """Mount a widget that is not displayed and wait until it is mounted, without laying out the screen for it."""
     if not SUPPORTED:
         await parent.mount(widget, before=before)
         return

@@ -1,4 +1,4 @@
-"""Makes text encodable as UTF-8, for text that came from other bytes. Pure."""
+"""Makes text that may come from other bytes encodable as UTF-8. Pure."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ _NO_BYTE = re.compile("[\ud800-\udc7f\udd00-\udfff]")
 
 
 def encodable(text: str) -> str:
-    """The text with U+FFFD in place of what UTF-8 cannot encode.
+    """The text with U+FFFD in place of characters that UTF-8 cannot encode.
 
-    Arguments, environment variables and file names may contain surrogates that stand for bytes (PEP 383). Bytes that
-    are UTF-8 after all, as under a locale that is not, become their characters.
+    Arguments, environment variables and file names may contain surrogates that stand for bytes (PEP 383). Those whose
+    bytes are UTF-8 after all, as happens under a locale with another encoding, become the characters.
     """
     try:
         text.encode()

@@ -1,4 +1,4 @@
-"""How a launched process ended, in words. Pure."""
+"""Describes how a launched process ended. Pure."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ ENDED = (ProcessState.EXITED, ProcessState.CRASHED)
 
 
 def ending_text(process: ProcessInfo, now: int) -> str:
-    """When and how a process ended, such as "ended 3 s ago: exit code 1"; empty if it has not run or runs.
+    """When and how a process ended, such as "ended 3 s ago: exit code 1"; empty if it is running or never ran.
 
     `now` is in ns since the epoch.
     """
@@ -32,7 +32,7 @@ def exit_text(code: int) -> str:
 
 
 def endings_of_nodes(processes: Iterable[ProcessInfo], now: int) -> dict[str, str]:
-    """How each node whose process is known to have ended did so; a node that runs in another process has not."""
+    """Describe the ending of each node whose process is known to have ended, unless it also runs in another process."""
     known = [(name, process) for process in processes for name in process.nodes]
     found = {name: text for name, process in known if (text := ending_text(process, now))}
     alive = {name for name, process in known if name in found and not ending_text(process, now)}

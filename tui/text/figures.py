@@ -1,13 +1,13 @@
-"""Rates, sizes and times in a few cells. Pure."""
+"""Formats rates, sizes and times in a few cells. Pure."""
 
 from __future__ import annotations
 
 STEADY = 0.03
-"""Relative difference from the figure shown from which on it is updated."""
+"""Relative difference from the shown number at which it is updated."""
 
 
 def steady(shown: float | None, now: float | None) -> float | None:
-    """The figure to show: the previous one while the new one is about the same, so that nothing flickers."""
+    """The number to show: the previous one while the new one is about the same, so that it does not flicker."""
     if shown is None or now is None or shown == 0 or now == 0:
         return now
     return shown if abs(now - shown) <= STEADY * abs(shown) else now
@@ -55,7 +55,7 @@ def age_text(age: float | None) -> str:
 
 
 def span_text(seconds: float | None) -> str:
-    """A short time in microseconds, milliseconds or seconds, with two or three digits."""
+    """A short duration in microseconds, milliseconds or seconds, with two or three digits."""
     if seconds is None:
         return ""
     size = abs(seconds)

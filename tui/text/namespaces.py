@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 MIN_MEMBERS = 2
-"""Names that a namespace has at least to be worth folding."""
+"""Minimum number of names in a namespace that is worth folding."""
 
 
 def outermost(names: Iterable[str], above: str = "") -> frozenset[str]:
-    """The namespaces directly below one, or below the root, with enough members to be folded.
+    """The namespaces directly below `above`, or below the root, with enough members to be folded.
 
-    A single one for everything says nothing: where one namespace holds all names, those in it stand for them.
+    If a single namespace contains all the names, folding it would say nothing: the namespaces within it are returned.
     """
     below = [each for each in names if each.startswith(f"{above}/")]
     counts: dict[str, int] = {}

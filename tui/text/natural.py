@@ -17,6 +17,6 @@ def natural_key(name: str) -> NaturalKey:
 
 
 def _piece(text: str) -> tuple[bool, int, str]:
-    """Numbers are compared by their length first, since one in a name of a stranger may be too long to be converted."""
+    """The key of a piece; numbers are compared as digits, by length first, since one may be too long to convert."""
     digits = text.lstrip("0")
     return (False, len(digits), digits) if text[0] in "0123456789" else (True, 0, text)

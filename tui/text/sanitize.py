@@ -7,9 +7,9 @@ import unicodedata
 from rich.cells import cell_len, set_cell_size
 
 WIDE_MARK = "\ufe0f"
-"""Requests the coloured form of a symbol; terminals disagree whether that is one cell wide or two."""
+"""Requests the coloured form of a symbol; terminals disagree on whether that is one cell wide or two."""
 MAX_LINES, MAX_CHARACTERS = 6, 400
-"""The maximum of what a notification shows; the log and the panes have the rest."""
+"""Maximum lines and characters of a notification; the log and the panes show the whole text."""
 
 
 def counted(number: int, word: str) -> str:
@@ -45,9 +45,7 @@ def cut(text: str, width: int, *, pad: bool = False) -> str:
 
 
 def cut_name(name: str, width: int, *, pad: bool = False) -> str:
-    """A ROS name of at most `width` cells; a longer one loses its middle, since both ends distinguish it from
-    others.
-    """
+    """A ROS name of at most `width` cells; the middle of a longer one is cut out, since both ends are distinctive."""
     if cell_len(name) > width >= 3:
         before = (width - 1) // 3
         end = len(name)

@@ -48,7 +48,7 @@ def _is_in_unit(text: str, at: int) -> bool:
 
 
 def factor(typed: str, wanted: str) -> float:
-    """The factor for a number in the typed unit; raises `ValueError` for a unit that does not fit."""
+    """The factor that converts a number from the typed to the wanted unit; raises `ValueError` if it cannot."""
     typed, wanted = typed.replace("^2", "²"), wanted.replace("^2", "²").replace("s^2", "s²")
     if typed == wanted:
         return 1.0

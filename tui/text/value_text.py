@@ -11,7 +11,7 @@ from bot_console.tui.text.yaml_flow import is_plain, quoted
 def value_text(value: Value, *, exact: bool = False) -> str:
     """A parameter's value on one line: arrays in YAML's flow syntax, a text as it is.
 
-    With `exact` no digit of a double is left out.
+    With `exact`, doubles have all their digits.
     """
     if value is None:
         return "not set"
@@ -31,7 +31,7 @@ def _element_text(value: bool | int | float | str | bytes, exact: bool) -> str:
 
 
 def yaml_text(text: str) -> str:
-    """A text as YAML reads it back, in double quotes where it needs them."""
+    """A text as YAML that reads back as this text, in double quotes if it needs them."""
     return text if is_plain(text) else quoted(text)
 
 

@@ -8,10 +8,10 @@ UNREADABLE = (yaml.YAMLError, ValueError, TypeError, AttributeError, LookupError
 
 
 def fault_of(error: Exception) -> str:
-    """The fault, on one line, with the line number if it is known."""
+    """Describe the error on one line, with the line number if it is known."""
     mark = getattr(error, "problem_mark", None)
     where = f"line {mark.line + 1}: " if mark else ""
     if isinstance(error, yaml.YAMLError):
-        # YAML's character reader has a reason, its parser a problem.
+        # Errors of YAML's character reader have a `reason`, those of its parser a `problem`.
         return where + str(getattr(error, "problem", None) or getattr(error, "reason", None) or "cannot be read")
     return "nested too deeply" if isinstance(error, RecursionError) else "has a value that its tag does not allow"

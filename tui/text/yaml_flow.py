@@ -1,4 +1,4 @@
-"""YAML's flow syntax on one line: quoted texts, and lists of scalars. Standard library only."""
+"""Reads and writes YAML's flow syntax on one line: quoted texts, and lists of scalars. Standard library only."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def is_plain(text: str) -> bool:
 
 
 def quoted(text: str) -> str:
-    """A text in double quotes, with escapes for what cannot be printed."""
+    """A text in double quotes, with escapes for unprintable characters."""
     return '"' + "".join(each if each.isprintable() and each not in _NAMED else _escaped(each) for each in text) + '"'
 
 
@@ -53,7 +53,7 @@ def in_quotes(text: str) -> bool:
 
 
 def items(text: str) -> Iterator[tuple[str, bool]]:
-    """The elements of a list such as `[a, "b, d"]`, each with whether it stood in quotes; raises `ValueError`.
+    """The elements of a list such as `[a, "b, d"]`, each with whether it was quoted; raises `ValueError`.
 
     The brackets may be left out.
     """

@@ -1,4 +1,4 @@
-"""A tuning in progress: asks the search for settings, runs them in parallel, and keeps the table."""
+"""A tuning job: asks the search for settings, runs them in parallel, and keeps the table of results."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from bot_console.tui.tuning.tunable import Setting
 
 
 class Runner(Protocol):
-    """Runs the simulator; the report of a run that failed has `problem`."""
+    """Runs the simulator; the report of a run that failed has a key `problem`."""
 
     def begin(self, specification: TuningSpecification, trial: Trial) -> Future[Mapping[str, Any]]:
         """Start a run as soon as there is capacity."""
@@ -30,7 +30,7 @@ class SettingResult:
 
     setting: Setting
     score: float
-    """The mean over its runs; minus infinity if one failed."""
+    """The mean score of its runs; minus infinity if one failed."""
     scores: tuple[float, ...] = ()
     collisions: int = 0
     problem: str = ""
@@ -42,7 +42,7 @@ class Progress:
     """The progress of a tuning job; the same object until something has changed."""
 
     rows: tuple[SettingResult, ...] = ()
-    """Settings in the order in which they were tried; the first is the one before the tuning."""
+    """The settings in the order in which they were tried; the first is the initial one."""
     done: int = 0
     runs: int = 0
     """The maximum number of runs, including those on held-out seeds."""
@@ -51,7 +51,7 @@ class Progress:
     fresh: int = 0
     """Runs made by this job, not taken from the journal."""
     held_out: tuple[SettingResult, SettingResult] | None = None
-    """The setting before the tuning and the best one, on held-out seeds."""
+    """The initial setting and the best one, evaluated on held-out seeds."""
     ended: bool = False
     problem: str = ""
     """Why it ended early; empty if it did not."""
@@ -102,7 +102,7 @@ class TuningJob:
             if best is not None and specification.held_out and not self._stopped:
                 both = (self._rows[0].setting, best.setting)
                 chosen = [*self._judge({each: specification.held_out_trials(each) for each in both})]
-                held_out = (chosen[0], chosen[-1])  # one, if nothing was better than before
+                held_out = (chosen[0], chosen[-1])  # the same one, if no setting was better than the initial one
             problem = "stopped" if self._stopped else self._all_failed()
         except _Stopped:
             problem = "stopped"
@@ -186,4 +186,4 @@ class TuningJob:
 
 
 class _Stopped(Exception):
-    """The job was asked to stop."""
+    """Raised when the job was asked to stop."""

@@ -1,4 +1,4 @@
-"""The protocol by which panes start a tuning, whoever makes the runs."""
+"""The protocol by which panes start a tuning job, independent of how the runs are made."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ NO_TUNER = "Tuning is not available: this console is read-only, or has no simula
 
 
 class Tuning(Protocol):
-    """A tuning in the background. No method blocks."""
+    """A tuning job in the background. No method blocks."""
 
     @property
     def progress(self) -> Progress:
@@ -21,16 +21,16 @@ class Tuning(Protocol):
         ...
 
     def stop(self) -> None:
-        """Stop early; results so far are kept, and a tuning with an equal specification resumes from them."""
+        """Stop early; results so far are kept, and a job with an equal specification resumes from them."""
         ...
 
     def save(self, name: str, setting: Setting) -> Answer:
-        """Save the tuned system, with a setting, as one of the user's profiles."""
+        """Save the tuned profile with the values of a setting as one of the user's profiles."""
         ...
 
 
 class Tuner(Protocol):
-    """Makes runs of the simulated robot."""
+    """Starts tuning jobs, which run the simulated robot."""
 
     def problem(self, specification: TuningSpecification) -> str:
         """Why the specification cannot be run; empty if it can."""

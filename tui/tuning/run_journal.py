@@ -1,4 +1,4 @@
-"""The journal of a tuning: one line per run, on disk as soon as the run has ended, so that none is repeated."""
+"""The journal of a tuning job: one line per run, on disk as soon as the run has ended, so that no run is repeated."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from bot_console.tui.tuning.specification import Trial, TuningSpecification
 
 
 class TuningJournal:
-    """The reports of runs by trial. A line that a crash has cut short is left out; that run is repeated.
+    """The reports of runs by trial. A line that a crash has truncated is ignored, and that run is repeated.
 
     Methods raise `OSError` if the file cannot be read or written.
     """
 
     def __init__(self, folder: Path, specification: TuningSpecification, *, resume: bool) -> None:
-        """Start empty or, with `resume`, with what the last tuning with an equal specification has left."""
+        """Start empty or, with `resume`, with the reports that the last job with an equal specification has left."""
         self.path = folder / f"{specification.digest}.jsonl"
         self._reports: dict[str, Mapping[str, Any]] = {}
         folder.mkdir(parents=True, exist_ok=True)
@@ -30,7 +30,7 @@ class TuningJournal:
         """The number of runs found at the start."""
 
     def _read(self) -> int:
-        """Read the existing reports; returns how many bytes of the file are whole lines."""
+        """Read the existing reports; returns the number of bytes up to the end of the last valid line."""
         if not self.path.exists():
             return 0
         whole = 0

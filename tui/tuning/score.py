@@ -1,4 +1,4 @@
-"""The score of a run: a formula over the figures of its report and over topics; higher is better."""
+"""Scores a run by a formula over the figures of its report and over topics; higher is better."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class Score:
     formula: str
     """The formula, with `topic0`, `topic1` ... in place of functions of topics."""
     topics: tuple[tuple[str, str], ...] = ()
-    """The statistic and path of each of these."""
+    """The statistic and path that each of these names stands for."""
 
     @property
     def paths(self) -> tuple[str, ...]:
@@ -74,7 +74,7 @@ class Score:
 
 
 def figures(report: Mapping[str, Any]) -> dict[str, Number]:
-    """The figures of a report by name; no clearance means that nothing ever came near."""
+    """The figures of a report by name; one that is None, such as the clearance if nothing came near, is infinite."""
     known = {name: report.get(name) for name in FIGURES}
     return {name: math.inf if value is None else value for name, value in known.items()}
 
@@ -97,8 +97,8 @@ def parse_score(text: str) -> Score:
     try:
         evaluate(formula, trial)
     except ValueError as error:
-        # The formula is tried with ones, for which it may well divide by zero; only what can never be right is refused
-        # here.
+        # The formula is tried with ones, with which even a valid one may divide by zero: refuse only what can never
+        # be valid.
         if "division" not in str(error) and "negative" not in str(error):
             raise
     return score

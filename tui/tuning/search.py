@@ -1,7 +1,7 @@
-"""Which settings to try next: on a grid, at random, or closer and closer to the best. Pure and repeatable.
+"""Chooses the settings to try next: on a grid, at random, or closer and closer to the best. Pure and repeatable.
 
-A search produces one generation at a time, from the seed and the settings tried so far: nothing depends on how many
-runs there are in parallel, nor on which of them ends first.
+A search produces one generation at a time from the seed and the settings tried so far. It depends neither on how many
+runs are made in parallel nor on which of them ends first.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ FIRST_WIDTH_SHARE = 0.2
 NARROWING_FACTOR = 0.8
 """Factor by which the width shrinks with each generation."""
 MAX_ATTEMPTS = 20
-"""Attempts at finding a setting that was not tried before."""
+"""Maximum attempts at finding a setting that was not tried before."""
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ def next_settings(
 
 
 def _grid(tunables: Sequence[Tunable], budget: int, seed: int, tried: Sequence[TriedSetting]) -> Sequence[Setting]:
-    """Evenly spaced values; as many for each tunable as the budget allows."""
+    """All combinations of evenly spaced values, with as many values of each tunable as the budget allows."""
     levels = grid_levels(tunables, budget - 1)
     settings: list[Setting] = [()]
     for tunable, count in zip(tunables, levels, strict=True):
@@ -88,9 +88,9 @@ def _spread(tunables: Sequence[Tunable], count: int, chance: random.Random) -> l
 
 
 def _adaptive(tunables: Sequence[Tunable], budget: int, seed: int, tried: Sequence[TriedSetting]) -> Sequence[Setting]:
-    """A third of the budget is spread; then each generation steps around the best, ever narrower.
+    """Spread a third of the budget over the ranges; then step around the best settings in ever smaller steps.
 
-    Half of a generation starts from the best setting, half from the middle of the best quarter.
+    Half of a generation starts from the best setting, the other half from the mean of the best quarter.
     """
     first = max(1, (budget - 1) // 3)
     if len(tried) <= first:

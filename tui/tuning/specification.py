@@ -12,7 +12,7 @@ from bot_console.tui.tuning.score import Score
 from bot_console.tui.tuning.tunable import Setting, Tunable
 
 HELD_OUT = 1_000
-"""Added to the seed for held-out runs, which only evaluate: no setting is chosen by them."""
+"""Added to the seed for held-out runs, which evaluate the result: no setting is chosen by them."""
 
 
 @dataclass(frozen=True)
@@ -32,19 +32,19 @@ class Trial:
 
 @dataclass(frozen=True)
 class TuningSpecification:
-    """The subject of a search, and the runs that it takes."""
+    """What a tuning job varies and scores, and the runs that it makes."""
 
     tunables: tuple[Tunable, ...]
     score: Score
     profile: str = "indoor"
-    """A name, or the path of a parameter file."""
+    """The name of a profile, or the path of a parameter file."""
     worlds: tuple[str, ...] = ("",)
     runs: int = 60
     """The total number of simulator runs, without those on held-out seeds."""
     seeds: int = 3
     """The number of seeds for each setting, in each world."""
     held_out: int = 5
-    """Further seeds, on which the best setting is compared with the present one at the end."""
+    """The number of further seeds, on which the best setting is compared with the initial one at the end."""
     seed: int = 1
     """The first seed of the simulator, and the seed of the search."""
     duration: float = 60.0
@@ -53,7 +53,7 @@ class TuningSpecification:
     arguments: Mapping[str, str] = field(default_factory=dict[str, str])
     """Launch arguments."""
     base: Mapping[str, Mapping[str, Any]] = field(default_factory=dict[str, Mapping[str, Any]])
-    """Values on top of the profile's, by node and name: those of a running system."""
+    """Values of a running system, by node and name, that override the profile's."""
 
     @property
     def settings(self) -> int:
@@ -80,12 +80,12 @@ class TuningSpecification:
     def digest(self) -> str:
         """An id of everything a run's report depends on, and of the order of the runs."""
         fields = asdict(self)
-        fields["dials"] = fields.pop("tunables")  # as in earlier releases, whose journals are still found
+        fields["dials"] = fields.pop("tunables")  # the name in earlier releases, so that their journals are still found
         text = json.dumps(fields, sort_keys=True, default=str)
         return hashlib.blake2b(text.encode(), digest_size=8).hexdigest()
 
     def problem(self) -> str:
-        """The problem with the numbers; empty if there is none."""
+        """What is wrong with the numbers; empty if nothing is."""
         if self.seeds < 1 or self.held_out < 0 or not self.duration > 0:
             return "seeds and duration must be positive"
         per = self.seeds * len(self.worlds)

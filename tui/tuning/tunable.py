@@ -29,11 +29,11 @@ class Tunable:
     """The value without tuning."""
     unit: str = ""
     allowed: Range | None = None
-    """The descriptor's range, whose step the values keep to."""
+    """The range of the descriptor, whose step the values follow; None if there is none."""
 
     @property
     def label(self) -> str:
-        """Node and name, as typed."""
+        """Node and name, as users type them."""
         return f"{self.node}:{self.name}"
 
     @property
@@ -44,7 +44,7 @@ class Tunable:
         return self._points or int(math.floor(self.high) - math.ceil(self.low)) + 1
 
     def at(self, share: float) -> TunableValue:
-        """The value at a fraction (0 to 1) of the range; beyond these, the nearer end."""
+        """The value at a fraction of the range, limited to 0 to 1."""
         value = self.low + share * (self.high - self.low)
         if self.kind == "double":
             return self._on_step(min(self.high, max(self.low, round(value, self._digits()))))
@@ -71,12 +71,12 @@ class Tunable:
         return math.floor((self.high - allowed.low) / step) - math.ceil((self.low - allowed.low) / step) + 1
 
     def share(self, value: TunableValue) -> float:
-        """The position of a value in the range, 0 to 1; the middle if the range is a point."""
+        """The position of a value in the range, 0 to 1; 0.5 if the range is a single value."""
         span = self.high - self.low
         return min(1.0, max(0.0, (float(value) - self.low) / span)) if span else 0.5
 
     def between(self, low: float, high: float) -> Tunable:
-        """The tunable with a narrower range; raises `ValueError` for one that is empty or exceeds the descriptor's."""
+        """The tunable with a narrower range; raises `ValueError` if that is empty or exceeds the present one."""
         if not (math.isfinite(low) and math.isfinite(high) and low <= high):
             raise ValueError(f"{self.name}: {low:g}..{high:g} is not a range; the lower end comes first")
         if low < self.low or high > self.high:

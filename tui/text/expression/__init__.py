@@ -1,1 +1,1 @@
-"""Arithmetic that people type, over numbers or over curves; it is parsed here and never run as Python."""
+"""Arithmetic over numbers or curves, as people type it; it is parsed here and never run as Python."""

@@ -1,4 +1,4 @@
-"""Evaluates expressions of numbers, and runs nothing else."""
+"""Evaluates expressions of numbers without running them as code."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from bot_console.tui.text.sanitize import cut
 Number: TypeAlias = "int | float"
 
 MAX_BITS = 400
-"""Maximum bits of an integer, so that no typing error keeps the console busy."""
+"""Maximum bits of an integer, so that a typing error cannot keep the console busy."""
 
 DECIMAL_COMMA = re.compile(r"[+-]?\d*,\d+")
 
