@@ -1,1 +1,1 @@
-"""Courses in the console: their files, the conditions of their steps, what a student has done, and grading."""
+"""Courses in the console: their files, the conditions of their steps, a student's progress, and grading."""

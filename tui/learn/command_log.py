@@ -1,9 +1,9 @@
 """The command lines of a domain's terminals, recorded while a lesson is open in that domain.
 
-The lesson makes the file, and each `bot-console` or `ros2` command appends a line to it when it starts and when it
-ends; without the file nothing is recorded. It is in the domain's own folder, which no other user can read.
+The lesson creates the file, and each `bot-console` or `ros2` command appends a line when it starts and another when it
+ends; without the file, nothing is recorded. The file is in the domain's folder, which no other user can read.
 
-Every command imports this module, so its own imports are few.
+Every command imports this module, so it imports little itself.
 """
 
 from __future__ import annotations
@@ -22,19 +22,19 @@ from bot_console.runtime.rmw.zenoh.domain.folder import base_folder, domain_fold
 
 NAME = "commands.jsonl"
 MAX_WORDS, MAX_WORD_CHARACTERS = 40, 200
-"""Of a command line, what is recorded."""
+"""Maximum recorded words of a command line, and characters of a word."""
 SETTLING_S = 3.0
-"""Seconds for which one of `LASTING` has to run before it counts as one that works: until then it may still fail."""
+"""Seconds for which one of the `LASTING` commands has to run before it counts as working, since it may still fail."""
 LASTING = frozenset(("run", "launch", "topic", "bag"))
-"""Commands that last until somebody ends them; others have worked when they have ended."""
+"""Commands that run until somebody ends them; other commands count as having worked when they have ended."""
 MAX_ERROR_CHARACTERS = 500
-"""Of the end of what a command writes to stderr."""
+"""Maximum characters of the end of a command's stderr that are recorded."""
 MAX_BYTES = 4_000_000
-"""The size from which nothing more is recorded."""
+"""The size of the file at which recording stops."""
 ENDED_BY_SIGNAL = (128 + signal.SIGINT, 128 + signal.SIGTERM)
 """Exit codes of commands after Ctrl-C and SIGTERM."""
 UNRECORDED = frozenset(("--version", "complete", "learn", "release", "stop"))
-"""Commands that no step asks for, or that nothing may delay."""
+"""Commands that are not recorded: no step asks for them, or nothing may delay them."""
 
 
 class Command(NamedTuple):
@@ -44,26 +44,26 @@ class Command(NamedTuple):
     code: int | None = None
     settled: bool = True
     errors: str = ""
-    """The end of its error output, for commands whose exit code does not say whether they had success."""
+    """The end of its error output, for commands whose exit code does not say whether they have succeeded."""
 
     @property
     def works(self) -> bool:
-        """Whether it has done what it was asked for, or is doing it."""
+        """Whether it has succeeded, or has been running long enough to count as working."""
         return not self.failed if self.code is not None else self.settled and not LASTING.isdisjoint(self.verb[:1])
 
     @property
     def failed(self) -> bool:
-        """Whether it ended with an error. Ctrl-C and SIGTERM end a program that works."""
+        """Whether it ended with an error; the end by Ctrl-C or SIGTERM is not one."""
         return self.code not in (None, 0, *ENDED_BY_SIGNAL)
 
     @property
     def verb(self) -> tuple[str, ...]:
-        """Its words from the verb on: a leading `ros2` changes nothing."""
+        """Its words from the verb on, without a leading `ros2`."""
         return self.words[1:] if self.words[:1] == ("ros2",) else self.words
 
 
 def open_log() -> str:
-    """Begin to record the commands of this domain, in a new file; raises `FolderRefusedError`."""
+    """Start recording the commands of this domain in a new file; returns its path, raises `FolderRefusedError`."""
     path = os.path.join(domain_folder(domain_id()), NAME)
     with open(path, "w", encoding="utf-8"):
         os.chmod(path, 0o600)
@@ -71,7 +71,7 @@ def open_log() -> str:
 
 
 def log_for(words: Sequence[str]) -> str:
-    """Return the file in which a command is to be recorded; empty if no lesson is open. Costs one file system call."""
+    """Return the path of the file to record a command in; empty if no lesson is open. Costs one file system call."""
     if not words or words[0] in UNRECORDED:
         return ""
     try:
@@ -82,14 +82,14 @@ def log_for(words: Sequence[str]) -> str:
 
 
 class ErrorTail:
-    """Stands for stderr, and keeps the end of what is written to it."""
+    """Replaces stderr, and keeps the end of what is written to it."""
 
     def __init__(self, stream: TextIO) -> None:
         self._stream = stream
         self.text = ""
 
     def write(self, text: str) -> int:
-        """Write a text."""
+        """Write a text to the real stream."""
         self.text = (self.text + text)[-MAX_ERROR_CHARACTERS:]
         return self._stream.write(text)
 
@@ -99,10 +99,11 @@ class ErrorTail:
 
 @contextmanager
 def recorded(words: Sequence[str]) -> Generator[Callable[[int], int]]:
-    """Record a command line if a lesson is open; what is yielded takes the exit code and returns it.
+    """Record a command line if a lesson is open; yields a function that takes the exit code and returns it.
 
-    An interrupted command is recorded with the code that shells use for Ctrl-C: that of `ros2` is also that of a wrong
-    command line. As in ROS 2, `param set` ends with 0 when the node has refused: only its error output tells.
+    An interrupted command is recorded with the exit code that shells use for Ctrl-C, since `ros2` exits with the same
+    code as after wrong usage. As in ROS 2, `param set` exits with 0 when the node has refused the value, so its error
+    output is recorded as well.
     """
     path = log_for(words)
     if not path:
@@ -126,7 +127,7 @@ def recorded(words: Sequence[str]) -> Generator[Callable[[int], int]]:
 
 
 def record(path: str, words: Sequence[str], code: int | None, errors: str = "") -> None:
-    """Append a command; one that cannot be recorded is left out, since it must not fail for that."""
+    """Append a command; errors are ignored, since a command must not fail because it cannot be recorded."""
     import json
 
     kept = [each[:MAX_WORD_CHARACTERS].encode("utf-8", "replace").decode() for each in words[:MAX_WORDS]]
@@ -143,7 +144,7 @@ def record(path: str, words: Sequence[str], code: int | None, errors: str = "") 
 def read_log(path: str, now: float = float("inf")) -> list[Command]:
     """Return the commands until `now` (s since 1970), in the order in which they started.
 
-    Lines that cannot be read are left out.
+    Unreadable lines are skipped.
     """
     import json
 
@@ -163,7 +164,7 @@ def read_log(path: str, now: float = float("inf")) -> list[Command]:
         command = Command(words, code if isinstance(code, int) else None, settled, errors)
         started = found.get((pid, words))
         if started is not None and (started.code is not None or command.code is None):
-            found[number] = command  # another process with the same id, or another start of the same words
+            found[number] = command  # another process with the same id, or the same command started again
         else:
             found[pid, words] = command
     return list(found.values())

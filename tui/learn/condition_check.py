@@ -1,4 +1,4 @@
-"""Whether a condition holds, and if not, what is missing: the texts are those of `lint` and of the runtime's hints."""
+"""Checks whether a condition holds, and says what is missing if not, in the texts of `lint` and the runtime's hints."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ def missing(
     *,
     driven_before: float = 0.0,
 ) -> str:
-    """The missing part, in a sentence; empty if the condition holds. `names` gets the names that `as` introduces.
+    """What is missing, in a sentence; empty if the condition holds. Names that `as` introduces are added to `names`.
 
-    `driven_before` is the distance (m) that does not count, since the robot drove it before it was asked to.
+    `driven_before` is the distance (m) that does not count, since the robot drove it before the step asked for it.
     """
     words = [with_names(each, names) for each in condition.words]
     if condition.verb == "saw-node":
@@ -43,7 +43,7 @@ def missing(
 
 
 def with_names(text: str, names: Mapping[str, str]) -> str:
-    """A text with `{name}` replaced by what the name stands for; other braces stay as they are."""
+    """The text with `{name}` replaced by the value of the name; other braces are kept."""
     for name, value in names.items():
         text = text.replace(f"{{{name}}}", value)
     return text

@@ -1,4 +1,4 @@
-"""The conditions of a step: one per line, a verb with its words. Parsed here, checked by `condition_check.py`. Pure."""
+"""The conditions of a step, one per line: a verb and its words. Parsed here, checked by `condition_check.py`. Pure."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from bot_console.tui.pane_table import PANES
 
 
 class Verb(NamedTuple):
-    """The form of a condition: its usage, how many words it takes, and whether once seen is enough."""
+    """The form of a condition: its usage, and the least and most words that it takes."""
 
     usage: str
     least: int
     most: int
     once: bool
-    """True for deeds, which stay done; False for states, which can be lost again."""
+    """True for deeds, which stay done once they were seen; False for states, which can be lost again."""
 
 
 VERBS: Mapping[str, Verb] = {
@@ -46,15 +46,15 @@ VERBS: Mapping[str, Verb] = {
     "expect-parameter-file": Verb("expect-parameter-file PATTERN [PARAMETER [VALUE]]", 1, 3, False),
     "expect-no-findings": Verb("expect-no-findings PATTERN (of lint)", 1, 1, False),
 }
-"""The words that a condition may begin with. `saw-` is a deed, `expect-` a state of the workspace."""
+"""The verbs of conditions: `saw-` for a deed, `expect-` for a state of the workspace."""
 PANE_WORDS = frozenset(("overview", *(each.id for each in PANES)))
 PLUGIN = "plugin_"
-"""The beginning of the name of a pane of another package."""
+"""The prefix of the name of a pane from another package."""
 
 
 @dataclass(frozen=True)
 class Condition:
-    """One line: its verb and words, and `hint`, what to say while it does not hold; empty for the judge's own text."""
+    """One line: its verb and words, and `hint`, which is added to what is missing while it does not hold."""
 
     verb: str
     words: tuple[str, ...]
@@ -64,12 +64,12 @@ class Condition:
 
     @property
     def once(self) -> bool:
-        """Whether it stays fulfilled."""
+        """Whether it stays fulfilled once it has been."""
         return VERBS[self.verb].once
 
 
 def read_condition(text: str, line: int = 0) -> Condition:
-    """Read `VERB WORD ... [-- hint]`; raises `ValueError` with the line for anything else."""
+    """Parse `VERB WORD ... [-- hint]`; raises `ValueError`, with the line number, for anything else."""
     before, _, hint = text.partition(" -- ")
     try:
         words = shlex.split(before)
@@ -87,7 +87,7 @@ def read_condition(text: str, line: int = 0) -> Condition:
 
 
 def _wrong(verb: str, words: tuple[str, ...]) -> str:
-    """The problem with the words of a verb; empty if there is none."""
+    """The expected form of the words after a verb if they are wrong; empty if they are valid."""
     if verb == "saw-move":
         return "" if re.fullmatch(r"\d+(\.\d+)?", words[0]) else "a length in m"
     if verb == "saw-pane":

@@ -1,7 +1,7 @@
-"""Courses: a folder of Markdown files, each a chapter, with steps that know when they are done. Pure but for reading.
+"""Reads courses: folders of Markdown files, one per chapter, with steps that have conditions. Pure except for reading.
 
-The form is documented in `docs/courses.md`: `# Title` begins a chapter, `## Title` a step; a fence `step` holds the
-step's conditions, a fence `grade` a row of the grading; any other fence is something to type or to write.
+The format is documented in `docs/courses.md`: `# Title` begins a chapter, `## Title` a step; a fence `step` contains
+the step's conditions, a fence `grade` a row of the grading; any other fence is a snippet to type or to write.
 """
 
 from __future__ import annotations
@@ -15,20 +15,20 @@ from bot_console.tui.learn.condition_syntax import Condition, read_condition
 from bot_console.tui.learn.grade_row import GradeRow, read_grade_row
 
 COURSES = Path(__file__).parent / "courses"
-"""The courses that come with the program, by name."""
+"""The folder of the courses that come with the program, each in a folder of its name."""
 INDEX = "course.md"
-"""The file with the course's title; what it says besides is its introduction."""
+"""The file with the course's title; the rest of it is the introduction."""
 MAX_FILE_BYTES = 1_000_000
 FENCE = re.compile(r"^(`{3,}|~{3,})\s*(\S*)\s*(.*?)\s*$")
 
 
 class CourseError(ValueError):
-    """A mistake in a course; its text begins with the file and the line."""
+    """A mistake in a course; the message says where, and how to fix it."""
 
 
 @dataclass(frozen=True)
 class Snippet:
-    """Something to type into a shell, or to write into the file `path` (relative to the workspace)."""
+    """A text to type into a shell or, with `path` (relative to the workspace), to write into a file."""
 
     text: str
     path: str = ""
@@ -36,7 +36,7 @@ class Snippet:
 
 @dataclass(frozen=True)
 class Step:
-    """One step: `id` is unique in its course and stays the same while its title does."""
+    """One step; `id` is derived from the title and unique in the course."""
 
     id: str
     title: str
@@ -57,13 +57,13 @@ class Chapter:
 
 @dataclass(frozen=True)
 class Course:
-    """A whole course."""
+    """A course, with all its chapters."""
 
     name: str
     title: str
     chapters: tuple[Chapter, ...]
     defaults: dict[str, str] = field(default_factory=dict[str, str])
-    """Names that texts use as `{name}`, until the student's own are known."""
+    """Values of the names that texts use as `{name}`, until the student's own are known."""
 
     def steps(self) -> list[Step]:
         """All steps, in order."""
@@ -129,7 +129,7 @@ def _text(path: Path) -> str:
 
 @dataclass
 class _Part:
-    """A heading with what stands below it."""
+    """A heading and the content below it."""
 
     title: str
     line: int

@@ -1,4 +1,4 @@
-"""The deeds that conditions ask about: what a person has done in a system and on its domain's command lines. Pure."""
+"""The deeds that conditions ask for: what a person has done in a system and with its domain's command lines. Pure."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from bot_console.tui.learn.command_log import Command
 from bot_console.tui.text.value_text import value_text
 
 MAX_STEP_M = 1.0
-"""A greater distance between two snapshots is a robot that was moved elsewhere."""
+"""A greater distance between two snapshots does not count as driven: the robot was placed somewhere else."""
 
 LOOKING = frozenset(("-h", "--help", "-p", "--print", "--print-description", "-s", "--show-args", "--show-arguments"))
-"""Options of `launch` with which nothing is launched."""
+"""Options with which `launch` only prints something."""
 
 REFUSED = "Setting parameter failed"
 """The beginning of `param set`'s message when the node refuses a value."""
 
 
 class Launched(NamedTuple):
-    """A launch file of the workspace that was launched: its path there, and its text at that time.
+    """A launch file of the workspace that was launched: its path in the workspace, and its text at that time.
 
-    `command` is the number of the command line that did it; -1: it was started from the Launch pane.
+    `command` is the index of the command line that launched it; -1 if it was started from the Launch pane.
     """
 
     file: str
@@ -35,11 +35,11 @@ class Launched(NamedTuple):
 
 @dataclass
 class Deeds:
-    """Everything seen since the lesson was opened; things are only added."""
+    """Everything seen since the lesson was opened; nothing is ever removed."""
 
     nodes: set[str] = field(default_factory=set[str])
     parameters: dict[tuple[str, str], ParameterInfo] = field(default_factory=dict[tuple[str, str], ParameterInfo])
-    """By node and name, as seen last."""
+    """The parameters by node and name, as seen last."""
     changes: list[Change] = field(default_factory=list[Change])
     commands: list[Command] = field(default_factory=list[Command])
     launched: list[Launched] = field(default_factory=list[Launched])
@@ -56,7 +56,7 @@ class Deeds:
     """The launch files that the console listed last."""
 
     def observe(self, snapshot: ConsoleSnapshot) -> None:
-        """Take in a snapshot of the console."""
+        """Add what a snapshot of the console shows."""
         self.nodes |= {each.name for each in snapshot.graph.nodes if not each.hidden}
         self.topics |= {each.name for each in snapshot.graph.topics}
         for tree in snapshot.parameters.values():
@@ -74,7 +74,7 @@ class Deeds:
     def add_launches(
         self, listed: Sequence[str], commands: Sequence[Command], find: Callable[[str], Sequence[tuple[str, str]]]
     ) -> None:
-        """Take in what the Launch pane lists and all commands so far, with the launch files as they are now.
+        """Add the launches that are new in the Launch pane and among all commands so far, with the files' present text.
 
         `find` returns the path and text of each file of the workspace that a word may name.
         """
@@ -87,39 +87,40 @@ class Deeds:
         self.commands = [*commands]
 
     def add_changes(self, changes: Iterable[Change]) -> None:
-        """Take in entries of the journal that were made while the lesson was open.
+        """Add entries of the journal that were made while the lesson was open.
 
-        What a node has come back with was set by nobody, and one that has not answered has refused nothing.
+        Values that a node has after a restart are left out, since nobody set them, and so are those that a node has not
+        answered, since it has not refused them.
         """
         self.changes += [each for each in changes if each.seq >= 0 and each.by != RESTARTED and each.answered]
 
     def started_with(self) -> set[str]:
-        """The words with which a robot was started in the background, among them its profile."""
+        """The arguments of every `up` that works, among them the profile."""
         return {word for each in self.commands if each.verb[:1] == ("up",) and each.works for word in each.verb[1:]}
 
     def values_of(self, name: str) -> Sequence[ParameterInfo]:
-        """The parameters of all nodes with that name."""
+        """The parameters of that name, of all nodes."""
         return [each for (_, own), each in self.parameters.items() if own == name]
 
     def refusals(self, name: str) -> list[str]:
-        """The reasons for which a value of a parameter was refused."""
+        """The reasons for which values of a parameter were refused."""
         here = [each.reason for each in self.changes if each.name == name and not each.accepted]
         lines = [each.errors for each in self.commands if is_set_of(each, name)]
         return here + [each.rpartition(REFUSED)[2].strip(": \n") for each in lines if REFUSED in each]
 
     def values_set(self, name: str) -> list[str]:
-        """The values that somebody has set, as texts; last those that the nodes have reported, in their order."""
+        """The values that somebody has set, as texts: those of command lines, then the changes that the console saw."""
         reported = [value_text(each.new) for each in self.changes if each.name == name and each.accepted]
         lines = [each for each in self.commands if each.code == 0 and is_set_of(each, name)]
         return [each.words[-1] for each in lines if REFUSED not in each.errors] + reported
 
 
 def is_set_of(command: Command, name: str) -> bool:
-    """Whether a command line is `param set NODE NAME VALUE`, of `ros2` or not."""
+    """Whether a command line is `param set NODE NAME VALUE`, with or without `ros2`."""
     plain = [each for each in command.verb if not each.startswith("--")]
     return plain[:2] == ["param", "set"] and len(plain) >= 5 and plain[3] == name
 
 
 def names_of(found: Mapping[tuple[str, str], ParameterInfo]) -> list[str]:
-    """The names of parameters, without those that every node has."""
+    """The sorted names of parameters, without those that every node has."""
     return sorted({name for _, name in found if name != "use_sim_time" and not name.startswith("qos_overrides.")})

@@ -1,4 +1,4 @@
-"""The student's workspace: its files and packages, as conditions ask for them."""
+"""The files and packages of a student's workspace, for conditions."""
 
 from __future__ import annotations
 
@@ -13,26 +13,26 @@ from bot_console.runtime.workspace.package import Package
 
 SKIPPED = frozenset(("build", "install", "log", "__pycache__", "node_modules"))
 MAX_FILES = 5000
-"""Files of a workspace that are read."""
+"""Maximum number of files of a workspace that are listed."""
 MAX_FILE_BYTES = 1_000_000
 
 
 class WorkspaceFiles:
-    """A workspace at one moment: make another one to see later changes."""
+    """The state of a workspace when this object was made; later changes need another one."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self._files = sorted(_below(folder))
         self.stamp = hash(tuple((str(each), _changed(each)) for each in self._files))
-        """A number that differs for a workspace in which a file was added, removed or written."""
+        """A hash that changes when a file of the workspace is added, removed or written."""
 
     def matching(self, pattern: str) -> list[Path]:
-        """The files whose path within the workspace ends with a pattern of shells, such as `config/*.yaml`."""
+        """The files whose path within the workspace ends with a shell pattern such as `config/*.yaml`."""
         wanted = f"*/{pattern.lstrip('/')}"
         return [each for each in self._files if fnmatch.fnmatch(f"/{each.relative_to(self.folder)}", wanted)]
 
     def newest(self, found: Sequence[Path]) -> Path:
-        """The one of several files that was written last: the one that is being worked on."""
+        """The file that was written last: the one that is being worked on."""
         return max(found, key=_changed)
 
     def named(self, word: str) -> list[tuple[str, str]]:
@@ -50,19 +50,19 @@ class WorkspaceFiles:
 
     @cached_property
     def packages(self) -> list[Package]:
-        """The packages, the one that was changed last first."""
+        """The packages, most recently changed first."""
         found = Workspace(list(default_folders(self.folder))).packages.values()
         root = self.folder.resolve()
         inside = [each for each in found if root in (each.folder.resolve(), *each.folder.resolve().parents)]
         return sorted(inside, key=lambda each: -_changed(each.folder))
 
     def package_name(self, usual: str) -> str:
-        """The student's package: the one that the course calls so, else the one that was changed last; else `usual`."""
+        """The name of the student's package: `usual` if it exists or nothing else does, else the one changed last."""
         found = [each.name for each in self.packages]
         return usual if usual in found else next(iter(found), usual)
 
     def name_of(self, path: Path) -> str:
-        """The path of a file within the workspace, for texts."""
+        """The path of a file within the workspace, for messages."""
         return str(path.relative_to(self.folder))
 
 

@@ -1,4 +1,4 @@
-"""Rows of a grading: what to start, a script of `bot-console check` to run on it, and runs in simulated time. Pure."""
+"""The rows of a grading: what to start, the script of `bot-console check` to run on it, and simulated runs. Pure."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from bot_console.tui.cli.check.stepped import USAGE
 from bot_console.tui.learn.condition_syntax import VERBS, Condition, read_condition
 
 STARTERS = ("run", "launch")
-"""The commands with which a line that starts something begins."""
+"""The first words of lines that start something."""
 DRIVE = re.compile(r"drive (\d+) s (.+?) (?:>|more than) (\d+(?:\.\d+)?) m")
 DRIVE_USAGE = "drive SECONDS s PACKAGE FILE [NAME:=VALUE ...] > METRES m"
 
 
 class Drive(NamedTuple):
-    """A run in simulated time, with a fixed seed: what is launched, for how long, and how far the robot has to get."""
+    """A run in simulated time with a fixed seed: how long, what is launched, and how far the robot has to drive (m)."""
 
     seconds: int
     words: tuple[str, ...]
@@ -28,7 +28,7 @@ class Drive(NamedTuple):
 
 @dataclass(frozen=True)
 class GradeRow:
-    """A row: its points, states of files, what to start, and the script that is run on it."""
+    """A row: its points, conditions on files, what to start, the script that is run on it, and simulated runs."""
 
     title: str
     points: float
@@ -38,13 +38,13 @@ class GradeRow:
     drives: tuple[Drive, ...] = ()
     line: int = 0
     extra: bool = False
-    """Whether its points come on top: a workspace passes without it."""
+    """Whether it gives extra points, without which a workspace passes too."""
 
 
 def read_grade_row(about: str, body: Sequence[str], line: int) -> GradeRow:
-    """Read a fence `grade POINTS Title`, or `grade +POINTS Title` for extra points.
+    """Parse a fence `grade POINTS Title`, or `grade +POINTS Title` for extra points.
 
-    Raises `ValueError` with the line of a mistake.
+    Raises `ValueError` with the line number of a mistake.
     """
     head, _, title = about.partition(" ")
     try:

@@ -1,4 +1,4 @@
-"""Grades a workspace by the rows of a course: each in a fresh copy and a domain of its own."""
+"""Grades a workspace by the rows of a course, each in a fresh copy of the workspace and a separate domain."""
 
 from __future__ import annotations
 
@@ -27,29 +27,29 @@ SEED = 1
 CHECK = '$BOT_CONSOLE check "$HOME/script" --json --wait {wait} --seed {seed} {starts} > "$HOME/report"'
 DRIVE = '$BOT_CONSOLE --headless --fast --seed {seed} --duration {seconds} --launch {words} > "$HOME/report"'
 EXPLAINING_LINES = 3
-"""How many of the last lines of a program's output explain a failure."""
+"""Number of the last lines of a program's output that are quoted to explain a failure."""
 
 
 @dataclass(frozen=True)
 class RowResult:
-    """A row and why it failed; an empty text if it passed."""
+    """A row, and why it failed; `why` is empty if it passed."""
 
     row: GradeRow
     why: str
 
     @property
     def points(self) -> float:
-        """The points it got."""
+        """The points achieved."""
         return 0.0 if self.why else self.row.points
 
     @property
     def failed(self) -> bool:
-        """Whether the workspace does not pass for it."""
+        """Whether the workspace does not pass because of this row."""
         return bool(self.why) and not self.row.extra
 
 
 def grade(course: Course, workspace: Path, *, allow_network: bool = False) -> Iterator[RowResult]:
-    """The results, row by row; raises `NoSandboxError` if it cannot be isolated."""
+    """Yield the result of each row; raises `NoSandboxError` if the workspace's programs cannot be isolated."""
     for row in course.rows():
         with tempfile.TemporaryDirectory(prefix="bc-grade-", ignore_cleanup_errors=True) as folder:
             sandbox = make_sandbox(workspace, Path(folder), allow_network=allow_network)
@@ -63,7 +63,7 @@ def _why(row: GradeRow, sandbox: Sandbox, course: Course) -> str:
         if why := missing(condition, Deeds(), files, names):
             return why.replace(f"{sandbox.workspace}", "the workspace")
     if not files.packages and _starts_package(row):
-        return NO_PACKAGE  # else what is installed under the same name would be graded
+        return NO_PACKAGE  # otherwise an installed package of the same name would be graded
     if row.script and (why := _script(row, sandbox, names)):
         return why
     return next((why for each in row.drives if (why := _drive(each, sandbox, names))), "")
@@ -127,7 +127,7 @@ def _explained(why: str, done: Finished) -> str:
 
 
 def row_text(result: RowResult) -> str:
-    """A row of the table: passed or not, points, the row and why it failed."""
+    """A row of the printed table: passed or not, points, title, and why it failed."""
     mark = "FAIL" if result.failed else "-   " if result.why else "ok  "
     plus = "+" if result.row.extra else ""
     why = f"\n           {result.why}" if result.why else ""
@@ -135,7 +135,7 @@ def row_text(result: RowResult) -> str:
 
 
 def sum_text(results: Sequence[RowResult]) -> str:
-    """The points of all rows, and apart from them the extra points."""
+    """The sum of the points, and separately that of the extra points, if there are any."""
     extra = f", {_points(results, extra=True):g} of {_most(results, extra=True):g} extra points"
     has_extra = any(each.row.extra for each in results)
     return f"{_points(results):g} of {_most(results):g} points{extra if has_extra else ''}"
@@ -167,7 +167,7 @@ def as_json(course: Course, results: Sequence[RowResult]) -> dict[str, Any]:
 
 
 def as_junit(course: Course, results: Sequence[RowResult]) -> str:
-    """The results as a report of JUnit; extra points that were not got are skipped tests."""
+    """The results as a JUnit report; rows with extra points that failed are skipped tests."""
     failures, skipped = sum(each.failed for each in results), sum(each.row.extra and bool(each.why) for each in results)
     counts = {"tests": str(len(results)), "failures": str(failures), "skipped": str(skipped)}
     suite = ElementTree.Element("testsuite", {"name": course.name, **counts})

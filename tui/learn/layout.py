@@ -1,4 +1,4 @@
-"""The layout of a course: the lesson beside the other panes, or as one line below them."""
+"""The layout for a course: the lesson beside the other panes, or in a narrow row below them."""
 
 from __future__ import annotations
 
@@ -39,17 +39,17 @@ LESSON = Layout(
 
 @dataclass
 class WithLesson:
-    """The user's layouts, and the one of the course."""
+    """A layout store with the user's layouts and the one for courses."""
 
     store: LayoutStore
 
     def layouts(self) -> Mapping[str, Layout]:
-        """All of them; the user's own take precedence."""
+        """All layouts; the user's own take precedence."""
         return {NAME: LESSON, **self.store.layouts()}
 
     def save(self, name: str, tree: Tree) -> str:
-        """Save a tree under a name, without the lesson: a console without a course has none. Raises `NotSaved`."""
+        """Save a tree without the lesson, which a console without a course does not have; raises `NotSaved`."""
         return self.store.save(name, close(tree, NAME) or tree)
 
     def remember(self, name: str, tree: Tree | None) -> None:
-        """Keep the user's last layout as it was before the course."""
+        """Do nothing, so that the user's last layout stays as it was before the course."""

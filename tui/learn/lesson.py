@@ -1,4 +1,4 @@
-"""A course that is being worked through: which steps are done, and what the one that is shown waits for."""
+"""A course in progress: which steps are done, and what the shown step waits for."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ POLL_S = 1.0
 
 
 class CourseLesson:
-    """Judges all steps, whichever is shown: steps may be done in any order, and are open again when a state is lost."""
+    """Checks all steps, not only the shown one: they may be done in any order, and open again when a state is lost."""
 
     def __init__(
         self,
@@ -31,7 +31,7 @@ class CourseLesson:
         commands: str = "",
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        """`commands` is the file in which the command lines of the domain are recorded; empty if none are."""
+        """`commands` is the path of the file that records the domain's command lines; empty if none does."""
         self.course = course
         self._workspace = workspace
         self._commands = commands
@@ -40,11 +40,11 @@ class CourseLesson:
         self._files = WorkspaceFiles(workspace)
         self._polled_at = float("-inf")
         self._states: dict[str, str] = {}
-        """By condition on files, what is missing in the files as they are."""
+        """For each condition on files, what is missing in the present files."""
         self._driven_before: dict[str, float] = {}
-        """By step, how far (m) the robot had driven when only its driving was left to do."""
+        """For each step, how far (m) the robot had driven when nothing but driving was left to do."""
         self._missing: dict[str, list[str]] = {}
-        """By step, what each condition misses; an empty text is a condition that holds."""
+        """For each step, what each of its conditions misses; empty for a condition that holds."""
         self.progress: Progress = read_progress(workspace, course.name)
         self._steps = course.steps()
         self._at = next((n for n, each in enumerate(self._steps) if each.id == self.progress.at), 0)
@@ -53,9 +53,9 @@ class CourseLesson:
             self._at = self._next_open()
 
     def observe(self, snapshot: ConsoleSnapshot, changes: Iterable[Change], screen: OnScreen) -> Sequence[str]:
-        """Take in what has happened, and return the titles of the steps that this has completed.
+        """Record what has happened, and return the titles of the steps that this has completed.
 
-        If the step being shown is among them, the next open one is shown.
+        If the shown step is among them, the next open one is shown.
         """
         self._deeds.observe(snapshot)
         self._deeds.add_changes(changes)
@@ -84,7 +84,7 @@ class CourseLesson:
         return not any(self._missing[step.id])
 
     def view(self) -> LessonView:
-        """The step to show now."""
+        """Return the step to show now."""
         step = self._steps[self._at]
         waits = tuple(
             (
@@ -106,7 +106,7 @@ class CourseLesson:
         )
 
     def go(self, by: int) -> None:
-        """Show the step so many further on, done or not; 0: the next that is open."""
+        """Show the step `by` steps further on, done or not; with 0, the next open one."""
         if by:
             self._at = max(0, min(len(self._steps) - 1, self._at + by))
         else:

@@ -1,4 +1,4 @@
-"""The interface of a lesson that the lesson pane needs: plain data, and the few things that its keys do. Pure."""
+"""The interface between a lesson and its pane: plain data, and the operations of the pane's keys. Pure."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from bot_console.tui.console.model import Change, ConsoleSnapshot
 
 @dataclass(frozen=True)
 class LessonView:
-    """The step that is shown: where it stands, its text, what to type or to write, and what it waits for."""
+    """The step that is shown: its place in the course, its text, its snippets, and its conditions."""
 
     chapter: str
     title: str
     number: int
-    """Counted from 1, among `total` steps."""
+    """The number of the step among `total` steps, from 1."""
     total: int
     done: int
-    """How many of all steps are done."""
+    """The number of steps that are done."""
     text: str = ""
     snippets: tuple[tuple[str, str], ...] = ()
-    """File (empty: for the shell) and text of each."""
+    """Each as a file and a text; the file is empty for a text to type into the shell."""
     waits: tuple[tuple[bool, str], ...] = ()
-    """Each condition of the step: whether it holds, and what it asks for or what is missing."""
+    """Each condition of the step: whether it holds, and what then is true or what is missing."""
     problem: str = ""
-    """Why the progress is not kept; empty if it is."""
+    """Why the progress cannot be saved; empty if it can."""
 
     @property
     def is_done(self) -> bool:
@@ -36,7 +36,7 @@ class LessonView:
 
 @dataclass(frozen=True)
 class OnScreen:
-    """The deeds of a person in the console, as far as no snapshot shows them."""
+    """What a person has done in the console that no snapshot shows."""
 
     panes: frozenset[str] = frozenset()
     """The panes that were opened."""
@@ -46,16 +46,16 @@ class OnScreen:
 
 
 class Lesson(Protocol):
-    """A course that is being worked through."""
+    """A course in progress."""
 
     def observe(self, snapshot: ConsoleSnapshot, changes: Iterable[Change], screen: OnScreen) -> Sequence[str]:
-        """Take in what has happened; the titles of steps that are done since."""
+        """Record what has happened, and return the titles of the steps that this has completed."""
         ...
 
     def view(self) -> LessonView:
-        """The step to show now."""
+        """Return the step to show now."""
         ...
 
     def go(self, by: int) -> None:
-        """Show the step so many further on, done or not; 0: the first that is open."""
+        """Show the step `by` steps further on, done or not; with 0, the next open one."""
         ...

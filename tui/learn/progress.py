@@ -1,4 +1,4 @@
-"""The progress of a student, kept in the workspace so that it moves with it."""
+"""A student's progress, saved in the workspace so that it moves with the workspace."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ VERSION = 1
 
 @dataclass
 class Progress:
-    """The deeds that have been seen, by step; the names that the student uses; and the step that was shown last."""
+    """The conditions fulfilled in each step, the names that the student uses, and the step that was shown last."""
 
     path: Path
     held: dict[str, list[str]] = field(default_factory=dict[str, list[str]])
     names: dict[str, str] = field(default_factory=dict[str, str])
     at: str = ""
     problem: str = ""
-    """Why it could not be read or written; empty if it could."""
+    """Why the progress could not be read or saved; empty if it could."""
 
     def save(self) -> None:
-        """Save it; `problem` says why that failed."""
+        """Save the progress; `problem` says why that failed."""
         text = json.dumps({"version": VERSION, "at": self.at, "held": self.held, "names": self.names}, indent=1)
         try:
             save_file(self.path, text)
@@ -34,7 +34,7 @@ class Progress:
 
 
 def read_progress(workspace: Path, course: str) -> Progress:
-    """The progress of a course; an empty one for a file that cannot be read, which then is not written over."""
+    """The progress of a course; empty progress in a new file if the file cannot be read, which is not overwritten."""
     path = workspace / FOLDER / f"{course}.json"
     progress = Progress(path)
     try:

@@ -1,8 +1,8 @@
-"""Runs what a student has written, isolated as far as the kernel allows it.
+"""Runs a student's programs, isolated as far as the kernel allows.
 
-A copy of the workspace, a network and process table of its own (user, network and process namespaces of Linux), a limit
-of time, and one of memory that all processes of a run share. It protects the network, other processes and the machine's
-memory from mistakes; it does not hide the files of the account that grades.
+A run gets a copy of the workspace, a separate network and process table (user, network and process namespaces of
+Linux), a time limit, and a memory limit that all its processes share. This protects the network, other processes and
+the machine's memory from mistakes; it does not hide the files of the account that grades.
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ SKIPPED = shutil.ignore_patterns(".git", "build", "install", "log", "__pycache__
 
 
 class NoSandboxError(RuntimeError):
-    """The kernel gives no namespace of its own to programs of users."""
+    """The kernel does not let users' programs have separate namespaces."""
 
 
 @dataclass(frozen=True)
 class Finished:
-    """How a run has ended; `why` is empty unless it was ended for a limit."""
+    """How a run has ended; `why` names the limit for which it was killed, and is empty otherwise."""
 
     code: int
     output: str
@@ -40,18 +40,18 @@ class Finished:
 
 @dataclass(frozen=True)
 class Sandbox:
-    """A copy of a workspace in `folder`, and the prefix of isolated commands; empty: without isolation."""
+    """A copy of a workspace in `folder`, and the prefix that isolates commands; without isolation it is empty."""
 
     folder: Path
     prefix: Sequence[str]
 
     @property
     def workspace(self) -> Path:
-        """The copy."""
+        """The path of the copy."""
         return self.folder / "ws"
 
     def run(self, script: str, seconds: float) -> Finished:
-        """Run a shell script in the copy for at most so many seconds; nothing that it has started outlives it."""
+        """Run a shell script in the copy for at most `seconds`; no process that it has started outlives it."""
         output = self.folder / "output"
         with output.open("wb") as file:
             process = subprocess.Popen(
@@ -84,7 +84,7 @@ class Sandbox:
 def make_sandbox(workspace: Path, folder: Path, *, allow_network: bool) -> Sandbox:
     """Copy a workspace into an empty folder.
 
-    Raises `NoSandboxError` if programs cannot be isolated, unless the network is allowed.
+    If programs cannot be isolated, raises `NoSandboxError` unless the network is allowed.
     """
     prefix: Sequence[str] = NAMESPACES
     if not can_isolate():
@@ -102,7 +102,7 @@ def make_sandbox(workspace: Path, folder: Path, *, allow_network: bool) -> Sandb
 
 @cache
 def can_isolate() -> bool:
-    """Whether programs of this user can have namespaces of their own."""
+    """Whether programs of this user can have separate namespaces."""
     if not sys.platform.startswith("linux") or shutil.which(NAMESPACES[0]) is None:
         return False
     try:
@@ -112,7 +112,7 @@ def can_isolate() -> bool:
 
 
 def _wait(process: subprocess.Popen[bytes], seconds: float) -> str:
-    """Wait for the end; why it was ended before, if so."""
+    """Wait for the process to end; returns the limit for which it was killed, or an empty text."""
     deadline = time.monotonic() + seconds
     while True:
         try:
@@ -132,7 +132,7 @@ def _wait(process: subprocess.Popen[bytes], seconds: float) -> str:
 
 
 def _with_descendants(pid: int) -> list[int]:
-    """A process and its descendants."""
+    """The process ids of a process and its descendants."""
     children: dict[int, list[int]] = {}
     for each in os.listdir("/proc") if os.path.isdir("/proc") else ():
         if each.isdigit():

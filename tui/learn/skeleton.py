@@ -39,7 +39,7 @@ set /my_node speed 2.0
 
 
 def write_skeleton(folder: Path) -> list[Path]:
-    """Write it into a new folder; raises `OSError`, also if the folder exists."""
+    """Write the skeleton into a new folder, and return its files; raises `OSError`, also if the folder exists."""
     folder.mkdir(parents=True)
     made = [folder / "course.md", folder / "01-first-chapter.md"]
     for path, text in zip(made, (INDEX, CHAPTER), strict=True):

@@ -1,6 +1,4 @@
-"""The requirements of conditions, as sentences for a student: without the verbs and patterns of the course's author.
-Pure.
-"""
+"""Describes conditions to a student in plain sentences, without the verbs and patterns of the course's author. Pure."""
 
 from __future__ import annotations
 
@@ -8,21 +6,21 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 
 ANYTHING = re.compile(r"(?: ?\*(?!\.) ?)+")
-"""A `*` of a pattern, with the blanks around it; the one of `*.py` is read by everybody."""
+"""A `*` of a pattern, with the blanks around it; not that of `*.py`, which everybody understands."""
 
 
 def command_text(words: Sequence[str]) -> str:
-    """A command line by the patterns of its words: `…` where anything may stand."""
+    """A command line, from the patterns of its words; `…` stands for any words."""
     return ANYTHING.sub(" … ", " ".join(words)).strip()
 
 
 def pane_text(name: str) -> str:
-    """A pane by its name or `plugin_*`."""
+    """A pane, from its name or `plugin_*`."""
     return "a pane of a package" if name == "plugin_*" else f"the pane {name}"
 
 
 def launch_text(file: str, argument: str, text: str) -> str:
-    """A launch file by its pattern, with the pattern of an argument and a text that it contains, if there are any."""
+    """A launch file, from its pattern, the pattern of an argument, and a text that it contains; these may be empty."""
     name, _, value = argument.partition(":=")
     passed = f"an argument that contains {value.strip('*')}" if name == "*" else argument.replace("*", "…")
     given = " and ".join(each for each in (passed, text) if each)
@@ -30,13 +28,13 @@ def launch_text(file: str, argument: str, text: str) -> str:
 
 
 def node_text(name: str, parameter: str) -> str:
-    """A node by its name or `*`, with a parameter, if there is one."""
+    """A node, from its name or `*`, with a parameter if that is not empty."""
     who = "a node" if name == "*" else f"node /{name.lstrip('/')}"
     return f"{who}{f' with a parameter {parameter}' if parameter else ''}"
 
 
 def held_text(verb: str, words: Sequence[str]) -> str:
-    """The statement that is true when a condition holds."""
+    """The statement that is true while a condition holds."""
     return _SENTENCES[verb](words)
 
 

@@ -49,7 +49,7 @@ class Stopping:
         self.hold()
 
     def with_key(self, snapshot: ConsoleSnapshot) -> ConsoleSnapshot:
-        """The snapshot, marked if the stop key is a letter in a text field or can only hold while a question is open."""
+        """The snapshot, marked if the stop key is text in a text field, or can only hold while a question is open."""
         is_text, only_holds = self._typing(), self._asking or self._quitting.holding
         if not (is_text or only_holds):
             return snapshot
