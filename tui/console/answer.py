@@ -15,6 +15,6 @@ class Answer:
 
 
 def answer_of(done: Future[Answer]) -> Answer:
-    """The answer of a command that has ended, be it by a fault."""
+    """The answer of a finished command; an exception becomes an unsuccessful answer."""
     error = done.exception()
     return Answer(False, str(error)) if error else done.result()

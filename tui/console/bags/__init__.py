@@ -1,3 +1,3 @@
-"""Bags: topics recorded to MCAP files in rosbag2's folder layout, read, repaired and played. Uses only ROS and
+"""Bags: records topics to MCAP files in rosbag2's folder layout, and reads, repairs and plays them. Uses only ROS and
 `mcap`.
 """

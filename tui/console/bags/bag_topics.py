@@ -1,4 +1,4 @@
-"""The topics of a bag: mean rates and sizes, and the messages at a moment."""
+"""The topics of a bag: their mean rates and sizes, and the messages at the time being viewed."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from bot_console.tui.console.topics.node_topics import NodeTopics
 from bot_console.tui.console.topics.port import LiveMessage, Measure, RequestedQos
 
 UNREADABLE = (ImportError, AttributeError, ValueError, RuntimeError)
-"""The exceptions for a message whose type is missing here, or does not match."""
+"""The exceptions raised for a message whose type is not available here, or whose bytes do not fit the type."""
 
 
 class BagTopics(NodeTopics):
-    """Shows the last message up to the time being viewed; no node is attached, so that nothing can be sent."""
+    """The topics port of a bag: shows the last message up to the time being viewed. Without a node, it cannot send."""
 
     def __init__(self, gate: Gate, contents: Contents, graph: GraphInfo) -> None:
         super().__init__(gate, lambda: graph)
@@ -28,14 +28,14 @@ class BagTopics(NodeTopics):
         self._means: Mapping[str, Measure] | None = None
         self._wanted: Collection[str] = ()
         self._values: dict[tuple[str, int], str] = {}
-        """The values of the messages in view, by topic and number."""
+        """The displayed values, by topic and by the number of messages up to the time being viewed."""
 
     def time_moved(self, stamp: int | None) -> None:
-        """Show the messages at a time (ns since the epoch); None stands for the end."""
+        """View the messages at a time (ns since the epoch); None stands for the end of the bag."""
         self._stamp = stamp
 
     def measured(self) -> Mapping[str, Measure]:
-        """Mean rates (Hz) and bytes per second over the whole bag."""
+        """The mean rate (Hz) and bytes per second of each topic over the whole bag."""
         if self._means is None:
             about = self._contents.metadata
             span = (about.end - about.begin) / 1e9 or 1.0
@@ -46,11 +46,11 @@ class BagTopics(NodeTopics):
         return self._means
 
     def measure(self, topics: Collection[str], requester: str = "") -> None:
-        """Show the values of these topics."""
+        """Choose the topics whose values `newest` returns."""
         self._wanted = topics
 
     def newest(self) -> Mapping[str, str]:
-        """The values at the time being viewed."""
+        """The values of the measured topics at the time being viewed."""
         known, self._values = self._values, {}
         for topic in self._wanted:
             count = self._contents.count(topic, self._stamp) if topic in self._contents.metadata.topics else 0
@@ -66,11 +66,11 @@ class BagTopics(NodeTopics):
             return ""
 
     def listen(self, topic: str, qos: RequestedQos | None = None) -> None:
-        """Show this topic."""
+        """Choose the topic whose messages `heard` returns."""
         self._topic = topic
 
     def heard(self) -> LiveMessage:
-        """The message being shown; the same object until another one is shown."""
+        """The message being viewed; the same object until another message is viewed."""
         topic, known = self._topic, self._contents.metadata.topics.get(self._topic)
         if known is None:
             return LiveMessage(topic, problem=f"{topic} is not in the recording" if topic else "")

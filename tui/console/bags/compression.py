@@ -1,4 +1,4 @@
-"""Compressed parts of bags: chunks of MCAP, single messages, and whole files. What they unpack to is bounded."""
+"""Decompresses parts of bags: MCAP chunks, single messages, and whole files. The unpacked size is limited."""
 
 from __future__ import annotations
 
@@ -9,26 +9,26 @@ from typing import Any
 ZSTD = b"\x28\xb5\x2f\xfd"
 """How a zstd frame begins; serialized messages begin with a zero."""
 MAX_PART_BYTES = 256 * 1024**2
-"""Size of a chunk or a message, unpacked."""
+"""Maximum unpacked size of a chunk or a message."""
 MAX_RATIO = 200
-"""How many times its size a file may unpack to, beyond `FREE_BYTES`."""
+"""Maximum ratio of a file's unpacked size to its packed size, beyond `FREE_BYTES`."""
 FREE_BYTES = 1024**3
-"""Unpacked size of a file up to which its ratio does not matter."""
+"""A file may unpack to this size whatever the ratio."""
 FRAME_HEADER_BYTES = 18
-"""The largest header of a zstd frame."""
+"""Maximum size of a zstd frame header."""
 PIECE_BYTES = 1024**2
-"""Bytes that are unpacked at a time."""
+"""Bytes unpacked at a time."""
 
 
 class TooLarge(ValueError):
-    """Something unpacks to more than a bag plausibly contains."""
+    """Compressed data unpacks to more than a bag plausibly contains."""
 
     def __init__(self, what: str, maximum: int) -> None:
         super().__init__(f"{what} unpacks to more than {maximum / 1024**2:.0f} MiB, and was not unpacked")
 
 
 def unpack_message(data: bytes) -> bytes:
-    """A message as it was before rosbag2 compressed it by message; the same bytes if it is not compressed."""
+    """Return a message as it was before rosbag2 compressed it, or unchanged if it is not compressed."""
     if not data.startswith(ZSTD):
         return data
     from zstandard import CONTENTSIZE_UNKNOWN, get_frame_parameters
@@ -41,7 +41,7 @@ def unpack_message(data: bytes) -> bytes:
 
 
 def unpack_chunk(data: bytes, compression: str, size: int) -> bytes:
-    """The records of a chunk; raises `ValueError` if they are not of the given size (bytes)."""
+    """Decompress the records of a chunk; raises `ValueError` if they do not have the given size (bytes)."""
     if compression == "zstd":
         data = _unzstd(data, size, "a chunk")
     elif compression == "lz4":
@@ -54,9 +54,9 @@ def unpack_chunk(data: bytes, compression: str, size: int) -> bytes:
 
 
 def unpack_file(path: Path, into: Path) -> Path:
-    """Unpack a file that rosbag2 compressed as a whole into a folder.
+    """Decompress a file that rosbag2 compressed as a whole, and return its path in the folder `into`.
 
-    Raises `ValueError` if it is cut off or too large, `ZstdError`, and `OSError`.
+    Raises `ValueError` if it is too large, `EOFError` if it is cut off, `ZstdError`, and `OSError`.
     """
     from zstandard import CONTENTSIZE_UNKNOWN, ZstdDecompressor, get_frame_parameters
 

@@ -28,7 +28,7 @@ from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.serialization import deserialize_message
 
 MAX_BYTES = 500_000_000
-"""Limit of the message bytes held in memory; above it, the topics with the largest messages are left out first."""
+"""The most message bytes held in memory; above it, the topics with the largest messages are left out first."""
 LOG, EVENTS = "rcl_interfaces/msg/Log", "rcl_interfaces/msg/ParameterEvent"
 
 
@@ -38,7 +38,7 @@ class Contents:
     def __init__(self, bag: Bag) -> None:
         self.metadata = bag.metadata
         self.left_out: list[str] = []
-        """Topics whose messages are not held because the bag is too large."""
+        """Topics whose messages were dropped because the bag is too large."""
         self.damage = ""
         """Why part of the bag could not be read."""
         self.logs = LogStore()
@@ -73,7 +73,7 @@ class Contents:
                 del held[largest]
 
     def of_type(self, type_name: str) -> list[str]:
-        """The topics of a given type."""
+        """The topics of a message type."""
         return [name for name, topic in self.metadata.topics.items() if topic.type == type_name]
 
     def messages(self, topic: str) -> Iterator[tuple[int, Any]]:
@@ -152,7 +152,7 @@ class Contents:
 
     @property
     def parameters(self) -> MappingProxyType[str, ParameterTree]:
-        """The parameters at the end of the bag, as far as parameter events reported them."""
+        """The parameters at the end of the bag, as far as the recorded parameter events contain them."""
         return MappingProxyType(self.trees)
 
 

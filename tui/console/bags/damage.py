@@ -1,4 +1,4 @@
-"""Damaged files: errors while reading, and the repair of a file that a killed program did not finish."""
+"""Handles damaged files: converts reading errors, and repairs a file that a killed program did not finish."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from typing import BinaryIO
 from bot_console.tui.console.bags.compression import TooLarge
 
 MAX_CUT_BYTES = 16 * 1024 * 1024
-"""The most that a repair may discard: what a recorder writes at once. If more would be lost, the original is kept
-too.
+"""The most that a repair may discard: as much as a recorder writes at once. If more would be lost, the original is kept
+as well.
 """
 BACKUP_SUFFIX = ".damaged"
-"""File name suffix of such an original."""
+"""Suffix of the file name under which the original is kept."""
 
 DAMAGED = (
     ValueError, LookupError, TypeError, OverflowError, MemoryError, EOFError, struct.error, sqlite3.Error,
 )  # fmt: skip
-"""Exceptions besides `McapError` that the libraries raise on a damaged file, whose lengths and offsets are wrong."""
+"""Exceptions besides `McapError` that the libraries raise when lengths and offsets in a damaged file are wrong."""
 
 
 class NoBag(ValueError):
@@ -31,7 +31,7 @@ class NoBag(ValueError):
 
 @contextmanager
 def reading_errors(path: Path, where: Callable[[], str] = str) -> Generator[None]:
-    """Convert exceptions of the reading library to `NoBag`."""
+    """Convert exceptions raised while reading `path` to `NoBag`; their messages say `where` the reader was."""
     from mcap.exceptions import McapError
     from zstandard import ZstdError
 
@@ -48,8 +48,9 @@ def reading_errors(path: Path, where: Callable[[], str] = str) -> Generator[None
 
 
 def repair(path: Path, shown: Path) -> str:
-    """Complete an unfinished file, which messages call `shown`; returns what was done, or an empty text if it was
-    complete. Raises `NoBag`.
+    """Complete an unfinished file, which messages call `shown`.
+
+    Returns a description of the repair, or an empty text if the file was complete. Raises `NoBag`.
     """
     from bot_console.tui.console.bags.mcap_records import MAGIC
 
@@ -77,9 +78,10 @@ def repair(path: Path, shown: Path) -> str:
 
 
 def _write_whole(source: BinaryIO, size: int, beside: Path) -> tuple[int, bool]:
-    """Copy the readable records to another file.
+    """Copy the readable records to the file `beside`.
 
-    Returns the position in the source after the last of them, and whether the rest is only cut off, not damaged.
+    Returns the position in the source after the last of them, and whether the rest is merely truncated rather than
+    damaged.
     """
     from bot_console.tui.console.bags.mcap_records import Tables, message
     from mcap.exceptions import McapError
@@ -119,7 +121,7 @@ def _write_whole(source: BinaryIO, size: int, beside: Path) -> tuple[int, bool]:
 
 
 def _readable(source: BinaryIO, size: int) -> Iterator[tuple[int, bytes, int]]:
-    """The records of a file and its chunks: opcode, content, and the position in the file behind them."""
+    """The records of a file and its chunks: opcode, content, and the position in the file after the record or chunk."""
     from bot_console.tui.console.bags.mcap_records import MAGIC, chunk_records, places
     from mcap.opcode import Opcode
 

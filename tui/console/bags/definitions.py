@@ -1,4 +1,4 @@
-"""Message definitions in MCAP's `ros2msg` encoding: the type, then all types it uses, separated by a line of `=`.
+"""Message definitions in MCAP's `ros2msg` encoding: the type, then all types it uses, separated by lines of `=`.
 
 They are derived from the message classes, which describe their fields in every ROS 2 distribution, so no definition
 files are needed. Constants and comments are left out because readers do not need them.
@@ -17,7 +17,7 @@ NAMES = {"boolean": "bool", "octet": "byte", "float": "float32", "double": "floa
 
 
 def definition(kind: Any) -> str:
-    """The definition of a message class, followed by all types it uses; empty if nothing is known of its fields."""
+    """The definition of a message class, followed by all types it uses; empty if the class does not list its fields."""
     if getattr(kind, "get_fields_and_field_types", None) is None:
         return ""
     parts = [f"{_fields(kind)}"]
@@ -31,7 +31,7 @@ def class_of(type_name: str) -> Any:
 
     try:
         return get_message(type_name)
-    except TypeError:  # the name has no package
+    except TypeError:  # the name lacks a package
         raise ValueError(f"'{type_name}' is not a message type") from None
 
 
@@ -51,7 +51,7 @@ def _needed(kind: Any, found: dict[str, Any]) -> Iterator[tuple[str, Any]]:
 
 
 def _class(name: str, user: Any) -> Any:
-    """The class of a field's type; it is in the module of the class with the field when both belong to an action."""
+    """The class of a field's type, found in the module of the containing class if both belong to an action."""
     package, _, message = name.partition("/")
     beside = getattr(importlib.import_module(user.__module__), message, None)
     if beside is not None and beside.__module__.startswith(f"{package}."):
@@ -71,7 +71,7 @@ def _element(text: str) -> str:
 
 
 def _written(text: str) -> str:
-    """The type of a field in message definition syntax: `sequence<double, 3>` becomes `float64[<=3]`."""
+    """A field type in message definition syntax: `sequence<double, 3>` becomes `float64[<=3]`."""
     if sequence := re.fullmatch(r"sequence<(.*?)(?:, (\d+))?>", text):
         return f"{_simple(sequence[1])}[{f'<={sequence[2]}' if sequence[2] else ''}]"
     if array := re.fullmatch(r"(.*)\[(\d+)\]", text):

@@ -1,4 +1,4 @@
-"""Reads an MCAP file: by its index or, where that is missing or incomplete, by searching the file once."""
+"""Reads an MCAP file: by its index or, if that is missing or incomplete, by scanning the file once."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ TWO_PARTS = re.compile(r"(\w+)/(\w+)")
 
 
 class Chunk(NamedTuple):
-    """A chunk: the times of its messages (ns since the epoch), where it is, and its channels (empty: not known)."""
+    """A chunk: its first and last time (ns since the epoch), its place, and its channels (empty: unknown)."""
 
     begin: int
     end: int
@@ -38,7 +38,7 @@ class McapFile:
         self._tables = Tables()
         self._chunks: list[Chunk] = []
         self._times, self._begins, self._lengths = array("Q"), array("Q"), array("Q")
-        """Of messages outside chunks: times of reception (ns), and where the records are."""
+        """For the messages outside chunks: times of reception (ns), positions and lengths of the records."""
         self.counts: Counter[int] = Counter()
         self.begin, self.end = 0, 0
         """Times of the first and last message (ns since the epoch); 0 if there is none."""
@@ -50,7 +50,7 @@ class McapFile:
                 self._search(file, size)
 
     def topics(self) -> Iterator[Topic]:
-        """The topics of the channels; a topic with several channels comes several times."""
+        """The topics of the channels; a topic with several channels is yielded several times."""
         for id, channel in self._tables.channels.items():
             schema = self._tables.schemas.get(channel.schema_id)
             name = schema.name if schema is not None else ""
@@ -66,7 +66,7 @@ class McapFile:
             )
 
     def messages(self, topics: Collection[str] | None, begin: int) -> Iterator[tuple[int, str, bytes]]:
-        """Messages (time of reception in ns, topic, data) since a time, in the order of their reception."""
+        """The messages received since a time, in order: (time of reception in ns, topic, data)."""
         names = {id: each.topic for id, each in self._tables.channels.items()}
         wanted = {id for id, name in names.items() if topics is None or name in topics}
         with self._path.open("rb") as chunks, self._path.open("rb") as loose:
@@ -106,7 +106,7 @@ class McapFile:
         return True
 
     def _search(self, file: BinaryIO, size: int) -> None:
-        """Find schemas, channels and messages, and make an index of them."""
+        """Scan the file for schemas, channels and messages, and build an index of them."""
         for each in records.places(file, len(MAGIC), size):
             if each.opcode in (Opcode.DATA_END, Opcode.FOOTER):
                 break
@@ -142,7 +142,7 @@ class McapFile:
         self.end = max(self.end, found.received)
 
     def _chunked(self, file: BinaryIO, begin: int, wanted: Collection[int]) -> Iterator[Packed]:
-        """Messages of chunks in order; of overlapping chunks, as many as necessary are held in memory."""
+        """The messages inside chunks, in order. Overlapping chunks are held in memory as long as necessary."""
         waiting: list[tuple[int, int, Packed]] = []
         number = 0
         for chunk in sorted(self._chunks, key=lambda each: each.begin):
@@ -159,7 +159,7 @@ class McapFile:
             yield heapq.heappop(waiting)[2]
 
     def _loose(self, file: BinaryIO) -> Iterator[Packed]:
-        """Messages outside chunks, in order."""
+        """The messages outside chunks, in order."""
         for at in sorted(range(len(self._times)), key=self._times.__getitem__):
             yield records.message(Place(Opcode.MESSAGE, self._begins[at], self._lengths[at]).content(file))
 

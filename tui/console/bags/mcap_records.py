@@ -1,4 +1,4 @@
-"""The records of an MCAP file, found without an index. A length is believed only if the file is that long."""
+"""The records of an MCAP file, found without an index. A record's length is checked against the size of the file."""
 
 from __future__ import annotations
 
@@ -15,28 +15,28 @@ from mcap.records import Channel, ChunkIndex, Schema, Statistics
 MAGIC = b"\x89MCAP0\r\n"
 FOOTER_BYTES = 1 + 8 + 8 + 8 + 4
 HEAD = struct.Struct("<BQ")
-"""Opcode and length, at the beginning of every record."""
+"""Opcode and length, at the start of every record."""
 MESSAGE = struct.Struct("<HIQQ")
-"""Channel, sequence number, time of reception and of sending (ns); the data follows."""
+"""Channel, sequence number, times of reception and sending (ns); the data follows."""
 CHUNK = struct.Struct("<QQQII")
-"""First and last time (ns), size, CRC and the length of the compression's name."""
+"""First and last time (ns), size, CRC, and the length of the compression's name."""
 
 
 class Place(NamedTuple):
-    """A record in a file: where its content begins, and how long it is (bytes)."""
+    """The place of a record in a file: where its content begins, and its length (bytes)."""
 
     opcode: int
     begin: int
     length: int
 
     def content(self, file: BinaryIO) -> bytes:
-        """Read the record."""
+        """Read the content of the record."""
         file.seek(self.begin)
         return file.read(self.length)
 
 
 class Packed(NamedTuple):
-    """A message as a file contains it; times are in ns since the epoch."""
+    """A serialized message as stored in the file; times are in ns since the epoch."""
 
     channel: int
     received: int
@@ -46,7 +46,7 @@ class Packed(NamedTuple):
 
 
 def places(file: BinaryIO, begin: int, end: int) -> Iterator[Place]:
-    """The records between two positions; raises `EOFError` if one does not end before `end`."""
+    """The records between two positions; raises `EOFError` if one extends beyond `end`."""
     while begin < end:
         file.seek(begin)
         head = file.read(HEAD.size)
@@ -59,7 +59,7 @@ def places(file: BinaryIO, begin: int, end: int) -> Iterator[Place]:
 
 
 def chunk_records(content: bytes) -> Iterator[tuple[int, bytes]]:
-    """The records in a chunk, with their opcodes; raises `ValueError` if it cannot be unpacked."""
+    """The opcode and content of each record in a chunk; raises `ValueError` if the chunk cannot be unpacked."""
     _, _, size, _, name = CHUNK.unpack_from(content)
     begin = CHUNK.size + name
     compression = content[CHUNK.size : begin].decode()
@@ -76,13 +76,13 @@ def chunk_records(content: bytes) -> Iterator[tuple[int, bytes]]:
 
 
 def message(content: bytes) -> Packed:
-    """A message record."""
+    """Parse a message record."""
     channel, sequence, received, sent = MESSAGE.unpack_from(content)
     return Packed(channel, received, content[MESSAGE.size :], sent, sequence)
 
 
 class Tables:
-    """The tables that the records of a file give: schemas, channels, statistics, chunks."""
+    """Collects the schemas, channels, statistics and chunk indexes of a file from its records."""
 
     def __init__(self) -> None:
         self.schemas: dict[int, Schema] = {}
@@ -91,7 +91,7 @@ class Tables:
         self.chunks: list[ChunkIndex] = []
 
     def add(self, opcode: int, content: bytes) -> None:
-        """Note a record; others than these are ignored."""
+        """Add a record; other kinds of records are ignored."""
         stream = ReadDataStream(BytesIO(content))
         if opcode == Opcode.SCHEMA:
             schema = Schema.read(stream)
@@ -106,7 +106,7 @@ class Tables:
 
     @property
     def complete(self) -> bool:
-        """Whether they are a summary of all messages, so that the file need not be searched for them."""
+        """Whether these tables cover all messages, so that the file need not be scanned."""
         figures = self.statistics
         if figures is None or figures.chunk_count != len(self.chunks) or (figures.message_count and not self.chunks):
             return False

@@ -16,7 +16,7 @@ FILE = "metadata.yaml"
 
 
 class _Plain(yaml.SafeDumper):
-    """Repeats equal objects instead of writing YAML aliases, which rosbag2's reader does not understand."""
+    """Dumps YAML without aliases, which rosbag2's reader does not understand: equal objects are written out again."""
 
     def ignore_aliases(self, data: Any) -> bool:
         """Never write an alias."""
@@ -24,7 +24,7 @@ class _Plain(yaml.SafeDumper):
 
 
 def qos_profiles(text: str) -> list[dict[str, Any]]:
-    """The QoS profiles a topic was published with, from YAML; unreadable ones are ignored."""
+    """Parse the QoS profiles of a topic's publishers from YAML; unreadable ones are ignored."""
     try:
         data = yaml.load(text or "[]", getattr(yaml, "CSafeLoader", yaml.SafeLoader))
     except UNREADABLE:
@@ -34,7 +34,7 @@ def qos_profiles(text: str) -> list[dict[str, Any]]:
 
 
 def metadata_yaml(data: object) -> str:
-    """Block-style YAML that keeps the order of keys."""
+    """Dump block-style YAML that keeps the order of keys."""
     return yaml.dump(data, Dumper=_Plain, sort_keys=False)
 
 
@@ -48,7 +48,7 @@ class Topic:
     type_hash: str = ""
     count: int = 0
     encoding: str = "cdr"
-    """How its messages are serialized."""
+    """The serialization format of its messages."""
 
     def check_encoding(self) -> None:
         """Raise `ValueError` unless its messages can be decoded."""
@@ -66,7 +66,7 @@ class FilePart:
     count: int = 0
 
     def seen(self, stamp: int) -> None:
-        """Include a time."""
+        """Extend the times to include a message's time."""
         self.begin = min(self.begin or stamp, stamp)
         self.end = max(self.end, stamp)
 
@@ -80,9 +80,9 @@ class Metadata:
     storage: str = "mcap"
     """`mcap` or `sqlite3`."""
     compression: str = ""
-    """`file` or `message`; empty: not compressed by rosbag2."""
+    """`file` or `message`; empty if rosbag2 did not compress the bag."""
     custom: dict[str, str] = field(default_factory=dict[str, str])
-    """Further facts that the recorder was given."""
+    """Custom data given to the recorder."""
 
     @property
     def begin(self) -> int:
@@ -100,7 +100,7 @@ class Metadata:
         return sum(each.count for each in self.topics.values())
 
     def save(self, folder: Path) -> None:
-        """Write the file; raises `NotSaved`."""
+        """Write `metadata.yaml`; raises `NotSaved`."""
         save_file(folder / FILE, metadata_yaml({"rosbag2_bagfile_information": self._data()}))
 
     def _data(self) -> dict[str, Any]:

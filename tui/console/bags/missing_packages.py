@@ -1,4 +1,4 @@
-"""The optional library that bags need."""
+"""Checks for the optional library that bags need."""
 
 from __future__ import annotations
 

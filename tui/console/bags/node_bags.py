@@ -1,4 +1,4 @@
-"""The port for recording, in front of the recorder, which is there once the system is reached."""
+"""The port for recording: passes commands to the recorder, which exists once the system is reached."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ NOTHING_RECORDED = RecordingInfo()
 
 
 class NodeBags:
-    """Records all topics; a bag changes nothing in the system, so that a read-only console records too."""
+    """Records all topics. Recording changes nothing in the system, so a read-only console can record too."""
 
     def __init__(self, gate: Gate, buffer: Keeper | None = None, generic: GenericTypes | None = None) -> None:
-        """`buffer` keeps the last minutes; None: they are not kept. `generic`: for types without a definition here."""
+        """`buffer` keeps the last minutes, if they are kept; `generic` gives classes for types without a definition."""
         self._gate = gate
         self._buffer = buffer
         self._generic = generic
         self._recordings: Recordings | None = None
 
     def attach(self) -> None:
-        """The system has been reached."""
+        """Create the recorder, now that the system has been reached."""
         from bot_console.tui.console.bags.recordings import Recordings
 
         self._recordings = Recordings(self._buffer, self._generic)

@@ -1,6 +1,6 @@
-"""A bag as a console: its topics, log, parameter changes, robot and series.
+"""The console's ports for an opened bag: its topics, log, parameter changes, robot and series.
 
-Its ports are those of a system that is never reached, so that they refuse all commands, with what the bag contains.
+They are the ports of a system that is never reached, so they refuse all commands, and show the contents of the bag.
 """
 
 from __future__ import annotations
@@ -43,19 +43,19 @@ WHY = "this is a recording: it can be viewed, but nothing in it can be changed"
 
 
 class BagParameters(NodeParameters):
-    """The parameters that were recorded, and their changes."""
+    """The recorded parameters and their changes."""
 
     def __init__(self, gate: Gate, contents: Contents) -> None:
         super().__init__(gate, Provenance())
         self._contents = contents
 
     def changes(self, after: int = 0) -> Sequence[Change]:
-        """The parameter changes that parameter events reported."""
+        """The parameter changes that the recorded parameter events contain."""
         return self._contents.changes[max(0, after) :]
 
 
 class BagDrive:
-    """The robot as it was recorded: it can be looked at, and neither steered nor stopped."""
+    """The recorded robot: its poses can be viewed, but it can be neither steered nor stopped."""
 
     def __init__(self, contents: Contents) -> None:
         self.pose_at = contents.past.at
@@ -67,7 +67,7 @@ class BagDrive:
 
 
 class BagPlots:
-    """The series of a bag. The time axis begins with the bag."""
+    """The plottable series of a bag; time starts at the first message."""
 
     def __init__(self, contents: Contents) -> None:
         self._contents = contents
@@ -75,7 +75,7 @@ class BagPlots:
         self._series: dict[str, Samples] = {}
 
     def watch(self, path: str, requester: str = "") -> Answer:
-        """Read a series; the answer says why if it cannot be plotted."""
+        """Read a series; an unsuccessful answer says why it cannot be plotted."""
         if path not in self._series:
             try:
                 self._series[path] = self._parameter(path) if is_parameter(path) else self._field(path)
@@ -88,7 +88,7 @@ class BagPlots:
         self._series.pop(path, None)
 
     def samples(self, path: str, after: int = 0) -> Samples:
-        """All samples of a series, delivered once."""
+        """All samples of a series, returned once."""
         found = self._series.get(path)
         return found if found is not None and after < found.cursor else Samples((), (), after)
 
@@ -121,7 +121,7 @@ class BagPlots:
         return ((self._contents.metadata.end if stamp is None else stamp) - self._begin) / 1e9
 
     def plottable(self) -> Sequence[str]:
-        """Paths of numeric fields and parameters."""
+        """The paths of all numeric fields and parameters."""
         topics = self._contents.metadata.topics
         paths = [f"{name}/{field}" for name, topic in topics.items() for field in number_paths(topic.type)]
         paths += [
@@ -134,7 +134,7 @@ class BagPlots:
 
 
 class OpenedBag:
-    """Shows a bag; every request that would change something is refused with the reason."""
+    """A console on a bag; refuses, with the reason, every request that would change something."""
 
     def __init__(self, contents: Contents, name: str) -> None:
         about = contents.metadata
@@ -167,16 +167,16 @@ class OpenedBag:
         )
 
     def snapshot(self) -> ConsoleSnapshot:
-        """The whole recording; always the same object."""
+        """A snapshot of the whole recording; always the same object."""
         return self._snapshot
 
     def close(self) -> None:
-        """End the search of the log."""
+        """Stop searching the log."""
         self.logs.close()
 
 
 async def _no_world() -> None:
-    """There is no simulator to reset."""
+    """Do nothing: there is no simulator to reset."""
 
 
 def _header(message: Any) -> int | None:
