@@ -1,4 +1,4 @@
-"""Recording into bags, as the panes see it. Standard library only."""
+"""The port for recording bags, as the panes see it. Standard library only."""
 
 from __future__ import annotations
 
@@ -16,31 +16,31 @@ class RecordingInfo:
     folder: str = ""
     kept_s: float = 0.0
     problem: str = ""
-    """Why recording has ended unrequested; empty when all is well."""
+    """Why recording has ended without a request; empty when all is well."""
     missing: tuple[str, ...] = ()
-    """Topics that cannot be recorded, as their types are not available here."""
+    """Topics that cannot be recorded because their types are not available here."""
 
 
 class Keeper(Protocol):
-    """Keeps the last minutes of a system in memory, in whichever process that happens."""
+    """Keeps the last minutes of a system's messages in memory, in this process or in another one."""
 
     kept_s: float
-    """How many seconds are kept."""
+    """How many seconds of messages are kept."""
 
     def keep(self, folder: str) -> Future[Answer]:
-        """Save them as a new bag, and continue keeping."""
+        """Save the kept messages as a new bag, and continue keeping."""
         ...
 
 
 class GenericTypes(Protocol):
-    """A service that rclpy lacks: it receives the bytes of messages whose type has no definition here."""
+    """A service that rclpy lacks: classes for messages whose type has no definition here, as serialized bytes."""
 
     def generic_class(self, type_name: str, type_hash: str) -> Any:
-        """A class by which they are received and published; raises `ValueError` if there is none."""
+        """A class with which to receive and publish such messages; raises `ValueError` if there is none."""
         ...
 
     def type_hash(self, kind: Any) -> str:
-        """The hash of a message class; empty if messages pass whatever it is."""
+        """The type hash of a message class; empty if messages are received whatever their type hash is."""
         ...
 
 

@@ -12,19 +12,19 @@ from rclpy.duration import Duration
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
 
 FOREVER = {"sec": 9223372036, "nsec": 854775807}
-"""How ROS 2 writes an infinite duration."""
+"""An infinite duration as ROS 2 writes it."""
 POLICIES: Mapping[str, Any] = {
     "history": HistoryPolicy, "reliability": ReliabilityPolicy, "durability": DurabilityPolicy,
     "liveliness": LivelinessPolicy,
 }  # fmt: skip
-"""Policies that are words in a file, by their names there."""
+"""The policies that a file contains as words, by their names in the file."""
 DEPTH = re.compile(r"[0-9]{1,9}")
-"""A depth that a middleware can hold; another one in a file is damage."""
+"""A depth that a middleware can hold; anything else in a file is damage."""
 DURATIONS = frozenset(["deadline", "lifespan", "liveliness_lease_duration"])
 
 
 def noted(profiles: Iterable[QoSProfile]) -> list[dict[str, Any]]:
-    """Publisher profiles as entries of `offered_qos_profiles`."""
+    """Convert the profiles of publishers to entries of `offered_qos_profiles`."""
     return [
         {
             "history": "keep_last" if each.history == HistoryPolicy.KEEP_LAST else "keep_all",
@@ -42,8 +42,9 @@ def noted(profiles: Iterable[QoSProfile]) -> list[dict[str, Any]]:
 
 
 def offered(entries: Iterable[Mapping[str, Any]]) -> QoSProfile:
-    """A profile compatible with every subscription of the recorded publishers: reliable or latched if any of them
-    was.
+    """A profile compatible with every subscription that matched the recorded publishers.
+
+    It is reliable or transient local if any of the publishers was.
     """
     found = list(entries)
     latching = any(each.get("durability") in ("transient_local", 1) for each in found)
@@ -57,9 +58,9 @@ def offered(entries: Iterable[Mapping[str, Any]]) -> QoSProfile:
 
 
 def read_overrides(text: str) -> dict[str, QoSProfile]:
-    """Profiles by topic, from a YAML file as `--qos-profile-overrides-path` takes it.
+    """Parse the file of `--qos-profile-overrides-path`: QoS profiles by topic, in YAML.
 
-    Raises `ValueError` that says what is wrong.
+    Raises `ValueError` with a description of the error.
     """
     try:
         data: Any = yaml.safe_load(text)

@@ -27,10 +27,10 @@ if TYPE_CHECKING:
     from bot_console.tui.console.bags.mcap_file import McapFile
 
 LATEST_NS = 2**63 - 1
-"""The latest time of reception, in ns since the epoch, that is accepted."""
+"""The latest time of reception that is accepted, in ns since the epoch."""
 PATTERNS = ("*.mcap", "*.db3", "*.mcap.zstd", "*.db3.zstd")
 ROS1, SQLITE = b"#ROSBAG", b"SQLite format 3\0"
-"""How files begin."""
+"""The first bytes of these files."""
 
 
 class Entry(NamedTuple):
@@ -45,7 +45,7 @@ class Bag:
     """A bag opened for reading."""
 
     def __init__(self, path: Path, *, listed: bool = True) -> None:
-        """The files that its metadata lists, or all in the folder.
+        """Open the files that the metadata lists or, without `listed`, all bag files in the folder.
 
         Raises `NoBag`, and `Missing` without `mcap`.
         """
@@ -66,14 +66,14 @@ class Bag:
     def messages(self, topics: Collection[str] | None = None, begin: int = 0) -> Iterator[Entry]:
         """All messages received since a time (ns since the epoch), in order of reception.
 
-        Raises `NoBag` when it reaches a damaged place.
+        Raises `NoBag` on reaching damaged data.
         """
         found = (_messages(file, contents, topics, begin) for file, contents in self._opened)
         return heapq.merge(*found, key=lambda entry: entry.received)
 
     @property
     def topics(self) -> Mapping[str, Topic]:
-        """By name."""
+        """The recorded topics, by name."""
         return self.metadata.topics
 
     @property
@@ -83,11 +83,11 @@ class Bag:
 
     @property
     def storage(self) -> str:
-        """The name of the storage plug-in that reads its files in ROS 2."""
+        """The name of the ROS 2 storage plug-in for these files."""
         return "sqlite3" if isinstance(self._opened[0][1], SqliteFile) else "mcap"
 
     def _plain(self, path: Path) -> Path:
-        """The file itself, or what it unpacks to if it is compressed as a whole."""
+        """The file itself or, if it is compressed as a whole, its unpacked copy."""
         with reading_errors(path), path.open("rb") as file:
             if not file.read(len(ZSTD)).startswith(ZSTD):
                 return path
@@ -97,7 +97,7 @@ class Bag:
             return unpack_file(path, self._unpacked)
 
     def _open(self, file: Path, plain: Path) -> McapFile | SqliteFile:
-        """Open a file by what it unpacks to."""
+        """Open a file; its format is recognised by the unpacked copy `plain`."""
         from bot_console.tui.console.bags.mcap_file import McapFile
 
         with reading_errors(file):
@@ -112,7 +112,7 @@ class Bag:
             return McapFile(plain)
 
     def _note(self, file: Path, contents: McapFile | SqliteFile) -> None:
-        """Add what a file contains to the metadata."""
+        """Add the contents of a file to the metadata."""
         part = FilePart(file.name)
         for topic in contents.topics():
             known = self.metadata.topics.setdefault(topic.name, replace(topic, count=0))
@@ -134,7 +134,7 @@ def _files(path: Path, about: Mapping[str, Any]) -> list[Path]:
     if compression not in ("", "none", "zstd"):
         raise NoBag(f"{path} is compressed with {compression}, which cannot be unpacked here; only zstd can")
     named = about.get("relative_file_paths")
-    # earlier versions of rosbag2 wrote the folder of the bag, too; a file outside of it is never read
+    # earlier versions of rosbag2 wrote the bag's folder as well; a file outside of it is never read
     names = [Path(str(each)).name for each in cast("list[Any]", named)] if isinstance(named, list) else []
     there = {each.name: each for each in path.iterdir() if each.is_file() and each.resolve().parent == path.resolve()}
     found = [there[name] for name in names if name in there]
@@ -145,7 +145,7 @@ def _files(path: Path, about: Mapping[str, Any]) -> list[Path]:
 
 
 def _about(path: Path) -> Mapping[str, Any]:
-    """The metadata of a folder; empty if there is none that can be read."""
+    """The metadata of a folder; empty if it is missing or unreadable."""
     with suppress(OSError, *UNREADABLE):
         loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
         about: Any = yaml.load((path / FILE).read_text(encoding="utf-8"), loader)["rosbag2_bagfile_information"]

@@ -15,20 +15,20 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 PACE_S = 0.1
-"""Seconds between two turns of the recorder."""
+"""Seconds between two calls of `Recorder.turn`."""
 TOPIC_POLL_S = 0.5
 """Seconds between two searches for new topics."""
 MAX_CLOCK_DIFFERENCE_NS = 1_000_000_000
-"""How far (ns) the time of sending may lie before the time of reception for the two clocks to count as synchronized."""
+"""The longest time (ns) from sending to reception for which the two clocks count as synchronized."""
 CLOCK = "/clock"
-"""Not recorded by a console, since it is a third of all messages: `bag play --clock` derives it from the bag's
-times.
+"""A console does not record it: it is a third of all messages, and `bag play --clock` derives it from the times of the
+bag.
 """
 BEST = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class Sink(Protocol):
-    """Where recorded messages go."""
+    """Receives recorded messages."""
 
     def topic(self, name: str, kind: Any, qos: list[dict[str, Any]], type_hash: str = "") -> None:
         """Add a topic."""
@@ -39,22 +39,22 @@ class Sink(Protocol):
         ...
 
     def flush(self) -> None:
-        """Pass what was written to the operating system."""
+        """Pass buffered data to the operating system."""
         ...
 
 
 UNAVAILABLE = (ImportError, AttributeError, ValueError)
-"""The exceptions for a type, or a type it contains, that is not available here."""
+"""The exceptions raised when a type, or a type it contains, is not available here."""
 
 
 def remarks(unknown: Mapping[str, str], generic: Iterable[str]) -> str:
-    """The gaps of a bag: topics, each with the reason, and definitions; empty if it lacks nothing."""
+    """The gaps of a bag, as text: topics, each with the reason, and definitions; empty if it lacks nothing."""
     missing = [f"{name} was not recorded: {why}" for name, why in sorted(unknown.items())]
     return "; ".join([*missing, *(f"{name} was recorded without a definition" for name in sorted(generic))])
 
 
 class Recorder:
-    """Passes all messages of the wanted topics to a sink, each time `turn` is called.
+    """Passes all messages of the wanted topics to a sink each time `turn` is called.
 
     Its node is not spun: `turn` takes the waiting messages a few times a second, at a fraction of the cost of
     callbacks.
@@ -72,11 +72,11 @@ class Recorder:
         generic: GenericTypes | None = None,
         definition_timeout_s: float = 0.0,
     ) -> None:
-        """`wanted` says whether a topic of some types is to be recorded, and is asked every `poll_s` seconds.
+        """`wanted` says whether to record a topic of certain types, and is asked every `poll_s` seconds.
 
         `find` returns the class of a type name, and raises `ImportError` and the like if there is none. If there still
-        is none after `definition_timeout_s`, the topic is recorded without a definition, by a class of `generic`. With
-        `sim_time`, messages are stamped with the time of /clock, and those before its first message are discarded.
+        is none after `definition_timeout_s`, the topic is recorded without a definition, with a class of `generic`.
+        With `sim_time`, messages are stamped with the time of /clock, and those before its first message are discarded.
         """
         self._node = node
         self._sink = sink
@@ -89,7 +89,7 @@ class Recorder:
         self._generic = generic
         self._definition_timeout_s = definition_timeout_s
         self._searched: dict[str, float] = {}
-        """Since when (monotonic s) a type that is not available here has been wanted."""
+        """When (monotonic s) each type that is not available here was first wanted."""
         self.paused = False
         """Whether messages are discarded instead of recorded."""
         self.subscribed: dict[str, OfferedSubscription] = {}
@@ -100,7 +100,7 @@ class Recorder:
         self.turn()
 
     def close(self) -> None:
-        """Take the messages still waiting and stop recording; afterwards the sink can be closed."""
+        """Take the waiting messages and stop recording; afterwards the sink can be closed."""
         self.take()
         for each in self.subscribed.values():
             each.destroy()
@@ -108,9 +108,7 @@ class Recorder:
             self._sim_time.destroy()
 
     def turn(self) -> None:
-        """Take waiting messages; from time to time search for new topics, and flush. To be called every `PACE_S`
-        seconds.
-        """
+        """Take waiting messages; search for new topics and flush when due. Call this every `PACE_S` seconds."""
         self.take()
         now = time.monotonic()
         if now - self._polled >= self._poll_s:
@@ -123,7 +121,7 @@ class Recorder:
                 each.follow()
 
     def take(self) -> None:
-        """Take the messages that are waiting."""
+        """Pass the waiting messages to the sink."""
         now = time.time_ns()
         found = [(sent, name, data) for name, each in self.subscribed.items() for data, sent in each.drain()]
         if self._sim_time is not None:
@@ -135,7 +133,7 @@ class Recorder:
                 self._sink.write(name, data, at, sent)
 
     def _poll(self) -> None:
-        """Subscribe to new topics."""
+        """Subscribe to new wanted topics."""
         for name, types in self._node.get_topic_names_and_types():
             if name not in self.subscribed and self._wanted(name, types):
                 self._subscribe(name, types)
@@ -164,7 +162,7 @@ class Recorder:
         )
 
     def _found(self, type_name: str, type_hash: str) -> Any:
-        """The class of a type; raises `UNAVAILABLE` if there is none by which the messages would be received."""
+        """The class of a type; raises `UNAVAILABLE` if there is none with this type hash."""
         kind = self._find(type_name)
         here = self._generic.type_hash(kind) if self._generic is not None and type_hash else ""
         if here and here != type_hash:
@@ -172,7 +170,7 @@ class Recorder:
         return kind
 
     def _without_definition(self, type_name: str, type_hash: str) -> Any:
-        """The class by which messages of a type are recorded as they are; None if there is none yet."""
+        """The class with which serialized messages of an unknown type are recorded; None if there is none yet."""
         now = time.monotonic()
         waited = now - self._searched.setdefault(type_name, now)
         if self._generic is None or not type_hash or waited < self._definition_timeout_s:
@@ -184,10 +182,10 @@ class Recorder:
 
 
 def in_order(found: Iterable[tuple[int, str, bytes]], now: int, last: int) -> Iterator[tuple[int, str, bytes, int]]:
-    """Assign times of reception to messages that were taken at once, each given as (sent, topic, data).
+    """Assign times of reception to messages that were taken together, each given as (sent, topic, data).
 
-    Yields (received, topic, data, sent) in order; no time is before `last`. The time of sending is closer to that of
-    reception than the time of taking, unless the clocks differ.
+    Yields (received, topic, data, sent) in order; no time is before `last`. The time of sending is used where it is
+    plausible, since it is closer to the time of reception than `now` is; it is not plausible if the clocks differ.
     """
     stamped = [
         (sent if 0 <= now - sent < MAX_CLOCK_DIFFERENCE_NS else now, name, data, sent) for sent, name, data in found
@@ -203,11 +201,11 @@ def _received(entry: tuple[int, str, bytes, int]) -> int:
 
 
 def _nobody(data: bytes) -> None:
-    """Callback of subscriptions whose messages are taken directly; it is never called."""
+    """The callback of subscriptions whose messages are taken directly; it is never called."""
 
 
 def _hash(offers: Iterable[Any]) -> str:
-    """The RIHS01 hash of the type, if the graph has it."""
+    """The RIHS01 hash of a topic's type; empty if the graph does not contain it."""
     for each in offers:
         found = getattr(each, "topic_type_hash", None)
         if found is not None:

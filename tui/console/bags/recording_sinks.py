@@ -1,4 +1,4 @@
-"""Where recorded messages go: into a bag, from start to stop, or into the ring buffer of the last minutes."""
+"""The sinks for recorded messages: a bag, from start to stop, or the ring buffer of the last minutes."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.files.save_file import NotSaved
 
 LOG = "/rosout"
-"""A latched topic whose last message is not state but a line of the log."""
+"""Publishers latch this topic, but its last message is a line of the log, not a state."""
 
 
 class RecordingSink:
-    """A sink that keeps what every bag must begin with: the topics, and earlier messages of latching publishers."""
+    """Keeps what every bag must begin with: the topics, and the latest messages of latched topics."""
 
     def __init__(self) -> None:
         self._topics: dict[str, tuple[Any, list[dict[str, Any]], str]] = {}
@@ -44,16 +44,16 @@ class RecordingSink:
 
 
 class BagSink(RecordingSink):
-    """Records into a bag while there is one, in the recorder's thread."""
+    """Writes messages into a bag while there is one, in the recorder's thread."""
 
     def __init__(self) -> None:
         super().__init__()
         self.writer: BagWriter | None = None
         self.problem = ""
-        """Why a bag was closed unrequested, for instance because the disk is full."""
+        """Why a bag was closed without a request, for instance because the disk is full."""
 
     def begin(self, writer: BagWriter, now: int) -> None:
-        """Start writing a bag (time in ns since the epoch)."""
+        """Start writing a bag; `now` is in ns since the epoch."""
         self._open(writer, now)
         self.writer, self.problem = writer, ""
 
@@ -65,7 +65,7 @@ class BagSink(RecordingSink):
         return writer
 
     def fail(self, problem: str) -> None:
-        """Close the bag with what it contains, and note why."""
+        """Close the bag with what it contains, and keep the reason in `problem`."""
         with suppress(OSError, NotSaved):
             self.end()
         self.problem = problem
@@ -74,7 +74,7 @@ class BagSink(RecordingSink):
         """Add a topic."""
         if self.writer is not None:
             self.writer.topic(name, kind, qos, type_hash)
-        # only afterwards: a topic that a bag rejects must not be added to the next one either
+        # only now: a topic that this bag rejects must not be added to the next one either
         super().topic(name, kind, qos, type_hash)
 
     def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
@@ -87,7 +87,7 @@ class BagSink(RecordingSink):
                 self._fail(error)
 
     def flush(self) -> None:
-        """Pass what is buffered to the operating system."""
+        """Pass buffered data to the operating system."""
         if self.writer is not None:
             try:
                 self.writer.flush()
@@ -108,7 +108,7 @@ class RingSink(RecordingSink):
         self.ring = ring
 
     def pour(self, writer: BagWriter) -> int:
-        """Write the kept messages as a bag; returns their number."""
+        """Write the kept messages to a bag; returns their number."""
         self._open(writer, self.ring.begin, before=self.ring.begin)
         return self.ring.pour(writer)
 

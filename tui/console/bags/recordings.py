@@ -1,4 +1,4 @@
-"""Recording in the console, in a separate node and thread, so that a slow disk delays nothing else."""
+"""Records in a separate node and thread of the console, so that a slow disk delays nothing else."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ from rosidl_runtime_py.utilities import get_message
 
 NAME = "_bot_console_recorder"
 DEFINITION_TIMEOUT_S = 3.0
-"""Seconds for which a topic waits for the definition of its type, which the Topics pane requests from the nodes; then
-it is recorded without.
+"""Seconds that a topic waits for the definition of its type, which the Topics pane requests from the nodes; then it is
+recorded without one.
 """
 CLOSE_TIMEOUT_S = 3.0
-"""Seconds that a bag may take to be finished when the console ends."""
+"""Seconds that finishing a bag may take when the console ends."""
 
 
 class Recordings:
     """Records all topics; its methods may be called from any thread."""
 
     def __init__(self, buffer: Keeper | None = None, generic: GenericTypes | None = None) -> None:
-        """`buffer` keeps the last minutes; None: they are not kept. `generic`: for types without a definition here.
+        """`buffer` keeps the last minutes, if they are kept; `generic` gives classes for types without a definition.
 
         The node is created when recording first starts.
         """
@@ -42,7 +42,7 @@ class Recordings:
         self._generic = generic
         self._sink = BagSink()
         self._recorder: Recorder | None = None
-        """Exists in the recorder's thread while a bag is recorded."""
+        """The recorder's thread creates it for each bag that is recorded."""
         self._info = RecordingInfo(kept_s=buffer.kept_s if buffer else 0.0)
         self._orders: queue.SimpleQueue[tuple[Callable[[], Answer], Future[Answer]]] = queue.SimpleQueue()
         self._closing = threading.Event()
@@ -85,7 +85,7 @@ class Recordings:
 
         def end() -> Answer:
             if self._recorder is not None:
-                self._recorder.take()  # what came after the last turn had begun
+                self._recorder.take()  # the messages that came after the last turn
             try:
                 writer = self._sink.end()
             except (NotSaved, OSError) as error:
@@ -101,7 +101,7 @@ class Recordings:
         return self._order(end)
 
     def keep(self, folder: str) -> Future[Answer]:
-        """Save the last minutes from memory."""
+        """Save the last minutes from memory as a bag."""
         if self._buffer is None:
             return done(Answer(False, "the last minutes are not kept in memory (setting keep_minutes)"))
         return self._buffer.keep(str(typed_path(folder).absolute()))
@@ -113,7 +113,7 @@ class Recordings:
             self._thread.join(CLOSE_TIMEOUT_S)
 
     def _order(self, work: Callable[[], Answer]) -> Future[Answer]:
-        """Run something between two turns of the recorder."""
+        """Run a function in the recorder's thread, between two turns of the recorder."""
         future: Future[Answer] = Future()
         self._orders.put((work, future))
         if self._closing.is_set():

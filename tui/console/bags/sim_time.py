@@ -1,4 +1,4 @@
-"""The time of /clock at the moment at which a message was received, for a recorder that is not spun."""
+"""The time of /clock when a message was received, for a recorder whose node is not spun."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from rclpy.serialization import deserialize_message
 from rosgraph_msgs.msg import Clock
 
 MAX_SAMPLES = 5000
-"""Messages of /clock that are remembered; older moments are not asked for."""
+"""The number of /clock messages remembered; earlier times are never asked for."""
 
 
 class SimTime:
-    """Remembers when each message of /clock came."""
+    """Remembers when each message of /clock was received."""
 
     def __init__(self, node: Node) -> None:
         self._kind = Clock
@@ -26,7 +26,7 @@ class SimTime:
         self._times: list[int] = []
 
     def update(self) -> None:
-        """Take the waiting messages."""
+        """Take the waiting messages of /clock."""
         self._subscription.follow()
         now = time.time_ns()
         for data, sent in self._subscription.drain():
@@ -36,7 +36,7 @@ class SimTime:
         del self._moments[:-MAX_SAMPLES], self._times[:-MAX_SAMPLES]
 
     def at(self, moment: int) -> int | None:
-        """The time (ns) of /clock at a moment (ns since the epoch); None before its first message."""
+        """The /clock time (ns) at a moment (ns since the epoch); None before the first message."""
         index = bisect_right(self._moments, moment)
         return self._times[index - 1] if index else None
 

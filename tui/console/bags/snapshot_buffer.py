@@ -1,4 +1,4 @@
-"""Keeps the last minutes of the messages that a process handles, so that what has just happened can be saved."""
+"""Keeps the last minutes of the messages that a process handles, so that they can be saved after an event."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ from bot_console.tui.console.in_background import in_background
 from bot_console.tui.files.save_file import NotSaved, typed_path
 
 TURN_S = 0.25
-"""Seconds between two turns."""
+"""Seconds between two rounds of processing."""
 MAX_WAITING_MESSAGES = 50_000
-"""Messages that may arrive between two turns; beyond that the oldest are dropped."""
+"""Messages that may arrive between two rounds; beyond that, the oldest are dropped."""
 
 
 class Carried(Protocol):
@@ -42,7 +42,7 @@ class SnapshotBuffer:
     """
 
     def __init__(self, size: SnapshotSize, serialize: Callable[[Any], bytes], hash_of: Callable[[Any], str]) -> None:
-        """`serialize` returns a message's CDR, `hash_of` the RIHS01 text of a class."""
+        """`serialize` returns the CDR bytes of a message, `hash_of` the RIHS01 hash of a message class."""
         self.kept_s = size.seconds
         self._serialize = serialize
         self._hash_of = hash_of
@@ -56,8 +56,8 @@ class SnapshotBuffer:
         threading.Thread(target=self._serve, name="snapshot-buffer", daemon=True).start()
 
     def hear(self, by: Carried, source: bytes, number: int, sent: int, message: Any) -> None:
-        """Keep a message, given its endpoint, the publisher's gid and sequence number, time of sending (ns), and
-        content.
+        """Keep a message. `by` is its endpoint, `source` the publisher's gid, `number` its sequence number, `sent` in
+        ns.
 
         `message` is a message object or serialized bytes.
         """
@@ -90,8 +90,8 @@ class SnapshotBuffer:
                 self._turn()
 
     def _turn(self) -> None:
-        """Process what has arrived: serialize messages, since bytes are smaller and cost the garbage collector
-        nothing.
+        """Process the messages that have arrived: serialize them, since bytes are smaller and cost the garbage
+        collector nothing.
         """
         found: list[tuple[int, str, bytes]] = []
         for _ in range(len(self._waiting)):

@@ -1,4 +1,4 @@
-"""The last minutes of a recording in memory: which messages are kept, and which are discarded first."""
+"""A ring buffer of the last minutes of messages, limited in time and memory."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from typing import Any
 from bot_console.tui.console.bags.recorder import Sink
 
 MESSAGE_OVERHEAD_BYTES = 200
-"""Bytes of memory that a kept message needs in addition to its data."""
+"""Memory (bytes) that a kept message needs beyond its data."""
 
 
 class Ring:
-    """Keeps the last minutes in memory, so that they can be saved after something has happened."""
+    """Keeps the last minutes in memory, so that they can be saved after an event."""
 
     def __init__(self, seconds: float, maximum: int) -> None:
-        """Keeps at most this many seconds and `maximum` bytes."""
+        """Keeps messages of at most `seconds`, in at most `maximum` bytes."""
         self._seconds = seconds
         self._maximum = maximum
         self._held = 0
@@ -49,7 +49,7 @@ class Ring:
         """Do nothing: nothing is written before `pour`."""
 
     def pour(self, sink: Sink) -> int:
-        """Write all kept messages; returns their number."""
+        """Write all kept messages to a sink; returns their number."""
         kept: Iterable[tuple[int, str, bytes]] = list(self._kept)
         for name, (kind, qos, type_hash) in self.topics.items():
             sink.topic(name, kind, qos, type_hash)

@@ -1,4 +1,4 @@
-"""How much of the past is kept in memory, to be saved as a bag afterwards. Standard library only."""
+"""How much of the past is kept in memory, so that it can be saved as a bag. Standard library only."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 KEEP_MINUTES = 2.0
 KEEP_MEGABYTES = 64.0
-"""The defaults of the settings `keep_minutes` and `keep_megabytes`."""
+"""The default values of the settings `keep_minutes` and `keep_megabytes`."""
 
 
 @dataclass(frozen=True, slots=True)
 class SnapshotSize:
-    """The limits of what is kept in memory: seconds, and bytes."""
+    """The limits on the messages kept in memory: seconds and bytes."""
 
     seconds: float
     bytes: int

@@ -1,4 +1,4 @@
-"""Reads a bag file of SQLite, with the tables of any version of rosbag2."""
+"""Reads an SQLite bag file written by any version of rosbag2."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from pathlib import Path
 from bot_console.tui.console.bags.metadata import Topic, qos_profiles
 
 OPTIONAL = ("serialization_format", "offered_qos_profiles", "type_description_hash")
-"""Columns of the table of topics that early versions do not have."""
+"""Columns of the table of topics that files of early versions lack."""
 
 
 class SqliteFile:
-    """The contents of a file. Raises `sqlite3.Error` and `ValueError` if it is damaged."""
+    """The contents of a bag file. Raises `sqlite3.Error` and `ValueError` if it is damaged."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -38,11 +38,11 @@ class SqliteFile:
             self.begin, self.end = min(times), max(times)
 
     def topics(self) -> Iterator[Topic]:
-        """The topics."""
+        """The recorded topics."""
         yield from self._topics
 
     def messages(self, topics: Collection[str] | None, begin: int) -> Iterator[tuple[int, str, bytes]]:
-        """Messages (time of reception in ns, topic, data) since a time, in the order of their reception."""
+        """The messages received since a time, in order: (time of reception in ns, topic, data)."""
         asked = (
             "select timestamp, name, data from messages join topics on messages.topic_id = topics.id "
             "where timestamp >= ? order by timestamp, messages.id"
@@ -55,12 +55,12 @@ class SqliteFile:
                     yield stamp, name, data
 
     def _open(self) -> sqlite3.Connection:
-        """Open the file, which may lie in a folder without write access."""
+        """Open the file read-only, even in a folder without write access."""
         uri = self._path.resolve().as_uri()
         base = sqlite3.connect(f"{uri}?mode=ro", uri=True)
         try:
             base.execute("select count(*) from sqlite_master")
-        except sqlite3.OperationalError:  # beside a journal, SQLite writes even to read
+        except sqlite3.OperationalError:  # beside a journal, SQLite writes even when it only reads
             base.close()
             base = sqlite3.connect(f"{uri}?mode=ro&immutable=1", uri=True)
         return base

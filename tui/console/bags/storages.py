@@ -1,4 +1,4 @@
-"""The files that a bag is written to: MCAP or SQLite, as rosbag2's storage plug-ins write them."""
+"""Writes the files of a bag: MCAP or SQLite, in the format of rosbag2's storage plug-ins."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ create table messages (id integer primary key, topic_id integer not null, timest
 create index timestamp_idx on messages (timestamp asc);
 insert into schema values (4, 'jazzy');
 """
-"""Version 4, which Jazzy writes."""
+"""Schema version 4, which Jazzy writes."""
 
 
 def encoding_of(definition: str) -> str:
-    """The encoding of a definition; empty without one, as rosbag2 and MCAP have it."""
+    """The encoding of a message definition; empty without a definition, as in rosbag2 and MCAP."""
     return "ros2msg" if definition else ""
 
 
 class Storage(Protocol):
-    """A file being written; every method may raise `OSError`."""
+    """A bag file being written; every method may raise `OSError`."""
 
     def topic(self, topic: Topic, definition: str) -> None:
-        """Add a topic, with the definition of its type in the encoding `ros2msg`, or none."""
+        """Add a topic, with the definition of its type in the encoding `ros2msg`, or an empty one."""
         ...
 
     def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
@@ -41,7 +41,7 @@ class Storage(Protocol):
         ...
 
     def flush(self) -> None:
-        """Pass what is buffered to the operating system."""
+        """Pass buffered data to the operating system."""
         ...
 
     def close(self) -> None:
@@ -50,7 +50,7 @@ class Storage(Protocol):
 
 
 class McapStorage:
-    """An MCAP file that a killed program leaves readable up to its last flush."""
+    """An MCAP file; a program that is killed leaves it readable up to the last flush."""
 
     def __init__(self, path: Path, *, compressed: bool, crc: bool) -> None:
         from mcap.writer import CompressionType, Writer
@@ -80,7 +80,7 @@ class McapStorage:
         self._writer.add_message(channel, log_time=received, data=data, publish_time=sent or received, sequence=number)
 
     def flush(self) -> None:
-        """Pass what is buffered to the operating system."""
+        """Pass buffered data to the operating system."""
         self._writer.flush()
 
     def close(self) -> None:
@@ -92,7 +92,7 @@ class McapStorage:
 
 
 class SqliteStorage:
-    """An SQLite file; what was not flushed is rolled back when the program is killed."""
+    """An SQLite file; if the program is killed, it contains what was flushed."""
 
     def __init__(self, path: Path) -> None:
         path.open("xb").close()
@@ -116,12 +116,12 @@ class SqliteStorage:
             self._do(asked, topic.type, encoding_of(definition), definition, topic.type_hash)
 
     def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
-        """Add a message; the time of sending is not kept."""
+        """Add a message; the format has no time of sending."""
         asked = "insert into messages (topic_id, timestamp, data) values (?, ?, ?)"
         self._do(asked, self._topics[topic], received, data)
 
     def flush(self) -> None:
-        """Commit what was written."""
+        """Commit the messages written so far."""
         try:
             self._base.commit()
         except sqlite3.Error as error:

@@ -1,4 +1,4 @@
-"""Several bags that are read as one."""
+"""Reads several bags as one."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from bot_console.tui.console.bags.reader import Bag, Entry
 
 
 class BagsTogether:
-    """The messages of several bags in order; if a topic is in several, the QoS of the first one counts."""
+    """The messages of several bags in order; for a topic in more than one, the type and QoS in the first one count."""
 
     def __init__(self, bags: Sequence[Bag]) -> None:
         self._bags = bags
 
     @property
     def topics(self) -> Mapping[str, Topic]:
-        """By name."""
+        """The recorded topics, by name."""
         found: dict[str, Topic] = {}
         for bag in self._bags:
             for name, topic in bag.topics.items():
@@ -31,5 +31,5 @@ class BagsTogether:
         return (min(each[0] for each in spans), max(each[1] for each in spans)) if spans else (0, 0)
 
     def messages(self, topics: Collection[str] | None = None, begin: int = 0) -> Iterator[Entry]:
-        """Messages since a time (ns since the epoch), in order. Raises `NoBag` when it reaches a damaged place."""
+        """The messages received since a time (ns since the epoch), in order; raises `NoBag` on damaged data."""
         return heapq.merge(*(bag.messages(topics, begin) for bag in self._bags), key=lambda entry: entry.received)

@@ -1,4 +1,4 @@
-"""Writes a bag so that at most the last second is lost, however the program ends."""
+"""Writes a bag; however the program ends, at most the last second is lost."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from bot_console.tui.console.bags.storages import McapStorage, SqliteStorage, St
 from bot_console.tui.files.save_file import NotSaved
 
 FLUSH_S = 0.5
-"""Seconds after which buffered data is written at the latest."""
+"""The longest time (s) that data is buffered before it is written."""
 OVERHEAD_BYTES = 40
-"""About what a file needs for a message beside its data."""
+"""Approximate size of a message in a file, beyond its data."""
 
 
 @dataclass(frozen=True)
@@ -27,15 +27,15 @@ class Writing:
     storage: str = "mcap"
     """`mcap` or `sqlite3`."""
     preset: str = "none"
-    """For MCAP as in rosbag2: `zstd_fast` and `zstd_small` compress chunks, `fastwrite` leaves out checksums."""
+    """Preset for MCAP as in rosbag2: `zstd_fast` and `zstd_small` compress chunks, `fastwrite` leaves out checksums."""
     compression: str = "none"
-    """`message` or `file`: compressed with zstd."""
+    """`none`, or `message` or `file` for compression with zstd."""
     max_bytes: int = 0
-    """Size (bytes) from which on the next file is begun; 0: one file."""
+    """Size (bytes) at which the next file is started; 0: one file."""
     max_seconds: float = 0.0
-    """Seconds of messages after which the next file is begun; 0: one file."""
+    """Seconds of messages after which the next file is started; 0: one file."""
     custom: Mapping[str, str] = field(default_factory=dict[str, str])
-    """Further facts for the metadata."""
+    """Custom data for the metadata."""
 
 
 class BagWriter:
@@ -60,7 +60,7 @@ class BagWriter:
             raise NotSaved(f"{folder} exists already; choose another name") from None
         except OSError as error:
             raise NotSaved(f"{folder}: {error.strerror or error}") from error
-        self.flush()  # so that a recorder killed before its first message leaves an empty bag instead of a broken file
+        self.flush()  # so that a recorder killed before its first message leaves an empty bag, not a broken file
         self.metadata.save(folder)
 
     def topic(self, name: str, kind: Any, qos: list[dict[str, Any]], type_hash: str = "") -> None:
@@ -69,7 +69,7 @@ class BagWriter:
             self.add(Topic(name, interface_type_name(kind), qos, type_hash), definition(kind))
 
     def add(self, topic: Topic, definition: str) -> None:
-        """Add a topic by the text of its definition."""
+        """Add a topic with the text of its definition."""
         self._storage.topic(topic, definition)
         self.metadata.topics[topic.name] = topic
         self._definitions[topic.name] = definition
@@ -91,7 +91,7 @@ class BagWriter:
             self.flush()
 
     def split(self) -> None:
-        """Begin the next file."""
+        """Start the next file."""
         self._finish()
         self._storage = self._next()
         for name, topic in self.metadata.topics.items():
@@ -99,7 +99,7 @@ class BagWriter:
         self.metadata.save(self.folder)
 
     def flush(self) -> None:
-        """Pass what is buffered to the operating system."""
+        """Pass buffered data to the operating system."""
         self._flushed = time.monotonic()
         self._storage.flush()
 

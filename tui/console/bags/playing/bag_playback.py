@@ -1,4 +1,4 @@
-"""Plays a bag into the ROS domain while a console shows it; joins the domain when it first has to publish."""
+"""Plays a bag into the ROS domain while a console shows it; joins the domain only when it first has to publish."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from bot_console.tui.console.bags.port import GenericTypes
 from bot_console.tui.console.bags.reader import Bag
 
 CLOSING_S = 3.0
-"""How long a player may take to stop."""
+"""Seconds that a player may take to stop."""
 
 
 class BagPlayback:
-    """A `Playback`. Before it publishes anything, it only remembers where to begin."""
+    """A `Playback`. Until it first publishes, it only remembers the position, rate and loop that are set."""
 
     def __init__(self, bag: Bag, join: Callable[[], Any], generic: GenericTypes | None = None) -> None:
         """`join` returns a node in the domain, or a text that says why there is none.
 
-        `generic`: for types without a definition here.
+        `generic` provides classes for types without a definition here.
         """
         self._bag = bag
         self._generic = generic
@@ -37,14 +37,14 @@ class BagPlayback:
 
     @property
     def state(self) -> PlaybackState:
-        """Where it is."""
+        """The player's state, or before it first publishes the settings for it."""
         player, problem = self._player, self._waiting.problem
         if player is None or problem:
             return self._waiting
         return player.state
 
     def toggle(self) -> str:
-        """Play, or pause."""
+        """Play or pause."""
         warning = self._begin()
         player = self._player
         if player is not None:
@@ -61,34 +61,34 @@ class BagPlayback:
         return warning
 
     def seek(self, stamp: int) -> None:
-        """Continue at a time of the bag."""
+        """Continue at a time of the bag (ns since the epoch)."""
         if self._player is not None:
             self._player.seek(stamp)
         else:
             self._wait(position=min(max(stamp, self._waiting.begin), self._waiting.end))
 
     def change_rate(self, factor: float) -> None:
-        """Play faster or slower."""
+        """Multiply the playback rate by a factor."""
         if self._player is not None:
             self._player.rate *= factor
         else:
             self._wait(rate=min(max(self._waiting.rate * factor, MIN_RATE), MAX_RATE))
 
     def toggle_loop(self) -> None:
-        """Start again at the end, or not."""
+        """Toggle whether playing starts again at the end of the bag."""
         if self._player is not None:
             self._player.loop = not self._player.loop
         else:
             self._wait(loop=not self._waiting.loop)
 
     def close(self) -> None:
-        """Stop."""
+        """Stop playing."""
         self._stopped.set()
         if self._thread is not None:
             self._thread.join(CLOSING_S)
 
     def _begin(self) -> str:
-        """Join the domain, once; returns a warning about topics that are not played."""
+        """Join the domain and start the player, once; returns a warning about topics that are not played."""
         if self._player is not None or self._waiting.problem:
             return ""
         node = self._join()

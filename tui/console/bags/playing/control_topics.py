@@ -1,5 +1,5 @@
-"""Recorded topics that command a robot, release its stop or acknowledge one. They are played only on explicit
-request.
+"""Recognises recorded topics that command a robot, or that lock, release or acknowledge its stop. They are played only
+on explicit request.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ STOP_WORDS = frozenset(
 )
 """Words in the last part of a topic name: the locks of twist_mux, for example, are `pause_navigation` and `e_stop`.
 
-`SURE_WORDS` count with every type, the others only if the type is not a measurement.
+`SURE_WORDS` count whatever the type, the others only if the type is not that of a measurement.
 """
 STOP_FOLDER = "emergency_stop"
 FIGURES = re.compile(r"(std_msgs/msg/(U?Int|Float)|sensor_msgs/msg/(?!Joy$)|nav_msgs/msg/Odometry)")

@@ -1,4 +1,4 @@
-"""Waits until the subscriptions to what is played have been found: what is published before is lost."""
+"""Waits until the subscriptions of played topics have been discovered: messages published before that are lost."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 MIN_S = 0.5
-"""How long others get to be discovered by a node that has just been made."""
+"""Seconds that a newly created node gets to discover the other nodes."""
 TIMEOUT_S = 2.0
-"""After this time, a subscription that is known but not connected, such as one with another QoS, is not waited for."""
+"""Seconds after which a subscription that is known but not connected, for example because of its QoS, is ignored."""
 POLL_S = 0.05
 
 
@@ -18,7 +18,7 @@ def await_subscriptions(
 ) -> None:
     """Wait until the publishers are connected to all known subscriptions of their topics, or until `stopped` is set.
 
-    `subscriptions` counts those of a topic in the graph.
+    `subscriptions` returns the number of subscriptions of a topic in the graph.
     """
     waited = 0.0
     while waited < TIMEOUT_S and not stopped.wait(POLL_S):

@@ -1,4 +1,4 @@
-"""Playing the bag that a console shows, as its app sees it. Standard library only."""
+"""The port for playing the bag that a console shows. Standard library only."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Protocol
 
 @dataclass(frozen=True, slots=True)
 class PlaybackState:
-    """Where a player is; times are in ns since the epoch."""
+    """The position and settings of a player; times are in ns since the epoch."""
 
     position: int
     begin: int
@@ -18,7 +18,7 @@ class PlaybackState:
     paused: bool = True
     loop: bool = False
     published: int = 0
-    """Messages so far."""
+    """Number of messages published so far."""
     problem: str = ""
     """Why it cannot play; empty if it can."""
 
@@ -32,15 +32,15 @@ class PlaybackState:
 
 
 class Playback(Protocol):
-    """A player of one bag, which begins to publish when it is asked to play or to step."""
+    """A player of one bag, which publishes nothing until it is asked to play or to step."""
 
     @property
     def state(self) -> PlaybackState:
-        """Where it is."""
+        """The position and settings of the player."""
         ...
 
     def toggle(self) -> str:
-        """Play, or pause; at the end, play from the start. Returns a warning that is to be shown once, or nothing."""
+        """Play or pause; at the end, play from the start. Returns a warning to show once, or an empty text."""
         ...
 
     def step(self) -> str:
@@ -48,17 +48,17 @@ class Playback(Protocol):
         ...
 
     def seek(self, stamp: int) -> None:
-        """Continue at a time of the bag."""
+        """Continue at a time of the bag (ns since the epoch)."""
         ...
 
     def change_rate(self, factor: float) -> None:
-        """Play faster or slower."""
+        """Multiply the playback rate by a factor."""
         ...
 
     def toggle_loop(self) -> None:
-        """Start again at the end, or not."""
+        """Toggle whether playing starts again at the end of the bag."""
         ...
 
     def close(self) -> None:
-        """Stop."""
+        """Stop playing."""
         ...

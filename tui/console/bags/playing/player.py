@@ -1,4 +1,4 @@
-"""Plays bags: publishes their messages in order and with their original timing, and can be paused and moved."""
+"""Plays bags: publishes their messages in order and with their original timing, and can pause and seek."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ from rosgraph_msgs.msg import Clock as Message
 
 CLOCK = "/clock"
 STOP_POLL_S = 0.1
-"""How long a player waits at most before it looks whether it is to stop."""
+"""The longest time (s) between two checks whether a player is to stop."""
 MIN_RATE, MAX_RATE = 0.01, 1e9
 
 
 class Recorded(Protocol):
-    """One bag, or several that are played together."""
+    """One bag, or several bags that are played together."""
 
     @property
     def topics(self) -> Mapping[str, Topic]:
-        """By name."""
+        """The recorded topics, by name."""
         ...
 
     @property
@@ -42,7 +42,7 @@ class Recorded(Protocol):
         ...
 
     def messages(self, topics: Collection[str] | None = None, begin: int = 0) -> Any:
-        """Messages since a time, in order."""
+        """The messages (`Entry`) received since a time (ns since the epoch), in order."""
         ...
 
 
@@ -59,11 +59,11 @@ class Playing:
     loop: bool = False
     paused: bool = False
     stays: bool = False
-    """Whether it pauses at the end instead of ending."""
+    """Whether it pauses at the end of the bag instead of ending."""
     topics: Collection[str] | None = None
     """Topics to play; None: all except those that control a robot, see `control_topics`."""
     chosen: Callable[[str], bool] = field(default=lambda _: True)
-    """Which of the others to play, by name."""
+    """A further filter: whether to play a topic, by name."""
     remaps: Mapping[str, str] = field(default_factory=dict[str, str])
     """New names by recorded topic name."""
     qos: Mapping[str, QoSProfile] = field(default_factory=dict[str, QoSProfile])
@@ -71,7 +71,7 @@ class Playing:
     clock: float = 0.0
     """Rate (Hz) at which the bag's time is published on /clock; 0: never."""
     clock_topics: Collection[str] | None = ()
-    """Topics before whose messages the time is published, too; None: all."""
+    """Topics whose messages are each preceded by the time on /clock; None: all."""
 
 
 class Player:
@@ -83,8 +83,8 @@ class Player:
         """`find` returns the class of a type name. Messages of other types are published as they were recorded, if
         `generic` has a class for them; otherwise their topics are listed in `unknown` and left out.
 
-        Topics that control a robot are listed in `left_out`, unless `how.topics` names them. A topic that is remapped
-        to such a name counts as one.
+        Topics that control a robot are listed in `left_out` and not played, unless `how.topics` names them. A topic
+        that is remapped to a name of that kind counts as one.
         """
         self._node = node
         self._bag = bag
@@ -101,10 +101,10 @@ class Player:
         self.end = last if how.end is None else min(last, how.end)
         self._from = min(self.begin + int(how.offset * 1e9), self.end)
         self._position, self._since = self._from, time.monotonic()
-        """A time of the bag, and the time (s) at which it was reached."""
+        """A time of the bag, and the monotonic time (s) at which playing reached it."""
         self._rate, self._paused, self._loop = how.rate, how.paused, how.loop
         self._running = False
-        """Whether time passes, unless it is paused; not before there are subscriptions."""
+        """Whether playing has begun: not before there are subscriptions. From then on time passes, unless paused."""
         self._steps = 0
         self._jump: int | None = None
 
@@ -116,7 +116,7 @@ class Player:
 
     @property
     def state(self) -> PlaybackState:
-        """Where it is."""
+        """The position and settings of the player."""
         return PlaybackState(self.position, self.begin, self.end, self._rate, self._paused, self._loop, self.published)
 
     @property
@@ -133,7 +133,7 @@ class Player:
 
     @property
     def paused(self) -> bool:
-        """Whether time stands still."""
+        """Whether the time of the bag stands still."""
         return self._paused
 
     @paused.setter
@@ -145,7 +145,7 @@ class Player:
 
     @property
     def loop(self) -> bool:
-        """Whether it starts again at the end."""
+        """Whether playing starts again at the end of the bag."""
         return self._loop
 
     @loop.setter
@@ -153,7 +153,7 @@ class Player:
         self._loop = loop
 
     def step(self, count: int = 1) -> None:
-        """Pause, and publish the next messages."""
+        """Pause, and publish the next `count` messages."""
         with self._changed:
             if not self._paused:
                 self._anchor(self._now())
@@ -162,7 +162,7 @@ class Player:
             self._changed.notify_all()
 
     def seek(self, stamp: int) -> None:
-        """Continue at a time of the bag (ns since the epoch), or at its nearer end."""
+        """Continue at a time of the bag (ns since the epoch), or at the start or end if the time is outside it."""
         with self._changed:
             self._jump = min(max(stamp, self.begin), self.end)
             self._steps = 0
@@ -178,11 +178,11 @@ class Player:
                 begin = self._begin()
 
     def await_subscriptions(self, stopped: threading.Event) -> None:
-        """Wait until the subscriptions of its topics have been found; blocks for a second or two."""
+        """Wait until the subscriptions of the played topics have been discovered; blocks for up to two seconds."""
         await_subscriptions(self._publishers.values(), self._node.count_subscribers, stopped)
 
     def burst(self, count: int) -> None:
-        """Publish the next messages at once; 0 means all."""
+        """Publish the next `count` messages at once; 0 means all."""
         for number, entry in enumerate(self._bag.messages(self._publishers, self._from), 1):
             self._publish(entry)
             self._anchor(entry.received)
@@ -190,7 +190,7 @@ class Player:
                 return
 
     def wait_for_acknowledgements(self, timeout_ms: int) -> None:
-        """Wait until the subscribers have received all messages, at most so long; 0 means for ever."""
+        """Wait until the subscribers have acknowledged all messages, at most `timeout_ms`; 0 means for ever."""
         timeout = Duration(nanoseconds=timeout_ms * 10**6) if timeout_ms else Duration(seconds=-1)
         for each in self._publishers.values():
             each.wait_for_all_acked(timeout)
@@ -214,11 +214,11 @@ class Player:
             try:
                 profile = how.qos.get(name) or offered(topic.qos)
                 self._publishers[name] = self._node.create_publisher(kind, target, profile)
-            except InvalidTopicNameException:  # recorded by others, or damaged
+            except InvalidTopicNameException:  # recorded by other tools, or damaged
                 self.unknown[name] = f"'{target}' is not a valid topic name; remapped to one, it is played"
 
     def _begin(self) -> int:
-        """Let the time run from the start of what is played, or from where it was moved to meanwhile."""
+        """Start the time at the position requested in the meantime, or else at the start of what is played."""
         with self._changed:
             begin = self._from if self._jump is None else self._jump
             self._jump, self._running = None, True
@@ -226,7 +226,7 @@ class Player:
             return begin
 
     def _play(self, begin: int, stopped: threading.Event) -> int | None:
-        """Play from a time on; returns where to continue if it was moved, None at the end."""
+        """Play from a time on; returns the position to continue at after a seek, None at the end."""
         for entry in self._bag.messages(self._publishers, begin):
             if entry.received > self.end:
                 break
@@ -235,7 +235,7 @@ class Player:
             self._publish(entry)
         if self._how.stays and not self._loop and not stopped.is_set():
             self.paused = True
-        while self._paused and not stopped.is_set():  # one who steps or seeks may come back from the end
+        while self._paused and not stopped.is_set():  # a person who paused or stepped can still seek back from the end
             with self._changed:
                 if self._jump is not None:
                     break
@@ -244,7 +244,7 @@ class Player:
         return self._jumped()
 
     def _wait(self, entry: Entry, stopped: threading.Event) -> bool:
-        """Wait until a message is due; False if it was stopped or moved instead."""
+        """Wait until a message is due; returns False if playing was stopped or moved instead."""
         while True:
             with self._changed:
                 if stopped.is_set() or self._jump is not None:
@@ -285,7 +285,7 @@ class Player:
 
 
 def _class(topic: Topic, find: Callable[[str], Any], generic: GenericTypes | None) -> Any:
-    """The class by which a topic's messages are published; raises `ImportError` and the like if there is none."""
+    """The class with which a topic's messages are published; raises `ImportError` and the like if there is none."""
     topic.check_encoding()
     try:
         return find(topic.type)
@@ -302,7 +302,7 @@ def _absolute(topic: str) -> str:
 
 
 class Clock:
-    """Publishes the bag's time on /clock."""
+    """Publishes the time of the bag on /clock."""
 
     def __init__(self, node: Node, rate: float) -> None:
         self._message = Message
@@ -311,7 +311,7 @@ class Clock:
         self._reported = -1
 
     def report(self, stamp: int, *, now: bool = False) -> None:
-        """Publish a time (ns), unless another was published less than one period before it; `now` does in any case."""
+        """Publish a time (ns), unless it is less than one period after the last one; with `now`, in any case."""
         if not now and 0 <= stamp - self._reported < self.period * 1e9:
             return
         self._reported = stamp
