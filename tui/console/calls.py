@@ -1,4 +1,4 @@
-"""Service calls of the console, with a timeout, never blocking."""
+"""Makes the console's service calls: with a timeout, and without blocking."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ANSWER_TIMEOUT_S = 5.0
 """Seconds to wait for a response: a slow link delivers it late, a hung node never sends it."""
 
 MIN_POLLS = 5
-"""The least number of polls before a timeout.
+"""The minimum number of polls before a timeout.
 
 If this process itself got no processor time, it could not receive responses, so the delay must not count as the
 server's. A late poll counts once, however late it is.
@@ -25,15 +25,15 @@ MAX_POLL_S = 1.0
 """The longest time between two polls, so that the disappearance of a server is noticed soon."""
 
 GONE_POLLS = 2
-"""Consecutive polls without a server after which no response is expected. After one it may be restarting, or respond
-while it shuts down.
+"""Consecutive polls without a server after which no response is expected. After one, the server may be restarting, or
+respond while it shuts down.
 """
 
 READY_TIMEOUT_S = 2.0
 """Seconds that a new client may take to discover a server that is in the graph, as on a slow network."""
 
 READY_POLL_S = 0.02
-"""Seconds between two checks whether it has."""
+"""Seconds between two checks whether the client is ready."""
 
 
 class NoAnswer(Exception):
@@ -77,7 +77,7 @@ class Calls:
             self._node.destroy_timer(timer)
 
     async def _gets_ready(self, client: Any, service: str) -> bool:
-        """Wait for a server that is in the graph: a new client has to discover it first."""
+        """Wait until a new client has discovered its server; False at once if the server is not in the graph."""
         if not self._node.count_services(service):
             return False
         found: RosFuture[bool] = RosFuture()
@@ -87,7 +87,7 @@ class Calls:
             try:
                 ready = client.service_is_ready()
                 over = ready or next(polls) * READY_POLL_S >= READY_TIMEOUT_S
-            except InvalidHandle:  # its node has left in the meantime, see `forget`
+            except InvalidHandle:  # the node has left in the meantime, see `forget`
                 ready, over = False, True
             if over and not found.done():
                 found.set_result(ready)
@@ -120,5 +120,5 @@ def _is_there(client: Any) -> bool:
     """Whether the server of a client is in the graph."""
     try:
         return bool(client.service_is_ready())
-    except InvalidHandle:  # its node has left, see `forget`
+    except InvalidHandle:  # the node has left, see `forget`
         return False

@@ -1,6 +1,6 @@
-"""The gate in front of all commands: shut while the console starts, when it is lost, read-only or closed.
+"""The gate for all commands: closed while the console starts, and if the console is read-only, lost or closed.
 
-Standard library only. A stop does not come this way: nothing may refuse it, see `robot/robot_drive.py`.
+Standard library only. A stop does not pass through it: nothing may refuse a stop, see `robot/robot_drive.py`.
 """
 
 from __future__ import annotations
@@ -20,21 +20,21 @@ READ_ONLY = "this console is read-only (--read-only)"
 
 @dataclass(frozen=True)
 class _Pending:
-    """How to express a refusal as a result, and the coroutine that is to produce the result."""
+    """A request: how to turn a refusal into a result, and the coroutine that is to produce the result."""
 
     refused: Callable[[str], Any]
     task: Coroutine[Any, Any, None]
 
 
 class Gate:
-    """Lets commands and queries through to the system, or refuses them with the reason; for any thread."""
+    """Passes commands and queries on to the system, or refuses them with the reason. Thread-safe."""
 
     def __init__(self, why: str = STARTING) -> None:
-        """`why` is the reason given until `open`; empty where there is nothing to wait for."""
+        """`why` is the reason for refusals before `open`; empty if there is nothing to wait for."""
         self.unreached = why
-        """Why nothing can be asked of the system; empty while it can be reached."""
+        """Why the system cannot be asked anything; empty while it can be reached."""
         self.read_only = ""
-        """Why this console changes nothing; empty if it may."""
+        """Why this console may not change anything; empty if it may."""
         self._start: Callable[[Coroutine[Any, Any, None]], object] | None = None
         self._pending: dict[Future[Any], _Pending] = {}
         self._queries: list[Callable[[], object]] = []
@@ -46,7 +46,7 @@ class Gate:
         return self.read_only or self.unreached
 
     def open(self, start: Callable[[Coroutine[Any, Any, None]], object]) -> None:
-        """Let requests through: `start` runs a coroutine, from any thread. Queries that have waited are made now."""
+        """Let requests through, and make the waiting queries. `start` runs a coroutine, from any thread."""
         with self._lock:
             self._start, self.unreached = start, ""
             queries, self._queries = self._queries, []
@@ -54,7 +54,7 @@ class Gate:
             query()
 
     def close(self, why: str) -> None:
-        """Refuse all pending and all later requests with this reason."""
+        """Refuse all pending and later requests with this reason."""
         with self._lock:
             self.unreached = why
             self._queries = []
@@ -63,7 +63,7 @@ class Gate:
             self._refuse(outcome, why)
 
     def when_open(self, query: Callable[[], object]) -> None:
-        """Make a query now, or as soon as the system is reached; never once it is lost or the console has closed."""
+        """Make a query now, or once the system is reached; never after it is lost or the console has closed."""
         with self._lock:
             if self.unreached == STARTING:
                 self._queries.append(query)
@@ -72,7 +72,7 @@ class Gate:
         query()
 
     def run_when_open(self, work: Callable[[], object]) -> None:
-        """Do something in the console's executor, now or as soon as the system is reached, as `when_open`."""
+        """Run a function in the console's executor, at the time at which `when_open` makes a query."""
 
         async def run() -> None:
             work()
@@ -84,15 +84,15 @@ class Gate:
     ) -> Future[T]:
         """Run a coroutine in the console's executor.
 
-        The future is always completed: `refused` turns the reason of a refusal into a result, or raises it. What only
-        reads, and so has `changes` false, passes in a read-only console too.
+        The future is always completed: `refused` turns the reason of a refusal into a result, or raises it. A request
+        that only reads has `changes` false, and passes in a read-only console too.
         """
         outcome: Future[T] = Future()
 
         async def guarded() -> None:
             try:
                 result = await work()
-            except Exception as error:  # goes to the holder of the future
+            except Exception as error:  # is passed on through the future
                 if self._claim(outcome):
                     outcome.set_exception(error)
             else:
@@ -110,7 +110,7 @@ class Gate:
         return outcome
 
     def _claim(self, outcome: Future[Any]) -> _Pending | None:
-        """Remove a pending entry: the caller that gets it is the one to complete it."""
+        """Remove a pending request; the caller that gets it has to complete it."""
         with self._lock:
             return self._pending.pop(outcome, None)
 
@@ -122,7 +122,7 @@ class Gate:
             pending.task.close()  # otherwise the interpreter warns that it was never awaited
         try:
             outcome.set_result(pending.refused(why))
-        except Exception as error:  # of `refused`, which may raise the reason
+        except Exception as error:  # `refused` may raise the reason
             outcome.set_exception(error)
 
 

@@ -1,4 +1,4 @@
-"""The protocol by which the console runs `ros2 ...` lines. Standard library only."""
+"""The port for running `ros2 ...` lines. Standard library only."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from bot_console.tui.console.model import ConsoleSnapshot
 
 
 class Stream(Protocol):
-    """A command line that keeps printing until it is stopped."""
+    """A running command line that prints until it is stopped."""
 
     def lines(self) -> Sequence[str]:
-        """The most recent lines printed; the same object until there are more."""
+        """The last lines printed; the same object until there are more."""
         ...
 
     @property
@@ -30,12 +30,12 @@ class CommandLine(Protocol):
     """Runs `ros2 ...` lines."""
 
     def run(self, line: str) -> Future[str]:
-        """Run a line; the result is what it printed."""
+        """Run a line; the result is its output."""
         ...
 
     def stream(self, line: str) -> Stream | None:
-        """Start a line that keeps printing, such as `ros2 topic hz /odom`; returns None for any other, which is not
-        run.
+        """Start a line that keeps printing, such as `ros2 topic hz /odom`; returns None for any other line, without
+        running it.
         """
         ...
 

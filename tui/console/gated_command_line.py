@@ -22,19 +22,19 @@ READING: Mapping[str, frozenset[str]] = {
     "service": frozenset(("echo", "find", "info", "list", "type")),
     "topic": frozenset(("bw", "delay", "echo", "find", "hz", "info", "list", "type")),
 }
-"""Lines that change nothing: commands with their harmless subcommands."""
+"""Lines that change nothing: the subcommands that only read, by command."""
 
 
 class GatedLines:
     """A command line behind the gate."""
 
     def __init__(self, gate: Gate, lines: CommandLine | None) -> None:
-        """Without `lines`, none can be run."""
+        """If `lines` is None, no line can be run."""
         self._gate = gate
         self._lines = lines
 
     def stream(self, line: str) -> Stream | None:
-        """Start a line that keeps printing; None also for one that a read-only console refuses to `run`."""
+        """Start a line that keeps printing; None for any other, and for one that a read-only console refuses."""
         if self._lines is None or (self._gate.read_only and _may_change(line)):
             return None
         return self._lines.stream(line)
@@ -60,6 +60,6 @@ def _may_change(line: str) -> bool:
     try:
         words = shlex.split(line)
     except ValueError:
-        return False  # the line is not run: what is wrong with it is printed
+        return False  # such a line is not run, only its syntax error is printed
     words = words[1:] if words[:1] == ["ros2"] else words
     return len(words) != 1 and not (words and words[1] in READING.get(words[0], ()))

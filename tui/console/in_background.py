@@ -1,4 +1,4 @@
-"""Runs work in a separate thread, with a future for the result."""
+"""Runs functions in a separate thread, with a future for the result."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ T = TypeVar("T")
 
 
 def in_background(work: Callable[[], T], name: str) -> Future[T]:
-    """Run a function in a new thread of that name; the future gives its result or its exception."""
+    """Run a function in a new thread with the given name; the future receives its result or exception."""
     outcome: Future[T] = Future()
 
     def do() -> None:

@@ -9,20 +9,20 @@ from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 
 NOBODY = "(none)"
 TOOL_NAMES = ("/rosout", "/parameter_events", "/statistics", "/rosout_agg", "/diagnostics_agg")
-"""Topics that every node or many tools use; drawing them would clutter the graph."""
+"""Topics that every node or many tools use; they would clutter the graph."""
 
 KINDS: tuple[tuple[str, Callable[[NodeInfo], Iterable[Endpoint]], Callable[[NodeInfo], Iterable[Endpoint]]], ...] = (
     ("topic", lambda node: node.publishers, lambda node: node.subscriptions),
     ("service", lambda node: node.clients, lambda node: node.services),
     ("action", lambda node: node.action_clients, lambda node: node.action_servers),
 )
-"""Each kind with its sources and its targets: the endpoints from which arrows start, and those where they end."""
+"""Each kind of connection with the endpoints from which its arrows start and those at which they end."""
 
 
 def connections(
     info: GraphInfo, kinds: Iterable[str] = ("topic", "service", "action")
 ) -> Iterator[tuple[str, str, str]]:
-    """Kind, name and text of each connection, by kind and name: `/scan  /lidar → /navigator /monitor`."""
+    """Kind, name and text of each connection, sorted by kind and name: `/scan  /lidar → /navigator /monitor`."""
     dead = {*info.silent, *(node for node, _ in info.frozen)}
 
     def message(nodes: Iterable[str], wrong: Container[str] = ()) -> str:
@@ -40,14 +40,14 @@ def connections(
 
 
 def is_hidden(name: str, patterns: Iterable[str]) -> bool:
-    """Whether a node or a topic is hidden by a pattern, or by ROS because part of its name begins with an
-    underscore.
+    """Whether a node or a topic is hidden: by a pattern, or because part of its name begins with an underscore, as in
+    ROS.
     """
     return "/_" in name or any(fnmatchcase(name, each) for each in patterns)
 
 
 def is_own_service(service: str, nodes: Iterable[NodeInfo]) -> bool:
-    """Whether a service is private to its node, such as those for parameters, and nobody calls it."""
+    """Whether a service belongs to its node alone, such as the parameter services, and has no client."""
     nodes = list(nodes)
     return any(service.startswith(f"{node.name}/") for node in nodes) and not any(
         each.name == service for node in nodes for each in node.clients

@@ -1,8 +1,8 @@
-"""A ROS graph as a file: written from a running system, and compared with one.
+"""An expected ROS graph in a file: written from a running system, and compared with one.
 
 The file is YAML: `nodes` (names), `topics` (by name: `type`, `publishers`, `subscribers`, `rate` in Hz with a
 `tolerance`, `max_age` in s), `services` and `actions` (types by name). The graph may contain more than the file
-mentions unless `exact` is set. A ROS parameter file is one, too, if it has parameters as those of greenwave_monitor.
+mentions unless `exact` is set. A ROS parameter file with parameters as in greenwave_monitor is accepted as well.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ INFINITE = float("inf")
 
 @dataclass(frozen=True)
 class Expected:
-    """The contents of such a file."""
+    """The contents of a file with an expected graph."""
 
     nodes: frozenset[str] = frozenset()
     topics: Mapping[str, ExpectedTopic] = field(default_factory=lambda: {})
@@ -42,7 +42,7 @@ class Expected:
 
 
 def read_file(path: str) -> Expected:
-    """Read such a file; raises `ValueError` with what is wrong."""
+    """Read a file with an expected graph; raises `ValueError` with a description of the error."""
     try:
         return read(expanded_path(path).read_text("utf-8"))
     except OSError as error:
@@ -52,7 +52,7 @@ def read_file(path: str) -> Expected:
 
 
 def read(text: str) -> Expected:
-    """Parse such a file; raises `ValueError` with what is wrong."""
+    """Parse the text of such a file; raises `ValueError` with a description of the error."""
     if KEYWORD in text:
         return Expected(topics=_of_parameters(text))
     try:
@@ -122,7 +122,7 @@ def _topic(name: str, value: Any) -> ExpectedTopic:
 
 
 def differences(expected: Expected, info: GraphInfo, measured: Mapping[str, Measure] | None = None) -> list[str]:
-    """How a graph differs from the expectations, one line each; without `measured`, rates and ages are not compared."""
+    """The differences of a graph from the expected one, one line each; rates and ages only with `measured`."""
     nodes = {each.name: each for each in info.nodes if not each.hidden}
     found = [f"node {name} is missing" for name in sorted(expected.nodes - nodes.keys())]
     for name, topic in sorted(expected.topics.items()):
@@ -178,7 +178,7 @@ def _about_topic(name: str, topic: ExpectedTopic, nodes: list[NodeInfo]) -> list
 
 
 def written(info: GraphInfo, measured: Mapping[str, Measure]) -> str:
-    """The text of a file that matches a graph, including measured rates."""
+    """The text of a file that expects the given graph with its measured rates."""
     nodes = [each for each in info.nodes if not each.hidden]
     topics: dict[str, Any] = {}
     types = {**_types_of(nodes, "subscriptions"), **_types_of(nodes, "publishers")}

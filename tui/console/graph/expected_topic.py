@@ -1,4 +1,4 @@
-"""The expectations of one topic, and whether its measurements meet them. Standard library only."""
+"""The expected rate and age of a topic, and the comparison with its measurements. Standard library only."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from typing import Any
 from bot_console.tui.console.topics.port import Measure
 
 TOLERANCE = 0.2
-"""Relative deviation allowed from an expected rate if nothing else is given."""
+"""The relative deviation from an expected rate that is allowed by default."""
 GREENWAVE_TOLERANCE = 0.05
-"""The same for the parameters of greenwave_monitor."""
+"""The same for greenwave_monitor's parameters."""
 MIN_COUNTED_HZ = 1.0
-"""Rates below this are not counted but judged by the time since the newest message: a few seconds say nothing."""
+"""Below this rate, the time since the newest message is checked: a few seconds are too short to count messages."""
 PARAMETER = re.compile(
     r"(?:topics|greenwave_diagnostics|gw_frequency_monitored_topics)\.(/.+)\.(expected_frequency|tolerance|max_age)"
 )
-"""The names of greenwave_monitor's parameters, in all of its releases; `max_age` (s) is an addition of ours."""
+"""The names of greenwave_monitor's parameters in all its releases; `max_age` (s) is our addition."""
 
 
 @dataclass(frozen=True)
 class ExpectedTopic:
-    """The expectations for a topic; None if nothing is expected."""
+    """What is expected of a topic; None where nothing is."""
 
     type: str | None = None
     publishers: frozenset[str] | None = None
@@ -36,12 +36,12 @@ class ExpectedTopic:
 
     @property
     def is_measured(self) -> bool:
-        """Whether messages have to be counted to check it."""
+        """Whether its messages have to be counted."""
         return bool(self.rate) or self.max_age is not None
 
     @property
     def longest_gap(self) -> float:
-        """Seconds without a message that are still as expected; infinite if the rate has to be counted."""
+        """Seconds without a message that still meet the expectation; infinite if the rate has to be counted."""
         slow = self.rate is not None and 0 < self.rate < MIN_COUNTED_HZ and self.tolerance < 1
         gap = 1 / (self.rate * (1 - self.tolerance)) if slow and self.rate else float("inf")
         return min(gap, float("inf") if self.max_age is None else self.max_age)
@@ -54,9 +54,9 @@ class ExpectedTopic:
 
 
 def deviation(topic: ExpectedTopic, measure: Measure) -> str:
-    """How a measured topic differs from what is expected, such as `4.2 Hz`; empty if it does not.
+    """How a measured topic differs from its expectation, such as `4.2 Hz`; empty if it does not.
 
-    A topic without any message differs: whether that is too early to say is for the caller to know.
+    A topic without any message differs; the caller has to decide whether it is too early to say so.
     """
     if not topic.is_measured:
         return ""
@@ -74,9 +74,10 @@ def deviation(topic: ExpectedTopic, measure: Measure) -> str:
 
 
 def from_parameters(values: Mapping[str, Any]) -> dict[str, ExpectedTopic]:
-    """The topics in parameters such as `topics./imu.expected_frequency` (Hz) and `topics./imu.tolerance` (%).
+    """Read expected topics from parameters such as `topics./imu.expected_frequency` (Hz) and `topics./imu.tolerance`
+    (%).
 
-    As in greenwave_monitor, a rate that is not above zero means that none is expected.
+    As in greenwave_monitor, a rate of zero or less means that no rate is expected.
     """
     found: dict[str, ExpectedTopic] = {}
     for name, value in values.items():

@@ -1,4 +1,4 @@
-"""Anomalies of a ROS graph as text: what a person would look for in its picture. Standard library only."""
+"""Finds and describes anomalies of a ROS graph that a person would look for in its picture. Standard library only."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 
 SHARED = ("/rosout", "/parameter_events", "/tf", "/tf_static", "/diagnostics", "/clock", "/statistics")
-"""Topics that may have many publishers, or none, without anything being wrong."""
+"""Topics that may have many publishers, or none, in a healthy graph."""
 
 ON_OCCASION = ("/initialpose", "/emergency_stop/request", "/emergency_stop/arbiter")
-"""Ends of topic names that usually have subscriptions but no publisher: a person or a safety monitor publishes on
-demand.
+"""Suffixes of topics that usually have subscriptions but no publisher: a person or a safety monitor publishes when
+necessary.
 """
 
 SILENT = "has not answered for a second: it was killed, it hangs, or it is busy"
@@ -28,7 +28,7 @@ class GraphFinding:
 
 
 def findings(info: GraphInfo) -> tuple[GraphFinding, ...]:
-    """All anomalies, faults first, by subject; hidden nodes and topics are left out."""
+    """All anomalies: faults first, then by subject. Hidden nodes and topics are left out."""
     nodes = [each for each in info.nodes if not each.hidden]
     visible = replace(info, nodes=tuple(nodes))
     otherwise = (GraphFinding(each.partition(": ")[0], each, True) for each in info.unheard)
@@ -41,12 +41,12 @@ def findings(info: GraphInfo) -> tuple[GraphFinding, ...]:
 
 
 def debugger_text(line: str) -> str:
-    """That something is stopped in a debugger, and at which line if that is known."""
+    """A text saying that a node is stopped in a debugger, and at which line if known."""
     return f"stopped in debugger at {line}" if line else "stopped in debugger"
 
 
 def finding_hint(pid: int) -> str:
-    """How to resume a stopped process."""
+    """A text saying that a process is stopped, and how to resume it."""
     return f"process {pid} is stopped; `kill -CONT {pid}` resumes it"
 
 
@@ -104,7 +104,7 @@ def same_named(node: NodeInfo) -> str:
 
 
 def _ends(nodes: list[NodeInfo] | tuple[NodeInfo, ...], kind: str) -> dict[str, dict[str, Endpoint]]:
-    """Endpoints of one kind, by name and then by node."""
+    """The endpoints of one kind, by name and then by node."""
     found: dict[str, dict[str, Endpoint]] = {}
     for node in nodes:
         ends: tuple[Endpoint, ...] = getattr(node, kind)

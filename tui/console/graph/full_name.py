@@ -1,4 +1,4 @@
-"""The fully qualified name of a node, which the graph gives in two parts."""
+"""The fully qualified name of a node, which the graph provides in two parts."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 
 def full_node_name(namespace: str, name: str) -> str:
-    """A node's name, prefixed with its namespace."""
+    """Join the namespace and the name of a node."""
     return f"{namespace.rstrip('/')}/{name}"
 
 

@@ -1,4 +1,4 @@
-"""The states of lifecycle nodes, and requests to change them."""
+"""Follows the states of lifecycle nodes, and requests transitions."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ class LifecycleWatch:
             self._changed(dict(self._states))
 
     async def _ask(self, name: str) -> str:
-        """The state of a node; empty if it does not answer."""
+        """Request the state of a node; empty if it does not answer."""
         try:
             response = await self._calls.ask(GetState, f"{name}/get_state", GetState.Request())
         except NoAnswer:
@@ -63,7 +63,7 @@ class LifecycleWatch:
         return response.current_state.label
 
     async def change(self, name: str, transition: str) -> Answer:
-        """Request a transition by its label; the answer says which state it led to."""
+        """Request a transition by its label; the answer contains the resulting state."""
         try:
             request = GetAvailableTransitions.Request()
             offered = await self._calls.ask(GetAvailableTransitions, f"{name}/get_available_transitions", request)

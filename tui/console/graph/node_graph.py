@@ -20,11 +20,11 @@ NO_GRAPH = GraphInfo()
 
 
 class NodeGraph:
-    """The graph, as far as it is known."""
+    """The port for the graph: what is known of it, and the requests that concern it."""
 
     _watch: GraphWatch | None = None
     _lifecycle: LifecycleWatch
-    """There from `attach` on."""
+    """Exists after `attach`."""
 
     def __init__(
         self,
@@ -35,8 +35,9 @@ class NodeGraph:
         logged: Callable[[], int],
         complaint: Callable[[str, int], str],
     ) -> None:
-        """`processes` returns the nodes of programs on this machine, by pid; `logged` the number of the log's next
-        record, and `complaint` the last warning or error that a node has logged from such a number on.
+        """`processes` returns the nodes of the programs on this machine, by pid. `logged` returns the number of the
+        next log record, and `complaint` the last warning or error that a node has logged since the record with a given
+        number.
         """
         self._logged, self._complaint = logged, complaint
         self._gate = gate
@@ -44,7 +45,7 @@ class NodeGraph:
         self._requesters: frozenset[str] = frozenset()
 
     def attach(self, watch: GraphWatch, lifecycle: LifecycleWatch) -> None:
-        """The system has been reached."""
+        """Provide what exists once the system has been reached."""
         self._watch, self._lifecycle = watch, lifecycle
 
     @property
@@ -75,7 +76,7 @@ class NodeGraph:
         return Answer(answer.ok, f"{answer.text}: {why}" if why else answer.text)
 
     def watch_nodes(self, on: bool, requester: str) -> None:
-        """Check which nodes respond while a requester wants it, as soon as the system is reached."""
+        """Check which nodes respond while any requester wants it, once the system is reached."""
         self._requesters = self._requesters - {requester} | ({requester} if on else set[str]())
 
         def watch() -> None:

@@ -1,8 +1,8 @@
-"""The node through which the graph is read; it is replaced when its middleware no longer names nodes that are there.
+"""The node that reads the graph; it is replaced when its middleware no longer knows the names of existing nodes.
 
-With Fast DDS, the nodes of a process are in a message that it sends once. A process that was lost for longer than its
-lease, because it was stopped or its link was down, is found again, but whoever has had that message before does not get
-it again: the endpoints of the process stay without a node. A new participant gets it at once.
+With Fast DDS, a process sends the names of its nodes in a message once. If the process was lost for longer than its
+lease, because it was suspended or its link was down, it is discovered again, but participants that have received that
+message before do not get it again, and its endpoints stay without a node. A new participant gets it at once.
 """
 
 from __future__ import annotations
@@ -19,20 +19,20 @@ if TYPE_CHECKING:
 
 NAME = "_bot_console_graph"
 UNNAMED = "_NODE_NAME_UNKNOWN_"
-"""The name that rmw gives to the node of an endpoint whose node it does not know."""
+"""The node name that rmw gives to an endpoint whose node it does not know."""
 TOPIC = "/parameter_events"
 """A topic to which every node publishes."""
 UNNAMED_POLLS = 4
-"""Polls in a row with unnamed endpoints after which another node is tried: endpoints are found before their names."""
+"""Consecutive polls with unnamed endpoints after which a new node is tried: endpoints are found before their names."""
 DISCOVERY_POLLS = 10
-"""Polls after which another node is used even if it has not found all nodes that the one before knows."""
+"""Polls after which the new node is used even if it has not found all nodes that the old one knows."""
 
 
 class Observer:
-    """Provides `node`; `poll` is called regularly, by the executor's thread."""
+    """Provides `node`, which reads the graph. The executor's thread has to call `poll` regularly."""
 
     def __init__(self, node: Node, make: Callable[[Node], tuple[Node, Callable[[], None]]] | None = None) -> None:
-        """`make` returns another node like this one, and a function that ends it."""
+        """`make` returns another node like the given one, and a function that destroys it."""
         self.node = node
         self._first = node
         self._make = make or _another
@@ -40,10 +40,10 @@ class Observer:
         self._next: tuple[Node, Callable[[], None]] | None = None
         self._polls = 0
         self._nameless = 0
-        """Unnamed endpoints that another node does not name either: no ROS nodes."""
+        """The number of unnamed endpoints that a new node does not name either, because they belong to no ROS node."""
 
     def poll(self) -> None:
-        """Note unnamed endpoints; try and use another node if they stay."""
+        """Count unnamed endpoints; if some stay, create a new node and switch to it."""
         if self._next is not None:
             self._poll_next(*self._next)
             return
@@ -71,7 +71,7 @@ class Observer:
         return self.node.get_subscriptions_info_by_topic(topic)
 
     def close(self) -> None:
-        """End the nodes made here."""
+        """Destroy the nodes created here."""
         self._end()
         if self._next is not None:
             self._next[1]()
@@ -82,7 +82,7 @@ def _unnamed(node: Node) -> int:
 
 
 def _another(like: Node) -> tuple[Node, Callable[[], None]]:
-    """A node in a participant of its own."""
+    """Create a node with its own context, and so its own participant."""
     context = Context()
     rclpy.init(args=[], context=context, domain_id=like.context.get_domain_id())
     node = rclpy.create_node(
@@ -97,4 +97,4 @@ def _another(like: Node) -> tuple[Node, Callable[[], None]]:
 
 
 def _nothing() -> None:
-    """Stand-in for ending a node that was not made here."""
+    """Stand-in for destroying a node that was not created here."""

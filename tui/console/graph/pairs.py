@@ -1,4 +1,4 @@
-"""Why messages do not pass between two existing endpoints, which ROS itself logs once or never.
+"""Finds out why no messages pass between two existing endpoints, which ROS itself logs once or never.
 
 Only the public rclpy API is used, so it works with every middleware.
 """
@@ -19,13 +19,13 @@ if TYPE_CHECKING:
     from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 RMW_ZENOH = "rmw_zenoh_cpp"
-"""A middleware that delivers whatever the QoS, although rclpy's function judges by DDS's rules there, too."""
+"""This middleware delivers whatever the QoS, although rclpy's check applies the rules of DDS to it as well."""
 
 Ask = Callable[[str], "Sequence[TopicEndpointInfo]"]
 
 
 class UnheardPairs:
-    """Keeps the findings of each topic; a topic is examined again only when its endpoints have changed."""
+    """Keeps findings for each topic; a topic is examined again only when its endpoints have changed."""
 
     def __init__(self, node: Node | Observer) -> None:
         self._publishers: Ask = node.get_publishers_info_by_topic
@@ -35,12 +35,12 @@ class UnheardPairs:
         """The nodes that publish (True) and subscribe (False), by topic."""
         self._known: dict[str, tuple[str, ...]] = {}
         self.found: tuple[str, ...] = ()
-        """Why the types of endpoints keep messages from passing, in words; the same object if nothing has changed."""
+        """Texts on types that keep messages from passing; the same object if nothing has changed."""
         self.incompatible: Mapping[str, tuple[IncompatiblePair, ...]] = {}
-        """By topic, what their QoS keeps from passing; the same object if nothing has changed."""
+        """The node pairs with incompatible QoS, by topic; the same object if nothing has changed."""
 
     def follow(self, graph: GraphInfo) -> None:
-        """Update the findings."""
+        """Update the findings from a changed graph."""
         nodes = {each.name: each for each in graph.nodes}
         touched: set[str] = set()
         for name in nodes.keys() | self._nodes.keys():
@@ -78,7 +78,7 @@ class UnheardPairs:
 def _differences(
     topic: str, publishers: Sequence[TopicEndpointInfo], subscriptions: Sequence[TopicEndpointInfo]
 ) -> tuple[str, ...]:
-    """The types that the endpoints of a topic define differently, in words."""
+    """Texts on the differing definitions of a topic's type in its endpoints."""
     if len({hash_of(each) for each in (*publishers, *subscriptions)} - {""}) < 2:
         return ()
     pairs = ((one, other) for one in publishers for other in subscriptions)
@@ -88,7 +88,7 @@ def _differences(
 def _incompatible(
     publishers: Sequence[TopicEndpointInfo], subscriptions: Sequence[TopicEndpointInfo]
 ) -> Iterator[IncompatiblePair]:
-    """The pairs of nodes whose QoS does not match; each two profiles are judged once, however many nodes use them."""
+    """The pairs of nodes whose QoS does not match; two profiles are compared once, however many nodes use them."""
     offers, requests = _by_profile(publishers), _by_profile(subscriptions)
     for offered, givers in offers.values():
         for requested, takers in requests.values():
@@ -97,7 +97,7 @@ def _incompatible(
 
 
 def _by_profile(endpoints: Sequence[TopicEndpointInfo]) -> dict[Any, tuple[Any, dict[str, None]]]:
-    """The nodes that use each QoS profile, without tools, which choose for themselves."""
+    """The nodes that use each QoS profile, without tools, which adapt their QoS."""
     found: dict[Any, tuple[Any, dict[str, None]]] = {}
     for each in endpoints:
         if not _hidden(each):
@@ -109,7 +109,7 @@ def _by_profile(endpoints: Sequence[TopicEndpointInfo]) -> dict[Any, tuple[Any, 
 
 
 def why_incompatible(offered: Any, requested: Any) -> str:
-    """Why the connected middleware passes no messages between two QoS profiles, in words; empty if it passes them."""
+    """Why the current middleware passes no messages between two QoS profiles; empty if it does."""
     if get_rmw_implementation_identifier() == RMW_ZENOH:
         return ""
     verdict, why = qos_check_compatible(offered, requested)
@@ -117,7 +117,7 @@ def why_incompatible(offered: Any, requested: Any) -> str:
 
 
 def _ends(node: NodeInfo | None) -> set[tuple[bool, Endpoint]]:
-    """What a node publishes (True) and subscribes to (False)."""
+    """The endpoints by which a node publishes (True) and subscribes (False)."""
     if node is None:
         return set()
     return {(True, each) for each in node.publishers} | {(False, each) for each in node.subscriptions}
@@ -126,7 +126,7 @@ def _ends(node: NodeInfo | None) -> set[tuple[bool, Endpoint]]:
 def unheard(
     topic: str, publishers: Sequence[TopicEndpointInfo], subscriptions: Sequence[TopicEndpointInfo]
 ) -> Iterable[str]:
-    """The obstacles that keep messages of one topic from passing, each with a remedy."""
+    """The obstacles that keep the messages of a topic from passing, each with a remedy."""
     seen: set[str] = set()
     for publisher in publishers:
         for subscription in subscriptions:
@@ -138,7 +138,7 @@ def unheard(
 
 def _pair(topic: str, publisher: TopicEndpointInfo, subscription: TopicEndpointInfo) -> str:
     if _hidden(publisher) or _hidden(subscription):
-        return ""  # tools, which adapt their QoS themselves
+        return ""  # tools adapt their QoS themselves
     one, other = node_name_of(publisher), node_name_of(subscription)
     if publisher.topic_type != subscription.topic_type:
         return f"{topic}: {one} publishes {publisher.topic_type}, {other} expects {subscription.topic_type}: rename one"
@@ -149,7 +149,7 @@ def _pair(topic: str, publisher: TopicEndpointInfo, subscription: TopicEndpointI
 
 
 def otherwise_defined(topic: str, publisher: TopicEndpointInfo, subscription: TopicEndpointInfo) -> str:
-    """Types that two endpoints define differently; ROS does not report that."""
+    """A text if the two endpoints define the same type differently, which ROS does not report; else empty."""
     hashes = {hash_of(publisher), hash_of(subscription)} - {""}
     if _hidden(publisher) or _hidden(subscription) or len(hashes) < 2:
         return ""
@@ -162,13 +162,13 @@ def otherwise_defined(topic: str, publisher: TopicEndpointInfo, subscription: To
 
 
 def _words(why: str) -> str:
-    """The reasons of rclpy, less emphatic, such as `best effort publisher and reliable subscription`."""
+    """The reasons that rclpy gives, less emphatic: `best effort publisher and reliable subscription`."""
     reasons = (each.strip().removeprefix("ERROR: ") for each in why.split(";"))
     return ", ".join(each[0].lower() + each[1:] for each in reasons if each)
 
 
 def hash_of(endpoint: TopicEndpointInfo) -> str:
-    """The type hash of an endpoint; empty if this ROS distribution, or that of the node, has none."""
+    """The type hash of an endpoint; empty if this ROS distribution, or the node's, has none."""
     text = str(getattr(endpoint, "topic_type_hash", None) or "")
     digest = text.removeprefix("RIHS01_")
     return text if digest != text and set(digest) != {"0"} else ""

@@ -1,4 +1,4 @@
-"""Requests the definitions of topic, service and action types unknown to this program from the nodes that use them."""
+"""Requests the definitions of types that this program lacks from the nodes that use them."""
 
 from __future__ import annotations
 
@@ -16,37 +16,37 @@ FOLDERS = ("msg", "srv", "action")
 Inquiry = Generator[tuple[str, str], Any, str]
 """The dialogue with one node about a type.
 
-Yields a type and its hash for each request to the node's `get_type_description` and receives the response. Returns why
-the type is unavailable, as a phrase about the node, or an empty text once it can be imported.
+Yields a type and its hash for each request to the node's `get_type_description`, and receives the response. Returns why
+the type is unavailable, as a phrase about the node, or an empty text once the type can be imported.
 """
 
 
 class TypeSource(Protocol):
-    """A service that rclpy lacks: it finds hashes of unknown types, and builds interfaces from their definitions."""
+    """A service that rclpy lacks: finds the hashes of unknown types, and builds interfaces from their definitions."""
 
     def inquiries(self, domain: int, type_name: str) -> Mapping[str, Inquiry]:
-        """The requests to send for a type, by the nodes that can be asked."""
+        """The dialogues about a type, by the nodes that can be asked."""
         ...
 
 
 class TypeDiscovery:
-    """Requests each type once, one at a time, and calls `learned` after each new one.
+    """Requests each unknown type once, one at a time, and calls `learned` after each new one.
 
     All methods except `explain` are called by the executor's thread.
     """
 
     def __init__(self, node: Node, calls: Calls, source: TypeSource | None, learned: Callable[[], None]) -> None:
-        """Without a `source` nothing is requested; this is the case where ROS itself is installed."""
+        """Without a `source`, as where ROS itself is installed, nothing is requested."""
         self._node = node
         self._calls = calls
         self._source = source
         self._learned = learned
         self._here: set[str] = set()
-        """Types that this program has and need not request."""
+        """Types that this program has, so that they need not be requested."""
         self._missing: set[str] = set()
         """Packages that were missing when first encountered, even if some of their types have been learned since."""
         self._asked: set[tuple[str, str]] = set()
-        """Types already requested, each with the node asked, until it leaves."""
+        """Types already requested, each with the node that was asked, until that node leaves."""
         self._waiting: deque[str] = deque()
         """Types still to be requested."""
         self._busy = False
@@ -66,7 +66,7 @@ class TypeDiscovery:
             self._calls.run(self._ask_all)
 
     def explain(self, type_name: str, otherwise: str) -> str:
-        """Why a type is unknown here if it was requested, else the other text; from any thread."""
+        """Why a requested type is still unknown; the text `otherwise` if it was not requested. From any thread."""
         why = self._why.get(type_name)
         return f"the type {type_name} is not known here: {why}" if why else otherwise
 
@@ -102,7 +102,7 @@ class TypeDiscovery:
             self._why[type_name] = f"{node} {problem}"
 
     async def _ask(self, node: str, inquiry: Inquiry) -> str:
-        """Send a node all its requests; returns why the answer is unusable, else an empty text."""
+        """Send all requests of an inquiry to a node; returns why the answer is unusable, or an empty text."""
         from type_description_interfaces.srv import GetTypeDescription
 
         service = f"{node}/get_type_description"
@@ -122,7 +122,7 @@ class TypeDiscovery:
 
 
 def _used(graph: GraphInfo) -> Iterator[str]:
-    """The types of topics and services; for an action, the action instead of its parts."""
+    """The types of topics and services; for the parts of an action, the action."""
     for each in (*graph.topics, *graph.services):
         for type_name in each.types:
             package, _, rest = type_name.partition("/action/")

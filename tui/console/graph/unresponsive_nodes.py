@@ -1,6 +1,6 @@
-"""Finds nodes that are in the graph but do not respond: DDS keeps a killed node for some ten seconds.
+"""Finds nodes that are in the graph but do not respond: DDS keeps a killed node for about ten seconds.
 
-rclpy does not report whether a node is alive, so each is asked for the types of an empty list of parameters, the
+rclpy does not report whether a node is alive, so each node is asked for the types of an empty list of parameters, the
 smallest possible request.
 """
 
@@ -19,36 +19,36 @@ SERVICE = "get_parameter_types"
 POLL_S = 0.5
 """Seconds between two polls."""
 OVERDUE_POLLS = 2
-"""Polls after which a response is overdue. Polls are counted instead of time, so that no node seems late while this
+"""Polls after which a response is overdue. Counting polls instead of time keeps nodes from seeming late when this
 program itself got no processor time.
 """
 RETRY_POLLS = 4
 """Polls after which a request counts as lost and is sent again."""
 MAX_REQUESTS_PER_POLL = 25
-"""Requests per poll; with more nodes, each is asked less often."""
+"""Requests per poll; if there are more nodes, each is asked less often."""
 
 
 class _Asked:
-    """A node, and the last request sent to it."""
+    """A node and the last request sent to it."""
 
     def __init__(self, client: Any) -> None:
         self.client = client
         self.answer: Future[Any] | None = None
         self.polls = OVERDUE_POLLS
-        """Polls since the request, or since its response."""
+        """Polls since the request, or since its response if there was one."""
         self.lives = False
-        """Whether it has ever responded."""
+        """Whether the node has ever responded."""
 
     @property
     def waiting(self) -> bool:
-        """Whether a response is pending."""
+        """Whether the response to the request is pending."""
         return self.answer is not None and not self.answer.done()
 
 
 class SilentNodes:
-    """Asks the nodes of the graph, at most once a second, and only while somebody is viewing them.
+    """Asks the nodes of the graph, at most once a second and only while somebody is viewing them.
 
-    `changed` receives the names of those that do not respond. All methods are called by the executor's thread.
+    `changed` receives the names of the nodes that do not respond. All methods are called by the executor's thread.
     """
 
     def __init__(self, node: Node, changed: Callable[[tuple[str, ...]], None]) -> None:
@@ -59,7 +59,7 @@ class SilentNodes:
         self._silent: frozenset[str] = frozenset()
 
     def poll(self, on: bool, graph: GraphInfo) -> None:
-        """Start or stop asking."""
+        """Start or stop asking the nodes."""
         if on and self._timer is None:
             self._timer = self._node.create_timer(POLL_S, self.tick)
         elif not on and self._timer is not None:
@@ -78,7 +78,7 @@ class SilentNodes:
         self._report(self._silent & asked)
 
     def tick(self) -> None:
-        """Note which nodes have not responded, and ask those whose turn it is."""
+        """Find the nodes that have not responded, and ask those whose turn it is."""
         for each in self._nodes.values():
             each.polls += 1
         late = {name for name, each in self._nodes.items() if each.waiting and each.polls >= OVERDUE_POLLS}
@@ -95,7 +95,7 @@ class SilentNodes:
         if not asked.client.service_is_ready():
             if asked.lives:
                 self._report(self._silent | {name})
-            return  # a new client has to discover its server first
+            return  # a new client first has to discover its server
         if asked.answer is not None and not asked.answer.done():
             asked.client.remove_pending_request(asked.answer)
         asked.polls = 0

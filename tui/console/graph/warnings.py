@@ -1,4 +1,4 @@
-"""Conditions of the graph that are logged as warnings: frozen nodes, duplicate node names, rival command publishers."""
+"""Logs warnings about the graph: frozen nodes, duplicate node names, rival command publishers."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ SOURCE = "bot-console"
 
 
 class GraphWarnings:
-    """Logs each warning when its condition arises, and again only after the condition has ended in the meantime."""
+    """Logs a warning when its condition arises, and again only after the condition has been over in the meantime."""
 
     def __init__(self, log: Add) -> None:
         self._log = log
         self._reported: frozenset[Hashable] = frozenset()
 
     def follow(self, graph: GraphInfo) -> None:
-        """Log the warnings that hold for this graph but did not for the previous one."""
+        """Log the warnings that apply to this graph but did not apply to the previous one."""
         found = dict(warnings(graph))
         for key, text in found.items():
             if key not in self._reported:
@@ -30,7 +30,7 @@ class GraphWarnings:
 
 
 def warnings(graph: GraphInfo) -> Iterator[tuple[Hashable, str]]:
-    """The warnings that hold for a graph, each with a unique key."""
+    """The warnings that apply to a graph, each with a unique key."""
     for node, pid in graph.frozen:
         yield ("frozen", node, pid), f"{node} is frozen: {finding_hint(pid)}"
     for node in graph.nodes:
@@ -49,9 +49,9 @@ def rivals(topic: str, nodes: tuple[str, ...]) -> str:
 
 
 def _rivals(graph: GraphInfo) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Each velocity topic that has a subscription and several publishing nodes.
+    """Each velocity topic that has a subscription and several publishing nodes, with these nodes.
 
-    Lifecycle nodes that all publish one, like the servers of Nav2, are exempt: a manager makes them take turns.
+    Topics that only lifecycle nodes publish, like the servers of Nav2, are exempt: a manager makes them take turns.
     """
     nodes = [each for each in graph.nodes if not each.hidden]
     heard = {end.name for node in nodes for end in node.subscriptions}

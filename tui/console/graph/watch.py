@@ -1,4 +1,4 @@
-"""Watches the ROS graph: polled twice a second, or after an event; a new object is made only when it has changed."""
+"""Watches the ROS graph: polls it twice a second or after an event; makes a new object only if it has changed."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ ACTION_SERVER_TOPIC = "/_action/status"
 GRAPH_POLL_S = 0.5
 """Seconds between two polls while something may have changed."""
 LONG_POLL_S, MAX_POLL_SHARE = 0.1, 0.2
-"""A poll that took more processor time than the first (s) is followed by a pause that limits polling to the second,
-a share of the time.
+"""After a poll that took more processor time (s) than the first value, the next one is delayed, so that polling takes
+at most the second value as a share of the time.
 
 While hundreds of nodes appear, keys and stops need the interpreter too.
 """
@@ -45,16 +45,15 @@ is queried again and again.
 """
 
 HaltedNodes = Callable[[int], tuple[Mapping[int, Sequence[str]], Mapping[str, str]]]
-"""Returns the frozen processes of a ROS domain, their nodes by pid; and the nodes in a debugger, with the line. rclpy
-does not know them.
+"""Returns the frozen processes of a ROS domain (their nodes, by pid), and the nodes stopped in a debugger, with the
+line. rclpy does not know them.
 """
 
 
 class GraphWatch:
     """Keeps `info` up to date while the node spins, and calls `changed` with each new graph.
 
-    Unchanged nodes are not described again and stay the same objects. If events report changes, nodes without any are
-    not even queried.
+    Unchanged nodes stay the same objects. If events report changes, only changed nodes are queried.
     """
 
     def __init__(
@@ -66,7 +65,7 @@ class GraphWatch:
         *,
         foreign: bool = False,
     ) -> None:
-        """In a `foreign` system events report which nodes come and go, but not which of them hang."""
+        """In a `foreign` system, events report which nodes come and go, but not which of them hang."""
         self.info = GraphInfo()
         self._halted = halted
         self._node = node
@@ -97,7 +96,7 @@ class GraphWatch:
         self._check_for_halted()
 
     def _check_for_halted(self) -> None:
-        """Look for frozen processes, whose nodes stay in the graph for long and seem alive, and those in a debugger."""
+        """Look for nodes in a debugger, and for frozen processes, whose nodes stay in the graph and seem alive."""
         if self._halted is None:
             return
         stopped, lines = self._halted(self._node.context.get_domain_id())
@@ -114,7 +113,7 @@ class GraphWatch:
 
     def poll(self) -> None:
         """Query the graph now."""
-        known = self._unchanged()  # before the queries: changes made meanwhile are queried again
+        known = self._unchanged()  # before the queries, so that changes made meanwhile are queried again
         self._polled = True
         node = self._observer.node
         profiles = Profiles(node)
@@ -145,12 +144,12 @@ class GraphWatch:
         self._silence.follow(self.info)
 
     def watch_nodes(self, on: bool) -> None:
-        """Start or stop checking which nodes do not respond, unless events of this machine's system report that."""
+        """Start or stop checking which nodes do not respond, unless this machine's events report that."""
         if self._asks_nodes:
             self._silence.poll(on, self.info)
 
     def lifecycle_is(self, states: Mapping[str, str]) -> None:
-        """Note the states of lifecycle nodes."""
+        """Set the states of lifecycle nodes."""
         self.info = replace(self.info, lifecycle=states)
         self._changed(self.info)
 
@@ -179,7 +178,7 @@ class GraphWatch:
         return topics, services
 
     def _inspect(self, owner: Owner, profiles: Profiles) -> tuple[Answer, NodeInfo]:
-        """A node's answer and its description; the same object as before if the answer is unchanged."""
+        """Query a node; returns its answer and description, the same object as before if the answer is unchanged."""
         answer, known = self._ask(*owner), self._nodes.get(owner)
         if known is None:
             return answer, _described(owner, answer, NodeInfo(""), profiles)
@@ -201,7 +200,7 @@ class GraphWatch:
 
 
 def _copied(described: tuple[Answer, NodeInfo], copies: int) -> tuple[Answer, NodeInfo]:
-    """The description with the number of nodes of this name; the same object if that is unchanged."""
+    """A node with the number of nodes that share its name; the same object if that number is unchanged."""
     answer, info = described
     return described if info.copies == copies else (answer, replace(info, copies=copies))
 
@@ -234,7 +233,7 @@ class Profiles:
 
 
 def _described(owner: Owner, answer: Answer, before: NodeInfo, profiles: Profiles) -> NodeInfo:
-    """A node as described by an answer; profiles of endpoints it already had are reused."""
+    """The description of a node from its answer; endpoints that it already had keep their profiles."""
     publishers, subscriptions, services, clients = answer
     name, space = owner
     return NodeInfo(
@@ -260,7 +259,7 @@ def _with_qos(
 
 
 def qos_text(profile: Any) -> str:
-    """A short text for a QoS profile, such as `reliable volatile 10`."""
+    """A QoS profile as a short text, such as `reliable volatile 10`."""
     words = [profile.reliability.name, profile.durability.name]
     depth = "all" if profile.history.name == "KEEP_ALL" else str(profile.depth or "")
     return " ".join([*(word.lower().replace("_", " ") for word in words), depth]).strip()
@@ -275,7 +274,7 @@ def _nothing() -> None:
 
 
 def _endpoints(pairs: Pairs, before: Sequence[Endpoint] = ()) -> tuple[Endpoint, ...]:
-    """Endpoints by name; the previous ones if they are unchanged."""
+    """The endpoints by name; unchanged ones are the previous objects."""
     known = {each.name: each for each in before}
     found: list[Endpoint] = []
     for name, kinds in pairs:
@@ -285,7 +284,7 @@ def _endpoints(pairs: Pairs, before: Sequence[Endpoint] = ()) -> tuple[Endpoint,
 
 
 def _actions(topics: Pairs) -> tuple[Endpoint, ...]:
-    """Actions, recognised by their status topics: servers publish them, clients subscribe."""
+    """The actions, recognised by their status topics: servers publish them, clients subscribe."""
     found: list[Endpoint] = []
     for name, _ in topics:
         if name.endswith(ACTION_SERVER_TOPIC):
