@@ -1,1 +1,1 @@
-"""The console's launcher: processes, over the public launch API."""
+"""The console's launcher, which runs and controls processes through the public launch API."""

@@ -9,7 +9,7 @@ from bot_console.tui.console.model import LaunchArgument
 
 
 def read_arguments(path: str) -> list[LaunchArgument]:
-    """The arguments of a launch file and of those it includes; raises `ValueError` when it cannot be read."""
+    """The arguments declared by a launch file and its includes; raises `ValueError` if one of them cannot be read."""
     from launch.launch_description_sources import AnyLaunchDescriptionSource
 
     from launch import LaunchContext
@@ -29,21 +29,21 @@ def _argument(action: Any, context: Any) -> LaunchArgument:
 
 
 def _default(action: Any, context: Any) -> str | None:
-    """The default as text; one that only a running launch can evaluate is described, as `--show-args` does."""
+    """The default as text; if only a running launch can evaluate it, a description of it, as from `--show-args`."""
     from launch.utilities import perform_substitutions
 
     if action.default_value is None:
         return None
     try:
         text = perform_substitutions(context, action.default_value)
-    except Exception:  # substitutions may run any code, and look for packages, files and programs
+    except Exception:  # a substitution may run any code, or look for packages, files and programs
         return " + ".join(each.describe() for each in action.default_value)
-    context.launch_configurations.setdefault(action.name, text)  # later defaults may refer to it
+    context.launch_configurations.setdefault(action.name, text)  # later defaults may refer to this one
     return text
 
 
 def _description(text: str, choices: tuple[str, ...]) -> str:
-    """The description without the list of choices, which the form shows itself."""
+    """The description without the list of choices, since the form shows it already."""
     if text == "no description given":
         return ""
     listed = str(list(choices))

@@ -1,4 +1,4 @@
-"""Counts the starts that a launch file has postponed with timers."""
+"""Counts the process starts that a launch file delays with timers."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from bot_console.tui.console.launch.tree import below
 
 
 def delayed_starts(service: Any) -> int:
-    """How many pending timers of a LaunchService will start something.
+    """The number of pending timers of a LaunchService that will start something.
 
-    Zero if the service does not report what it is waiting for, as upstream's does not. Actions that wait for an event,
+    Zero if the service does not report what it is waiting for; upstream's does not. Actions that wait for an event,
     such as the end of another process, may never run and do not count.
     """
     from launch.actions import TimerAction
@@ -19,7 +19,7 @@ def delayed_starts(service: Any) -> int:
 
 
 def _starts(entity: Any) -> bool:
-    """Whether visiting the entity may start a process; if only a running launch can decide, it counts as yes."""
+    """Whether visiting an entity may start a process; true if only a running launch can decide."""
     from launch.actions import ExecuteLocal, IncludeLaunchDescription, OpaqueCoroutine, OpaqueFunction
 
     starting = (ExecuteLocal, IncludeLaunchDescription, OpaqueCoroutine, OpaqueFunction)

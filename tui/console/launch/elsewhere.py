@@ -1,7 +1,7 @@
-"""Programs that were started in other terminals, as processes that can be seen but not controlled from here; and the
-nodes of launched programs that are no `Node` of their launch file.
+"""Finds programs that were started in other terminals, which are shown as processes but cannot be controlled from here,
+and those nodes of launched programs that the launch file does not declare.
 
-What runs is known from the graph of the domain, who started it from `/proc`; without it nothing is found.
+The graph of the domain tells which programs run, and `/proc` tells what started them; without `/proc` none are found.
 """
 
 from __future__ import annotations
@@ -17,18 +17,18 @@ from bot_console.tui.console.launch.vitals import FindVitals, Usage
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
 
 HEADING = "in other terminals"
-"""The group in which they stand."""
+"""The group of these programs in the list of processes."""
 ELSEWHERE_POLL_S = 1.0
 """Seconds between two searches."""
 MAX_TITLE = 60
-"""Characters of a command that are shown."""
+"""The length to which a displayed command is shortened."""
 LAUNCHERS = ("ros2", "bot-console")
 PYTHON_MODULES = {"bot_console.tui": "bot-console"}
-"""How programs of ours are named that were started with `python -m`."""
+"""The displayed names of our own programs that were started with `python -m`."""
 
 
 class _Origin(NamedTuple):
-    """Who started a process: its ancestors' pids with its own first, and the command in the terminal with its pid."""
+    """What started a process: the pids of the process and its ancestors, and the terminal's command with its pid."""
 
     line: tuple[int, ...]
     command: str
@@ -36,14 +36,14 @@ class _Origin(NamedTuple):
 
 
 class _Found(NamedTuple):
-    """A process that was found."""
+    """A program that was found in the graph."""
 
     origin: _Origin
     usage: Usage | None
 
 
 class Elsewhere:
-    """Searches the processes of the domain for those that no launch host of this console has started."""
+    """Finds the programs of the domain that none of this console's launch hosts has started."""
 
     def __init__(
         self,
@@ -53,8 +53,8 @@ class Elsewhere:
         proc: Path = Path("/proc"),
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        """`processes` returns the nodes of programs on this machine, by pid; `hosts` the pids of launch hosts whose
-        processes are known already; `clock` returns seconds.
+        """`processes` returns the nodes of the programs on this machine, by pid. `hosts` returns the pids of launch
+        hosts whose processes are known already. `clock` returns seconds.
         """
         self._processes, self._vitals, self._hosts = processes, vitals, hosts
         self._proc, self._clock = proc, clock
@@ -64,11 +64,11 @@ class Elsewhere:
         self._launched: dict[int, tuple[str, ...]] = {}
         """The nodes of launched processes, by pid."""
         self._ended: dict[str, tuple[str, ...]] = {}
-        """The same by key, for those that end."""
+        """The nodes of launched processes by key, kept for when a process has ended."""
         self._merged: tuple[tuple[object, ...], LaunchInfo] | None = None
 
     def beside(self, launch: LaunchInfo) -> LaunchInfo:
-        """The launched processes, together with those that run elsewhere; the same object until something changes."""
+        """The launched processes and those started elsewhere; the same object until something changes."""
         now = self._clock()
         if self._polled is None or now - self._polled >= ELSEWHERE_POLL_S:
             self._polled = now
@@ -82,7 +82,7 @@ class Elsewhere:
         return self._merged[1]
 
     def _with_nodes(self, process: ProcessInfo) -> ProcessInfo:
-        """A process with the nodes that only the graph knows, also after its end."""
+        """A process with the nodes that only the graph knows; it keeps them after its end."""
         found = self._launched.get(process.pid or 0) or self._ended.get(process.key, ())
         if found:
             self._ended[process.key] = found
@@ -125,7 +125,7 @@ class Elsewhere:
     def _words(self, pid: int) -> list[str]:
         try:
             content = (self._proc / str(pid) / "cmdline").read_bytes()
-        except OSError:  # It has ended, is another user's, or the system has no such file.
+        except OSError:  # The process has ended or is another user's, or the system has no such file.
             return []
         return [each.decode("utf-8", "replace") for each in content.rstrip(b"\0").split(b"\0") if each]
 
@@ -137,18 +137,18 @@ class Elsewhere:
 
 
 def _shown(nodes: Sequence[str]) -> tuple[str, ...]:
-    """The nodes that are no tool's, which are hidden, and not the one with which a launch sees the graph."""
+    """The nodes to show: neither those of tools, which are hidden, nor the one with which a launch sees the graph."""
     return tuple(each for each in nodes if "/_" not in each and not each.startswith("/launch_ros_"))
 
 
 def _runs_programs(words: Sequence[str]) -> bool:
-    """Whether a command line is that of a program that starts nodes, unlike a shell's."""
+    """Whether a command line belongs to a program that starts nodes, rather than for example to a shell."""
     name = os.path.basename(words[0])
     return name in LAUNCHERS or name.startswith("python")
 
 
 def _title(words: Sequence[str]) -> str:
-    """A command as it was typed, without the interpreter and the folders of files."""
+    """A command roughly as it was typed: without the interpreter and the folders of files."""
     rest = list(words)
     if os.path.basename(rest[0]).startswith("python") and len(rest) > 1:
         rest = rest[1:]

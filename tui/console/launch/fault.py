@@ -1,4 +1,4 @@
-"""Why a launch file cannot be run, as one message with file and line."""
+"""Explains why a launch file cannot be run, in one message with file and line."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ Place: TypeAlias = "tuple[str, int | None]"
 def fault_text(
     error: BaseException, path: str, file_of: Callable[[Any], str] = lambda entity: "", *, reading: bool = False
 ) -> str:
-    """The fault of a launch, and where it is.
+    """The message for an error of a launch, with its place.
 
     `path` is the requested launch file; `reading` says that no other file had been read yet; `file_of` returns the file
-    that contains an entity. The embedded launch records on the exception what it was doing; for others, the place comes
-    from the user's lines in the traceback and from the parser's message.
+    that contains an entity. The embedded launch records on the exception what it was doing. With another launch, the
+    place comes from the user's lines in the traceback or from the parser's message.
     """
     causes = list(_causes(error))
     error = causes[-1]
@@ -73,7 +73,7 @@ def _at(place: Place, text: str) -> str:
 
 
 def _causes(error: BaseException) -> Iterator[BaseException]:
-    """An error, then that of the parser for the file's extension; the other parsers merely tried to read the file."""
+    """An error, then that of the parser for the file's extension; other parsers merely tried to read the file."""
     from launch.invalid_launch_file_error import InvalidLaunchFileError
 
     yield error
@@ -93,7 +93,7 @@ def _user_line(error: BaseException) -> Place | None:
 
 
 def _parsers_line(error: BaseException) -> int | None:
-    """Where a YAML or XML parser stopped."""
+    """The line at which a YAML or XML parser stopped."""
     mark: Any = getattr(error, "problem_mark", None)
     position: Any = getattr(error, "position", None)
     if mark is not None:
@@ -102,7 +102,7 @@ def _parsers_line(error: BaseException) -> int | None:
 
 
 def _reported(causes: Sequence[BaseException], file_of: Callable[[Any], str]) -> Place | None:
-    """The place launch recorded on the innermost error; a line in a library is replaced by the launch file that
+    """The place that launch recorded on the innermost error; a line in a library is replaced by the launch file that
     caused it.
     """
     for reported in _all_causes(reversed(causes)):

@@ -12,7 +12,7 @@ from bot_console.tui.console.model import LaunchArgument
 
 
 class GatedLauncher:
-    """A launcher behind the gate. Processes can be started before the console itself has connected."""
+    """A launcher behind the gate. It can start processes before the console itself has connected."""
 
     def __init__(self, gate: Gate, launcher: Launcher) -> None:
         self._gate = gate
@@ -26,13 +26,13 @@ class GatedLauncher:
         return self._order(lambda path: self._launcher.launch(path, arguments), path)
 
     def arguments(self, path: str) -> Sequence[LaunchArgument]:
-        """The arguments a launch file declares; a launch file is a program, which a read-only console does not run."""
+        """The arguments that a launch file declares. It is a program, so a read-only console does not run it."""
         if self._gate.read_only:
             raise ValueError(self._gate.read_only)
         return self._launcher.arguments(path)
 
     def files(self) -> Sequence[str]:
-        """The launch files to choose from."""
+        """The launch files of the workspace, to choose from."""
         return () if self._gate.read_only else self._launcher.files()
 
     def start(self, key: str) -> Future[Answer]:
@@ -44,7 +44,7 @@ class GatedLauncher:
         return self._order(self._launcher.stop, key)
 
     def kill(self, key: str) -> Future[Answer]:
-        """Kill a process."""
+        """Kill a process at once."""
         return self._order(self._launcher.kill, key)
 
     def restart(self, key: str) -> Future[Answer]:
@@ -52,9 +52,9 @@ class GatedLauncher:
         return self._order(self._launcher.restart, key)
 
     def restart_on_failure(self, key: str) -> Future[Answer]:
-        """Restart a process whenever it fails."""
+        """From now on, restart a process whenever it fails."""
         return self._order(self._launcher.restart_on_failure, key)
 
     def leave_ended(self, key: str) -> Future[Answer]:
-        """No longer restart a process that fails."""
+        """No longer restart a process when it fails."""
         return self._order(self._launcher.leave_ended, key)

@@ -9,10 +9,10 @@ from launch import Action
 
 
 class GuardedStart(Action):
-    """Makes an action, executes it, and waits for it as launch does.
+    """Creates an action, executes it, and waits for it as launch does.
 
-    `begun` is called with the action once it was executed, `failed` with the reason if it was not. A launch that is
-    shutting down does not execute it.
+    `begun` is called with the action after it was executed, `failed` with the reason if it could not be. While the
+    launch shuts down, nothing is executed.
     """
 
     def __init__(self, make: Callable[[], Any], begun: Callable[[Any], None], failed: Callable[[str], None]) -> None:
@@ -23,7 +23,7 @@ class GuardedStart(Action):
         self._action: Any = None
 
     def execute(self, context: Any) -> Any:
-        """Make it and execute it."""
+        """Create the action and execute it."""
         if context.is_shutdown:
             return None
         try:
@@ -37,5 +37,5 @@ class GuardedStart(Action):
         return entities
 
     def get_asyncio_future(self) -> Any:
-        """Done when the action is."""
+        """The future of the action, if it was executed."""
         return None if self._action is None else self._action.get_asyncio_future()

@@ -1,7 +1,7 @@
-"""A launch file and a parameter file that start the nodes of a running system again, as far as that can be known.
+"""Writes a launch file and a parameter file that start the nodes of a running system again, as far as they are known.
 
-Known is what the launch hosts of the domain have started, and the command lines of programs that run on this machine.
-What is not known stands in the file as a comment that begins with `UNKNOWN`.
+Known are the processes that the launch hosts of the domain have started, and the command lines of programs that run on
+this machine. Everything else is written as a comment that begins with `UNKNOWN`.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from bot_console.tui.console.parameters.provenance import WRITTEN_BY_LAUNCH
 from bot_console.tui.files.save_file import NotSaved, save_file
 
 MARK = "written by `bot-console graph --launch`"
-"""In the first line of both files: only files that have it are replaced."""
+"""Stands in the first line of both files: existing files are replaced only if they contain it."""
 SUFFIX = ".launch.py"
 CONTAINERS = (
     "component_container",
@@ -31,7 +31,7 @@ CONTAINERS = (
     "component_container_event",
 )
 LAUNCH = ("ros2", "launch")
-"""How the command begins that runs another launch file."""
+"""The beginning of a command that runs another launch file."""
 ALIVE = (ProcessState.STARTING, ProcessState.RUNNING)
 HEAD = '''\
 """Starts the nodes of a running system again, {mark}.
@@ -51,7 +51,7 @@ def generate_launch_description() -> LaunchDescription:
 
 @dataclass(frozen=True)
 class RunningSystem:
-    """A running system, as far as it is known."""
+    """What is known of a running system."""
 
     graph: GraphInfo
     launch: LaunchInfo = field(default_factory=LaunchInfo)
@@ -62,7 +62,7 @@ class RunningSystem:
 
 @dataclass(frozen=True)
 class WrittenLaunch:
-    """The files that were written, and the nodes that they cannot start."""
+    """The files that were written, and what they do not contain."""
 
     launch_file: Path
     parameter_file: Path | None
@@ -70,11 +70,11 @@ class WrittenLaunch:
     """Number of programs."""
     unknown: tuple[str, ...]
     left_out: tuple[str, ...]
-    """Parameters that no file can hold, with the reason."""
+    """Parameters that no file can contain, with the reason."""
 
     @property
     def text(self) -> str:
-        """A summary for the user."""
+        """A summary of the result for the user."""
         files = " and ".join(str(each) for each in (self.launch_file, self.parameter_file) if each)
         parts = [f"{files}: {self.started} program{'' if self.started == 1 else 's'}"]
         if self.unknown:
@@ -83,7 +83,7 @@ class WrittenLaunch:
 
 
 def write_launch(path: Path, system: RunningSystem) -> WrittenLaunch:
-    """Write `NAME.launch.py`, and `NAME.yaml` beside it; raises `NotSaved` if that is not possible."""
+    """Write `NAME.launch.py`, and `NAME.yaml` beside it; raises `NotSaved` if that fails."""
     if not path.name.endswith(SUFFIX):
         path = path.with_name(f"{path.name.removesuffix('.py')}{SUFFIX}")
     parameter_file = path.with_name(f"{path.name.removesuffix(SUFFIX)}.yaml")
@@ -92,7 +92,7 @@ def write_launch(path: Path, system: RunningSystem) -> WrittenLaunch:
     starts, unknown = found_starts(system)
     if not starts and not unknown:
         raise NotSaved("there are no nodes to start")
-    # Those of all nodes: a program takes what is meant for its own, whose names may be unknown here.
+    # The parameters of all nodes: a program takes those of its own nodes, whose names may be unknown here.
     trees = {name: tree for name, tree in system.parameters.items() if not _is_tool(name)}
     left_out: tuple[str, ...] = ()
     written = False
@@ -119,14 +119,14 @@ def _check_replaceable(path: Path) -> None:
 
 @dataclass(frozen=True)
 class Start:
-    """A program to start, with its nodes as far as they are known."""
+    """A program to start, with its known nodes."""
 
     program: Program
     nodes: tuple[str, ...]
 
 
 def found_starts(system: RunningSystem) -> tuple[list[Start], list[NodeInfo]]:
-    """The programs of a system, and the nodes whose programs are unknown."""
+    """The programs of a system, and the nodes whose programs are not known."""
     starts = [*_launched(system)]
     covered = {node for each in starts for node in each.nodes}
     launched = {each.pid for each in system.launch.processes}
@@ -135,7 +135,7 @@ def found_starts(system: RunningSystem) -> tuple[list[Start], list[NodeInfo]]:
             continue
         own = tuple(node for node in nodes if node not in covered and not _is_tool(node))
         if own and (program := _program_of(pid)) is not None:
-            if program.command[:2] == LAUNCH:  # several processes of one launch have its command line
+            if program.command[:2] == LAUNCH:  # several processes of one launch share its command line
                 others = [each for each in starts if each.program == program]
                 starts = [each for each in starts if each.program != program]
                 own = (*(node for each in others for node in each.nodes), *own)
@@ -166,7 +166,7 @@ def _is_container(program: Program) -> bool:
 
 
 def _program_of(pid: int) -> Program | None:
-    """The program of a process on this machine, by its command line; None if that says nothing about its nodes."""
+    """The program of a process on this machine, from its command line; None if that names no program with nodes."""
     try:
         content = Path(f"/proc/{pid}/cmdline").read_bytes()
         folder = os.readlink(f"/proc/{pid}/cwd")
@@ -243,7 +243,7 @@ def _start_text(
 
 
 def _lasting(words: Sequence[str]) -> Iterator[str]:
-    """Parameters as they were given, without the files that launch makes and removes."""
+    """The parameter options of a command line, without the files that launch creates and removes."""
     for option, value in zip(words[::2], words[1::2], strict=True):
         if not os.path.basename(value).startswith(WRITTEN_BY_LAUNCH):
             yield from (option, value)

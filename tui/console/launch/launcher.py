@@ -1,4 +1,4 @@
-"""Processes as the console sees and controls them, using only the public `launch` API and its event handlers."""
+"""Runs and controls launched processes, using only the public `launch` API and its event handlers."""
 
 from __future__ import annotations
 
@@ -44,12 +44,12 @@ class Joinable(Protocol):
     """A thread, or anything that can be joined like one."""
 
     def join(self, timeout: float | None = None) -> object:
-        """Wait for the end, at most `timeout` seconds."""
+        """Wait until it has ended, at most `timeout` seconds."""
         ...
 
 
 class _Held:
-    """A process, the action that runs it, its run, and its monitors."""
+    """A launched process with its action, its run, and its monitors."""
 
     def __init__(self, process: LaunchedProcess, run: LaunchRun, action: Any, made_from: Recipe) -> None:
         self.process = process
@@ -78,9 +78,9 @@ class RosLauncher(ProcessVerbs):
     ) -> None:
         """`spawn` starts the thread that launches a file, and keeps launch's own output off the screen.
 
-        `heard` says whether `/rosout` has brought a line of the logger with that name; `every` receives all lines of
-        loggers, including those that `/rosout` brings. `policy` is how processes are restarted that have failed, and
-        `restarts` whether all are, until a person decides otherwise.
+        `heard` says whether a line of a logger has arrived over `/rosout`; `every` receives all lines of loggers,
+        including those that arrive over `/rosout`. `policy` says how failed processes are restarted, and `restarts`
+        whether all are until a person decides otherwise.
         """
         self._policy, self._restarts = policy, restarts
         self._record = record
@@ -106,7 +106,7 @@ class RosLauncher(ProcessVerbs):
         self._dirty = self._closed = False
 
     def info(self) -> LaunchInfo:
-        """The current state; the same object until something changes."""
+        """The launches and their processes; the same object until something changes."""
         with self._lock:
             self._poll()
             if self._dirty:
@@ -117,7 +117,7 @@ class RosLauncher(ProcessVerbs):
             return self._info
 
     def _poll(self) -> None:
-        """Measure what no event reports."""
+        """Update what no event reports: measurements, hangs, due restarts."""
         now = time.monotonic()
         delayed = sum(run.delayed_starts for run in self._runs)
         self._dirty |= delayed != self._delayed
@@ -154,15 +154,15 @@ class RosLauncher(ProcessVerbs):
         self._dirty = True
 
     def arguments(self, path: str) -> Sequence[LaunchArgument]:
-        """The arguments a launch file declares; raises `ValueError` when it cannot be read."""
+        """The arguments that a launch file declares; raises `ValueError` if it cannot be read."""
         return read_arguments(path)
 
     def files(self) -> Sequence[str]:
-        """Launch files of the workspace."""
+        """The launch files of the workspace."""
         return self._files_of_workspace()
 
     def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
-        """Run another launch file; answered when its first process runs, or when it has failed or ended."""
+        """Run another launch file; the answer comes when its first process runs, or when it has failed or ended."""
         outcome: Future[Answer] = Future()
         given = dict(arguments)
         with self._lock:
@@ -204,7 +204,7 @@ class RosLauncher(ProcessVerbs):
             of_file.set_result(Answer(not problem, problem or f"{run.title} has ended"))
 
     def _left_over(self, held: _Held, why: str) -> None:
-        """Note that a run is over: later starts of its processes get separate runs.
+        """Record that the run of a process is over; when started again, the process gets a separate run.
 
         `why` says why the run could not begin; empty if it could.
         """
@@ -232,7 +232,7 @@ class RosLauncher(ProcessVerbs):
         if order is Order.START:
             self._start(held)
         elif held.action is None:
-            return  # not executed yet; it is ended as soon as it has started
+            return  # not executed yet: the process is ended as soon as it has started
         elif order is Order.KILL:
             held.run.emit(SignalProcess(signal_number="SIGKILL", process_matcher=matches_action(held.action)))
         elif order is Order.SHUT_DOWN:
@@ -252,7 +252,7 @@ class RosLauncher(ProcessVerbs):
         def failed(why: str) -> None:
             self._ended(held, why)
 
-        if held.run.ending:  # another run of the same file may exist, for processes that were restarted earlier
+        if held.run.ending:  # another run of the same file may already exist, for processes that were restarted earlier
             held.run = next((run for run in self._runs if run.title == held.run.title and not run.ending), held.run)
         if not held.run.ending:
             held.run.start(make, failed)
@@ -278,7 +278,7 @@ class RosLauncher(ProcessVerbs):
             outcome.set_result(Answer(True, f"{run.title} runs"))
 
     def _found(self, run: LaunchRun, event: ProcessStarted, context: LaunchContext) -> _Held:
-        """Add a new process."""
+        """Add a process that has started for the first time."""
         key = f"{event.process_name}@{len(self._held)}"
         place = run.tree.place(event.action, context)
         made_from = recipe(event, context)
@@ -329,7 +329,7 @@ class RosLauncher(ProcessVerbs):
                 self._ended(held)
 
     def _ended(self, held: _Held, why: str = "") -> None:
-        """Note that a process has ended, and launch will not start it again."""
+        """Record that a process has ended and that launch will not start it again."""
         with self._lock:
             before = held.process.info
             order = held.process.over(why)
@@ -352,7 +352,7 @@ class RosLauncher(ProcessVerbs):
         self._printed(Severity.ERROR, "bot-console", f"the launch pane could not process an event: {error!r}")
 
     def close(self, timeout_s: float = 10.0) -> None:
-        """Shut down all launches and wait, at most `timeout_s` in total; then kill what still runs.
+        """Shut down all launches and wait, at most `timeout_s` in total; then kill the processes that still run.
 
         A second call does nothing.
         """
@@ -388,7 +388,7 @@ def _thread(target: Callable[[], None], file: str) -> threading.Thread:
 
 
 def _node_names(action: Any) -> tuple[str, ...]:
-    """The ROS names of the nodes in a process, if the action has them."""
+    """The fully qualified names of the nodes in a process, if its action has them."""
     if not hasattr(action, "expanded_node_name"):
         return _full_node_name(action)
     name, namespace = action.expanded_node_name, getattr(action, "expanded_node_namespace", "")
@@ -398,9 +398,7 @@ def _node_names(action: Any) -> tuple[str, ...]:
 
 
 def _full_node_name(action: Any) -> tuple[str, ...]:
-    """The same for a launch_ros that offers `node_name`; placeholders stand for parts that the program itself
-    decides.
-    """
+    """The same for a launch_ros with `node_name`, in which placeholders stand for what the program itself decides."""
     try:
         name = str(getattr(action, "node_name", ""))
     except RuntimeError:  # the action was not executed

@@ -1,4 +1,4 @@
-"""Launch files and processes, as the panes start and end them. Standard library only."""
+"""The port for launch files and processes, as panes start and end them. Standard library only."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class Launcher(Protocol):
         ...
 
     def arguments(self, path: str) -> Sequence[LaunchArgument]:
-        """The arguments a launch file declares; raises `ValueError` with file and line when it cannot be read.
+        """The arguments that a launch file declares; raises `ValueError` with file and line if it cannot be read.
 
         A launch file is a program and may take a while, so this method may be called from any thread.
         """
@@ -45,9 +45,9 @@ class Launcher(Protocol):
         ...
 
     def restart_on_failure(self, key: str) -> Future[Answer]:
-        """From now on restart a process whenever it fails, as the settings say: so many times, after growing delays."""
+        """From now on, restart a process when it fails: as often and with the growing delays that the settings say."""
         ...
 
     def leave_ended(self, key: str) -> Future[Answer]:
-        """No longer restart a process that fails."""
+        """No longer restart a process when it fails."""
         ...

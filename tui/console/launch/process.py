@@ -1,4 +1,4 @@
-"""The life of one launched process: what was requested of it, and what happened to it. No launch API, no locks."""
+"""The life cycle of one launched process: what was requested of it and what happened to it. No launch API, no locks."""
 
 from __future__ import annotations
 
@@ -25,17 +25,17 @@ ENDED = (ProcessState.EXITED, ProcessState.CRASHED, ProcessState.ABANDONED, Proc
 
 
 class Order(Enum):
-    """The next thing to do with a process."""
+    """The next action to take on a process."""
 
     NOTHING = 0
     START = 1
     SHUT_DOWN = 2
-    """SIGINT, with launch's escalation."""
+    """Send SIGINT, and escalate as launch does."""
     KILL = 3
 
 
 class LaunchedProcess:
-    """The displayed state of a process, and the requests waiting for its next change."""
+    """The displayed state of a process, and the requests that wait for its next change."""
 
     def __init__(
         self,
@@ -48,14 +48,14 @@ class LaunchedProcess:
         restarts: bool = False,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        """`restarts`: whether `policy` applies from the beginning; `clock` returns seconds."""
+        """`restarts` says whether `policy` applies from the beginning; `clock` returns seconds."""
         self._policy = policy
         self._clock = clock
         self._attempts = 0
-        """How often it was restarted in a row because it had failed."""
+        """Consecutive restarts after failures."""
         self._began = 0.0
         self._due: float | None = None
-        """When it is to be restarted."""
+        """The time (of `clock`) at which it is due for a restart."""
         self.info = ProcessInfo(key, label, ProcessState.STARTING, group=group, program=program)
         if restarts and not self._respawns:
             self.info = replace(self.info, restart_policy=policy.text)
@@ -69,17 +69,17 @@ class LaunchedProcess:
 
     @property
     def _respawns(self) -> bool:
-        """Whether launch respawns it by itself."""
+        """Whether launch respawns the process."""
         return self.info.program is not None and self.info.program.respawn
 
     def due(self) -> Order:
-        """The order that is due at this time: to start the process if its delay after a failure is over."""
+        """The order that is due now: to start the process if its delay after a failure is over."""
         if self._due is None or self._clock() < self._due:
             return Order.NOTHING
         return self._start()
 
     def forget_restart(self) -> None:
-        """Do not restart it after its failure: its launch has ended."""
+        """Cancel a due restart, because its launch has ended."""
         if self._due is not None:
             self._due = None
             code = self.info.exit_code
@@ -91,7 +91,7 @@ class LaunchedProcess:
         return self._alive
 
     def want(self, verb: str) -> tuple[Order, Future[Answer]]:
-        """Request `start`, `stop`, `kill` or `restart`, answered when that is done, or one of `POLICIES`."""
+        """Request one of `start`, `stop`, `kill`, `restart`, answered when that is done, or one of `POLICIES`."""
         outcome: Future[Answer] = Future()
         if verb in POLICIES or (verb not in STARTS and self._due is not None):
             outcome.set_result(self._set_policy(verb) if verb in POLICIES else self._given_up())
@@ -157,16 +157,16 @@ class LaunchedProcess:
         return Order.SHUT_DOWN
 
     def exit_requested(self) -> None:
-        """Note that a person, or the end of its launch, has requested its end."""
+        """Record that a person, or the end of the launch, has requested its end."""
         if self.info.state not in ENDED:
             self._reported = True
             requested = self.info.end_requested if self.info.state is ProcessState.STOPPING else time.time_ns()
             self.info = replace(self.info, state=ProcessState.STOPPING, end_requested=requested)
 
     def started(self, label: str, pid: int, nodes: tuple[str, ...] = ()) -> Order:
-        """Note that it runs, unrequested or on request; launch may change its label each time.
+        """Record that it runs, requested or not; launch may change its label each time.
 
-        The placeholder that a node without a process of its own has for a process id is not kept.
+        A node without a process of its own has a placeholder for a process id, which is not kept.
         """
         own = pid if pid <= MAX_PID else None
         restarts, self._starts, self._alive = self._starts, self._starts + 1, True
@@ -190,18 +190,18 @@ class LaunchedProcess:
         return Order.NOTHING
 
     def missing(self, why: str) -> None:
-        """Note that its executable is missing, and that the launch goes on without it."""
+        """Record that its executable is missing and that the launch continues without it."""
         self.info = replace(self.info, state=ProcessState.MISSING, problem=why)
 
     def exited(self, code: int, respawns: bool, fault: str = "") -> Order:
-        """Note that it has ended; `respawns`: launch will start it again, `fault`: the exception it printed."""
+        """Record that it has ended; `respawns`: launch will start it again, `fault`: the exception that it printed."""
         self._fault = fault
         self._alive = False
         self.info = replace(self.info, exit_code=code, pid=None, cpu=None, memory=None, ended=time.time_ns())
         if not respawns:
             return self._end()
         if any(verb == "stop" for verb, _ in self._waiting):
-            return Order.NOTHING  # it ended unrequested just before; launch already knows not to start it again
+            return Order.NOTHING  # it had just ended without a request; launch already knows not to start it again
         self._reported = False
         why = f"{self._why(code)}; launch starts it again" if code else ""
         self.info = replace(self.info, state=ProcessState.STARTING, problem=why)
@@ -209,7 +209,7 @@ class LaunchedProcess:
         return Order.NOTHING
 
     def over(self, why: str = "") -> Order:
-        """Note that launch will not start it again; `why` says what went wrong if it never ran."""
+        """Record that launch will not start it again; `why` says what went wrong if it never ran."""
         if self._alive or self.info.state in ENDED:
             return Order.NOTHING
         if not self._ran and not self._reported:
@@ -249,11 +249,11 @@ class LaunchedProcess:
         self.info = replace(self.info, problem=text)
 
     def _why(self, code: int) -> str:
-        """Why it has ended, with the exception it printed, if any."""
+        """Why it has ended: the signal, the exception that it printed, or the exit code."""
         return _reason(code) if code < 0 or not self._fault else self._fault
 
     def abandoned(self, where: str) -> None:
-        """Note that its code still runs although it was killed."""
+        """Record that some of its code still runs although it was killed."""
         problem = f"was killed, but some of its code keeps running: {where}"
         self.info = replace(self.info, state=ProcessState.ABANDONED, problem=problem)
 
@@ -265,7 +265,7 @@ class LaunchedProcess:
         return True
 
     def stands(self, why: str) -> bool:
-        """Set why it makes no progress, empty if it does; returns whether that has changed."""
+        """Set the reason why it makes no progress, empty if it does; returns whether the reason has changed."""
         if why == self._stands or not self._alive:
             return False
         self._stands = why

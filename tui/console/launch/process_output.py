@@ -1,12 +1,13 @@
-"""The output of processes, as log records. A mark, not the wording, distinguishes a logger's lines from printed text.
+"""Converts the output of processes to log records. A mark, not the wording, distinguishes a logger's lines from printed
+text.
 
-`/rosout` takes precedence: it brings the lines of every node, whoever has started it. A marked line says whether it
-was published there too, so no line is added twice: only those that were not published are added here (from a node
-without `/rosout`, a logger without a node, a line after `rclpy.shutdown()`), and printed text.
+`/rosout` takes precedence: it brings the lines of every node, whoever has started it. A marked line says whether it was
+published there too, so that no line is added twice. Only printed text and the lines that were not published are added
+here: those of a node without `/rosout`, of a logger without a node, or after `rclpy.shutdown()`.
 
-The mark is a log format, set through the public `RCUTILS_CONSOLE_OUTPUT_FORMAT`; a format set by the user stays in it.
-The embedded rclpy also takes it as `BOT_CONSOLE_LOG_ENVELOPE`, which no launch file overrides, and adds whether
-`/rosout` had the line. A real rclpy does not know that field: see `Undecided`.
+The mark is a log format, set through the public `RCUTILS_CONSOLE_OUTPUT_FORMAT`; the user's own format stays inside it.
+The embedded rclpy also takes it from `BOT_CONSOLE_LOG_ENVELOPE`, which no launch file overrides, and adds whether the
+line was published on `/rosout`. A real rclpy does not know that field: see `Undecided`.
 """
 
 from __future__ import annotations
@@ -29,11 +30,11 @@ COLOUR = r"(?:\x1b\[[0-9;]*m)?"
 _BEGIN = re.compile(COLOUR + BEGIN)
 _END = re.compile(f"{END}{COLOUR}\r?\n")
 MAX_RECORD_CHARACTERS = 1 << 20
-"""Characters kept while waiting for the end of a line or record; a program may print without ever ending one."""
+"""Characters kept while waiting for the end of a line or record, since a program may never end one."""
 MAX_TIME_NS = 2**63 - 1
-"""The latest time, in ns since the epoch, that a column of the log can hold."""
+"""The latest time, in ns since the epoch, that fits a column of the log."""
 ROSOUT_TIMEOUT_S = 2.0
-"""How long (s) a line waits for `/rosout` to bring the first line of its logger."""
+"""Seconds that a line waits for `/rosout` to bring the first line of its logger."""
 
 Add = Callable[[int, int, str, str, tuple[str, str, int]], None]
 """Receives stamp (ns), severity, logger name, text, and (file, function, line)."""
@@ -41,9 +42,7 @@ Record = tuple[int, int, str, str, tuple[str, str, int]]
 
 
 def marking(environment: Mapping[str, str]) -> dict[str, str]:
-    """The variables that make loggers mark their lines; an existing format in the environment is kept inside the
-    mark.
-    """
+    """The variables that make loggers mark their lines; a format in the given environment is kept inside the mark."""
     return {
         ENVELOPE_VARIABLE: ENVELOPE,
         FORMAT_VARIABLE: ENVELOPE.replace("{line}", environment.get(FORMAT_VARIABLE, "")),
@@ -51,7 +50,7 @@ def marking(environment: Mapping[str, str]) -> dict[str, str]:
 
 
 class ProcessOutput:
-    """The output of one process, on both streams."""
+    """Converts the output of one process, on both streams."""
 
     def __init__(
         self,
@@ -61,9 +60,7 @@ class ProcessOutput:
         heard: Callable[[str], bool] = lambda name: True,
         every: Add | None = None,
     ) -> None:
-        """`heard` says whether `/rosout` has brought a line of the logger with that name; `every` receives all
-        lines.
-        """
+        """`heard` says whether a line of a logger has arrived over `/rosout`; `every` receives all lines of loggers."""
         self._record = record
         self._every = every
         self._undecided = Undecided(record, heard)
@@ -75,7 +72,7 @@ class ProcessOutput:
         self._readers[stderr].feed(text)
 
     def logged(self, record: Record, on_rosout: bool | None) -> None:
-        """Process a logger's line; `on_rosout` is None if the writer could not tell whether it was published on
+        """Process a logger's line; `on_rosout` is None if the line does not say whether it was published on
         `/rosout`.
         """
         if self._every is not None:
@@ -87,15 +84,15 @@ class ProcessOutput:
 
     @property
     def fault(self) -> str:
-        """The last exception printed, and where in the user's code, on one line; empty if there was none."""
+        """The last exception printed, with its place in the user's code, on one line; empty if there was none."""
         return self._streams[True].fault or self._streams[False].fault
 
     def settle(self) -> None:
-        """Decide on lines that have waited long enough; to be called from time to time."""
+        """Decide on lines that have waited long enough; to be called regularly."""
         self._undecided.settle()
 
     def close(self) -> None:
-        """Note that the process has ended."""
+        """Process the rest of the output after the process has ended."""
         for stderr, reader in self._readers.items():
             reader.close()
             self._streams[stderr].close()
@@ -105,8 +102,8 @@ class ProcessOutput:
 class Undecided:
     """Lines of a real rclpy or rclcpp, which do not say whether they were published on `/rosout`.
 
-    They were if `/rosout` has brought any line of their logger. A logger's first line can arrive here before it does
-    over `/rosout`, so each line waits for `ROSOUT_TIMEOUT_S` before it is added.
+    A line counts as published if `/rosout` has brought any line of its logger. A logger's first line can arrive here
+    before it arrives over `/rosout`, so each line waits for `ROSOUT_TIMEOUT_S` before it is added.
     """
 
     def __init__(self, record: Add, heard: Callable[[str], bool], now: Callable[[], float] = time.monotonic) -> None:
@@ -116,13 +113,13 @@ class Undecided:
         self._waiting: deque[tuple[float, Record]] = deque()
 
     def wait(self, record: Record) -> None:
-        """Keep a line for now, unless `/rosout` has that logger's lines anyway."""
+        """Keep a line for now, unless lines of its logger have arrived over `/rosout`."""
         if not self._heard(record[2]):
             self._waiting.append((self._now() + ROSOUT_TIMEOUT_S, record))
         self.settle()
 
     def settle(self, *, ended: bool = False) -> None:
-        """Pass on lines whose wait is over; all of them once the process has ended."""
+        """Decide on lines that have waited long enough, or on all lines if the process has ended."""
         now = self._now()
         while self._waiting and (ended or self._waiting[0][0] <= now):
             _, record = self._waiting.popleft()
@@ -139,7 +136,7 @@ class OutputReader:
         self._rest = ""
 
     def feed(self, text: str) -> None:
-        """Process the next piece; an unfinished line or record waits for its end, unless it is very long."""
+        """Process the next piece of output; an unfinished line or record waits for its end, unless it is very long."""
         self._take(self._rest + text)
         if len(self._rest) > MAX_RECORD_CHARACTERS:
             rest, self._rest = self._rest, ""
@@ -159,7 +156,7 @@ class OutputReader:
         self._rest = self._lines(text[at:])
 
     def close(self) -> None:
-        """Note that the process has ended: the rest is a line without a newline."""
+        """Process the rest, a line without a newline, after the process has ended."""
         rest, self._rest = self._rest, ""
         begin = _BEGIN.match(rest)
         if begin and END in rest:
@@ -187,5 +184,5 @@ class OutputReader:
 
 
 def _is_number(text: str) -> bool:
-    """Whether it is an integer that fits a column of the log; a node may print anything in place of a mark."""
+    """Whether a text is an integer that fits a column of the log; a node may print anything in place of a mark."""
     return text.isascii() and text.isdecimal() and len(text) <= len(str(MAX_TIME_NS)) and int(text) <= MAX_TIME_NS

@@ -1,4 +1,4 @@
-"""The methods by which every launcher controls a single process."""
+"""The methods with which every launcher controls a single process."""
 
 from __future__ import annotations
 
@@ -12,29 +12,29 @@ class ProcessVerbs(ABC):
     """The methods of `Launcher` that control one process, all implemented by `_want`."""
 
     def start(self, key: str) -> Future[Answer]:
-        """Start a process that has ended; answered when it runs."""
+        """Start a process that has ended; the answer comes when it runs."""
         return self._want("start", key)
 
     def stop(self, key: str) -> Future[Answer]:
-        """Stop a process as Ctrl-C does; answered when it has ended."""
+        """Stop a process as Ctrl-C does; the answer comes when it has ended."""
         return self._want("stop", key)
 
     def kill(self, key: str) -> Future[Answer]:
-        """Kill a process, as SIGKILL does; launch respawns it if its launch file says so."""
+        """Kill a process with SIGKILL; launch respawns it if its launch file says so."""
         return self._want("kill", key)
 
     def restart(self, key: str) -> Future[Answer]:
-        """Stop, then start; answered when it runs again."""
+        """Stop and start a process; the answer comes when it runs again."""
         return self._want("restart", key)
 
     def restart_on_failure(self, key: str) -> Future[Answer]:
-        """Restart a process whenever it fails, as the settings say."""
+        """From now on, restart a process whenever it fails, as the settings say."""
         return self._want("restart_on_failure", key)
 
     def leave_ended(self, key: str) -> Future[Answer]:
-        """Do not restart a process that has ended by itself."""
+        """No longer restart a process when it fails."""
         return self._want("leave_ended", key)
 
     @abstractmethod
     def _want(self, verb: str, key: str, /) -> Future[Answer]:
-        """Apply the verb to the process with that key."""
+        """Apply a verb to the process with this key."""

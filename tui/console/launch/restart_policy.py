@@ -1,16 +1,16 @@
-"""How a failed process is restarted automatically: how often, and after which delays. Standard library only."""
+"""How a failed process is restarted automatically: how often and after which delays. Standard library only."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 STEADY_S = 60.0
-"""Seconds that a process must have run for its failed attempts to be forgotten."""
+"""Seconds that a process must have run for its earlier failures to be forgotten."""
 
 
 @dataclass(frozen=True, slots=True)
 class RestartPolicy:
-    """How a process is restarted that has failed: up to `attempts` times in a row, after a delay that doubles."""
+    """Restarts a failed process up to `attempts` times in a row, after a delay that doubles each time."""
 
     attempts: int = 5
     delay: float = 1.0
@@ -19,7 +19,7 @@ class RestartPolicy:
     """The longest delay, in seconds."""
 
     def delay_before(self, attempt: int) -> float:
-        """Seconds to wait before an attempt, counted from 1."""
+        """Seconds to wait before an attempt; the first one is number 1."""
         return min(self.max_delay, self.delay * 2.0 ** min(attempt - 1, 60))
 
     @property

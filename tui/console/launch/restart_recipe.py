@@ -1,6 +1,6 @@
-"""Restarts a process that launch has started before, by a new action of the public launch API.
+"""Restarts a process that launch has started before, with a new action of the public launch API.
 
-An action can be executed only once, so a second start needs another one, made from the event of the first start. Event
+An action can be executed only once, so a second start needs a new one, made from the event of the first start. Event
 handlers of the launch file that wait for the original action do not recognise the new one; `on_exit` is kept if it
 contains no process.
 """
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Recipe:
-    """The data that are needed to restart a process; `package` is None if the path of the program suffices."""
+    """The data needed to restart a process; `package` is None if the path of the program suffices."""
 
     command: list[str]
     label: str
@@ -34,7 +34,7 @@ class Recipe:
 
     @property
     def program(self) -> Program:
-        """The same for people and files; what an environment adds is not in it."""
+        """The program as it is shown to people and written to files, without its environment."""
         command = tuple(map(str, self.command[len(shlex.split(self.prefix)) :]))
         respawn, delay = bool(self.options.get("respawn")), self.options.get("respawn_delay")
         folder = self.options.get("cwd") or ""
@@ -48,7 +48,7 @@ class Recipe:
         if not self.is_node:
             return ExecuteProcess(cmd=self.command, name=self.label, **self.options)
         program, *arguments = self.command[len(shlex.split(self.prefix)) :]
-        arguments = arguments[:-1] if arguments[-1:] == ["--ros-args"] else arguments  # which a Node action adds itself
+        arguments = arguments[:-1] if arguments[-1:] == ["--ros-args"] else arguments  # a Node action adds it itself
         where = {"executable": program}
         if self.package is not None:
             where = {"package": self.package, "executable": os.path.basename(program)}
@@ -56,7 +56,7 @@ class Recipe:
 
 
 def recipe(event: ProcessStarted, context: LaunchContext) -> Recipe:
-    """The data that a process was started with, taken from its `ProcessStarted` event."""
+    """Extract the data with which a process was started from its `ProcessStarted` event."""
     from launch_ros.actions import Node
 
     action = event.action
@@ -86,7 +86,7 @@ def _text(context: LaunchContext, substitutions: Any, otherwise: str | None) -> 
         return None
     try:
         return perform_substitutions(context, normalize_to_list_of_substitutions(substitutions))
-    except SubstitutionFailure:  # it needs a launch configuration that only its own scope has
+    except SubstitutionFailure:  # needs a launch configuration that only its own scope has
         return otherwise
 
 
@@ -99,6 +99,6 @@ def _on_exit(action: Any) -> Any:
 
 
 def _respawn(action: Any) -> dict[str, Any]:
-    """Whether launch respawns it, if the action says so."""
+    """The respawn options of an action, if launch respawns its process."""
     wanted = getattr(action, "respawn", None)
     return {"respawn": wanted, "respawn_delay": getattr(action, "respawn_delay", None)} if wanted else {}

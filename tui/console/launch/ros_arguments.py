@@ -1,4 +1,4 @@
-"""The ROS arguments of a command line, taken apart."""
+"""Parses the ROS arguments of a command line."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ WITH_VALUE = ("-e", "--enclave", "--log-level", "--log-config-file", "--log-file
 
 @dataclass(frozen=True)
 class RosArguments:
-    """`arguments` are the words that are not for ROS; `parameters` and `others` are words as they were given."""
+    """The parsed arguments: `arguments` are those not meant for ROS; `parameters` and `others` are words as given."""
 
     arguments: tuple[str, ...] = ()
     name: str = ""
@@ -24,7 +24,7 @@ class RosArguments:
 
 
 def read_ros_arguments(words: Sequence[str]) -> RosArguments:
-    """Take the words after a program's name apart; never raises."""
+    """Parse the words after a program's name; never raises."""
     arguments: list[str] = []
     rules: list[tuple[str, str]] = []
     parameters: list[str] = []
@@ -47,7 +47,7 @@ def read_ros_arguments(words: Sequence[str]) -> RosArguments:
     names = [target for source, target in rules if source in ("__node", "__name")]
     spaces = [target for source, target in rules if source == "__ns"]
     remappings = tuple(each for each in rules if each[0] not in ("__node", "__name", "__ns"))
-    # In rcl the first of several rules counts.
+    # In rcl, the first of several matching rules counts.
     return RosArguments(
         tuple(arguments),
         names[0] if names else "",

@@ -1,4 +1,4 @@
-"""One run of launch: a LaunchService, what is sent to it and what it reports."""
+"""One run of launch: a LaunchService, the events sent to it, and the events it reports."""
 
 from __future__ import annotations
 
@@ -19,50 +19,50 @@ if TYPE_CHECKING:
     from launch import LaunchContext
 
 MISSING = "launch_ros.events.NodeMissing"
-"""The name of the event for a node that is left out; ROS 2 has no such event, so it is not imported."""
+"""The name of the event for a node that is left out. It is not imported because ROS 2 has no such event."""
 CAUGHT = "Caught exception in launch (see debug for traceback): "
 
 
 @dataclass(frozen=True)
 class Listener:
-    """Called in the thread of a run, for all its processes."""
+    """Callbacks, called in the thread of a run, for the events of all its processes."""
 
     started: Callable[[LaunchRun, ProcessStarted, LaunchContext], None]
-    """With `ProcessStarted` and the launch context."""
+    """Receives `ProcessStarted` and the launch context."""
     printed: Callable[[Any], None]
-    """With `ProcessIO`."""
+    """Receives `ProcessIO`."""
     exited: Callable[[ProcessExited], None]
-    """With `ProcessExited`."""
+    """Receives `ProcessExited`."""
     missing: Callable[[LaunchRun, Any, LaunchContext], None]
-    """With `NodeMissing`, if this launch has such events, and the launch context."""
+    """Receives `NodeMissing`, if this launch has that event, and the launch context."""
     over: Callable[[Any], None]
-    """With an action that has ended and that launch will not start again."""
+    """Receives an action that has ended and that launch will not start again."""
     ending: Callable[[LaunchRun, str], None]
-    """With the reason why the whole launch ends; empty when it has failed."""
+    """Receives the reason why the whole launch ends; empty if it has failed."""
     fault: Callable[[Exception], None]
-    """With an exception raised by one of the others."""
+    """Receives an exception raised by one of the other callbacks."""
 
 
 class LaunchRun:
-    """Runs a launch file, or single processes, until nothing is left to do. Methods may be called from any thread."""
+    """Runs a launch file, or single processes, until they have ended. Methods may be called from any thread."""
 
     def __init__(self, title: str, listener: Listener) -> None:
         self.title = self.path = title
         self.tree = LaunchTree(title)
         self.ending = False
-        """Whether it takes no more processes."""
+        """Whether it accepts no more processes."""
         self._listener = listener
         self._lock = threading.Lock()
         self._service: Any = None
         self._early: list[Any] | None = []
-        """Events emitted before the launch runs, which it handles first; None as soon as it runs."""
+        """Events emitted before the launch runs, to be handled first; None once it runs."""
         self._unwanted = False
         self._reason = ""
         self.logged = False
-        """Whether launch itself has logged why it failed."""
+        """Whether launch itself has logged why the run failed."""
 
     def run_file(self, path: str, arguments: Mapping[str, str]) -> str:
-        """Run a launch file to its end; returns why it could not be run, and an empty text if it could."""
+        """Run a launch file to its end; returns why it could not be run, or an empty text if it could."""
         from launch.actions import IncludeLaunchDescription
         from launch.launch_description_sources import AnyLaunchDescriptionSource
 
@@ -71,14 +71,14 @@ class LaunchRun:
         self.path = path
         source = AnyLaunchDescriptionSource(path)
         try:
-            source.get_launch_description(LaunchContext())  # called again below, but then served from memory
+            source.get_launch_description(LaunchContext())  # called again below, but then served from a cache
         except (Exception, SystemExit) as error:  # a launch file is a program: whatever it raises is shown to the user
             self.ending = True
             return fault_text(error, path, reading=True)
         return self._run([IncludeLaunchDescription(source, launch_arguments=arguments.items())])
 
     def run_action(self, make: Callable[[], Any], failed: Callable[[str], None]) -> str:
-        """Run one process to its end, see `start`; returns what went wrong with the launch itself, if anything."""
+        """Run one process to its end, as in `start`; returns what went wrong with launch itself, or an empty text."""
         return self._run([self._guarded(make, failed)])
 
     def _run(self, entities: list[Any]) -> str:
@@ -104,14 +104,14 @@ class LaunchRun:
         return f"{self.path}: {self._reason.removeprefix(CAUGHT)}" if code else ""
 
     def _begun(self, context: LaunchContext) -> None:
-        """Emit earlier events; from now on events go to the loop that calls this."""
+        """Emit the earlier events; from now on, `emit` passes events to the running loop."""
         with self._lock:
             early, self._early = self._early or [], None
         for event in early:
             context.emit_event_sync(event)
 
     def fault(self, error: BaseException) -> str:
-        """The fault, with file and line."""
+        """The message for an error of this launch, with file and line."""
         return fault_text(error, self.path, self.tree.file_of)
 
     def _handlers(self) -> Iterable[Any]:
@@ -174,22 +174,22 @@ class LaunchRun:
             return
         self.ending = True
         self._reason = event.reason
-        failed = event.reason.startswith(CAUGHT)  # reported with file and line when the run is over
+        failed = event.reason.startswith(CAUGHT)  # such a failure is reported with file and line when the run is over
         self._listener.ending(self, "" if failed else event.reason)
 
     @property
     def has_begun(self) -> bool:
-        """Whether launch has run at all; if it has not, trying the same again is pointless."""
+        """Whether launch has run at all; if it has not, there is no point in trying the same again."""
         return self._early is None
 
     @property
     def delayed_starts(self) -> int:
-        """How many starts are postponed."""
+        """The number of starts that are pending in timers."""
         return 0 if self._service is None else delayed_starts(self._service)
 
     def start(self, make: Callable[[], Any], failed: Callable[[str], None]) -> None:
-        """Run the action that `make` returns, outside the launch file's scopes; `failed` receives the reason if it
-        cannot.
+        """Run the action that `make` returns, outside the launch file's scopes; `failed` receives the reason if that
+        fails.
         """
         from launch.events import IncludeLaunchDescription
 
@@ -206,10 +206,10 @@ class LaunchRun:
         return GroupAction([start], scoped=True, forwarding=False)
 
     def emit(self, event: Any) -> None:
-        """Queue an event without waiting for the launch, as `LaunchService.emit_event` would.
+        """Queue an event without waiting for the launch, unlike `LaunchService.emit_event`.
 
-        The caller may hold a lock that the launch is waiting for. A launch that does not run yet handles the event as
-        soon as it does; one that is over does not: see `ending`.
+        The caller may hold a lock that the launch is waiting for. A launch that does not run yet handles the event once
+        it runs; a launch that is over does not handle it: see `ending`.
         """
         with self._lock:
             if self._early is not None:
@@ -221,13 +221,13 @@ class LaunchRun:
                 loop.call_soon_threadsafe(self._service.context.emit_event_sync, event)
 
     def shut_down(self) -> None:
-        """End everything, or never begin."""
+        """End everything, or do not begin at all."""
         from launch.events import Shutdown
 
         with self._lock:
             self._unwanted = True
             service = self._service
-            if self._early is not None:  # ROS 2 ignores a shutdown() that comes before its loop runs
+            if self._early is not None:  # ROS 2 ignores a shutdown() before its loop runs
                 self._early.append(Shutdown(reason="LaunchService.shutdown() called"))
         if service is not None:
             service.shutdown()

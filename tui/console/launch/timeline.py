@@ -1,4 +1,4 @@
-"""The timeline of launch events, in a bounded ring."""
+"""The most recent events of launches."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ MAX_EVENTS = 500
 
 
 class LaunchTimeline:
-    """Launch events, numbered from 0; the oldest are dropped."""
+    """Keeps launch events, numbered from 0; the oldest are dropped."""
 
     def __init__(self) -> None:
         self._events: deque[LaunchEvent] = deque(maxlen=MAX_EVENTS)
         self._count = 0
 
     def report(self, text: str, severity: Severity = Severity.INFO) -> None:
-        """Add an event that happens now."""
+        """Add an event with the current time."""
         self._events.append(LaunchEvent(self._count, time.time_ns(), text, severity))
         self._count += 1
 

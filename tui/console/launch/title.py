@@ -7,11 +7,11 @@ from itertools import count
 from pathlib import Path
 
 PROGRAM = "program.launch.py"
-"""The launch file behind `ros2 run`, which runs one program; users name that program, not this file."""
+"""The launch file behind `ros2 run`, which runs one program; users think of that program, not of this file."""
 
 
 def title_of(path: str, arguments: Mapping[str, str]) -> str:
-    """The name of a launch file, or of the single program that it runs."""
+    """The name of a launch file, or of the single program that it runs for `ros2 run`."""
     name = Path(path).name
     return Path(arguments.get("program", name)).name if name == PROGRAM else name
 
@@ -25,5 +25,5 @@ def argument_line(path: str, arguments: Mapping[str, str]) -> str:
 
 
 def unused(title: str, used: Collection[str]) -> str:
-    """A title, with a number appended if another launch in the list has it already."""
+    """Append a number to a title if another launch in the list has the same one."""
     return next(each for number in count(1) if (each := title if number == 1 else f"{title} ({number})") not in used)

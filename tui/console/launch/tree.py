@@ -1,4 +1,4 @@
-"""The position of a process in the launch files: the includes that lead to it, and groups with a namespace."""
+"""The position of a process in its launch files: the includes that lead to it, and groups with a namespace."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ if TYPE_CHECKING:
 
 
 class LaunchTree:
-    """The entities of one launch that have been visited. `title` names its launch file."""
+    """The visited entities of one launch; `title` is the name of its launch file."""
 
     def __init__(self, title: str) -> None:
         self._title = title
         self._parents: dict[int, tuple[Any, Any]] = {}
 
     def included(self, include: Any) -> None:
-        """Note that an include was executed: its description is now known without reading a file."""
+        """Add the contents of an include that was executed: its description is now available without reading a file."""
         description = include.launch_description_source.try_get_launch_description_without_context()
         if description is not None:
             self._add(description.entities, include)
@@ -48,7 +48,7 @@ class LaunchTree:
         return next((each.launch_description_source.location for each in includes), "")
 
     def place(self, action: Any, context: LaunchContext) -> tuple[str, ...]:
-        """Names of launch files and namespaces of groups, outermost first."""
+        """The position of an action: the names of launch files and the namespaces of groups, outermost first."""
         from launch.actions import GroupAction, IncludeLaunchDescription
 
         names: list[str] = []
@@ -57,7 +57,7 @@ class LaunchTree:
                 names.append(Path(each.launch_description_source.location).name)
             elif isinstance(each, GroupAction):
                 names += _namespaces(each, context)
-        names = names[:-1] if names else []  # the outermost file is represented by the title
+        names = names[:-1] if names else []  # the title stands for the outermost file
         return (self._title, *reversed(names))
 
 
@@ -79,6 +79,6 @@ def _namespaces(group: Any, context: LaunchContext) -> list[str]:
         if isinstance(each, PushRosNamespace):
             try:
                 return [perform_substitutions(context, each.namespace)]
-            except SubstitutionFailure:  # it needs a launch configuration that only its own scope has
+            except SubstitutionFailure:  # needs a launch configuration that only its own scope has
                 return []
     return []

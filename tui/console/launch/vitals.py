@@ -1,4 +1,4 @@
-"""Facts about a running process that launch's events do not report: CPU time, and code that survives a SIGKILL."""
+"""What launch's events do not report about a running process: CPU, memory, hangs, and code that survives a SIGKILL."""
 
 from __future__ import annotations
 
@@ -9,28 +9,28 @@ from bot_console.tui.console.graph.findings import debugger_text
 from bot_console.tui.text.cadence import is_due
 
 CPU_POLL_S = 1.0
-"""Seconds over which CPU usage is measured, of all processes at the same moments: they are drawn at once."""
+"""Seconds over which CPU usage is measured; at the same moments for all processes, which are drawn together."""
 
 CPU_NOISE = 0.0101
-"""A difference of two shares of a CPU that says nothing: one percent, which processes that do the same differ by."""
+"""An insignificant difference between two shares of a CPU: one percent, by which equally busy processes differ."""
 
 STATE_POLL_S = 0.5
-"""Seconds between two checks whether it is frozen or hangs."""
+"""Seconds between two checks whether a process is frozen or hangs."""
 
 
 class Vitals(Protocol):
-    """One running process, observed from outside."""
+    """A running process, observed from outside."""
 
     def cpu_seconds(self) -> float | None:
         """The CPU time it has used (s); None if the system does not report it."""
         ...
 
     def wanted_seconds(self) -> float | None:
-        """How long (s) it has been running or ready to run, that is, waiting only for a CPU; None if unknown."""
+        """How long (s) it has been running or waiting only for a CPU; None if unknown."""
         ...
 
     def memory_bytes(self) -> int | None:
-        """Its resident memory; None if the system does not report it, or if it has none of its own."""
+        """Its resident memory (bytes); None if the system does not report it, or if it has no memory of its own."""
         ...
 
     def is_stopped(self) -> bool:
@@ -38,7 +38,7 @@ class Vitals(Protocol):
         ...
 
     def line_in_debugger(self) -> str | None:
-        """The line at which a Python debugger has stopped it, empty if unknown; None if none has."""
+        """The line at which a Python debugger has stopped it, empty if the line is unknown; None if none has."""
         ...
 
     def holds_lock_in(self) -> str:
@@ -53,14 +53,14 @@ class Vitals(Protocol):
 FROZEN = "is frozen by a signal or a debugger, and does nothing until it receives SIGCONT"
 HANGS = "hangs in"
 BUSY_SHARE = 0.9
-"""The share of time spent running or ready to run from which a process counts as one that never waits."""
+"""From this share of time spent running or ready to run, a process counts as never waiting."""
 
 FindVitals: TypeAlias = Callable[[int], "Vitals | None"]
-"""Finds the vitals of a process by its pid, right after it was started; None if there are none."""
+"""Returns the vitals of a process, given its pid right after the start; None if there are none."""
 
 
 class Usage:
-    """The consumption of a process, measured every second: CPU and memory."""
+    """The CPU and memory usage of a process, measured every second."""
 
     def __init__(self, vitals: Vitals, now: float) -> None:
         self._vitals = vitals
@@ -68,16 +68,16 @@ class Usage:
         self._used = vitals.cpu_seconds()
         self._wanted = vitals.wanted_seconds()
         self.share: float | None = None
-        """1.0 is one whole CPU, rounded to whole percent, kept while it differs by no more than `CPU_NOISE`; None until
-        it is known.
+        """Its share of a CPU (1.0 is one whole CPU), rounded to whole percent; kept while the difference is at most
+        `CPU_NOISE`; None until it is known.
         """
         self.memory: int | None = None
-        """MB (10^6 bytes), rounded to two digits from 100 on so that the figure is steady while nothing happens."""
+        """MB (10^6 bytes), rounded to tens from 100 on, so that the figure is steady while nothing happens."""
         self.stands = ""
-        """Why it makes no progress; empty if it does."""
+        """Why the process makes no progress; empty if it does."""
         self._asked = now
         self.busy_s = 0.0
-        """How long (s) it has waited for nothing but a CPU."""
+        """How long (s) it has been busy: running, or waiting only for a CPU."""
 
     def poll(self, now: float) -> None:
         """Measure if due; `now` is a monotonic time (s)."""
