@@ -1,1 +1,1 @@
-"""Log records of all nodes: stored, searched, classified."""
+"""The log records of all nodes: stored, searched and filtered."""

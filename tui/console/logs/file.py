@@ -1,4 +1,4 @@
-"""A saved log, used like the live one: filtered, searched, and followed while it grows or is rotated."""
+"""A saved log that is used like the live one: filtered, searched, and followed while it grows or is rotated."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from bot_console.tui.files.save_file import NotSaved, typed_path
 FILE_POLL_S = 0.25
 """Seconds between two checks whether the file has grown."""
 CHUNK_BYTES = 1 << 18
-"""Bytes read in one go; other threads get the processor in between."""
+"""Bytes read at a time; between reads, other threads get the processor."""
 
 
 class LogFile:
-    """The records of a file; implements `tui.console.logs.port.LogSource`."""
+    """The records of a log file; implements `tui.console.logs.port.LogSource`."""
 
     def __init__(self, path: Path) -> None:
-        """Raises `OSError` if the file cannot be read."""
+        """Open the file; raises `OSError` if it cannot be read."""
         self.name = str(path)
         self._store = LogStore()
         self._views = LogViews(self._store)
@@ -41,7 +41,7 @@ class LogFile:
         self._tail.close()
 
     def take_in(self) -> bool:
-        """Read what has been added; returns whether there was anything."""
+        """Read what has been appended; returns whether there was anything."""
         any_more = False
         for text in self._tail.more():
             any_more = True
@@ -57,7 +57,7 @@ class LogFile:
         return self._store.state
 
     def record(self, seq: int) -> LogRecord | None:
-        """The record with that number."""
+        """The record with that number; None if it is not kept."""
         return self._store.record(seq)
 
     def view(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
@@ -75,7 +75,7 @@ class LogFile:
 
 
 class Tail:
-    """The contents of a file and what is appended to it, even after another file takes over its name."""
+    """Reads a file and what is appended to it, even after a rotation has given its name to another file."""
 
     def __init__(self, path: Path) -> None:
         self._path = path
@@ -83,7 +83,7 @@ class Tail:
         self._rest = b""
 
     def more(self) -> Iterator[str]:
-        """The whole lines available, in pieces."""
+        """The whole lines that have not been read yet, in pieces."""
         yield from self._whole_lines()
         if self._file is None or self._was_replaced(self._file):
             yield from self._whole_lines()  # what was appended between the last read and the rotation
@@ -104,7 +104,7 @@ class Tail:
         try:
             there = os.stat(self._path)
         except OSError:
-            return False  # in the middle of a rotation
+            return False  # the rotation is not finished yet
         here = os.fstat(file.fileno())
         if (there.st_dev, there.st_ino) != (here.st_dev, here.st_ino):
             return True

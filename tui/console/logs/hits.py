@@ -1,4 +1,4 @@
-"""Finds which of many texts, concatenated in a blob, match a pattern: all at once instead of text by text."""
+"""Finds which of many texts match a pattern, by searching a blob that contains them all instead of text by text."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ MAX_SINGLE_MATCHES = 64
 
 
 def hits(pattern: Pattern, blob: bytes, ends: Rows) -> Mask:
-    """Marks the texts that match; `ends` says where each text ends in the blob, including its newline."""
+    """Mark the texts that match; `ends` are the positions in the blob at which they end, including their newlines."""
     engine = pattern.engine
     if isinstance(engine, Re2Engine):
         return _re2_hits(engine, blob, ends)
@@ -61,7 +61,7 @@ def _re2_hits(engine: Re2Engine, blob: bytes, ends: Rows) -> Mask:
 
 
 def _mark_texts_of_many_lines(engine: Re2Engine, blob: bytes, ends: Rows, after: int, found: Mask) -> None:
-    """Search texts of several lines one by one: a match in them may span lines."""
+    """Search the remaining texts of several lines one by one, since a match in them may span lines."""
     lines = np.flatnonzero(np.frombuffer(blob, np.uint8) == ord("\n")) + 1
     for row in set(np.searchsorted(ends, np.setdiff1d(lines, ends, assume_unique=True), side="right").tolist()):
         if row > after and not found[row]:
@@ -69,7 +69,7 @@ def _mark_texts_of_many_lines(engine: Re2Engine, blob: bytes, ends: Rows, after:
 
 
 def _rows(engine: Re2Engine, blob: bytes, ends: Rows) -> Iterator[int]:
-    """The texts with a match, one search for each; a match that extends into the next text is checked again."""
+    """The texts with a match, found with one search each; a match that extends into the next text is checked again."""
     at, length = 0, len(blob)
     while at < length:
         first, last = engine.match(engine.anywhere, blob, at, length)[0]
@@ -83,7 +83,7 @@ def _rows(engine: Re2Engine, blob: bytes, ends: Rows) -> Iterator[int]:
 
 
 def _mark_runs(engine: Re2Engine, run: Match, blob: bytes, ends: Rows, at: int, found: Mask) -> None:
-    """Mark the texts from `at` on that have a matching line; one search for each run of such lines."""
+    """Mark the texts from position `at` on that have a matching line, with one search for each run of such lines."""
     spans = array("q")
     add, anywhere, length = spans.extend, engine.anywhere, len(blob)
     while at < length:

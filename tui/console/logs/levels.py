@@ -1,4 +1,4 @@
-"""Levels of loggers, read and set through the logger services of their nodes."""
+"""Reads and sets the levels of loggers through the logger services of their nodes."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ class Names(Iterable[str], Container[str], Protocol):
 
 
 class LoggerLevels:
-    """Queries nodes, in the console's executor."""
+    """Queries the nodes' logger services; its coroutines run in the console's executor."""
 
     def __init__(self, calls: Calls, heard: Names) -> None:
-        """`heard` are the loggers that have logged: ROS cannot list a node's loggers."""
+        """`heard` contains the loggers that have logged, since ROS cannot list the loggers of a node."""
         self._calls = calls
         self._heard = heard
 
@@ -55,5 +55,5 @@ class LoggerLevels:
 
 
 def severity_of(level: int) -> Severity:
-    """The severity with a number, or the next one above it."""
+    """The severity with this number or, if there is none, the next one above it."""
     return next((each for each in Severity if each >= level), Severity.FATAL)

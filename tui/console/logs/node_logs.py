@@ -58,20 +58,20 @@ class _PendingView:
 
 
 class NodeLogs:
-    """The log; it reads what has arrived, also after the console has closed."""
+    """The log; records that have arrived can be read even after the console has closed."""
 
     _levels: LoggerLevels
-    """There from `attach` on, and used only by what has passed the gate."""
+    """Exists after `attach`; only requests that have passed the gate use it."""
 
     def __init__(self, gate: Gate) -> None:
         self._gate = gate
         self._store: LogStore | None = None
         self.add: Add = _lose
-        """Adds a record, in any thread; those before `begin` are lost."""
+        """Adds a record, in any thread; records added before `begin` are lost."""
         self._views: LogViews | None = None
 
     def begin(self, store: LogStore | None = None) -> None:
-        """Keep records from now on, or read those of a store; in the console's own thread, since it imports numpy."""
+        """Keep records from now on, or read those of a store. Call it in the console's thread: it imports numpy."""
         from bot_console.tui.console.logs.store import LogStore
         from bot_console.tui.console.logs.view import LogViews
 
@@ -80,12 +80,12 @@ class NodeLogs:
         self.add = self._store.add
 
     def attach(self, levels: LoggerLevels) -> None:
-        """The system has been reached."""
+        """Provide the loggers' services, once the system has been reached."""
         self._levels = levels
 
     @property
     def exists(self) -> bool:
-        """Whether records are kept yet."""
+        """Whether records can be searched yet."""
         return self._views is not None
 
     @property
@@ -94,16 +94,16 @@ class NodeLogs:
         return self._store.state if self._store else NO_RECORDS
 
     def discount_errors_of_ending(self, launch: LaunchInfo) -> None:
-        """Do not count errors that processes logged or printed while they were being ended on purpose."""
+        """Do not count errors that processes logged or printed after their end had been requested."""
         if self._store is not None and any(each.end_requested for each in launch.processes):
             self._store.discount_errors(partial(_ends_on_purpose, launch.processes))
 
     def record(self, seq: int) -> LogRecord | None:
-        """The record with that number."""
+        """The record with that number; None if it is not kept."""
         return self._store.record(seq) if self._store else None
 
     def complaint(self, node: str, since: int) -> str:
-        """The last warning or error that a node has logged from the record with that number on; empty without one."""
+        """The last warning or error that a node has logged since the record numbered `since`; empty if none."""
         logger = logger_of(node)
         for seq in range(self.state.end - 1, since - 1, -1):
             record = self.record(seq)
@@ -112,7 +112,7 @@ class NodeLogs:
         return ""
 
     def matching(self, which: LogFilter, after: int, limit: int | None = None) -> Sequence[int]:
-        """Numbers of the records that pass a filter."""
+        """The numbers of the kept records that pass a filter."""
         if self._store is None:
             return ()
         from bot_console.tui.console.logs.search import matching
@@ -120,7 +120,7 @@ class NodeLogs:
         return matching(self._store, which, after, limit)
 
     def view(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
-        """Search for records that pass a filter, as soon as there is a log."""
+        """Start a search for records that pass a filter; without a log yet, it starts once there is one."""
         return self._views.open(which, instead_of) if self._views else _PendingView(self, which)
 
     def open(self, path: str) -> LogSource:
@@ -149,9 +149,9 @@ class NodeLogs:
 
 
 def _ends_on_purpose(processes: Iterable[ProcessInfo], arrived: int, logger: str) -> bool:
-    """Whether a line of that logger, which `arrived` (ns since the epoch), is of a process whose end was requested.
+    """Whether a line that `arrived` (ns since the epoch) comes from the logger of a process whose end was requested.
 
-    A process that has started again since is judged by its new run.
+    Lines that arrive after the process has started again do not count.
     """
     return any(_was_ending(each, arrived) and _is_of(each, logger) for each in processes)
 
@@ -162,6 +162,6 @@ def _was_ending(process: ProcessInfo, arrived: int) -> bool:
 
 
 def _is_of(process: ProcessInfo, logger: str) -> bool:
-    """Whether it is the logger of launch for that process, of one of its nodes, or a child of that."""
+    """Whether a logger is launch's logger for the process, that of one of its nodes, or a child of that."""
     names = map(logger_of, process.nodes)
     return logger == process.label or any(f"{logger}.".startswith(f"{each}.") for each in names)

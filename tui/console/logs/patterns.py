@@ -1,7 +1,7 @@
 """Regular expressions typed by users. Matching takes time linear in the text and never blocks the console.
 
-The engine is google-re2, which does not backtrack and releases the interpreter lock. Python's `re` does neither: on
-platforms without a wheel of google-re2, only words are found.
+The engine is google-re2, which does not backtrack and releases the interpreter lock. Python's `re` does neither, so on
+platforms without a wheel of google-re2 only plain words can be searched for.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ re2 = _library()
 
 
 class Pattern:
-    """A case-insensitive pattern, `^` and `$` matching at each line; raises `ValueError` with a readable message."""
+    """A case-insensitive pattern whose `^` and `$` match at each line; raises `ValueError` with a readable message."""
 
     def __init__(self, text: str, *, literal: bool = False) -> None:
         body = _escaped(text) if literal else text
@@ -38,7 +38,7 @@ class Pattern:
             raise ValueError(f"regular expression '{text}': use ^ and $ for the start and end of a line")
         self.engine = _engine(text, body, literal)
         self.plain = text.lower() if literal else None
-        """A plain word in lower case, for callers whose texts are in lower case."""
+        """A plain word in lower case, for callers that search texts in lower case."""
 
     def search(self, text: str) -> bool:
         """Whether it matches anywhere in a text."""
@@ -61,11 +61,11 @@ def _escaped(text: str) -> str:
 
 
 class WordEngine:
-    """A plain word, where google-re2 is not installed."""
+    """Searches for a plain word where google-re2 is not installed."""
 
     def __init__(self, word: str) -> None:
         self.word = word.lower()
 
     def search(self, text: bytes) -> bool:
-        """Whether it occurs in a text."""
+        """Whether the word occurs in a text."""
         return self.word in text.decode("utf-8", "replace").lower()

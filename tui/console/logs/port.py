@@ -1,4 +1,4 @@
-"""The log, as the panes read and search it: the system's own, and saved ones. Standard library only."""
+"""The port for the system's log and for saved logs, as panes read and search them. Standard library only."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class LogNumbers(Protocol):
     """Sequence numbers of log records, in ascending order."""
 
     def __len__(self) -> int:
-        """How many there are."""
+        """The number of entries."""
         ...
 
     def __getitem__(self, index: int, /) -> int:
@@ -27,13 +27,13 @@ class LogNumbers(Protocol):
         ...
 
     def count(self, index: int, /) -> int:
-        """How many equal records the entry at an index represents."""
+        """The number of equal records that the entry at an index represents."""
         ...
 
 
 @dataclass(frozen=True, slots=True)
 class LogFindings:
-    """The matches of a filter so far, among the records from `begin` up to but not including `end`."""
+    """The matches of a filter so far, among the records with numbers `begin` to `end` - 1."""
 
     numbers: LogNumbers
     begin: int = 0
@@ -41,11 +41,11 @@ class LogFindings:
     complete: bool = False
     """Whether all records that existed when the search began have been searched."""
     problem: str = ""
-    """Why nothing, or not everything, was searched; empty when all is well."""
+    """Why nothing, or not everything, was searched; empty if everything was."""
 
 
 class LogView(Protocol):
-    """The records that match a filter; the search runs in the background, newest records first."""
+    """A search for the records that match a filter; it runs in the background, newest records first."""
 
     def poll(self) -> LogFindings:
         """The records found so far; the same object until there is more."""
@@ -70,7 +70,7 @@ class LogSource(Protocol):
         ...
 
     def view(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
-        """Start a search that follows new records; it ends the one given as `instead_of`."""
+        """Start a search that follows new records; it replaces the search `instead_of`."""
         ...
 
     def clear(self) -> None:
@@ -90,18 +90,19 @@ class Logs(Protocol):
         ...
 
     def matching(self, which: LogFilter, after: int, limit: int | None = None) -> Sequence[int]:
-        """Numbers, ascending, of the kept records from `after` on that match the filter; with a limit, the newest.
+        """The numbers, ascending, of the kept records from `after` on that match a filter; with a limit, the newest
+        ones.
 
         Raises `ValueError` with a readable message for a regular expression that does not compile.
         """
         ...
 
     def view(self, which: LogFilter, instead_of: LogView | None = None) -> LogView:
-        """Start a search that follows new records; it ends the one given as `instead_of`."""
+        """Start a search that follows new records; it replaces the search `instead_of`."""
         ...
 
     def open(self, path: str) -> LogSource:
-        """Read a saved log and follow it as it grows; raises `ValueError` with the reason when that fails."""
+        """Open a saved log and follow it as it grows; raises `ValueError` with the reason if that fails."""
         ...
 
     def clear(self) -> None:

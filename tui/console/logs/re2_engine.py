@@ -1,4 +1,4 @@
-"""Patterns compiled by google-re2, for searching many texts with `hits`. Otherwise standard library only."""
+"""Patterns compiled by google-re2, with which `hits` searches many texts. Otherwise uses only the standard library."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ WITHIN = {r"\s": r"[\t\f\r ]", r"\D": r"[^\d\n]", r"\W": r"[^\w\n]"}
 
 
 class Re2Engine:
-    """One pattern; raises `ValueError` with a readable message. `word` is set, in lower case, for a plain word."""
+    """A compiled pattern; raises `ValueError` with a readable message. `word` is a plain word in lower case."""
 
     def __init__(self, re2: Any, written: str, body: str, word: bytes | None) -> None:
         self.anywhere = re2._Anchor.UNANCHORED
@@ -24,9 +24,9 @@ class Re2Engine:
         self.match = _compiled(re2, written, FLAGS + body)
         within = within_lines(body)
         self.over = within != body
-        """Whether a match may extend over the end of a line, in a text of several lines."""
+        """Whether a match may extend over the end of a line in a text of several lines."""
         self.run: Match | None = None
-        """Finds a run of whole lines that all match: cheaper if many do."""
+        """Finds a run of whole lines that all match, which is cheaper if many do; None where that is not possible."""
         if within is not None:
             self.run = _compiled(re2, written, f"{FLAGS}(?:^[^\\n]*(?:{within})[^\\n]*\\n)+")
 
@@ -36,10 +36,9 @@ class Re2Engine:
 
 
 def within_lines(body: str) -> str | None:
-    """A pattern that finds the same matches, provided that none extends over the end of a line; None if that is
-    unclear.
+    """A pattern that finds the same matches, except those that extend over the end of a line; None if that is unclear.
 
-    If no match of the pattern can, it is returned unchanged.
+    If no match of the pattern can extend over the end of a line, the pattern is returned unchanged.
     """
     parts: list[str] = []
     for part in PART.findall(body):
@@ -57,7 +56,7 @@ def within_lines(body: str) -> str | None:
 
 def _compiled(re2: Any, written: str, pattern: str) -> Match:
     options = re2.Options()
-    options.log_errors = False  # it would write to the terminal
+    options.log_errors = False  # errors would be written to the terminal
     options.never_capture = True
     try:
         compiled = re2.compile(pattern.encode("utf-8", "replace"), options=options)

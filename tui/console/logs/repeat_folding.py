@@ -1,4 +1,4 @@
-"""Ascending numbers of log records that match a filter: one by one, or with each run of equal records as one entry."""
+"""The ascending numbers of matching log records, either all of them or with each run of equal records as one entry."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ Block = npt.NDArray[np.int64]
 
 
 def repeat_key(node: int, severity: int, raw: bytes) -> int:
-    """A number that is equal for repeats of a record: the same node, severity and text (UTF-8). Rarely for others."""
+    """A number that is equal for records of the same node, severity and text (UTF-8), and rarely for others."""
     return hash((node, severity, raw))
 
 
 class Numbers:
-    """Ascending numbers in parts, to which older and newer ones can be added without copying everything."""
+    """Ascending numbers in several arrays, so that older and newer ones can be added without copying everything."""
 
     def __init__(self, parts: Sequence[Block] = ()) -> None:
         self._parts = tuple(each for each in parts if len(each))
@@ -38,7 +38,7 @@ class Numbers:
         return sum(int(np.searchsorted(each, number)) for each in self._parts)
 
     def count(self, index: int) -> int:
-        """One: each entry represents itself."""
+        """Always one: each entry represents itself."""
         return 1
 
     def array(self) -> Block:
@@ -46,7 +46,7 @@ class Numbers:
         return np.concatenate(self._parts) if self._parts else np.zeros(0, np.int64)
 
     def joined(self, older: Block | None = None, newer: Block | None = None, keys: Block | None = None) -> Numbers:
-        """These numbers, with older ones prepended or newer ones appended; `keys` are ignored."""
+        """A copy with older numbers prepended or newer ones appended; `keys` are ignored."""
         parts = [each for each in (older, *self._parts, newer) if each is not None]
         while len(parts) > 1 and len(parts[-2]) <= 2 * len(parts[-1]):
             parts[-2:] = [np.concatenate(parts[-2:])]
@@ -60,10 +60,10 @@ class Numbers:
 
 
 class Folded:
-    """Ascending numbers in which a run of equal records is one entry: its newest record."""
+    """Ascending numbers in which each run of equal records is one entry, represented by its newest record."""
 
     def __init__(self, every: Numbers | None = None, begins: Numbers | None = None, ends: tuple[int, int] = (0, 0)):
-        """`begins` are the first records of each run, `ends` the keys of the very first and very last record."""
+        """`begins` are the first records of each run, `ends` the keys of the first and the last record of all."""
         self._every = every or Numbers()
         self._begins = begins or Numbers()
         self._ends = ends
@@ -79,11 +79,11 @@ class Folded:
         return self._every[self._behind(index) - 1]
 
     def _behind(self, index: int) -> int:
-        """The position, among all records, where the next run begins."""
+        """The position, among all records, after the last one of a run."""
         return self._every.place(self._begins[index + 1]) if index + 1 < len(self) else len(self._every)
 
     def place(self, number: int) -> int:
-        """The index of the first run whose newest record is not below a number."""
+        """The index of the first run whose newest record is not less than a number."""
         before = self._begins.place(number + 1)
         return before - 1 if before and self[before - 1] >= number else before
 
@@ -92,7 +92,7 @@ class Folded:
         return self._behind(index) - self._every.place(self._begins[index])
 
     def joined(self, older: Block | None = None, newer: Block | None = None, keys: Block | None = None) -> Folded:
-        """These numbers, with older ones prepended or newer ones appended; equal records have equal `keys`."""
+        """A copy with older numbers prepended or newer ones appended; equal records have equal `keys`."""
         block = older if older is not None else newer
         if block is None or keys is None or not len(block):
             return self
@@ -108,7 +108,7 @@ class Folded:
         return Folded(self._every.joined(newer=block), self._begins.joined(newer=begins), (self._ends[0], last))
 
     def since(self, first: int) -> Folded:
-        """The entries from a number on; a run that contains it is cut."""
+        """The entries from a number on; a run that contains it loses its earlier records."""
         every = self._every.since(first)
         begins = self._begins.since(first)
         if every is self._every or not len(every):

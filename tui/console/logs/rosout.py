@@ -1,4 +1,4 @@
-"""Log lines from `/rosout`."""
+"""Adds the messages of `/rosout` to the log."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ OURS = QoSProfile(
     reliability=ReliabilityPolicy.RELIABLE,
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
 )
-"""Keeps all messages until the log has them: no line of a node that logs faster than the console reads is lost."""
+"""Keeps all messages until the log has them, so that no line is lost if a node logs faster than the console reads."""
 OTHERS = QoSProfile(
     depth=10_000,
     reliability=ReliabilityPolicy.RELIABLE,
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
 )
-"""In a foreign system the queue is limited to some 10 MB: its nodes may log faster than any link can carry."""
+"""In a foreign system, the queue is limited to about 10 MB: its nodes may log faster than any link can carry."""
 
 
 class RosoutWatch:
@@ -37,7 +37,7 @@ class RosoutWatch:
         )
 
     def follow(self) -> None:
-        """Process a changed graph: the topic may be offered with another QoS."""
+        """Process a changed graph: the QoS that publishers offer may have changed."""
         self._subscription.follow()
 
     def _take(self, message: Log) -> None:

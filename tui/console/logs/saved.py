@@ -1,4 +1,4 @@
-"""Lines of a log file as records: files saved by this console, and what ROS 2 writes to `~/.ros/log` and to a terminal.
+"""Parses log files: those saved by this console, and what ROS 2 writes to `~/.ros/log` and to a terminal.
 
     [WARN] [1700000000.123456789] [robot_navigator]: text          nodes, and the console's own files
     1700000000.1234567 [INFO] [launch]: text                       launch.log
@@ -22,26 +22,26 @@ _HEADS = (
     re.compile(rf"(?P<time>\d{{1,10}}\.\d{{1,9}}) \[(?P<level>{_LEVEL}|WARNING)\] \[(?P<node>[^\]]*)\]:? ?"),
 )
 MAX_LINE_CHARACTERS = 1 << 16
-"""Characters of one record; the rest becomes another record."""
+"""Maximum length of a record in characters; the rest becomes another record."""
 LATEST_NS = 2**63 - 1
-"""The latest time that a column of the log can hold, in ns since the epoch."""
+"""The latest time that fits a column of the log, in ns since the epoch."""
 
 Add = Callable[[int, int, str, str], None]
 """Receives stamp (ns), severity, node, text."""
 
 
 class SavedLines:
-    """Parses text, in pieces of whole lines, into records."""
+    """Parses text into records; the text comes in pieces of whole lines."""
 
     def __init__(self, add: Add, name: str) -> None:
-        """`name` is the node of lines that do not name one."""
+        """`name` is the node of records before the first line that names one."""
         self._add = add
         self._head: tuple[int, int, str] = (0, Severity.INFO, name)
         self._texts: list[str] = []
         self._length = 0
 
     def feed(self, text: str) -> None:
-        """Process more lines; the last record stays open for its continuation."""
+        """Parse more lines; the last record stays open for continuation lines."""
         for given in (_COLOUR.sub("", text) if "\x1b" in text else text).removesuffix("\n").split("\n"):
             line = given.removesuffix("\r")
             found = next((match for each in _HEADS if (match := each.match(line))), None)

@@ -1,4 +1,4 @@
-"""Searches a log for records that match a filter: many at a time, never line by line, and without a lock."""
+"""Searches a log for records that match a filter: many records at a time, and without a lock."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from bot_console.tui.console.query import parse
 Mask = npt.NDArray[np.bool_]
 Rows = npt.NDArray[np.int64]
 OFFSET_LASTS = 900 * SECOND_NS
-"""The offset of local time from UTC only changes at full quarters of an hour."""
+"""The offset of local time from UTC only changes at full quarters of an hour (in UTC)."""
 
 T = TypeVar("T")
 
@@ -30,7 +30,7 @@ class LogSearch:
         self._only = [_Words(store, each) for each in which.only]
 
     def passing(self, segment: LogSegment, begin: int, end: int) -> Rows:
-        """The ascending numbers of the matching records among indices `begin` to `end` - 1 of a segment."""
+        """The ascending numbers of the matching records, among those with indices `begin` to `end` - 1 in a segment."""
         mask = self._words.holding(segment, begin, end)
         for each in self._hidden:
             if not mask.any():
@@ -45,7 +45,7 @@ class LogSearch:
 
 
 class _Words:
-    """The words of one filter, prepared for a store, from a minimum severity on."""
+    """The words of one filter, prepared for searching a store, and a minimum severity."""
 
     def __init__(self, store: LogStore, words: str, minimum: Severity = Severity.UNSET) -> None:
         query = parse(words)
@@ -53,7 +53,7 @@ class _Words:
         self._levels = np.zeros(256, np.bool_)
         self._levels[levels] = True
         self._least = levels[0] if levels and levels == [each for each in Severity if each >= levels[0]] else None
-        """The severity from which on all pass, if the filter is that simple: a comparison is cheaper than a table."""
+        """The severity from which on all pass, if the filter is that simple: comparing is cheaper than a table."""
         self._nodes = [(_TestResults(store.names, each.stands_in), each.exclude) for each in query.nodes]
         self._places = [
             (_TestResults(store.sites, lambda site, term=each: term.stands_in(*site)), each.exclude)
@@ -65,7 +65,7 @@ class _Words:
         ]
 
     def holding(self, segment: LogSegment, begin: int, end: int) -> Mask:
-        """For each record among indices `begin` to `end` - 1 of a segment, whether it matches."""
+        """Whether each of the records with indices `begin` to `end` - 1 in a segment matches."""
         severity = segment.severity[begin:end]
         mask = self._levels[severity] if self._least is None else severity >= self._least
         nodes = segment.node[begin:end]
@@ -86,7 +86,7 @@ class _Words:
 
 
 class _TestResults(Generic[T]):
-    """The results of a test on the items of a table, each tested once."""
+    """The results of a test for the items of a table, each of which is tested only once."""
 
     def __init__(self, table: Table[T], test: Callable[[T], bool]) -> None:
         self._table = table
@@ -94,7 +94,7 @@ class _TestResults(Generic[T]):
         self._known = np.zeros(0, np.bool_)
 
     def of(self, numbers: npt.NDArray[np.uint32]) -> Mask:
-        """The results for items by their numbers."""
+        """The results for items, given their numbers."""
         new = self._table.items[len(self._known) :]
         if new:
             self._known = np.append(self._known, np.array([self._test(each) for each in new], np.bool_))

@@ -1,8 +1,8 @@
-"""Log records in columns: numpy for what is filtered by number, blobs of UTF-8 for the texts.
+"""Stores log records in columns: numpy arrays for what is filtered by number, blobs of UTF-8 for the texts.
 
-A record takes about 75 bytes and hardly any work of the garbage collector (with a list of a million record objects,
-each full collection stops every thread for 0.2 s). Readers take no lock: a segment is only ever appended to, and its
-`count` is written last.
+A record takes about 75 bytes and hardly any work of the garbage collector, whereas with a list of a million record
+objects each full collection would stop every thread for 0.2 s. Readers take no lock: a segment is only ever appended
+to, and its `count` is written last.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ Site: TypeAlias = "tuple[str, str, int]"
 """File, function, line."""
 SEGMENT_RECORDS = 16_384
 CAPACITY = 63 * SEGMENT_RECORDS
-"""Records that are kept: a million, in addition to the segment being filled."""
+"""The number of records kept: a million, in addition to the segment being filled."""
 MAX_RECENT_ERRORS = 1000
-"""Errors whose cause can still be learned."""
+"""The number of errors that can still be discounted, see `LogStore.discount_errors`."""
 
 
 class LogSegment:
-    """Some records in fixed-size columns, and their texts concatenated, each followed by a newline."""
+    """Up to `size` records in columns, with their texts concatenated, each followed by a newline."""
 
     def __init__(self, first: int, size: int) -> None:
         self.first = first
@@ -45,7 +45,7 @@ class LogSegment:
         self._blob: bytes | bytearray = bytearray()
 
     def append(self, stamp: int, severity: int, node: int, site: int, raw: bytes) -> None:
-        """Add a record; only one writer at a time."""
+        """Add a record. There must be only one writer at a time."""
         index = self.count
         self.stamp[index] = stamp
         self.severity[index] = severity
@@ -71,7 +71,7 @@ class LogSegment:
 
 
 class Table(Generic[T]):
-    """Numbers for repeated values."""
+    """Assigns numbers to values that occur repeatedly."""
 
     def __init__(self) -> None:
         self.items: list[T] = []
@@ -87,7 +87,7 @@ class Table(Generic[T]):
 
 
 class LogStore:
-    """A ring of log records numbered from 0. Any thread may add; readers neither wait nor block a writer."""
+    """A ring of log records numbered from 0. Any thread may add records; readers neither wait nor block a writer."""
 
     def __init__(self, capacity: int = CAPACITY) -> None:
         self._size = max(1, min(SEGMENT_RECORDS, capacity // 2))
@@ -98,7 +98,7 @@ class LogStore:
         self._lock = threading.Lock()
         self._counts = dict.fromkeys(Severity, 0)
         self._recent_errors: deque[tuple[int, Severity, str]] = deque(maxlen=MAX_RECENT_ERRORS)
-        """Counted errors: when they arrived (ns since the epoch), and of which logger they are."""
+        """The counted errors: when they arrived (ns since the epoch), their severities and loggers."""
         self._dropped = 0
         self._state = LogState()
 
@@ -126,7 +126,7 @@ class LogStore:
             segment.append(stamp, level, self.names.id(node), self.sites.id(site), raw)
 
     def discount_errors(self, expected: Callable[[int, str], bool]) -> None:
-        """Count recent errors no longer that were to be expected, given when they arrived (ns) and of which logger."""
+        """No longer count recent errors that were `expected`, given the time of arrival (ns) and the logger of each."""
         with self._lock:
             kept = [each for each in self._recent_errors if not expected(each[0], each[2])]
             if len(kept) == len(self._recent_errors):
@@ -136,7 +136,7 @@ class LogStore:
             for _, level, _ in kept:
                 self._counts[level] += 1
             self._recent_errors = deque(kept, MAX_RECENT_ERRORS)
-            self._state = LogState(-1)  # made again when it is next requested
+            self._state = LogState(-1)  # replaced when the state is next requested
 
     def _roll(self) -> LogSegment:
         kept = self.segments
@@ -148,7 +148,7 @@ class LogStore:
         return new
 
     def record(self, seq: int) -> LogRecord | None:
-        """The record with that number, or None if it is not kept."""
+        """The record with that number; None if it is not kept."""
         segments = self.segments
         place = (seq - segments[0].first) // self._size
         if seq < segments[0].first or place >= len(segments):

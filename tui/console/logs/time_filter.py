@@ -1,6 +1,6 @@
-"""Times in filters of the log: `14:03..14:05`, `>=14:03:20.5`, `2026-11-22T14:03`, `-5m`, `@12.5`.
+"""Parses times in filters of the log: `14:03..14:05`, `>=14:03:20.5`, `2026-11-22T14:03`, `-5m`, `@12.5`.
 
-A time without a date applies to any day, in local time: a log may be read on a later day than it was written.
+A time without a date applies to every day, in local time, because a log may be read on a later day.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ _UNITS = {
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """From `begin` to before `end`, in ns: since the epoch, or since local midnight if `daily`."""
+    """From `begin` up to but not including `end`, in ns since the epoch or, if `daily`, since local midnight."""
 
     begin: int
     end: int
     daily: bool = False
 
     def holds(self, stamp: int) -> bool:
-        """Whether it contains a time (ns since the epoch); a daily span may cross midnight."""
+        """Whether the span contains a time (ns since the epoch); a daily span may cross midnight."""
         at = (stamp + utc_offset(stamp)) % DAY_NS if self.daily else stamp
         if self.begin > self.end:
             return at >= self.begin or at < self.end
@@ -48,7 +48,7 @@ class Span:
 
 @dataclass(frozen=True, slots=True)
 class _Point:
-    """A time, as precise as it was written: `14:03` is a whole minute."""
+    """A time with the precision with which it was written: `14:03` is a whole minute."""
 
     begin: int
     end: int
@@ -57,7 +57,7 @@ class _Point:
 
 
 def utc_offset(stamp: int) -> int:
-    """The offset of local time from UTC at a time (ns since the epoch), in ns."""
+    """The offset (ns) of local time from UTC at a time (ns since the epoch)."""
     return time.localtime(stamp // SECOND_NS).tm_gmtoff * SECOND_NS
 
 
@@ -101,7 +101,7 @@ def _point(text: str, now: int) -> _Point:
 
 
 def _sized(begin: int, part: str, whole: int = SECOND_NS) -> _Point:
-    """A time with this fractional part of a second."""
+    """A time with the decimals `part` of a second; `whole` is its precision (ns) if there are none."""
     return _Point(
         begin + int(part.ljust(9, "0")), begin + int(part.ljust(9, "0")) + (10 ** (9 - len(part)) if part else whole)
     )

@@ -1,5 +1,5 @@
-"""Turns printed lines into log records: a traceback is one ERROR that starts with the exception, then the user's
-frames.
+"""Turns printed lines into log records: a traceback becomes one ERROR that starts with the exception, followed by the
+user's frames.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ _CARETS = re.compile(r"\s+[\^~\s]+$")
 
 @dataclass(frozen=True)
 class TracebackFrame:
-    """One call of a traceback, with its source line if that was printed."""
+    """One call in a traceback, with its source line if that was printed."""
 
     file: str
     line: int
@@ -32,7 +32,7 @@ class TracebackFrame:
 
     @property
     def place(self) -> str:
-        """File name (without folders) and line."""
+        """The file name (without folders) and the line number."""
         return f"{_name(self.file)}:{self.line}"
 
 
@@ -47,7 +47,7 @@ class Traceback:
 
     @property
     def own(self) -> TracebackFrame | None:
-        """The innermost frame outside the runtime and libraries."""
+        """The innermost frame that is neither in the runtime nor in a library."""
         return next((each for each in reversed(self.frames) if not is_library_file(each.file)), None)
 
     @property
@@ -83,7 +83,7 @@ def _frames(lines: Sequence[str]) -> Iterator[TracebackFrame]:
 
 
 class Printed:
-    """Turns the lines of one stream into log records: a traceback is one ERROR, any other line one INFO or WARN."""
+    """Turns lines of one stream into log records: a traceback into one ERROR, any other line into one INFO or WARN."""
 
     def __init__(self, label: str, add: Callable[[int, str, str], None], *, stderr: bool) -> None:
         self._label = label
@@ -94,7 +94,7 @@ class Printed:
         self.last: Traceback | None = None
         """The newest traceback."""
         self.fault = ""
-        """The exception and where it was raised; empty once something was printed after its traceback."""
+        """The exception and where it was raised; empty once something was printed after the traceback."""
 
     def line(self, text: str) -> None:
         """Process one line."""
@@ -117,7 +117,7 @@ class Printed:
         self._add(ERROR, self._label, self.last.text())
 
     def close(self) -> None:
-        """Note that the process has ended: a truncated traceback is shown as it is."""
+        """Add a traceback that the end of the process has cut off."""
         if self._open:
             self._add(ERROR, self._label, "\n".join(["a traceback that was cut off", *self._open[1:]]))
             self._open = []

@@ -1,7 +1,7 @@
-"""A live search over the log, independent of the threads that draw and of those that log.
+"""A live search of the log, independent of the threads that draw and of those that log.
 
-A separate thread searches in slices, the newest records first, then whatever has arrived since. The panes poll for what
-was found so far.
+A separate thread searches in slices: the newest records first, then whatever has arrived since. The panes poll for what
+has been found.
 """
 
 from __future__ import annotations
@@ -18,20 +18,20 @@ from bot_console.tui.console.logs.store import LogSegment, LogStore
 from bot_console.tui.console.model import LogFilter
 
 FIRST_SLICE_RECORDS = 2048
-"""Records searched before anything is shown: a few screenfuls."""
+"""The number of records searched before anything is shown: a few screenfuls."""
 BUDGET_S = 5.0
 """Processor time (s) that one filter may take for the records that existed when it was requested."""
 
 
 @dataclass(frozen=True, slots=True)
 class SearchResult(LogFindings):
-    """Findings whose numbers can be joined to others."""
+    """Findings to which older and newer numbers can be added."""
 
     numbers: Numbers | Folded
 
 
 class SearchedView:
-    """One filter over a store. `poll` may be called from any thread; `work` from one at a time."""
+    """The search of a store with one filter. `poll` may be called from any thread; `work` from one at a time."""
 
     def __init__(self, store: LogStore, which: LogFilter, wake: Callable[[], None] = lambda: None) -> None:
         self._store = store
@@ -54,7 +54,7 @@ class SearchedView:
         return found
 
     def work(self) -> bool:
-        """Search one slice; False if there is nothing to do."""
+        """Search one slice; returns False if there is nothing to do."""
         if self._search is None:
             return False
         first, found = self._store.segments[0].first, self._found
@@ -93,7 +93,7 @@ class SearchedView:
         return replace(found, complete=True)
 
     def _keys(self, segment: LogSegment, numbers: Block) -> Block | None:
-        """The keys that distinguish the records of a segment, if runs of equal records are to be folded."""
+        """The keys of records in a segment if runs of equal records are to be folded, else None."""
         return segment.key[numbers - segment.first] if self._folds else None
 
 
@@ -108,7 +108,7 @@ class LogViews:
         self._thread: threading.Thread | None = None
 
     def open(self, which: LogFilter, instead_of: LogView | None = None) -> SearchedView:
-        """Start a search, in place of another one if given."""
+        """Start a search, which replaces the one given as `instead_of`."""
         view = SearchedView(self._store, which, self.wake)
         self._views = (*(each for each in self._views if each is not instead_of), view)
         if self._thread is None and not self._closed:
@@ -118,7 +118,7 @@ class LogViews:
         return view
 
     def wake(self) -> None:
-        """Wake up the thread because there may be something to do."""
+        """Wake up the search thread because there may be something to do."""
         self._wanted.set()
 
     def close(self) -> None:

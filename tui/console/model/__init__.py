@@ -1,7 +1,7 @@
 """Frozen snapshots of a ROS system, as the panes see it.
 
-Standard library only. Times are integer nanoseconds, distances m, angles rad, speeds m/s and rad/s. A part that has
-not changed since the last snapshot is the same object, so a pane redraws by comparing identity.
+Standard library only. Times are integer nanoseconds, distances m, angles rad, speeds m/s and rad/s. A part that has not
+changed since the last snapshot is the same object, so a pane compares identity to know whether to redraw.
 """
 
 from bot_console.tui.console.model.changes import RESTARTED, Change, ChangeSource, JournalState, SetOutcome

@@ -1,4 +1,4 @@
-"""Parameter changes: who requested them, how they ended, and the journal of all of them."""
+"""Parameter changes: who requested them, how they ended, and the state of the journal."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ class ChangeSource(str, Enum):
 
 
 RESTARTED = "the node came back with it"
-"""`Change.by` of a value that nobody has set: its node has restarted with another value than before."""
+"""The `Change.by` of a value that nobody has set: the node has restarted with another value than before."""
 
 
 @dataclass(frozen=True, slots=True)
 class SetOutcome:
     """The outcome of setting one parameter.
 
-    `refused_by` is `console` (it could not even be sent), `descriptor` (range, type, read-only), `callback` (the node's
-    own rule), `node` (no answer, or it has no such parameter) or empty when the value was accepted.
+    `refused_by` is `console` (the value could not even be sent), `descriptor` (range, type, read-only), `callback` (the
+    node's own rule), `node` (no answer, or no such parameter), or empty if the value was accepted.
     """
 
     node: str
@@ -43,7 +43,7 @@ class SetOutcome:
 
 @dataclass(frozen=True, slots=True)
 class Change:
-    """A journal entry: a parameter that changed, or a change that was refused."""
+    """A journal entry: a parameter that has changed, or a change that was refused."""
 
     seq: int
     stamp: int
@@ -55,16 +55,16 @@ class Change:
     accepted: bool = True
     reason: str = ""
     by: str = ""
-    """The operation it was part of: the name of a profile or a file."""
+    """The operation that the change was part of: the name of a profile or a file."""
     run: int = 0
-    """The run in which it was recorded, by its start (ns since the epoch); 0 is the current run."""
+    """The run in which it was recorded, identified by its start (ns since the epoch); 0 is the current run."""
     answered: bool = True
-    """False if it was not set because its node did not answer, or lacks the parameter, rather than refused."""
+    """False if it failed because the node did not answer or lacks the parameter, rather than being refused."""
 
 
 @dataclass(frozen=True, slots=True)
 class JournalState:
-    """The change journal as a whole: changes `first` to `end` - 1 are kept, and what can be undone and redone.
+    """The state of the journal: it contains the changes `first` to `end` - 1, and some of them can be undone or redone.
 
     Changes of earlier runs have negative numbers.
     """
@@ -72,10 +72,10 @@ class JournalState:
     first: int = 0
     end: int = 0
     unsaved: tuple[tuple[str, str], ...] = ()
-    """Node and name of each value that was set from this console and is in no file, so that it would be lost."""
+    """Node and name of each value that was set from this console and is in no file, so that it might be lost."""
     problem: str = ""
-    """Why changes are not kept for later runs; empty if they are, or if that was not requested."""
+    """Why changes are not kept for later runs; empty if they are, or if nobody asked for it."""
     undoes: tuple[tuple[str, str], ...] = ()
-    """Node and name of each value that the next undo takes back; empty if there is nothing to undo."""
+    """Node and name of each value that the next undo restores; empty if there is nothing to undo."""
     redoes: tuple[tuple[str, str], ...] = ()
     """The same for the next redo."""

@@ -29,7 +29,7 @@ class NodeInfo:
     action_servers: tuple[Endpoint, ...] = ()
     action_clients: tuple[Endpoint, ...] = ()
     copies: int = 1
-    """How many nodes of the graph have this name; the endpoints here are those of all of them."""
+    """How many nodes of the graph have this name; `NodeInfo` contains the endpoints of all of them."""
 
     @property
     def hidden(self) -> bool:
@@ -38,7 +38,7 @@ class NodeInfo:
 
 
 class IncompatiblePair(NamedTuple):
-    """A publisher and a subscription, by their nodes, between which the middleware passes no messages, and why."""
+    """The nodes of a publisher and a subscription between which the middleware passes no messages, and the reason."""
 
     publisher: str
     subscription: str
@@ -49,10 +49,10 @@ class IncompatiblePair(NamedTuple):
 class GraphInfo:
     """The ROS graph.
 
-    `unheard`: why messages of different definitions do not get through; `incompatible`: by topic, the pairs whose QoS
-    does not match; `frozen`: stopped nodes, with their pids; `debugged`: nodes stopped in a debugger, with the line
-    if it is known; `silent`: nodes that do not answer; `lifecycle`: the states of lifecycle nodes that have reported
-    one.
+    `unheard`: why messages do not pass between endpoints that define a type differently; `incompatible`: the pairs
+    whose QoS does not match, by topic; `frozen`: stopped nodes with their pids; `debugged`: nodes stopped in a
+    debugger, with the line if known; `silent`: nodes that do not answer; `lifecycle`: the states of the lifecycle nodes
+    that have reported one.
     """
 
     nodes: tuple[NodeInfo, ...] = ()

@@ -17,23 +17,23 @@ class ProcessState(str, Enum):
     EXITED = "exited"
     CRASHED = "crashed"
     MISSING = "missing"
-    """Its executable was not found, and the launch goes on without it."""
+    """Its executable was not found, and the launch continues without it."""
     ABANDONED = "abandoned"
 
 
 @dataclass(frozen=True, slots=True)
 class Program:
-    """The program of a process: its command without the prefix, and what launch did with it."""
+    """The program of a process: its command without the prefix, and the options with which launch runs it."""
 
     command: tuple[str, ...]
     package: str = ""
-    """Empty: the path of the program suffices."""
+    """The package of the program; empty if its path suffices."""
     prefix: str = ""
     folder: str = ""
-    """The working directory; empty: that of the launch."""
+    """The working directory; empty for that of the launch."""
     respawn: bool = False
     respawn_delay: float | None = None
-    """Seconds."""
+    """Seconds before launch respawns it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,19 +52,19 @@ class ProcessInfo:
     cpu: float | None = None
     """Its CPU usage; 1.0 is one whole CPU."""
     memory: int | None = None
-    """Its resident memory in MB (10^6 bytes); None if it has none of its own, like a thread."""
+    """Its resident memory in MB (10^6 bytes); None if it has no memory of its own, like a thread."""
     started: int = 0
-    """When it last started, in ns since the epoch; 0 if it never has. Likewise the next two."""
+    """When it last started, in ns since the epoch; 0 if never. The next two are likewise."""
     end_requested: int = 0
-    """When a person, or the end of its launch, last requested its end."""
+    """When its end was last requested, by a person or by the end of its launch."""
     ended: int = 0
     """When it last ended."""
     restart_policy: str = ""
     """When it is restarted after it has ended by itself, in words; empty: never, or as its launch file says."""
     program: Program | None = None
-    """None: not known, as from a launch host of an earlier version."""
+    """None if unknown, for instance with a launch host of an earlier version."""
     started_by: str = ""
-    """The command in another terminal that has started it, and alone can end it; empty: it is controlled from here."""
+    """The command in another terminal that has started it and alone can end it; empty: it is controlled from here."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,8 +79,8 @@ class LaunchEvent:
 
 @dataclass(frozen=True, slots=True)
 class LaunchInfo:
-    """The processes that the launcher knows; `problem` says why a launch file could not be run, `delayed` counts
-    postponed starts.
+    """The state of the launcher: `problem` says why a launch file could not be run, `delayed` is the number of starts
+    that timers delay.
     """
 
     files: tuple[str, ...] = ()
@@ -92,7 +92,7 @@ class LaunchInfo:
 
 @dataclass(frozen=True, slots=True)
 class LaunchArgument:
-    """An argument that a launch file declares; `default` None means required."""
+    """An argument that a launch file declares; it is required if `default` is None."""
 
     name: str
     description: str = ""

@@ -1,4 +1,4 @@
-"""The log as the panes see it: records, filters, and counts."""
+"""The log as the panes see it: records, filters and counts."""
 
 from __future__ import annotations
 
@@ -35,27 +35,28 @@ class LogRecord:
 
 @dataclass(frozen=True, slots=True)
 class LogFilter:
-    """Which records to show: those of the severities selected that match the words, and how.
+    """Which records to show, and how: those with at least the severity `minimum` that match `words`.
 
-    `words`, like every text of `hidden` and `only`, follows one grammar in every pane: blanks mean AND, `!word`
-    excludes, `re:regex`, `node:name`, `sev:>=warn`, `at:file.py:12`, `time:14:03..14:05`.
+    `words` and the texts in `hidden` and `only` follow the grammar of all panes: blanks mean AND, `!word` excludes,
+    `re:regex`, `node:name`, `sev:>=warn`, `at:file.py:12`, `time:14:03..14:05`.
     """
 
     minimum: Severity = Severity.UNSET
     words: str = ""
     hidden: tuple[str, ...] = ()
-    """Records that pass one of these filters are hidden."""
+    """Filters; records that pass one of them are hidden."""
     only: tuple[str, ...] = ()
-    """Records that pass none of these filters are hidden; empty: all are shown."""
+    """Filters; records that pass none of them are hidden. Empty: all are shown."""
     folded: bool = False
-    """Whether a run of equal records is shown as one, its newest."""
+    """Whether a run of equal records is shown as one, the newest."""
 
 
 @dataclass(frozen=True, slots=True)
 class LogState:
-    """The log as a whole: records `first` to `end` - 1 are kept, `dropped` are gone, `counts` are per severity.
+    """The state of the log: records `first` to `end` - 1 are kept, `dropped` have been discarded, `counts` are by
+    severity.
 
-    Errors of processes that were being ended on purpose are not counted.
+    Errors of processes whose end had been requested are not counted.
     """
 
     first: int = 0
@@ -66,7 +67,7 @@ class LogState:
 
 @dataclass(frozen=True, slots=True)
 class LoggerLevel:
-    """The lowest severity that a logger logs; UNSET means that it inherits its parent's level."""
+    """The lowest severity that a logger logs; UNSET means that it inherits the level of its parent."""
 
     node: str
     logger: str

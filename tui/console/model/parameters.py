@@ -1,4 +1,4 @@
-"""Parameters of nodes as the panes see them: types, descriptors, and the parameters of each node."""
+"""Parameters as the panes see them: types, descriptors, and the parameters of each node."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Kind(IntEnum):
 
 @dataclass(frozen=True, slots=True)
 class ParameterInfo:
-    """One parameter of one node: its value and its descriptor."""
+    """One parameter of a node: its value and its descriptor."""
 
     node: str
     name: str
@@ -59,14 +59,14 @@ class ParameterInfo:
     constraints: str = ""
     default: Value = None
     origin: str = ""
-    """Where the value came from, as text for users; empty when unknown."""
+    """Where the value comes from, as text for users; empty if unknown."""
 
     declared_at: str = ""
-    """`file:line` of the declaration, whose value is then in `default`; empty when unknown."""
+    """The `file:line` of the declaration, whose value is then in `default`; empty if unknown."""
 
     @property
     def unit(self) -> str:
-        """The unit that ends the description in parentheses, such as `m/s`; else empty."""
+        """The unit in parentheses at the end of the description, such as `m/s`; empty if there is none."""
         return unit_in_description(self.description)
 
     @property
@@ -77,13 +77,13 @@ class ParameterInfo:
 
 @dataclass(frozen=True, slots=True)
 class ParameterTree:
-    """The parameters of one node; `problem` says why they cannot be read, and is empty when they can."""
+    """The parameters of one node; `problem` says why they cannot be read, and is empty if they can."""
 
     node: str
     parameters: tuple[ParameterInfo, ...] = ()
     problem: str = ""
     ended: str = ""
-    """When and how the node ended; empty while it is there. It has no parameters any more."""
+    """When and how the node ended, after which it has no parameters; empty while it exists."""
 
     def get(self, name: str) -> ParameterInfo | None:
         """The parameter with that name; None if the node has none."""
@@ -91,6 +91,6 @@ class ParameterTree:
 
 
 def parameter_in(trees: Mapping[str, ParameterTree], node: str, name: str) -> ParameterInfo | None:
-    """A parameter of one of several nodes; None if there is no such node, or if it has none of that name."""
+    """The parameter with this name of one of several nodes; None if there is no such node or parameter."""
     tree = trees.get(node)
     return tree.get(name) if tree else None

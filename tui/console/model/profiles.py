@@ -1,4 +1,4 @@
-"""Profiles as the panes see them, and what applying each would change."""
+"""Profiles as the panes see them, and the changes that applying them would make."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bot_console.tui.console.model.parameters import Value
 
 @dataclass(frozen=True, slots=True)
 class Profile:
-    """A named parameter file: the values it sets by node and parameter, and the world it was made for."""
+    """A named parameter file: the values that it sets by node and parameter, and the world for which it was made."""
 
     name: str
     path: str
@@ -20,19 +20,19 @@ class Profile:
     world: str = ""
     problem: str = ""
     launch: str = ""
-    """The launch file that replaces the running system; empty for a parameter file."""
+    """The launch file that replaces the running system; empty if the profile is a parameter file."""
     arguments: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
-    """The arguments of that launch file."""
+    """The arguments of the launch file."""
     own: bool = False
     """Whether it is in the user's own folder, so that it may be renamed and deleted."""
 
 
 @dataclass(frozen=True, slots=True)
 class ProfileDifference:
-    """One value that applying a profile would change.
+    """A value that applying a profile would change.
 
-    `refusal` says why it would be refused, and is empty when it would be accepted; `unsafe` says how it makes the robot
-    less safe, and is empty when it does not.
+    `refusal` says why the node would refuse it, `unsafe` how it would make the robot less safe; they are empty where
+    that is not so.
     """
 
     node: str

@@ -1,4 +1,4 @@
-"""The range of a descriptor: which values the node accepts, and those that steps and a slider offer. Pure."""
+"""The range of a descriptor: the values that the node accepts, and those that steps and a slider offer. Pure."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 TOLERANCE = 1e-6
-"""Relative tolerance of the ends and steps of doubles, as rclpy's `Node.PARAM_REL_TOL`."""
+"""Relative tolerance for the ends and steps of doubles, as rclpy's `Node.PARAM_REL_TOL`."""
 STEPS_ACROSS = 100
-"""Steps from one end to the other of a range that has no step of its own."""
+"""Number of steps from end to end of a range that has no step of its own."""
 MAX_SKIPPED_POINTS = 100
-"""How many points of a grid may be skipped to find one that a double expresses exactly enough."""
+"""How many grid points may be skipped to find one that a double expresses exactly enough."""
 NEGLIGIBLE = Fraction(1, 1000)
-"""The part of a step within which a double counts as on a point of the grid, since doubles are calculated inexactly."""
+"""Fraction of a step within which a double counts as on a grid point, since doubles are calculated inexactly."""
 MAX_DIGITS = 17
-"""Significant digits that express every double."""
+"""Significant digits that suffice to express every double."""
 
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """Both ends are included. With a `step`, the values are the grid `low + n * step` and the upper end; 0 means
-    continuous. The ends of an integer are integers, since a float cannot hold large ones exactly.
+    """A range that includes both ends. With a `step`, the values are the grid `low + n * step` and the upper end; 0
+    means continuous. The ends of an integer's range are integers, since a float cannot hold large ones exactly.
     """
 
     low: float
@@ -31,11 +31,11 @@ class Range:
 
     @property
     def finite(self) -> bool:
-        """Whether both ends are finite and apart, so that a slider can show the range."""
+        """Whether both ends are finite and differ, so that a slider can show the range."""
         return math.isfinite(self.low) and math.isfinite(self.high) and self.low < self.high
 
     def refusal(self, value: float) -> str:
-        """Why rclpy refuses a value, in its words; empty if it is accepted."""
+        """Why rclpy refuses a value, in rclpy's words; empty if it accepts it."""
         low, high, step = self.low, self.high, self.step
         whole = isinstance(value, int)
         if value in (low, high) or (not whole and (_close(value, low) or _close(value, high))):
@@ -46,13 +46,13 @@ class Range:
         return "" if on_step else f"not a valid step. Min: {low}, max: {high}, value: {value}, step: {step}"
 
     def share(self, value: float) -> float:
-        """The place of a value in a finite range, from 0 to 1."""
+        """The position of a value in a finite range, from 0 to 1."""
         if not self.low < value < self.high:
             return 1.0 if value >= self.high else 0.0
         return float((Fraction(value) - Fraction(self.low)) / self._width)
 
     def at_share(self, share: float, *, whole: bool) -> float | None:
-        """The accepted value nearest to a share (0 to 1) of the range; None if an end is not finite."""
+        """The accepted value nearest to a position (0 to 1) in the range; None if an end is not finite."""
         if not self.finite or share <= 0.0 or share >= 1.0:
             end = self.high if share >= 1.0 else self.low
             return end if math.isfinite(end) and self.low <= self.high else None
@@ -62,14 +62,14 @@ class Range:
         return self._point(round(exact / self._spacing), whole, upward=True)
 
     def moved(self, value: float, steps: int, *, whole: bool) -> float | None:
-        """The accepted value a number of steps away, at most an end; None if there is none."""
+        """The accepted value a number of steps away, no further than the end; None if there is none."""
         if not (self.low <= value <= self.high and self.low < self.high):
             end = self.high if value > self.high else self.low
             return end if math.isfinite(end) and self.low <= self.high else None
         if not whole and not self.step:
             step = self._hundredth if self.finite else free_step(value)
             moved = self._free(value + steps * step, step)
-            beside = math.nextafter(value, math.copysign(math.inf, steps))  # where the range is a few doubles wide
+            beside = math.nextafter(value, math.copysign(math.inf, steps))  # in a range that is only a few doubles wide
             return moved if moved != value else min(max(beside, self.low), self.high)
         if not (math.isfinite(self.low) and math.isfinite(min(abs(self.step), self.high))):
             return None
@@ -87,7 +87,7 @@ class Range:
 
     @property
     def _spacing(self) -> Fraction:
-        """The distance between two points of the grid; that of the ends, where the node accepts nothing else."""
+        """The distance between two grid points; that of the ends if the node accepts nothing between them."""
         if self.step and not math.isfinite(self.step):
             return self._width
         return Fraction(abs(self.step) or 1)
@@ -100,7 +100,7 @@ class Range:
         return min(max(rounded(value, step), self.low), self.high)
 
     def _point(self, at: int, whole: bool, *, upward: bool) -> float | None:
-        """The value of a point of the grid, or of the next one that is accepted; beyond the last one, the end."""
+        """The value of a grid point, or of the next one that the node accepts; beyond the last one, the end."""
         ahead = 1 if upward else -1
         for each in range(at, at + ahead * MAX_SKIPPED_POINTS, ahead):
             exact = Fraction(self.low) + each * self._spacing
@@ -116,7 +116,7 @@ class Range:
 
 
 def free_step(value: float) -> float:
-    """The step of a number that has no range: about a tenth of it."""
+    """The step for a number without a range: about a tenth of the number."""
     return round_step(max(abs(value) / 10, 0.1))
 
 
@@ -129,7 +129,7 @@ def round_step(step: float) -> float:
 
 
 def rounded(value: float, step: float) -> float:
-    """A value without the digits that lie far below a step, so that 0.1 + 0.2 is 0.3."""
+    """A value without the digits far below a step, so that 0.1 + 0.2 is 0.3."""
     if not (math.isfinite(value) and value and step):
         return value
     places = math.floor(math.log10(abs(value))) - math.floor(math.log10(abs(step)))
@@ -137,7 +137,7 @@ def rounded(value: float, step: float) -> float:
 
 
 def _spellings(exact: float, low: float, at: int, step: float) -> Iterator[float]:
-    """A point of a grid, as a person would write it, and as rclpy calculates it."""
+    """The value of a grid point as a person would write it, and as rclpy calculates it."""
     yield rounded(exact, step)
     yield exact
     yield low + at * step if at < 2**53 else exact
@@ -148,10 +148,10 @@ def _close(one: float, other: float) -> bool:
 
 
 def _on_step(value: float, low: float, step: float) -> bool:
-    """Whether a double is close enough to a step, as rclpy calculates it."""
+    """Whether a double is close enough to a step by rclpy's calculation."""
     if not step:
         return True
     try:
         return _close(low + round((value - low) / step) * step, value)
-    except (OverflowError, ValueError):  # which rclpy raises, too, for instance where the step is NaN
+    except (OverflowError, ValueError):  # rclpy raises it as well, for instance if the step is NaN
         return False

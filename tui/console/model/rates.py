@@ -1,4 +1,4 @@
-"""Topics whose rate or age is expected, and whether they are as expected."""
+"""Topics with an expected rate or age, and whether they meet it."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class RateCheck:
-    """A topic that is measured all the time because something is expected of it."""
+    """A topic that is measured all the time because a rate or age is expected of it."""
 
     topic: str
     expected: str
-    """Such as `10 Hz ± 20 %`."""
+    """The expectation, such as `10 Hz ± 20 %`."""
     measured: str = ""
-    """Such as `4.2 Hz` or `nothing for 3 s`; empty while too little was measured."""
+    """The measurement, such as `4.2 Hz` or `nothing for 3 s`; empty while there is too little to measure."""
     late: bool | None = None
-    """Whether it is not as expected; None while that is not known."""
+    """Whether it fails the expectation; None while that is unknown."""
     since: int = 0
-    """When it came to be so, in ns since the epoch."""
+    """Since when it does or does not, in ns since the epoch."""
     times: int = 0
     """How often it has fallen behind."""

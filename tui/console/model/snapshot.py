@@ -1,4 +1,4 @@
-"""The snapshot of a whole system, the network link to it, and what it supports."""
+"""The snapshot of a whole system, the network link to it, and its capabilities."""
 
 from __future__ import annotations
 
@@ -19,35 +19,35 @@ from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
 
 @dataclass(frozen=True, slots=True)
 class LinkInfo:
-    """The network link to a robot: the address of the other end (empty when there is no link), and its state."""
+    """The network link to a robot: its state, and the address of the other end (empty if there is no link)."""
 
     to: str = ""
     delay_ms: int | None = None
-    """Round-trip time, in ms."""
+    """Round-trip time in ms."""
     silent_s: int = 0
-    """Whole seconds since the last response; everything shown is that old."""
+    """Whole seconds since the last response; everything on the screen is that old."""
     lost: int = 0
     """Messages that did not arrive, according to their sequence numbers."""
 
 
 @dataclass(frozen=True, slots=True)
 class Capabilities:
-    """The abilities of this system: each text is empty if it has the ability, and otherwise says why it does not."""
+    """What this system supports: each text is empty if it supports something, and otherwise says why not."""
 
     launch: str = ""
     launched_elsewhere: str = ""
     world: str = ""
     live: str = ""
-    """Showing what happens now, which a recording cannot do."""
+    """Show what happens now; a recording cannot."""
     change: str = ""
-    """Setting, sending, starting and ending things from here."""
+    """Set, send, start and end things from here."""
     bag_options: tuple[str, ...] = ()
-    """Options of `bag open` by which a bag is played into this system."""
+    """Options of `bag open` with which a bag is played into this system."""
 
 
 @dataclass(frozen=True, slots=True)
 class ConsoleSnapshot:
-    """Everything the panes show, at one time. `seq` grows whenever any part changes."""
+    """Everything that the panes show, at one time. `seq` increases whenever any part changes."""
 
     seq: int = 0
     stamp: int = 0
@@ -66,7 +66,7 @@ class ConsoleSnapshot:
     profile_changes: int = 0
     """How many values of the active profile differ from those of the running nodes."""
     rate_checks: tuple[RateCheck, ...] = ()
-    """The topics whose rate or age is expected; those that are late first."""
+    """The topics with an expected rate or age; late ones come first."""
     capabilities: Capabilities = field(default_factory=Capabilities)
     problem: str = ""
-    """Why the console itself cannot go on, for instance because its thread has died; empty when all is well."""
+    """Why the console itself cannot continue, for instance because its thread has died; empty when all is well."""
