@@ -26,7 +26,7 @@ NAME = "_bot_console"
 
 
 class ConsoleNode:
-    """Serves the ports of a console in an executor of its own."""
+    """Serves the ports of a console with a node and an executor."""
 
     def __init__(
         self,
@@ -39,9 +39,9 @@ class ConsoleNode:
         foreign: bool = False,
         halted: HaltedNodes | None = None,
     ) -> None:
-        """`robot` stops the robot, and exists before anything here that may fail.
+        """`robot` stops the robot; it exists before anything here that may fail.
 
-        In a `foreign` system nothing is requested before it is offered: its nodes would log warnings about us.
+        In a `foreign` system nothing is requested before it is offered, since its nodes would log warnings about us.
         """
         self._ports = ports
         self._robot = robot
@@ -58,7 +58,7 @@ class ConsoleNode:
         self._warnings = GraphWarnings(ports.logs.add)
         self._rosout = RosoutWatch(self.node, ports.logs.add, foreign=foreign)
         self.loggers = self._rosout.loggers
-        """Names of the loggers whose lines `/rosout` has brought."""
+        """Names of the loggers whose lines have arrived over `/rosout`."""
         self._world = WorldWatch(self.node)
         self._graph = GraphWatch(self.node, self._graph_changed, graph_events, halted, foreign=foreign)
         ports.logs.attach(LoggerLevels(calls, self.loggers))
@@ -72,13 +72,13 @@ class ConsoleNode:
         ports.bags.attach()
 
     def spin(self) -> None:
-        """Serve until `close`; called in the console's own thread."""
+        """Spin until `close`; to be called in the console's own thread."""
         self._graph.poll()
         with contextlib.suppress(ExternalShutdownException):
             self.executor.spin()
 
     def close(self) -> None:
-        """End `spin`, and leave the graph."""
+        """End `spin` and leave the graph."""
         self._graph.close()
         self._ports.topics.close()
         self.executor.shutdown(timeout_sec=1.0)

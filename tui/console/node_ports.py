@@ -1,4 +1,4 @@
-"""The ports of a console that has a ROS node, and the snapshot that is composed of what they know."""
+"""The ports of a console that has a ROS node, and the snapshot composed from them."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ LABEL = "bot-console"
 
 
 class NodePorts:
-    """All ports; they exist before the node does, and `ConsoleNode` attaches them to it."""
+    """All ports of a console. They exist before the node does; `ConsoleNode` attaches them to the node."""
 
     def __init__(
         self,
@@ -55,7 +55,7 @@ class NodePorts:
         self._elsewhere = elsewhere
         self._link = link
         self.problem = ""
-        """Why the console itself cannot go on; empty when all is well."""
+        """Why the console itself cannot continue; empty when all is well."""
         provenance = Provenance(self._profile_at)
         self.start_values = provenance.starts
         self.logs = NodeLogs(self.gate)
@@ -87,11 +87,11 @@ class NodePorts:
         self._snapshot = ConsoleSnapshot(capabilities=capabilities)
 
     def attach_launcher(self, launcher: Launcher) -> None:
-        """Give the panes what launches for this console."""
+        """Make this console's launcher available to the panes."""
         self.launcher = GatedLauncher(self.gate, launcher)
 
     def refuse_changes(self) -> None:
-        """Make the console read-only; a stop still passes."""
+        """Make the console read-only; it can still stop the robot."""
         self.gate.read_only = READ_ONLY
         self._capabilities = replace(self._capabilities, change=READ_ONLY)
 
@@ -102,11 +102,11 @@ class NodePorts:
         return self._by_path[1].get(os.path.realpath(path), "")
 
     def printed(self, severity: int, label: str, text: str) -> None:
-        """Receive a line that a process printed."""
+        """Add a line that a process printed to the log."""
         self.logs.add(time.time_ns(), severity, label, text, NOWHERE)
 
     def snapshot(self) -> ConsoleSnapshot:
-        """The newest state; the same object when nothing changed, and unchanged parts are the same objects."""
+        """The newest snapshot; the same object if nothing has changed. Unchanged parts stay the same objects."""
         old = self._snapshot
         world, launch = self.drive.world, self._launch_info()
         self.logs.discount_errors_of_ending(launch)

@@ -1,7 +1,7 @@
-"""A subscription with the QoS its publishers offer: one that requests more receives nothing, and makes them warn.
+"""A subscription that adapts its QoS to its publishers.
 
-One that requests less than is offered loses messages it could have had, so neither is fixed; the offer changes as nodes
-come and go.
+A subscription that requests more than they offer receives nothing, and makes them warn; one that requests less loses
+messages. The offered QoS changes as nodes come and go.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 
 class OfferedSubscription:
-    """Subscribes to one topic; `follow` is to be called whenever the graph has changed."""
+    """Subscribes to one topic; `follow` has to be called whenever the graph has changed."""
 
     def __init__(
         self,
@@ -28,11 +28,11 @@ class OfferedSubscription:
         once_weak: bool = False,
         raw: bool = False,
     ) -> None:
-        """`best` is the most that is requested, if it is offered.
+        """`best` is the most that is requested, provided that it is offered.
 
-        An `eager` subscription exists before anybody publishes. With `once_weak`, one that had to request less stays
-        that way: requesting more again would deliver a second time what latching publishers keep. A `raw` one calls
-        back with the serialized bytes.
+        An `eager` subscription exists before anybody publishes. With `once_weak`, a subscription that had to request
+        less stays that way, because requesting more again would deliver the messages of latching publishers a second
+        time. A `raw` subscription passes serialized bytes to the callback.
         """
         self._raw = raw
         self._node = node
@@ -49,7 +49,7 @@ class OfferedSubscription:
             self.follow()
 
     def follow(self) -> None:
-        """Request what is offered now; while nothing is offered, leave everything as it is."""
+        """Adapt to the QoS that is offered now; while nothing is offered, change nothing."""
         infos = self._node.get_publishers_info_by_topic(self.topic_name)
         if not infos:
             return
@@ -70,9 +70,9 @@ class OfferedSubscription:
             self._node.destroy_subscription(before)
 
     def drain(self) -> Iterator[tuple[bytes, int]]:
-        """The waiting serialized messages, with the time at which each was sent (ns since the epoch; 0: unknown).
+        """The waiting serialized messages, each with the time at which it was sent (ns since the epoch; 0: unknown).
 
-        For nodes that are not spun: this costs a third of what an executor's callbacks do.
+        For nodes that are not spun; this costs a third of an executor's callbacks.
         """
         if self._subscription is None:
             return
@@ -89,7 +89,7 @@ class OfferedSubscription:
 
 
 def weakest(best: QoSProfile, offers: Iterable[Any]) -> tuple[ReliabilityPolicy, DurabilityPolicy]:
-    """The strongest QoS, up to `best`, that all of these offer; a policy unknown to the graph counts as the weakest."""
+    """The strongest QoS, up to `best`, that all `offers` meet; a policy unknown to the graph counts as the weakest."""
     offers = list(offers)
     reliable = all(each.reliability == ReliabilityPolicy.RELIABLE for each in offers)
     latched = all(each.durability == DurabilityPolicy.TRANSIENT_LOCAL for each in offers)
@@ -103,7 +103,7 @@ def weakest(best: QoSProfile, offers: Iterable[Any]) -> tuple[ReliabilityPolicy,
 def weaker(
     one: tuple[ReliabilityPolicy, DurabilityPolicy], other: tuple[ReliabilityPolicy, DurabilityPolicy]
 ) -> tuple[ReliabilityPolicy, DurabilityPolicy]:
-    """The strongest QoS that satisfies both."""
+    """The strongest QoS that exceeds neither of the two."""
     both = (one, other)
     return (
         ReliabilityPolicy.BEST_EFFORT if any(each[0] != ReliabilityPolicy.RELIABLE for each in both) else one[0],

@@ -1,4 +1,4 @@
-"""The table of parameter types: the Python type of each, and how the elements of an array are written."""
+"""The parameter types, with the Python type of each and the kind of an array's elements."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Type:
     """The Python type of a value, or of each element of an array."""
 
     element: Kind | None = None
-    """The kind as which a user writes an element; None if the type is not an array."""
+    """The kind in which a user writes an element; None if the type is not an array."""
 
 
 TYPES = {
@@ -31,9 +31,9 @@ TYPES = {
 }
 
 ARRAYS = {kind: row.element for kind, row in TYPES.items() if row.element is not None}
-"""The kind of elements for each kind of array, as users write them."""
+"""The kind in which users write the elements, for each kind of array."""
 
 
 def field_of(kind: Kind) -> str:
-    """The field of `rcl_interfaces/msg/ParameterValue` that holds a value of that kind."""
+    """The field of `rcl_interfaces/msg/ParameterValue` that contains values of this kind."""
     return f"{kind.name.lower()}_value"

@@ -1,1 +1,1 @@
-"""Parameters of all nodes: their values, how they are set, saved and restored."""
+"""The parameters of all nodes: reads, sets, saves and restores them."""

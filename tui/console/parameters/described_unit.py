@@ -1,4 +1,4 @@
-"""Units in the descriptions of parameters. Standard library only."""
+"""Finds units in the descriptions of parameters. Standard library only."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _DIMENSIONLESS = re.compile(r"\b(factor|fraction|probability|ratio|share)\b", re
 
 @lru_cache(maxsize=20_000)
 def unit_in_description(description: str) -> str:
-    """The unit in brackets at the end of a description, `(m/s)` or `[m/s]`; else empty."""
+    """The unit in brackets at the end of a description, `(m/s)` or `[m/s]`; empty if there is none."""
     text = description.rstrip()
     start = text.rfind({")": "(", "]": "["}.get(text[-1:], "\0"))
     inside = text[start + 1 : -1].split()[-1:] if start >= 0 else []
@@ -18,5 +18,5 @@ def unit_in_description(description: str) -> str:
 
 
 def is_dimensionless(description: str) -> bool:
-    """Whether the description calls the value a ratio, share or the like, which has no unit."""
+    """Whether a description calls the value a ratio, a share or the like, which has no unit."""
     return _DIMENSIONLESS.search(description) is not None

@@ -1,4 +1,4 @@
-"""Finds what a parameter's descriptor lacks. Uses nothing but the model."""
+"""Finds out what a parameter's descriptor lacks. Uses only the model."""
 
 from __future__ import annotations
 

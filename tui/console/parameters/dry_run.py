@@ -16,7 +16,7 @@ SERVICE, TYPE = "check_parameters", "rcl_interfaces/srv/SetParametersAtomically"
 
 
 def can_be_asked(graph: GraphInfo) -> frozenset[str]:
-    """The nodes that offer the service."""
+    """The nodes that offer `~/check_parameters`."""
     ends = f"/{SERVICE}"
     return frozenset(
         each.name.removesuffix(ends) for each in graph.services if each.name.endswith(ends) and TYPE in each.types
@@ -24,7 +24,7 @@ def can_be_asked(graph: GraphInfo) -> frozenset[str]:
 
 
 def question(values: Mapping[str, tuple[Kind, Value]]) -> dict[str, object]:
-    """The request that checks values, each given with its kind."""
+    """The fields of a request that checks values, each given with its kind."""
     return {"parameters": [_parameter(name, kind, value) for name, (kind, value) in values.items()]}
 
 

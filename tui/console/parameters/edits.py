@@ -1,6 +1,6 @@
-"""The edits of a person until they are done: staged, sent and refused values, and those that are in no file.
+"""The edits of a person: staged, sent and refused values, and values that are in no file.
 
-A view model: the parameters pane draws it and passes keys on to it. It knows no widget.
+This is a view model: the parameters pane displays it and passes keys on to it. It knows no widget.
 """
 
 from __future__ import annotations
@@ -28,15 +28,15 @@ from bot_console.tui.console.parameters.staging import SETS, Key, Staging, by_no
 
 Outcomes = Sequence[SetOutcome]
 Later = Callable[..., object]
-"""Calls a function with arguments in the thread that draws; called from any thread."""
+"""Calls a function with arguments in the drawing thread; may be called from any thread."""
 
 
 BURST_S = 1.0
-"""Seconds within which the next key that steps the same value belongs to the same burst, which one undo takes back."""
+"""Another step of the same value within this time (s) belongs to the same burst, which one undo reverts."""
 
 
 class ParameterEdits:
-    """Sends or stages edits, and keeps what came of them; used by the thread that draws."""
+    """Sends or stages edits, and keeps their outcomes; used only by the drawing thread."""
 
     def __init__(
         self,
@@ -47,10 +47,10 @@ class ParameterEdits:
         failed: Callable[[str, Outcomes], object],
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        """`trees` returns all parameters as they are now. `changed` is called when there is something to draw.
+        """`trees` returns the current parameters of all nodes. `changed` is called when there is something to draw.
 
-        `failed` is called when values that were sent together were not accepted, with their outcomes, and for any
-        values that could not be sent, with the reason.
+        `failed` is called with the outcomes when values that were sent together were not all accepted, and with the
+        reason when values could not be sent.
         """
         self._parameters = parameters
         self._trees = trees
@@ -64,21 +64,21 @@ class ParameterEdits:
         self.unsaved: frozenset[Key] = frozenset()
         """Values that are in no file."""
         self.moved: frozenset[Key] = frozenset()
-        """Values that have changed since the start."""
+        """Values that differ from those at the start."""
         self.late: Mapping[Key, Value] = {}
-        """Values that are still unanswered after some time."""
+        """Values that have been sent for some time and are still unanswered."""
         self._pending = PendingSets()
         self._stepped: tuple[Key, float] | None = None
-        """The value that was stepped last, and when; None if another edit has come since."""
+        """The value that was stepped last, and when; None if there has been another edit since."""
         self._kept_continues: dict[Key, bool] = {}
-        """Whether values that follow once an earlier one is answered belong to its burst."""
+        """Whether a value that waits for the answer to an earlier one continues the burst of that one."""
         self._starts: dict[Key, Value] = {}
         """The values before their first change in this run."""
         self._read = 0
-        """Changes below this number are known."""
+        """Changes with numbers below this one have been processed."""
 
     def observe(self, journal: JournalState) -> bool:
-        """Learn from a new journal which values are saved, and which differ from the start; whether that changed."""
+        """Update `unsaved` and `moved` from a changed journal; returns whether they have changed."""
         for each in self._parameters.changes(self._read):
             self._read = max(self._read, each.seq + 1)
             if each.accepted and each.by == RESTARTED:
@@ -95,11 +95,11 @@ class ParameterEdits:
         return (self.unsaved, self.moved) != before
 
     def value_changed(self, key: Key) -> None:
-        """A value has changed, so that an earlier refusal says nothing any more."""
+        """Forget an earlier refusal of a value, because the value has changed."""
         self.refused.pop(key, None)
 
     def poll(self) -> bool:
-        """Whether other values than before are waited for; called ten times a second."""
+        """Update `late`; returns whether it has changed. To be called ten times a second."""
         before, self.late = self.late, self._pending.late(self.clock())
         return self.late != before
 
@@ -107,19 +107,19 @@ class ParameterEdits:
         return parameter_in(self._trees(), *key)
 
     def now(self, parameter: ParameterInfo) -> Value:
-        """The value from which a step continues: the staged one, else one on its way, else the present one."""
+        """The value from which a step starts: the staged one, else the one that was sent, else the current one."""
         key = (parameter.node, parameter.name)
         if key in self.staging.marked:
             return self.staging.marked[key]
         return self._pending.value(key, parameter.value, self.clock())
 
     def set(self, parameter: ParameterInfo, value: Value) -> None:
-        """Stage a value, or send it; while another one is on its way, only the newest follows."""
+        """Stage or send a value. While an earlier value is unanswered, only the newest one waits."""
         self._stepped = None
         self._set(parameter, value, continues=False)
 
     def step(self, parameter: ParameterInfo, value: Value) -> None:
-        """As `set`, with a key that is pressed several times: such a burst is undone as a whole."""
+        """Stage or send a value as `set` does; steps in quick succession form a burst that is undone as a whole."""
         before, now = self._stepped, self.clock()
         key = (parameter.node, parameter.name)
         self._stepped = key, now
@@ -129,7 +129,7 @@ class ParameterEdits:
         key = (parameter.node, parameter.name)
         if self.staging.marking:
             self.staging.mark(key, parameter.value, value)
-            self.refused.pop(key, None)  # a refusal of an earlier value would hide this one
+            self.refused.pop(key, None)  # the refusal of an earlier value would hide this one
             self._changed()
         elif self._pending.keep(key, value):
             self._kept_continues[key] = continues and self._kept_continues.get(key, True)
@@ -168,14 +168,14 @@ class ParameterEdits:
         self._changed()
 
     def risks(self, values: Mapping[Key, Value]) -> list[tuple[ParameterInfo, Value, str]]:
-        """How values would make the robot less safe: parameter, value and what it takes."""
+        """The values that would make the robot less safe: parameter, value, and in what way."""
         found = [(self._parameter(key), value) for key, value in values.items()]
         known = [(parameter, value) for parameter, value in found if parameter is not None]
         return [(each, value, why) for each, value in known if (why := takes_safety(each, each.value, value))]
 
     def apply(self, values: Mapping[Key, Value]) -> None:
-        """Send values together; all of them are accepted, or none."""
-        # Not when the answer arrives: someone who stages in the meantime wants to go on with that.
+        """Send values together: either all of them are accepted, or none."""
+        # Not when the answer arrives: someone who stages a value in the meantime wants to continue staging.
         self.staging.marking = bool(self.staging.marked.keys() - values.keys())
         self._send_all(values, "", partial(self._applied, values))
 
@@ -187,7 +187,7 @@ class ParameterEdits:
             self.staging.marking = bool(marked)
 
     def begin_sets(self, values: Mapping[Key, Value]) -> None:
-        """Make staged values set B and what is now set A, and send B."""
+        """Make set A of the current values and set B of the staged ones, and send B."""
         self.staging.begin(dict(values), self._trees())
         self._changed()
         self.swap()
@@ -213,7 +213,7 @@ class ParameterEdits:
         self._changed()
 
     def _take(self, number: int, done: Future[tuple[SetOutcome, ...]]) -> bool:
-        """Keep refusals, and forget those of values that were accepted now; returns whether all were accepted."""
+        """Keep the refusals, and drop those of values that are accepted now; returns whether all were accepted."""
         error = done.exception()
         outcomes = () if error else done.result()
         accepted = {(each.node, each.name): each.value for each in outcomes if each.accepted}

@@ -1,4 +1,4 @@
-"""The history of parameter changes, kept between runs in a bounded table of a SQLite file that survives crashes."""
+"""Keeps the history of parameter changes between runs, in a bounded table of a SQLite file that survives crashes."""
 
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from bot_console.tui.files.folder_lock import folder_lock
 from bot_console.tui.text.encodable import encodable
 
 MAX_ROWS = 20_000
-"""Rows that are kept; the oldest are deleted."""
+"""The number of rows kept; the oldest are deleted."""
 ROWS_PER_TRIM = 500
-"""Inserted rows after which the table is trimmed."""
+"""Number of insertions after which the table is trimmed."""
 TIMEOUT_S = 0.5
-"""Seconds for which a console waits for another one that is writing to the same file."""
+"""Seconds that a console waits for another one that is writing to the same file."""
 SAME_CHANGE_NS = 2_000_000_000
-"""Nanoseconds within which equal changes recorded by two consoles count as one."""
+"""Equal changes that two consoles recorded within this time (ns) count as one."""
 BROKEN = ".broken"
 NOT_ANSWERED = -1
-"""In the column `accepted`: neither accepted (1) nor refused (0)."""
+"""A third value of the column `accepted`, besides accepted (1) and refused (0)."""
 UNSTORABLE = (
     ValueError,
     OverflowError,
@@ -33,7 +33,7 @@ UNSTORABLE = (
     sqlite3.ProgrammingError,
     sqlite3.IntegrityError,
 )
-"""Exceptions that SQLite raises for a row that it can never store."""
+"""The exceptions that SQLite raises for a row that it can never store."""
 
 _TABLE = """
 CREATE TABLE IF NOT EXISTS changes (
@@ -57,7 +57,7 @@ ORDER BY number DESC LIMIT ?
 
 
 class History:
-    """The changes of all runs. A change accepted by `add` survives if the program is killed."""
+    """The changes of all runs. A change that `add` has accepted survives if the program is killed."""
 
     def __init__(self, file: Path, run: int, rows: int = MAX_ROWS) -> None:
         """`run` is a number unique to this run, such as the time of its start (ns)."""
@@ -69,7 +69,7 @@ class History:
         self._lock = threading.Lock()
         self._link: sqlite3.Connection | None = None
         self.problem = ""
-        """Why changes are not kept, or what was found damaged; empty while all is well."""
+        """Why changes are not kept, or what is damaged; empty while all is well."""
         self._open()
 
     def _open(self) -> None:
@@ -90,7 +90,7 @@ class History:
     def _restart(self) -> None:
         """Move aside a file that is not a database, so that nothing in it is lost, and start a new one.
 
-        If several consoles find the same file, one of them does so; the others use the new one.
+        If several consoles find the same file, one of them does this and the others use the new file.
         """
         try:
             with folder_lock(self._file.parent, TIMEOUT_S) as locked:
@@ -116,7 +116,7 @@ class History:
         return ""
 
     def add(self, change: Change) -> None:
-        """Store a change; one that cannot be written now is retried with the next."""
+        """Store a change; a change that cannot be written now is retried with the next one."""
         row = (
             *(self._run, change.stamp, encodable(change.node), encodable(change.name)),
             *(written(change.old), written(change.new)),
@@ -142,9 +142,9 @@ class History:
         link.execute("DELETE FROM changes WHERE number <= (SELECT MAX(number) FROM changes) - ?", (self._rows,))
 
     def earlier(self, maximum: int) -> Sequence[Change]:
-        """The newest changes of other runs, oldest first, with numbers up to -1; rows that cannot be read are left out.
+        """The newest changes of other runs, oldest first and numbered up to -1; unreadable rows are left out.
 
-        If two consoles recorded the same change, only the row of the one that made it is returned.
+        If two consoles recorded the same change, only the row of the console that made it is returned.
         """
         found: list[Change] = []
         unreadable, ended = 0, ""
@@ -158,7 +158,7 @@ class History:
                         unreadable += 1
                     else:
                         found.append(change)
-            except sqlite3.Error as error:  # the file is damaged at this place; what was read before is valid
+            except sqlite3.Error as error:  # the file is damaged here; the rows before are valid
                 ended = str(error)
         if ended:
             self.problem = f"the history cannot be read: {self._file}: {ended}"
@@ -177,10 +177,10 @@ class History:
 
 
 def _opened(file: Path) -> sqlite3.Connection:
-    """A connection whose commits survive if the program is killed."""
+    """Open a connection whose commits survive if the program is killed."""
     link = sqlite3.connect(file, timeout=TIMEOUT_S, check_same_thread=False)
     try:
-        # A write-ahead log stays consistent after a crash, and other consoles can read while one is writing.
+        # A write-ahead log stays consistent after a crash, and lets other consoles read while one is writing.
         link.execute("PRAGMA journal_mode = WAL")
         link.execute("PRAGMA synchronous = NORMAL")
         link.text_factory = _text  # so that a byte that is not UTF-8 makes one row unreadable, not all of them
@@ -198,7 +198,7 @@ def _text(data: bytes) -> str:
 
 
 def _inserted(link: sqlite3.Connection, row: tuple[Any, ...]) -> bool:
-    """Insert a row; returns False for one that can never be stored, which must not keep others from being stored."""
+    """Insert a row; returns False if it can never be stored, which must not keep other rows from being stored."""
     try:
         link.execute(_INSERT, row)
     except UNSTORABLE:
@@ -232,14 +232,14 @@ def _source(word: str) -> ChangeSource:
 
 
 def written(value: Value) -> str:
-    """A value as text, from which `read` restores exactly that value."""
+    """Write a value as text, from which `read` restores exactly this value."""
     if isinstance(value, tuple):
         return json.dumps([{"byte": each[0]} if isinstance(each, bytes) else each for each in value])
     return json.dumps(value)
 
 
 def read(text: str) -> Value:
-    """The value of such a text; raises `ValueError`, `TypeError`, `LookupError` or `RecursionError` for any other."""
+    """Parse the text of a value; raises `ValueError`, `TypeError`, `LookupError` or `RecursionError` if it is none."""
     value: Any = json.loads(text)
     if isinstance(value, list):
         return tuple(_element(each) for each in cast("list[Any]", value))

@@ -1,4 +1,4 @@
-"""The change journal: every parameter change and refusal with its source, and undo and redo based on it."""
+"""The change journal: every parameter change and refusal with its source; and undo and redo, which are based on it."""
 
 from __future__ import annotations
 
@@ -20,32 +20,32 @@ OURS = (ChangeSource.EDIT, ChangeSource.PROFILE, ChangeSource.FILE, ChangeSource
 
 @dataclass(frozen=True, slots=True)
 class Move:
-    """Old and new values of parameters that were set together on one node."""
+    """The old and new values of parameters that were set together on one node."""
 
     node: str
     before: Mapping[str, Value]
     after: Mapping[str, Value]
 
     def values(self, source: ChangeSource) -> Mapping[str, Value]:
-        """The values that undoing or redoing it sets."""
+        """The values that undoing or redoing the move sets."""
         return self.before if source is ChangeSource.UNDO else self.after
 
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """One step of undo: an edit of one node, or a profile on all of them."""
+    """One step of undo: an edit of one node, or values set on several nodes such as those of a profile."""
 
     moves: tuple[Move, ...]
     profiles: tuple[str, str] | None = None
     """The active profile before and after the step, if it changed."""
 
     def changes(self, source: ChangeSource, value: Callable[[str, str], Value]) -> bool:
-        """Whether undoing or redoing it changes anything; `value` returns the value of a node's parameter."""
+        """Whether undoing or redoing the step changes anything; `value` returns the value of a node's parameter."""
         wanted = ((move.node, name, new) for move in self.moves for name, new in move.values(source).items())
         return bool(self.profiles) or any(not same(value(node, name), new) for node, name, new in wanted)
 
     def text(self, source: ChangeSource) -> str:
-        """What undoing or redoing it sets: the values, or how many there are if it spans several nodes."""
+        """What undoing or redoing the step sets: the values, or their number if the step spans several nodes."""
         if len(self.moves) == 1:
             (move,) = self.moves
             values = (f"{name} = {value_text(value)}" for name, value in move.values(source).items())
@@ -55,14 +55,14 @@ class Step:
         return f"{name}{count} values of {len(self.moves)} nodes"
 
     def is_followed_by(self, other: Step) -> bool:
-        """Whether another step begins with the values of the same parameters with which this one ends."""
+        """Whether another step changes the same parameters and starts with the values with which this one ends."""
         if len(self.moves) != 1 or len(other.moves) != 1 or self.moves[0].node != other.moves[0].node:
             return False
         ends, begins = self.moves[0].after, other.moves[0].before
         return ends.keys() == begins.keys() and all(same(ends[name], begins[name]) for name in ends)
 
     def overwritten(self, value: Callable[[str, str], Value]) -> str:
-        """The end of a message that says which values of others undoing or redoing it overwrites; empty if none."""
+        """The end of a message that lists which values set by others an undo or redo overwrites; empty if none."""
         found: list[str] = []
         for move in self.moves:
             for name in move.after:
@@ -73,13 +73,13 @@ class Step:
 
 
 MAX_EARLIER_CHANGES = 5_000
-"""Changes of earlier runs that are shown."""
+"""The number of changes of earlier runs that are shown."""
 
 
 class Journal:
     """A bounded list of changes numbered from 0, with the steps that can be undone and redone.
 
-    With a history every change is kept for later runs, and those of earlier runs come before number 0.
+    With a history, every change is kept for later runs, and the changes of earlier runs come before number 0.
     """
 
     def __init__(self, capacity: int = 10_000, history: History | None = None) -> None:
@@ -102,7 +102,7 @@ class Journal:
             return ()
 
     def _give_up_history(self, error: Exception) -> None:
-        """Go on without the history: an error in it must not end anything else, least of all a stop."""
+        """Continue without the history: an error in it must not end anything else, least of all a stop."""
         self._history = None
         self._history_problem = f"changes are not kept: {type(error).__name__}: {error}"
 
@@ -112,7 +112,7 @@ class Journal:
 
     @property
     def state(self) -> JournalState:
-        """The journal as a whole; the same object until it changes."""
+        """The state of the journal; the same object until it changes."""
         return self._state
 
     def record(
@@ -127,9 +127,9 @@ class Journal:
         *,
         answered: bool = True,
     ) -> None:
-        """Add one entry; `values` are the old and the new one, `refusal` the reason if it was refused or not answered.
+        """Add an entry; `values` are the old and new one, `refusal` the reason if it was refused or not answered.
 
-        The entry is queued for the disk before it becomes visible. Called by one thread at a time.
+        The entry is queued for the disk before it becomes visible. To be called by one thread at a time.
         """
         old, new = values
         change = Change(self._end, stamp, node, name, old, new, source, not refusal, refusal, by, answered=answered)
@@ -144,9 +144,9 @@ class Journal:
             self._renew()
 
     def did(self, step: Step, source: ChangeSource, *, continues: bool = False) -> None:
-        """Remember an accepted set made by this console, so that it can be undone.
+        """Add an accepted step of this console, so that it can be undone.
 
-        One that `continues` the last step is undone together with it, unless something else has come in between.
+        A step that `continues` the last one is undone together with it, unless something else has come in between.
         """
         with self._lock:
             for move in step.moves:
@@ -164,14 +164,14 @@ class Journal:
             self._renew()
 
     def take_undo(self) -> Step | None:
-        """The step to undo next, removed from its list; give it back with `did` or `put_back`."""
+        """Remove and return the step to undo next; return it with `did` or `put_back`."""
         with self._lock:
             step = self._undo.pop() if self._undo else None
             self._renew()
             return step
 
     def take_redo(self) -> Step | None:
-        """The step to redo next, removed from its list."""
+        """Remove and return the step to redo next; return it with `did` or `put_back`."""
         with self._lock:
             step = self._redo.pop() if self._redo else None
             self._renew()
@@ -184,13 +184,13 @@ class Journal:
             self._renew()
 
     def saved(self, nodes: Collection[str]) -> None:
-        """Note that the values of some nodes, or of all if none is named, are now in a file."""
+        """Record that the values of some nodes, or of all if none is named, are now in a file."""
         with self._lock:
             self._unsaved.saved(nodes)
             self._renew()
 
     def restarted(self, node: str, name: str) -> None:
-        """Note that a node restarted with another value: earlier sets can no longer be undone, nor lost."""
+        """Record that a node has restarted with another value: the earlier sets can no longer be undone or lost."""
         with self._lock:
             for steps in (self._undo, self._redo):
                 left = [each for each in (_without(step, node, name) for step in steps) if each.moves]
@@ -200,7 +200,7 @@ class Journal:
             self._renew()
 
     def after(self, seq: int) -> Sequence[Change]:
-        """Entries from number `seq` on, oldest first; a number below 0 includes those of earlier runs."""
+        """The entries from number `seq` on, oldest first; a number below 0 includes those of earlier runs."""
         with self._lock:
             first = self._end - len(self._changes)
             here = list(self._changes)[max(0, seq - first) :]
@@ -223,7 +223,7 @@ def _keys(step: Step) -> tuple[tuple[str, str], ...]:
 
 
 def _without(step: Step, node: str, name: str) -> Step:
-    """The step without one parameter."""
+    """A copy of the step without one parameter."""
     if not any(each.node == node and name in each.after for each in step.moves):
         return step
     moves = [

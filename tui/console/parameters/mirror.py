@@ -1,4 +1,4 @@
-"""A copy of all nodes' parameters: read once by service, then kept up to date from `/parameter_events`."""
+"""Mirrors the parameters of all nodes: read once by service, then kept up to date from `/parameter_events`."""
 
 from __future__ import annotations
 
@@ -32,31 +32,31 @@ from rclpy.node import Node
 from rclpy.qos import qos_profile_parameter_events
 
 RELIST_S = 5.0
-"""Seconds between checks for what no event has reported: undeclared parameters, and the values of a node that
-restarted before its absence was noticed and whose first event was lost.
+"""Seconds between checks for what no event has reported: undeclared parameters, and the values of a node that restarted
+before its absence was noticed and whose first event was lost.
 """
 
 Reading = Callable[[str], Coroutine[Any, Any, None]]
-"""Queries a node."""
+"""A coroutine that queries a node."""
 
 MAX_CONCURRENT_QUERIES = 16
-"""Nodes that are queried at the same time. Queried all at once, the nodes of a busy machine would all respond too
-late.
+"""The number of nodes queried at the same time. If all were queried at once, the nodes of a busy machine would respond
+too late.
 """
 
 Changed = Callable[[str, str, Value, Value], ChangeSource]
 OnRestart = Callable[[str, str, Value, Value], object]
 
 MAX_DEPARTED_NODES = 500
-"""Nodes that have left whose values are kept, so that differences are noticed when they come back."""
+"""The number of departed nodes whose values are kept, so that differences are noticed when they come back."""
 
 
 class ParameterMirror:
     """The parameters of each node that offers the parameter services.
 
-    `changed(node, name, old, new)` is called for each value that an event reports, equal ones too, but never for a
-    value read for the first time; it returns the source of the change. `on_restart(node, name, old, new)` is called
-    instead if a node has restarted with another value than before: nobody has set that one.
+    `changed(node, name, old, new)` is called for each value that an event reports, even an equal one, but never for a
+    value that is read for the first time; it returns the source of the change. `on_restart(node, name, old, new)` is
+    called instead if a node has restarted with another value than before, which nobody has set.
     """
 
     def __init__(
@@ -74,7 +74,7 @@ class ParameterMirror:
         self._on_restart = on_restart
         self._left: dict[str, ParameterTree] = {}
         self._unreported: dict[tuple[str, str], Value] = {}
-        """By node and parameter: the value before one that was read and that no event has reported yet."""
+        """Values, by node and parameter, that were replaced by newly read ones which no event has reported yet."""
         self._copies: dict[str, int] = {}
         self._offering: set[str] = set()
         self._loading: set[str] = set()
@@ -84,7 +84,7 @@ class ParameterMirror:
         node.create_timer(RELIST_S, self._poll_again)
 
     def get(self, node: str, name: str) -> ParameterInfo | None:
-        """A parameter's last known state."""
+        """The last known state of a parameter; None if it is unknown."""
         return parameter_in(self.trees, node, name)
 
     def follow(self, graph: GraphInfo) -> None:
@@ -113,7 +113,7 @@ class ParameterMirror:
         self._queue(self._read, node)
 
     def _queue(self, reading: Reading, node: str) -> None:
-        """Query a node as soon as there is room in the window, unless it is being queried already."""
+        """Query a node once fewer than `MAX_CONCURRENT_QUERIES` are being queried, unless it is already queued."""
         if node not in self._loading:
             self._loading.add(node)
             self._waiting.append((reading, node))
@@ -126,7 +126,7 @@ class ParameterMirror:
 
     async def _in_window(self, reading: Reading, node: str) -> None:
         try:
-            if node in self._offering:  # else it left while it waited
+            if node in self._offering:  # else it has left while it was queued
                 await reading(node)
         finally:
             self._loading.discard(node)
@@ -150,7 +150,7 @@ class ParameterMirror:
                 self._compare(tree, self._left.pop(node, None))
 
     def _note_unreported(self, tree: ParameterTree, before: ParameterTree | None) -> None:
-        """Remember what each value was that has changed without an event: its event may still be on its way."""
+        """Keep the old value of each parameter that has changed without an event: the event may still be on its way."""
         for each in tree.parameters:
             old = before.get(each.name) if before else None
             self._unreported.pop((each.node, each.name), None)
@@ -158,7 +158,7 @@ class ParameterMirror:
                 self._unreported[each.node, each.name] = old.value
 
     def _compare(self, tree: ParameterTree, before: ParameterTree | None) -> None:
-        """Report each value that differs from its value when the node left."""
+        """Report each value that differs from the one that the node had when it left."""
         for each in tree.parameters:
             old = before.get(each.name) if before else None
             if old is not None and not same(old.value, each.value):
@@ -170,16 +170,14 @@ class ParameterMirror:
         request = DescribeParameters.Request(names=list(names))
         described = await self._calls.ask(DescribeParameters, f"{node}/describe_parameters", request)
         values = await self._values(node, names)
-        before = None if node in self._left else self.trees.get(node)  # A restarted node has a new start value.
+        before = None if node in self._left else self.trees.get(node)  # A restarted node gets a new start value.
         return [
             self._provenance.applied(info(node, value, descriptor, before.get(descriptor.name) if before else None))
             for descriptor, value in zip(described.descriptors, values, strict=False)
         ]
 
     async def _values(self, node: str, names: Sequence[str]) -> list[ParameterValue]:
-        """Values of parameters; an uninitialised one empties the whole response, so in that case they are read one
-        by one.
-        """
+        """Read values. An uninitialised one empties the whole response, so in that case they are read one by one."""
         service = f"{node}/get_parameters"
         answer = await self._calls.ask(GetParameters, service, GetParameters.Request(names=list(names)))
         if len(answer.values) == len(names):
@@ -191,7 +189,7 @@ class ParameterMirror:
         return values
 
     async def refresh(self, node: str) -> None:
-        """Apply new facts about the origin of a node's values; in the thread that serves the node."""
+        """Apply what was learned about the origin of a node's values; runs in the executor."""
         tree = self.trees.get(node)
         if tree is not None:
             reported = tuple(self._provenance.applied(each) for each in tree.parameters)
@@ -205,7 +203,7 @@ class ParameterMirror:
             self._queue(self._relist, node)
 
     async def _relist(self, node: str) -> None:
-        """Read a node again when its names or values differ from those reported, or when it could not be read."""
+        """Read a node again if its names or values differ from the known ones, or if it could not be read before."""
         differs = False
         try:
             listed = await self._calls.ask(ListParameters, f"{node}/list_parameters", ListParameters.Request())
@@ -229,7 +227,7 @@ class ParameterMirror:
             self._unreported = {each: value for each, value in self._unreported.items() if each[0] != node}
 
     async def _differs(self, node: str, names: Sequence[str]) -> bool:
-        """Whether two readings agree on a value that was not reported; after one, an event may still be on its way."""
+        """Whether two readings agree on an unreported value. After a single one, its event may still be on its way."""
         wrong: dict[str, Value] | None = None
         for _ in range(2):
             tree = self.trees.get(node)
@@ -260,7 +258,7 @@ class ParameterMirror:
             if before is not None and before.value is None:
                 known[message.name] = self._moved(before, message)
                 continue
-            unknown = True  # its description may differ as well: the program may have been changed and restarted
+            unknown = True  # its description may have changed as well, if the program was edited and restarted
             if before is not None:
                 known[message.name] = self._restarted(before, message)
         for message in event.changed_parameters:
@@ -280,14 +278,14 @@ class ParameterMirror:
         kind = Kind(message.value.type) if message.value.type else before.kind
         unreported = self._unreported.pop((before.node, before.name), before.value)
         old = unreported if same(value, before.value) else before.value
-        # An equal value is reported too: the request for it is waiting for its event.
+        # An equal value is reported too, because the request that set it waits for its event.
         source = self._changed(before.node, before.name, old, value)
         if same(value, old) and kind is before.kind:
             return before
         return replace(before, value=value, kind=kind, origin=origin_text(source, time.time_ns()))
 
     def _restarted(self, before: ParameterInfo, message: Parameter) -> ParameterInfo:
-        """Process a parameter that is declared again: its node restarted before its absence was noticed."""
+        """Process a parameter that was declared again: the node restarted before its absence was noticed."""
         value = from_message(message.value)
         if not same(value, before.value):
             self._on_restart(before.node, before.name, before.value, value)

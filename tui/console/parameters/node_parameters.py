@@ -36,17 +36,17 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
 OnValue = Callable[[str, str, Value], None]
-"""Receives the new value of a node's parameter."""
+"""Receives a node, the name of a parameter, and its new value."""
 NO_TREES: Mapping[str, ParameterTree] = MappingProxyType({})
 NO_JOURNAL = JournalState()
 LABEL = "bot-console"
 
 
 class NodeParameters:
-    """The parameters of all nodes; its methods may be called from any thread, the executor does the work."""
+    """The parameters of all nodes. Methods may be called from any thread; the executor does the work."""
 
     _setter: ParameterSetter
-    """There from `attach` on, and used only by what has passed the gate."""
+    """Exists after `attach`; only requests that have passed the gate use it."""
 
     def __init__(self, gate: Gate, provenance: Provenance, on_value: OnValue | None = None) -> None:
         self._gate = gate
@@ -57,7 +57,7 @@ class NodeParameters:
         self._mirror: ParameterMirror | None = None
 
     def attach(self, node: Node, calls: Calls, log: Add, history: History | None, active_profile: str) -> None:
-        """Read the parameters of all nodes from now on.
+        """Start reading the parameters of all nodes.
 
         `log` receives warnings about values that make the robot less safe; `history` keeps changes for later runs.
         """
@@ -77,12 +77,12 @@ class NodeParameters:
 
     @property
     def trees(self) -> Mapping[str, ParameterTree]:
-        """All parameters by node; the same object until one changes."""
+        """The parameters by node; the same object until one changes."""
         return self._mirror.trees if self._mirror else NO_TREES
 
     @property
     def journal(self) -> JournalState:
-        """The journal as a whole; the same object until it changes."""
+        """The state of the journal; the same object until it changes."""
         return self._journal.state if self._journal else NO_JOURNAL
 
     @property
@@ -91,7 +91,7 @@ class NodeParameters:
         return self._setter.profile if self._mirror else ""
 
     def profile_renamed(self, name: str, to: str) -> None:
-        """Note that a profile has another name."""
+        """Rename the active profile, if that is the one that was renamed."""
         if self.profile == name:
             self._setter.profile = to
 
@@ -116,7 +116,7 @@ class NodeParameters:
             self._log(time.time_ns(), Severity.WARN, LABEL, text, ("", "", 0))
 
     def learn(self, kind: str, facts: Mapping[str, Any]) -> None:
-        """Receive a fact that a program or a launch reports about itself; from any thread."""
+        """Process a fact that a program or a launch reports about itself; from any thread."""
         node, mirror = self._provenance.learn(kind, facts), self._mirror
         if mirror is not None and node in mirror.trees:
             self._gate.run(partial(mirror.refresh, node), lambda why: None, changes=False)
@@ -139,11 +139,11 @@ class NodeParameters:
     def set_all(
         self, values: Mapping[str, Mapping[str, Value]], source: ChangeSource = ChangeSource.EDIT, by: str = ""
     ) -> Future[tuple[SetOutcome, ...]]:
-        """Set parameters of several nodes, all or none."""
+        """Set parameters of several nodes: all or none."""
         return self._gate.run(lambda: self._setter.set_all(values, source, by), partial(refused, values))
 
     async def apply(self, profile: str, values: Mapping[str, Mapping[str, Value]]) -> tuple[SetOutcome, ...]:
-        """Set a profile's values, all or none; a coroutine for the console's executor."""
+        """Set a profile's values: all or none. A coroutine for the console's executor."""
         return await self._setter.apply(profile, values)
 
     def undo(self) -> Future[Answer]:
@@ -155,7 +155,7 @@ class NodeParameters:
         return self._gate.run(lambda: self._setter.move(ChangeSource.REDO), partial(Answer, False))
 
     def changes(self, after: int = 0) -> Sequence[Change]:
-        """Journal entries after a number."""
+        """The journal entries from a number on."""
         return self._journal.after(after) if self._journal else ()
 
     def save(self, path: str, nodes: Sequence[str] = (), *, only_changed: bool = False) -> Answer:
@@ -173,7 +173,7 @@ class NodeParameters:
         return Answer(True, saved.text(place))
 
     def saved(self, nodes: Sequence[str] = ()) -> None:
-        """Note that the values of some nodes, or of all if none is named, are now in a file."""
+        """Record that the values of some nodes, or of all if none is named, are now in a file."""
         if self._journal is not None:
             self._journal.saved(nodes)
 
@@ -184,7 +184,7 @@ class NodeParameters:
 
 
 def refused(values: Mapping[str, Mapping[str, Value]], why: str) -> tuple[SetOutcome, ...]:
-    """Outcomes for values (by node and name) that could not even be sent."""
+    """The outcomes for values (by node and name) that could not even be sent."""
     return tuple(
         SetOutcome(node, name, value, False, why, "console")
         for node, found in values.items()

@@ -1,4 +1,4 @@
-"""The port for profiles: those of all folders, and what they would change in the running nodes."""
+"""The port for profiles: those of all folders, and the changes that they would make in the running nodes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class NodeProfiles:
-    """Profiles are files of the user's, so that a read-only console opens and saves them too."""
+    """Manages the profiles. They are the user's files, so a read-only console can open and save them too."""
 
     _count: tuple[Profile | None, object, int] = (None, None, 0)
 
@@ -27,10 +27,10 @@ class NodeProfiles:
         self._reset_world = reset_world
         self._store: ProfileStore | None = None
         self._once_there: set[str] = set()
-        """Profiles that were in the profile store while they were active."""
+        """Names of profiles that were in the profile store while they were active."""
 
     def attach(self, store: ProfileStore) -> None:
-        """The profiles have been read."""
+        """Provide the profile store, once the profiles have been read."""
         self._store = store
 
     @property
@@ -40,7 +40,7 @@ class NodeProfiles:
 
     @property
     def active(self) -> str:
-        """The active profile; empty once its file has been deleted."""
+        """The name of the active profile; empty once its file has been deleted."""
         name = self._parameters.profile
         if self._profile(name) is not None:
             self._once_there.add(name)
@@ -50,7 +50,7 @@ class NodeProfiles:
 
     @property
     def active_profile(self) -> Profile | None:
-        """The active profile itself."""
+        """The active profile; None if there is none, or if it is not in the profile store."""
         return self._profile(self.active)
 
     @property

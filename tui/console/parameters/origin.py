@@ -1,4 +1,4 @@
-"""The origin of a parameter's value, as text for users."""
+"""Describes the origin of a parameter's value for users."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import time
 from bot_console.tui.console.model import ChangeSource
 
 START = "start value"
-"""The value a parameter had when the console first saw it; ROS does not report the declared one."""
+"""The value that a parameter had when the console first saw it; ROS does not report the declared one."""
 
 SET_BY = {
     ChangeSource.EDIT: "set here",

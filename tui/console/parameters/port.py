@@ -1,6 +1,6 @@
-"""The parameters of all nodes, as the panes change them. Standard library only.
+"""The port for the parameters of all nodes. Standard library only.
 
-Their values are in `ConsoleSnapshot.parameters`, what has become of the changes in `ConsoleSnapshot.journal`.
+The values are in `ConsoleSnapshot.parameters`, and the state of the journal is `ConsoleSnapshot.journal`.
 """
 
 from __future__ import annotations
@@ -34,15 +34,15 @@ class Parameters(Protocol):
     def set_all(
         self, values: Mapping[str, Mapping[str, Value]], source: ChangeSource = ChangeSource.EDIT, by: str = ""
     ) -> Future[tuple[SetOutcome, ...]]:
-        """Set parameters of several nodes (by node and name), all or none; a single undo reverts all of them.
+        """Set parameters of several nodes (by node and name): all or none. A single undo reverts all of them.
 
-        `by` names the operation they belong to. If one node refuses, nodes that had already accepted are set back, and
-        every outcome says why; a value that could not be set back has `accepted` set and a reason.
+        `by` names the operation that they belong to. If one node refuses, nodes that had already accepted are set back,
+        and every outcome says why; for a value that could not be set back, `accepted` is set and there is a reason.
         """
         ...
 
     def undo(self) -> Future[Answer]:
-        """Restore the value from before the last accepted change made by this console."""
+        """Restore the values from before the last accepted change of this console."""
         ...
 
     def redo(self) -> Future[Answer]:
@@ -50,13 +50,13 @@ class Parameters(Protocol):
         ...
 
     def changes(self, after: int = 0) -> Sequence[Change]:
-        """Journal entries from number `after` on, oldest first; entries of earlier runs have negative numbers."""
+        """The journal entries from number `after` on, oldest first; entries of earlier runs have negative numbers."""
         ...
 
     def save(self, path: str, nodes: Sequence[str] = (), *, only_changed: bool = False) -> Answer:
         """Write a ROS parameter file; an existing file keeps its comments.
 
-        With `only_changed`, only the values that differ from the declared ones or, where those are unknown, from the
-        start values.
+        With `only_changed`, write only the values that differ from the declared ones or, where those are unknown, from
+        the start values.
         """
         ...

@@ -1,4 +1,4 @@
-"""Valid names of profiles. Standard library only."""
+"""Checks the names of profiles. Standard library only."""
 
 from __future__ import annotations
 
@@ -8,5 +8,5 @@ _NAME = re.compile(r"[\w][\w .+-]*")
 
 
 def profile_name_problem(name: str) -> str:
-    """Why a text cannot be the name of a profile; empty when it can."""
+    """Why a text cannot be the name of a profile; empty if it can."""
     return "" if _NAME.fullmatch(name) else f"'{name}' is not a valid profile name: letters, digits, blanks, . + - _"

@@ -1,4 +1,4 @@
-"""All available profiles: found in folders, opened by name, or saved here."""
+"""Finds profiles in folders, opens them by name, and saves them."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from bot_console.tui.files.save_file import NotSaved, typed_path
 
 
 class ProfileStore:
-    """Finds profiles in folders; `own` is where new ones are saved, and is searched first."""
+    """All available profiles: those found in folders, and opened files. `own` is the folder for saved profiles."""
 
     def __init__(
         self,
@@ -39,13 +39,13 @@ class ProfileStore:
         self._addresses: dict[Path, str] = {}
         """The addresses from which opened files were fetched."""
         self._seen: frozenset[tuple[str, int, int]] = frozenset()
-        """The files as they were when read: path, time of the last change (ns), size (bytes)."""
+        """The files as they were when they were read: path, time of modification (ns), size (bytes)."""
         self.profiles: tuple[Profile, ...] = ()
-        """The same object until a profile is added, removed or changed."""
+        """All profiles, sorted by name; the same object until a profile is added, removed or changed."""
         self.poll_again()
 
     def reload_if_changed(self) -> None:
-        """Read all profiles again if a file was added, removed or changed, by anyone."""
+        """Read all profiles again if a file was added, removed or changed by any program."""
         if self._stamps() != self._seen:
             self.poll_again()
 
@@ -62,8 +62,8 @@ class ProfileStore:
 
     def poll_again(self) -> None:
         """Read all profiles again."""
-        self._seen = self._stamps()  # before they are read, so that later changes are noticed at the next poll
-        # Profiles that come with the robot keep their names: launch files and command lines refer to them.
+        self._seen = self._stamps()  # before the files are read, so that later changes are noticed at the next poll
+        # Profiles that come with the robot keep their names, because launch files and command lines refer to them.
         own = [self._own] if self._own is not None else []
         found = [*find([*self._folders, *own], mixed=self._mixed)]
         known = {os.path.realpath(each.path) for each in found}
@@ -77,7 +77,7 @@ class ProfileStore:
         return self._own is not None and Path(profile.path).parent == self._own
 
     def _load(self, path: Path) -> Profile:
-        """An opened file; a fetched one is named after the last part of its address."""
+        """Load an opened file; a fetched one is named after the last part of its address."""
         profile = load(path)
         address = self._addresses.get(path)
         if address is None:
@@ -86,7 +86,7 @@ class ProfileStore:
         return replace(profile, name=name, title=f"{profile.title} ({address})".lstrip())
 
     def fetch(self, address: str) -> Future[Answer]:
-        """Download a parameter file and add it; the answer's text is that of `open`."""
+        """Download a parameter file and add it as a profile; the answer is that of `open`."""
         fetch = self._fetch
         if fetch is None:
             return done(Answer(False, "this console cannot download profiles; give the path of a file"))
@@ -102,7 +102,7 @@ class ProfileStore:
         return in_background(work, "fetch")
 
     def open(self, path: str) -> Answer:
-        """Add a file; the answer's text is the name it gets, or why it cannot be used."""
+        """Add a file as a profile; the answer is the name that it gets, or why it cannot be used."""
         try:
             place = typed_path(path)
         except NotSaved as error:
@@ -115,7 +115,7 @@ class ProfileStore:
         return Answer(not found.problem, found.name if not found.problem else f"{place}: {found.problem}")
 
     def save(self, name: str, description: str, trees: Mapping[str, ParameterTree]) -> Answer:
-        """Save the current values as one of the user's profiles; an existing one is updated, and its comments stay."""
+        """Save the current values as one of the user's profiles; an existing one is updated and keeps its comments."""
         if self._own is None:
             return Answer(False, "this console has no folder for profiles")
         if problem := profile_name_problem(name):
@@ -130,7 +130,7 @@ class ProfileStore:
         return Answer(True, saved.text(path))
 
     def rename(self, name: str, to: str) -> Answer:
-        """Rename one of the user's profiles; the answer says how that went."""
+        """Rename one of the user's profiles; the answer is the result, as text for users."""
         path, problem = self._own_file(name)
         if path is None or (problem := profile_name_problem(to)):
             return Answer(False, problem)
@@ -140,14 +140,14 @@ class ProfileStore:
         return self._change(path, lambda: path.rename(place), "renamed", f"{name} is now {to}: {place}")
 
     def delete(self, name: str) -> Answer:
-        """Delete the file of one of the user's profiles; the answer says how that went."""
+        """Delete the file of one of the user's profiles; the answer is the result, as text for users."""
         path, problem = self._own_file(name)
         if path is None:
             return Answer(False, problem)
         return self._change(path, path.unlink, "deleted", f"{path} is deleted")
 
     def _own_file(self, name: str) -> tuple[Path | None, str]:
-        """The file of one of the user's profiles; None, and why, if there is none."""
+        """The file of one of the user's profiles; None with the reason if there is none."""
         found = next((each for each in self.profiles if each.name == name), None)
         if found is None:
             return None, f"there is no profile {name}"

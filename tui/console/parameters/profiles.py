@@ -21,16 +21,16 @@ from bot_console.tui.files.store_file import read_store
 from bot_console.tui.text.yaml_faults import UNREADABLE, fault_of
 
 AT_RESET = "at reset"
-"""A parameter with these words in its description takes effect when the world is reset."""
+"""Parameters with these words in their descriptions take effect when the world is reset."""
 MAX_FILE_BYTES = 4_000_000
 """Size limit of a profile, in bytes."""
 
 
 def find(folders: Iterable[Path], *, mixed: Iterable[Path] = ()) -> tuple[Profile, ...]:
-    """The profiles of some folders, by name; a file that cannot be read is a profile with a problem.
+    """Find the profiles in some folders, sorted by name; an unreadable file becomes a profile with a problem.
 
     `mixed` are folders that contain other YAML files as well, which are ignored. If several files have the same name,
-    that of the first folder keeps it; the package or folder is added to the names of the others.
+    the one in the first folder keeps it, and the package or folder is added to the names of the others.
     """
     found: dict[str, Profile] = {}
     for folder, sure in (*((each, True) for each in folders), *((each, False) for each in mixed)):
@@ -80,7 +80,7 @@ def load(path: Path) -> Profile:
 
 
 def _launch_profile(path: Path, title: str, text: str) -> Profile | None:
-    """A launch file with arguments (`launch: FILE`, `arguments:` below it); None for a parameter file."""
+    """Read a launch file with arguments (`launch: FILE`, and `arguments:`); returns None for a parameter file."""
     if not any(line.startswith("launch:") for line in text.splitlines()):
         return None
     try:
@@ -109,7 +109,7 @@ def differences(profile: Profile, trees: Mapping[str, ParameterTree]) -> Sequenc
     """The changes that a profile would make in the running system, with the refusals that the descriptors predict.
 
     Keys that match no running node are left out, see `unmatched`. A parameter that a node lacks is unknown; below a
-    wildcard key it is simply not meant for that node.
+    wildcard key, the parameter is simply not meant for that node.
     """
     found: list[ProfileDifference] = []
     entries = _by_key(profile)
@@ -136,7 +136,7 @@ _Entry = tuple[int, str, str, Value]
 
 
 def _by_key(profile: Profile) -> dict[str, list[_Entry]]:
-    """The parameters below each key, so that a key is compared with a node once instead of for each of its values."""
+    """The parameters by key, so that each key, instead of each value, is compared with a node."""
     found: dict[str, list[_Entry]] = {}
     for place, ((key, name), value) in enumerate(profile.values.items()):
         found.setdefault(key, []).append((place, name, key, value))
@@ -144,15 +144,15 @@ def _by_key(profile: Profile) -> dict[str, list[_Entry]]:
 
 
 def _given(entries: Mapping[str, list[_Entry]], node: str) -> dict[str, tuple[str, Value]]:
-    """The values that a profile gives a node, with the key of each; as in ROS, the later of two keys wins."""
+    """The values that a profile gives to a node, with the key of each; as in ROS, the later of two keys wins."""
     meant = chain.from_iterable(below for key, below in entries.items() if means(key, node))
     return {name: (key, value) for _, name, key, value in sorted(meant, key=itemgetter(0))}
 
 
 def cannot_apply(profile: Profile, trees: Mapping[str, ParameterTree]) -> str:
-    """Why a profile applies to no node; empty if it applies.
+    """Why a profile cannot be applied to any node; empty if it can.
 
-    Without this check it would become active although no node has its values. A launch profile has no values: it is
+    Without this check, it would become active although no node has its values. A launch profile has no values: it is
     applied by launching it.
     """
     if profile.launch:

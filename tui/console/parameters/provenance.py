@@ -1,7 +1,8 @@
 """The origin of parameter values, as reported by the programs themselves and by launch.
 
-There are two kinds of facts. `declared`: a node reports what it has declared, in which line, and which override
-applied. `given`: a launch reports the values its file gives a node, by a launch argument or in the file itself.
+There are two kinds of facts. `declared`: a node reports the parameters that it has declared, the line of each, and
+which override applied. `given`: a launch reports the values that its file gives to a node, and whether by a launch
+argument or directly.
 """
 
 from __future__ import annotations
@@ -15,37 +16,37 @@ from bot_console.tui.console.model import ParameterInfo, Value, same
 from bot_console.tui.console.parameters.origin import START
 
 COMMAND_LINE = "-p"
-"""A node's name for the source of a value from its command line; other sources are file paths or text."""
+"""A node reports this as the source of a value from its command line; other sources are file paths or text."""
 WRITTEN_BY_LAUNCH = "launch_params_"
-"""How the names of files begin that launch writes for the values in a launch file."""
+"""The prefix of the files that launch writes for the values in a launch file."""
 Learn = Callable[[str, Mapping[str, Any]], object]
-"""Receives a fact: its kind, and its content."""
+"""Receives a fact: its kind and its content."""
 Key = tuple[str, str]
 """A node and the name of one of its parameters."""
 
 
 @dataclass(frozen=True, slots=True)
 class Declaration:
-    """A parameter's declaration: the default, `file:line`, and what overrode the default; empty for nothing."""
+    """The declaration of a parameter: the default, `file:line`, and what overrode the default (empty: nothing)."""
 
     default: Value
     place: str
     override: str
     start: Value = None
-    """The resulting value, with which its node has started."""
+    """The resulting value, with which the node has started."""
 
 
 class Provenance:
-    """All facts so far. `learn` may be called from any thread."""
+    """Collects all facts. `learn` may be called from any thread."""
 
     def __init__(self, profile_of: Callable[[str], str] = lambda path: "") -> None:
-        """`profile_of` returns the name of the profile with a path; empty if there is none."""
+        """`profile_of` returns the name of the profile with this path; empty if there is none."""
         self._profile_of = profile_of
         self._declared: dict[Key, Declaration] = {}
         self._given: dict[Key, str] = {}
 
     def learn(self, kind: str, facts: Mapping[str, Any]) -> str:
-        """Record a fact; returns the node that it is about, empty if it is irrelevant here."""
+        """Record a fact; returns the node that it concerns, or an empty text for another kind of fact."""
         node = str(facts.get("node", ""))
         if kind == "declared":
             for name, default, place, override, *start in facts["parameters"]:
@@ -61,7 +62,7 @@ class Provenance:
         return {key: each.start for key, each in tuple(self._declared.items()) if each.start is not None}
 
     def applied(self, parameter: ParameterInfo) -> ParameterInfo:
-        """A parameter with its declared default and the origin of its first value, if known."""
+        """A copy of a parameter with its declared default and the origin of its first value, if known."""
         key = parameter.node, parameter.name
         declared = self._declared.get(key)
         if declared is None or declared.default is None:

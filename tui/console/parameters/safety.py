@@ -1,7 +1,8 @@
-"""Which parameter changes make the robot less safe: the only place where that is decided.
+"""Decides which parameter changes make the robot less safe; nothing else decides that.
 
-ROS does not mark such parameters, so names and descriptions decide: distances at which a robot stops or slows down,
-limits of its speed, filters and protections that can be switched. The rules are the same whoever sets a value.
+ROS does not mark such parameters, so their names and descriptions are examined: distances at which a robot stops or
+slows down, limits of its speed, filters and protections that can be switched. The rules are the same whoever sets a
+value.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from bot_console.tui.console.model import ParameterInfo, Value
 
 
 class Worse(Enum):
-    """Which direction of change makes the robot less safe."""
+    """The direction of change that makes the robot less safe."""
 
     LOWER = "lowers a safety margin"
     HIGHER = "raises a safety limit"
@@ -27,14 +28,14 @@ class Worse(Enum):
 
 @dataclass(frozen=True)
 class Rule:
-    """Parameters with such a name or description, and which direction of change is the less safe one."""
+    """A pattern for the names or descriptions of parameters, and the direction of change that is less safe."""
 
     worse: Worse
     name: re.Pattern[str]
     description: re.Pattern[str] | None = None
 
     def fits(self, name: str, description: str) -> bool:
-        """Whether it applies to a parameter."""
+        """Whether the rule applies to a parameter."""
         return bool(self.name.search(name) or (self.description and self.description.search(description)))
 
 
@@ -77,7 +78,7 @@ def takes_safety(parameter: ParameterInfo, before: Value, after: Value) -> str:
 
 
 def risky_change(parameter: ParameterInfo) -> str:
-    """Which change of a parameter would make the robot less safe, and how; empty if none would."""
+    """The change of a parameter that would make the robot less safe, and how; empty if there is none."""
     name = parameter.name.rpartition(".")[2]
     for rule in SWITCHES if isinstance(parameter.value, bool) else NUMBERS:
         if rule.fits(name, parameter.description):
@@ -90,13 +91,13 @@ def risky_change(parameter: ParameterInfo) -> str:
 
 
 DISTANCE = 2
-"""The importance of distances, after limits."""
+"""The importance of distances, which come after limits."""
 
 
 def importance(parameter: ParameterInfo) -> int | None:
-    """How much a parameter decides of how the robot drives, 0 the most; None where no rule knows it.
+    """How much a parameter affects how the robot drives; 0 is the most, None if no rule applies.
 
-    Limits of speed come first, then other limits, then distances, then all else that is a number.
+    Limits of speed come first, then other limits, distances, and all other numbers.
     """
     value, name = parameter.value, parameter.name.rpartition(".")[2]
     if isinstance(value, bool) or not isinstance(value, (int, float)) or parameter.read_only:

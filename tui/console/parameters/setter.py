@@ -1,4 +1,4 @@
-"""Sets parameters and reports every outcome: accepted, refused (by whom and why), or not answered."""
+"""Sets parameters and reports every outcome: accepted, refused (by whom and why) or unanswered."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class ParameterSetter:
         self._expected = Expected()
 
     def announced(self, node: str, name: str, old: Value, new: Value) -> ChangeSource:
-        """Process a parameter event: ours if it was expected, else a change made elsewhere; returns its source."""
+        """Process a parameter event; returns its source: that of the request that caused it, or `OTHER`."""
         request = self._expected.announced(node, name, new)
         source = request.source if request else ChangeSource.OTHER
         if not same(old, new):
@@ -38,7 +38,7 @@ class ParameterSetter:
         return source
 
     def restarted(self, node: str, name: str, old: Value, new: Value) -> None:
-        """Note that a node came back with another value, which nobody has set."""
+        """Record that a node has come back with another value, which nobody has set."""
         self._journal.record(time.time_ns(), node, name, (old, new), ChangeSource.OTHER, by=RESTARTED)
         self._journal.restarted(node, name)
 
@@ -53,10 +53,10 @@ class ParameterSetter:
         continues: bool = False,
         moves: list[Move] | None = None,
     ) -> tuple[SetOutcome, ...]:
-        """Set parameters of one node; never raises, every failure is an outcome.
+        """Set parameters of one node; never raises, because every failure becomes an outcome.
 
-        What was accepted can be undone: as a step of its own, together with the step that it `continues`, or with
-        `moves` as part of one that the caller makes.
+        Accepted values can be undone: as a separate step, together with the step that this one `continues` or, if
+        `moves` is given, as part of a step that the caller adds.
         """
         requests = [ParameterRequest(node, name, value, source, by) for name, value in values.items()]
         before = {name: self._value(node, name) for name in values}
@@ -87,7 +87,7 @@ class ParameterSetter:
         return outcomes
 
     async def apply(self, name: str, wanted: Mapping[str, Mapping[str, Value]]) -> tuple[SetOutcome, ...]:
-        """Set a profile's values as `set_all` does; it becomes the active profile if nothing was refused."""
+        """Set a profile's values as `set_all` does; the profile becomes active if nothing was refused."""
         before = self.profile
         outcomes, moves = await self._all_or_nothing(wanted, ChangeSource.PROFILE, name)
         if all(each.accepted for each in outcomes):
@@ -100,7 +100,7 @@ class ParameterSetter:
     async def set_all(
         self, wanted: Mapping[str, Mapping[str, Value]], source: ChangeSource, by: str
     ) -> tuple[SetOutcome, ...]:
-        """Set parameters of several nodes, all or none; a single undo reverts all of them."""
+        """Set parameters of several nodes: all or none. A single undo reverts all of them."""
         outcomes, moves = await self._all_or_nothing(wanted, source, by)
         if moves:
             self._journal.did(Step(moves), source)
@@ -109,11 +109,11 @@ class ParameterSetter:
     async def _all_or_nothing(
         self, wanted: Mapping[str, Mapping[str, Value]], source: ChangeSource, by: str
     ) -> tuple[tuple[SetOutcome, ...], tuple[Move, ...]]:
-        """The outcomes, and what can be undone: everything, or what could not be reverted at once."""
+        """Set the parameters; returns the outcomes and what can be undone: all, or what a failed rollback left."""
         outcomes: list[SetOutcome] = []
         moves: list[Move] = []
-        # ROS has no transactions over several nodes. Nodes expected to refuse are asked first, before any other has
-        # changed.
+        # ROS has no transactions over several nodes, so nodes that will probably refuse are asked first, before any
+        # other has changed.
         for node in sorted(wanted, key=lambda each: not self._will_refuse(each, wanted[each])):
             found = await self.set(node, wanted[node], source, by, atomically=True, moves=moves)
             outcomes += found
@@ -128,7 +128,7 @@ class ParameterSetter:
         return any(refusal(self._mirror.get(node, name), value)[1] for name, value in values.items())
 
     async def _taken_back(self, moves: Sequence[Move], why: str) -> Mapping[str, str]:
-        """Restore the old values; returns the reasons of the nodes that refused."""
+        """Restore the old values; returns the reasons by the nodes that refused."""
         stuck: dict[str, str] = {}
         for move in reversed(moves):
             outcomes = await self.set(move.node, move.before, ChangeSource.ROLLBACK, why, atomically=True, moves=[])
@@ -157,7 +157,7 @@ class ParameterSetter:
         self._journal.record(time.time_ns(), *of, why, request.by, answered=by != "node")
 
     def _value(self, node: str, name: str) -> Value:
-        """The value of a parameter, also where the event of the last accepted request has not arrived yet."""
+        """The value of a parameter, even if the event of the last accepted request has not arrived yet."""
         accepted = self._expected.accepted(node, name)
         known = self._mirror.get(node, name)
         return accepted.value if accepted else known.value if known else None
@@ -170,14 +170,14 @@ class ParameterSetter:
         """Undo the last accepted change of this console, or repeat the last undone one."""
         take = self._journal.take_undo if source is ChangeSource.UNDO else self._journal.take_redo
         while step := take():
-            if step.changes(source, self._value):  # else others have made that change already
+            if step.changes(source, self._value):  # else others have already made that change
                 overwritten = step.overwritten(self._value)
                 answer = await self._move(step, source)
                 return Answer(True, answer.text + overwritten) if answer.ok else answer
         return Answer(False, f"nothing to {source.value}")
 
     async def _move(self, step: Step, source: ChangeSource) -> Answer:
-        """Undo or redo a step; what a node refuses stays on the list."""
+        """Undo or redo a step; the part that a node refuses stays on the list."""
         done: list[Move] = []
         left: list[Move] = []
         refused: list[SetOutcome] = []

@@ -1,4 +1,4 @@
-"""Values that are staged instead of sent, and the two sets that are compared."""
+"""Values that are marked instead of sent, and two sets of values for comparison."""
 
 from __future__ import annotations
 
@@ -11,31 +11,29 @@ from bot_console.tui.console.model import ParameterTree, Value, parameter_in
 Key: TypeAlias = "tuple[str, str]"
 Values: TypeAlias = "dict[Key, Value]"
 SETS = ("set A", "set B")
-"""The names of the two sets in the journal."""
+"""The names of the two sets, as in the journal."""
 
 
 @dataclass
 class Staging:
-    """The marked values, and the sets A and B with the one that is live."""
+    """The marked values, and the sets A and B, one of which is live."""
 
     marking: bool = False
     """Whether edits are marked instead of sent."""
     marked: Values = field(default_factory=dict[Key, Value])
     sets: tuple[Values, Values] | None = None
     live: int = 0
-    """Which of the sets was sent last."""
+    """The index of the set that was sent last."""
 
     def mark(self, key: Key, now: Value, value: Value) -> None:
-        """Mark a value; the present value needs no mark."""
+        """Mark a value; marking the present value removes the mark."""
         if value == now and type(value) is type(now):
             self.marked.pop(key, None)
         else:
             self.marked[key] = value
 
     def begin(self, values: Values, trees: Mapping[str, ParameterTree]) -> None:
-        """Create the two sets: A with the present values of the marked parameters, B with the marked ones; A is
-        live.
-        """
+        """Create the two sets, A from the present values of the parameters and B from the given ones; A is live."""
         before: Values = {}
         for key in values:
             if (parameter := parameter_in(trees, *key)) is not None:
@@ -51,7 +49,7 @@ class Staging:
         return self.sets[1 - self.live] if self.sets else {}
 
     def caption(self) -> str:
-        """The state of staging in a few words."""
+        """The state of staging, in a few words for users."""
         parts: list[str] = []
         if self.marking or self.marked:
             parts.append(f"{'marking, ' if self.marking else ''}{len(self.marked)} marked: a applies")
@@ -61,7 +59,7 @@ class Staging:
 
 
 def by_node(values: Mapping[Key, Value]) -> dict[str, dict[str, Value]]:
-    """Values by node and name."""
+    """Convert values by key to values by node and name."""
     found: dict[str, dict[str, Value]] = {}
     for (node, name), value in values.items():
         found.setdefault(node, {})[name] = value

@@ -1,4 +1,4 @@
-"""Unsaved values: set by this console, and in no file."""
+"""Finds the values that this console has set and that are in no file."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ UNDONE = ChangeSource.UNDO
 
 
 class Unsaved:
-    """Knows, for each parameter set here, which values can be restored without typing them again.
+    """Knows the values to which each parameter that was set here can be restored without typing.
 
-    These are the start value, the values of profiles and files, and values that were saved.
+    These are the start value, the values of profiles and files, and saved values.
     """
 
     def __init__(self) -> None:
@@ -21,7 +21,7 @@ class Unsaved:
         self._now: dict[tuple[str, str], Value] = {}
 
     def moved(self, node: str, before: Mapping[str, Value], after: Mapping[str, Value], source: ChangeSource) -> None:
-        """Note that values of a node changed from `before` to `after`, or back when undone."""
+        """Record that values of a node changed from `before` to `after`, or back by an undo."""
         for name, value in (before if source is UNDONE else after).items():
             key = (node, name)
             safe = self._safe.setdefault(key, [before[name]])
@@ -30,13 +30,13 @@ class Unsaved:
                 safe.append(value)
 
     def saved(self, nodes: Collection[str]) -> None:
-        """Note that the values of some nodes, or of all if none is named, are now in a file."""
+        """Record that the values of some nodes, or of all if none is named, are now in a file."""
         for key, value in self._now.items():
             if not nodes or key[0] in nodes:
                 self._safe[key].append(value)
 
     def restarted(self, node: str, name: str) -> None:
-        """Note that a parameter has its start value again."""
+        """Record that a parameter has its start value again."""
         self._now.pop((node, name), None)
         self._safe.pop((node, name), None)
 

@@ -1,4 +1,4 @@
-"""Which nodes a key of a parameter file applies to, wildcards included, as in ROS."""
+"""Matches the keys of a parameter file with nodes, as ROS does, including wildcards."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Puts values into the text of a parameter file; everything else in it, above all comments, stays as it is."""
+"""Writes values into the text of a parameter file; everything else in it, above all comments, stays as it is."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ def new_text(values: Values) -> str:
 
 
 def patched(text: str, values: Values) -> str:
-    """The text of a parameter file with these values: existing ones are replaced in place, the others added.
+    """Put values into the text of a parameter file: existing ones are replaced in place, the others are added.
 
-    Raises `ValueError` if the text is not a parameter file, or if the result would have another meaning than intended.
+    Raises `ValueError` if the text is not a parameter file, or if the result would mean something else.
     """
     before = sections(text)
     newline = "\r\n" if "\r\n" in text else "\n"
     edits = [*_replacements(text, before, values), *_additions(text, before, values)]
-    # From the end, so that positions stay valid; of two at one position the later one first, since it comes after the
-    # other.
+    # From the end, so that positions stay valid; of two edits at one position the later one first, since its text comes
+    # after the other's.
     for edit in sorted(reversed(edits), key=lambda each: each.start, reverse=True):
         text = text[: edit.start] + edit.text.replace("\n", newline) + text[edit.end :]
     if not before:
@@ -49,7 +49,7 @@ class _Edit:
 
 
 def _own(found: list[Section], node: str) -> list[Section]:
-    """The sections whose key names exactly this node; the one that takes effect comes first."""
+    """The sections whose key is exactly this node; the one that takes effect comes first."""
     return [each for each in reversed(found) if each.key == node]
 
 
@@ -65,7 +65,7 @@ def _replacements(text: str, found: list[Section], values: Values) -> Iterator[_
 
 
 def _replaced(text: str, place: Scalar | Sequence, value: Value) -> Iterator[_Edit]:
-    """Replace a value; element by element if a list has one per line, since comments may follow them."""
+    """Replace a value; if a list has one element per line, element by element, since comments may follow them."""
     if isinstance(place, Sequence) and not place.flow and place.elements and isinstance(value, tuple) and value:
         for element, new in zip(place.elements, value, strict=False):
             assert isinstance(element, Scalar)
@@ -73,13 +73,13 @@ def _replaced(text: str, place: Scalar | Sequence, value: Value) -> Iterator[_Ed
                 yield _Edit(element.start, _end(text, element), inline_text(new))
         yield from _length(text, place, value)
     else:
-        # The dashes of a list may be directly below the key; a value has to be indented further.
+        # The dashes of a list may be as far to the left as its key; a value has to be indented further.
         block = isinstance(place, Sequence) and not place.flow
         yield _Edit(place.start, _end(text, place), "  " * block + inline_text(value))
 
 
 def _length(text: str, place: Sequence, value: tuple[Any, ...]) -> Iterator[_Edit]:
-    """Add lines for additional elements, or remove surplus ones."""
+    """Add lines for additional elements, or remove the lines of surplus ones."""
     ends = [_line_end(text, _end(text, each)) for each in place.elements]
     if len(value) < len(ends):
         yield _Edit(ends[len(value) - 1], ends[-1], "")
@@ -115,7 +115,7 @@ def _added(text: str, mapping: yaml_tree.Mapping, new: Mapping[str, Any]) -> _Ed
 
 
 def _end(text: str, tree: YamlTree) -> int:
-    """Where something ends; in YAML a block ends where the next item begins."""
+    """The end of an item; the YAML parser ends a block only where the next item begins."""
     if isinstance(tree, yaml_tree.Mapping) and not tree.flow and tree.entries:
         key, value = tree.entries[-1]
         return max(key.end, _end(text, value))
@@ -130,7 +130,7 @@ def _line_end(text: str, at: int) -> int:
 
 
 def nested(values: Mapping[str, Value]) -> dict[str, Any]:
-    """Dotted names as nested maps, as `ros2 param dump` writes them."""
+    """Convert dotted names to nested maps, as `ros2 param dump` does."""
     root: dict[str, Any] = {}
     for name, value in sorted(values.items()):
         *path, last = name.split(".")
@@ -145,7 +145,7 @@ def nested(values: Mapping[str, Value]) -> dict[str, Any]:
 
 
 def compare(before: list[Section], after: list[Section], values: Values) -> None:
-    """Raise `ValueError` if a node would not get its values from the new text, or another value has changed."""
+    """Raise `ValueError` if a node would not get its values from the new text, or if another value has changed."""
     merged = _merged(after)
     for node, wanted in values.items():
         given = _given(merged, node)
@@ -165,11 +165,11 @@ def compare(before: list[Section], after: list[Section], values: Values) -> None
 
 
 _Places = dict[str, tuple[str, Scalar | Sequence]]
-"""The key and the place of each value, by parameter."""
+"""The key and the position of each value, by parameter."""
 
 
 def _merged(found: list[Section]) -> dict[str, _Places]:
-    """The parameters below each key of a file, which may contain a key more than once."""
+    """The parameters below each key of a file, in which a key may occur more than once."""
     merged: dict[str, _Places] = {}
     for section in found:
         merged.setdefault(section.key, {}).update({name: (section.key, at) for name, at in section.places.items()})
@@ -177,7 +177,7 @@ def _merged(found: list[Section]) -> dict[str, _Places]:
 
 
 def _given(merged: dict[str, _Places], node: str) -> _Places:
-    """The values that a file gives a node: the key and position of each. As in ROS, the later of two keys wins."""
+    """The values that a file gives to a node: the key and position of each. As in ROS, the later of two keys wins."""
     given: _Places = {}
     for key, places in merged.items():
         if means(key, node):

@@ -14,12 +14,12 @@ from bot_console.tui.files.save_file import NotSaved, save_file
 
 BUILT_IN = ("use_sim_time", "start_type_description_service")
 _MARKS = ((codecs.BOM_UTF8, "utf-8"), (codecs.BOM_UTF16_LE, "utf-16-le"), (codecs.BOM_UTF16_BE, "utf-16-be"))
-"""Byte order marks that YAML parsers recognise, and the encodings they stand for."""
+"""The byte order marks that YAML parsers recognise, and their encodings."""
 
 
 @dataclass(frozen=True)
 class Saved:
-    """How many parameters were saved, and which ones no parameter file can hold, with the reason."""
+    """The number of saved parameters, and those that a parameter file cannot contain, with the reason."""
 
     count: int
     left_out: tuple[str, ...] = ()
@@ -41,9 +41,9 @@ def save(
 ) -> Saved:
     """Write the parameters of some nodes (default: all); raises `NotSaved`, in which case the file is unchanged.
 
-    With `only_changed`, only those that differ from their declared value or, if that is unknown, from their start
-    value. With `all_of_them`, also built-in ones, and those that cannot be set in a running node. `title` is a comment
-    line at the beginning of a new file.
+    `only_changed` restricts them to those that differ from their declared value or, if that is unknown, from their
+    start value. `all_of_them` includes built-in ones and those that cannot be set in a running node. `title` is a
+    comment line at the beginning of a new file.
 
     In an existing file, values are replaced in place and new ones are added.
     """
@@ -92,15 +92,15 @@ def _write(path: Path, values: Values, title: str) -> None:
 
 
 def _decoded(content: bytes) -> tuple[bytes, str, str]:
-    """The byte order mark, the encoding, and the text after the mark; raises `UnicodeDecodeError`."""
+    """The byte order mark of a file, the encoding, and the text after the mark; raises `UnicodeDecodeError`."""
     mark, encoding = next((each for each in _MARKS if content.startswith(each[0])), (b"", "utf-8"))
     return mark, encoding, content[len(mark) :].decode(encoding)
 
 
 def _free_name(path: Path) -> str:
-    """An unused name next to the file."""
+    """An unused file name in the same folder."""
     names = (path.with_name(f"{path.stem}-parameters{number}.yaml") for number in ("", *map(str, range(2, 1000))))
     try:
         return next((str(each) for each in names if not each.exists()), "another folder")
-    except OSError:  # the name has the maximum length already
+    except OSError:  # the name already has the maximum length
         return "a shorter one"

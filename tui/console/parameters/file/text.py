@@ -1,4 +1,4 @@
-"""The text of parameter files: parsed as ROS does, and values written so that ROS reads them back unchanged."""
+"""Parses the text of parameter files as ROS does, and writes values so that ROS reads them back unchanged."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from bot_console.tui.text.yaml_flow import is_plain
 KEYWORD = "ros__parameters"
 NOTHING = f"it sets nothing; parameters belong below 'node_name: {KEYWORD}:'"
 SMALLEST = 2.0**-1022
-"""The smallest double above zero that ROS can read from text."""
+"""The smallest positive double that ROS can read from text."""
 
 Places: TypeAlias = Map[str, "Scalar | Sequence"]
 """The position of each parameter's value, by full name."""
@@ -40,7 +40,7 @@ class Section:
 
 
 def sections(text: str) -> list[Section]:
-    """All nodes of a parameter file as written; none if the text has no content.
+    """The node sections of a parameter file in their order; none if the text has no content.
 
     Raises `ValueError`, with the line, for a text that ROS does not accept as a parameter file.
     """
@@ -105,7 +105,7 @@ def value_at(name: str, place: YamlTree) -> Value:
 
 
 def plain_value(text: str) -> bool | int | float | str:
-    """How ROS reads an unquoted scalar: it knows no dates, no `1:30` and no null, but `1e3` is a number."""
+    """Parse an unquoted scalar as ROS does: there are no dates, no `1:30` and no null, but `1e3` is a number."""
     if text in _TRUE or text in _FALSE:
         return text in _TRUE
     if _INTEGER.fullmatch(text):
@@ -120,14 +120,14 @@ def plain_value(text: str) -> bool | int | float | str:
 
 
 def _base(digits: str) -> int:
-    """The base that C's `strtol` finds by the first digits."""
+    """The base that C's `strtol` derives from the first digits."""
     if digits[:2] in ("0x", "0X"):
         return 16
     return 8 if digits[0] == "0" else 10
 
 
 class _Dumper(_SafeDumper):
-    """Quotes every text that any YAML dialect of ROS could take for something else."""
+    """Quotes every text that a YAML dialect of ROS could take for something else."""
 
 
 def _represent_text(dumper: Any, text: str) -> Any:
@@ -138,7 +138,7 @@ _Dumper.add_representer(str, _represent_text)
 
 
 def block_text(key: str, value: Value | Map[str, Any]) -> str:
-    """A key and what is below it, line by line, as `ros2 param dump` writes it; ends with a newline."""
+    """A key and its value as block-style YAML, as `ros2 param dump` writes it; ends with a newline."""
     return yaml.dump(
         {key: list(value) if isinstance(value, tuple) else value},
         Dumper=_Dumper,
@@ -150,7 +150,7 @@ def block_text(key: str, value: Value | Map[str, Any]) -> str:
 
 
 def inline_text(value: Value | bytes | Map[str, Any]) -> str:
-    """A value as written after a key, on one line."""
+    """A value as it is written after a key, on one line."""
     data = list(value) if isinstance(value, tuple) else value
     text = yaml.dump(data, Dumper=_Dumper, default_flow_style=True, allow_unicode=True, sort_keys=False, width=10**9)
     return text.removesuffix("\n").removesuffix("\n...")

@@ -1,4 +1,4 @@
-"""A YAML text as a tree with positions, so that one value can be replaced and everything else stays."""
+"""Parses YAML into a tree with positions, so that single values can be replaced and everything else stays."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Sequence:
 
 @dataclass
 class Mapping:
-    """A mapping, in braces (`flow`) or with one key per line; `column` is that of its keys."""
+    """A mapping, in braces (`flow`) or with one key per line; `column` is the column of the keys."""
 
     flow: bool
     start: int
@@ -53,7 +53,7 @@ class Mapping:
     entries: list[tuple[Scalar, YamlTree]] = field(default_factory=list["tuple[Scalar, YamlTree]"])
 
     def get(self, key: str) -> YamlTree | None:
-        """The value of a key."""
+        """The value of a key; None if the mapping lacks it."""
         return next((value for name, value in self.entries if name.text == key), None)
 
 
@@ -61,7 +61,7 @@ YamlTree: TypeAlias = Union[Scalar, Sequence, Mapping]  # noqa: UP007 -- evaluat
 
 
 def read_tree(text: str) -> YamlTree | None:
-    """The tree of a text; None if it has no content.
+    """Parse a text; returns None if it has no content.
 
     Raises `ValueError` with the line if the text is not YAML, or contains an alias, a key that is not a scalar, or more
     than one document: none of these is valid in a ROS parameter file.
