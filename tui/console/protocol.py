@@ -1,6 +1,6 @@
-"""The data for the panes: the newest snapshot of a ROS system, and one port per subject. Standard library only.
+"""The panes' access to a ROS system: the newest snapshot, and one port per subject. Standard library only.
 
-The panes poll: no method of a port blocks, and all of them must be called from the thread that draws, unless their
+The panes poll: no method of a port blocks, and all of them must be called from the drawing thread unless their
 docstring says otherwise. Every port exists from the first frame on. Until the system is reached, subscriptions and
 searches wait for it, and commands are refused (`command_gate.py`).
 """
@@ -30,27 +30,27 @@ class Console(Protocol):
 
     @property
     def gate(self) -> Gate:
-        """The gate that commands pass: it says why they are refused."""
+        """The gate that commands have to pass; it says why they are refused."""
         ...
 
     @property
     def parameters(self) -> Parameters:
-        """Sets parameters."""
+        """Sets parameters, and undoes changes."""
         ...
 
     @property
     def profiles(self) -> Profiles:
-        """Profiles of parameters."""
+        """Previews, applies and saves profiles of parameters."""
         ...
 
     @property
     def logs(self) -> Logs:
-        """The log, and the levels of loggers."""
+        """Searches the log, and sets the levels of loggers."""
         ...
 
     @property
     def plots(self) -> Plots:
-        """Time series."""
+        """Collects time series."""
         ...
 
     @property
@@ -60,27 +60,27 @@ class Console(Protocol):
 
     @property
     def topics(self) -> Topics:
-        """Topics, services and actions."""
+        """Inspects and uses topics, services and actions."""
         ...
 
     @property
     def graph(self) -> Graph:
-        """The ROS graph."""
+        """Concerns the ROS graph."""
         ...
 
     @property
     def sensors(self) -> Sensors:
-        """Diagnostics, images and frames."""
+        """Provides diagnostics, images and frames."""
         ...
 
     @property
     def bags(self) -> Recording:
-        """Records into bags."""
+        """Records bags."""
         ...
 
     @property
     def launcher(self) -> Launcher | None:
-        """Launches files, and starts and ends processes; None: this console has nothing to do so."""
+        """Runs launch files, and starts and ends processes; None if this console cannot."""
         ...
 
     def snapshot(self) -> ConsoleSnapshot:

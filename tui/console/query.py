@@ -1,13 +1,13 @@
-"""The filter grammar that all panes share.
+"""Parses filters, in the grammar that all panes share.
 
     filter  = words separated by blanks; all of them must match
     word    = [!] [node: | topic: | sev: | at: | time: | re:] text   `!` negates any word
     text    = without blanks, or "in quotes with blanks"
 
-`node:` matches part of the node's name, in either spelling (`arm.left.zoo`, `/arm/left/zoo`), `node:=` the whole name,
-`node:arm|base` either of two; `topic:scan|odom` matches a topic's name, or the text where there is no topic;
-`sev:` matches a log line's severity (`warn`, `>=warn`, `<error`, `info,fatal`), `at:` where it was logged (`file.py`,
-`file.py:12`, a function), `time:` when (see `spans`); `re:` is a regular expression over the text; a plain word may
+`node:` matches part of a node's name in either spelling (`arm.left.zoo`, `/arm/left/zoo`), `node:=` the whole name,
+`node:arm|base` either of two; `topic:scan|odom` matches a topic's name, or the text where there is no topic; `sev:`
+matches the severity of a log line (`warn`, `>=warn`, `<error`, `info,fatal`), `at:` where it was logged (`file.py`,
+`file.py:12`, a function), and `time:` when (see `spans`); `re:` is a regular expression for the text. A plain word may
 be part of the text or of the node's name. Matching ignores case.
 """
 
@@ -37,7 +37,7 @@ _WORD = re.compile(r'(!?)(?:(node|topic|sev|at|time|re):)?(?:"([^"]*)"(?=\s|$)|(
 
 @dataclass(frozen=True, slots=True)
 class NodeTerm:
-    """Part of a node's name, in the dotted spelling, or the whole name; `others` are alternatives."""
+    """Part of a node's name in the dotted spelling, or the whole name; `others` are alternatives."""
 
     part: str
     exclude: bool = False
@@ -45,7 +45,7 @@ class NodeTerm:
     others: tuple[NodeTerm, ...] = ()
 
     def stands_in(self, node: str) -> bool:
-        """Whether the name contains it."""
+        """Whether a node's name matches."""
         name = dotted(node)
         found = self.part == name if self.whole else self.part in name
         return found or any(each.stands_in(node) for each in self.others)
@@ -53,14 +53,14 @@ class NodeTerm:
 
 @dataclass(frozen=True, slots=True)
 class PlaceTerm:
-    """Part of a file's or function's name, with a line number if one was given."""
+    """Part of the name of a file or function, with a line number if one was given."""
 
     part: str
     line: int | None
     exclude: bool = False
 
     def stands_in(self, file: str, function: str, line: int) -> bool:
-        """Whether it matches this place."""
+        """Whether a place in the source code matches."""
         return (self.line is None or self.line == line) and (
             self.part in file.lower() or self.part in function.lower() if self.part else self.line is not None
         )
@@ -68,7 +68,7 @@ class PlaceTerm:
 
 @dataclass(frozen=True, slots=True)
 class SpanTerm:
-    """A span of time."""
+    """A span of time that a log line must, or with `exclude` must not, be in."""
 
     span: Span
     exclude: bool = False
@@ -76,7 +76,7 @@ class SpanTerm:
 
 @dataclass(frozen=True, slots=True)
 class TextTerm:
-    """A term to search for in a text; a plain word may match the node's name too, a regular expression may not."""
+    """A pattern for a text. A plain word also matches the node's name; a regular expression does not."""
 
     pattern: Pattern
     name: NodeTerm | None
@@ -85,7 +85,7 @@ class TextTerm:
 
 @dataclass(frozen=True, slots=True)
 class Query:
-    """A parsed filter. Severities, places and times apply to log lines only."""
+    """A parsed filter. Severities, places and times only apply to log lines."""
 
     nodes: tuple[NodeTerm, ...] = ()
     texts: tuple[TextTerm, ...] = ()
@@ -95,16 +95,16 @@ class Query:
 
     @property
     def terms(self) -> tuple[NodeTerm | TextTerm, ...]:
-        """All terms that match texts and names."""
+        """The terms that match texts and names."""
         return (*self.nodes, *self.texts)
 
     def part(self, *, exclude: bool) -> Query:
-        """Only the terms that exclude, or only those that do not."""
+        """Only the terms that exclude, or only the others."""
         nodes = tuple(each for each in self.nodes if each.exclude is exclude)
         return Query(nodes, tuple(each for each in self.texts if each.exclude is exclude))
 
     def matches(self, text: str, node: str = "") -> bool:
-        """Whether a text of a node passes, ignoring the terms that apply to log lines only."""
+        """Whether a text of a node passes, ignoring the terms that only apply to log lines."""
         if any(term.stands_in(node) is term.exclude for term in self.nodes):
             return False
         return all(self.found(term, text, node) is not term.exclude for term in self.texts)
@@ -127,14 +127,14 @@ class Query:
 
 
 def dotted(node: str) -> str:
-    """A node's name in the form both spellings share: `/Arm/left` and `arm.left` become `.arm.left`."""
+    """A node's name in a common form of both spellings: `/Arm/left` and `arm.left` become `.arm.left`."""
     return "." + node.lower().replace("/", ".").lstrip(".")
 
 
 def parse(text: str, *, lists: bool = False) -> Query:
     """Parse a filter; raises `ValueError` with a readable message for a bad pattern, severity or time.
 
-    With `lists`, a plain word such as `scan|odom` stands for either.
+    With `lists`, a plain word such as `scan|odom` matches either of the two.
     """
     nodes: list[NodeTerm] = []
     texts: list[TextTerm] = []
@@ -186,7 +186,7 @@ def _place(word: str, exclude: bool) -> PlaceTerm:
 
 
 def _any_of(words: Sequence[str]) -> Pattern:
-    """A pattern for one of several plain words."""
+    """A pattern that matches any of several plain words."""
     return Pattern("|".join(map(re.escape, words))) if len(words) > 1 else Pattern(words[0], literal=True)
 
 
@@ -199,7 +199,7 @@ def _plain(word: str, exclude: bool) -> TextTerm:
 
 
 def _severities(text: str) -> frozenset[Severity]:
-    """The severities that `warn`, `>=warn`, `<error` or `info,fatal` stand for."""
+    """Parse severities such as `warn`, `>=warn`, `<error` or `info,fatal`."""
     found: frozenset[Severity] = frozenset()
     for each in text.split(","):
         sign = next((sign for sign in (">=", "<=", ">", "<", "=") if each.startswith(sign)), "")

@@ -1,6 +1,6 @@
-"""`RosConsole`: the ports of the panes over a `ConsoleNode` in a separate thread.
+"""`RosConsole` serves the ports of the panes with a `ConsoleNode` in a separate thread.
 
-Creating one is cheap: rclpy and numpy are imported in the thread, so that the first frame need not wait for them.
+Creating one is cheap: rclpy and numpy are imported in that thread, so that the first frame need not wait for them.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ T = TypeVar("T")
 NOTHING_LAUNCHED = LaunchInfo()
 NO_LINK = LinkInfo()
 PROFILE_STORE_POLL_S = 1.0
-"""Seconds between two checks for changed profiles: editors and nodes write them, too."""
+"""Seconds between two checks for changed profiles, which editors and nodes may write as well."""
 END_TIMEOUT_S = 2.0
 """Seconds that the console's thread may take to end."""
 
@@ -63,17 +63,17 @@ class RosConsole(NodePorts):
         processes: Callable[[], Mapping[int, Sequence[str]]] = dict,
         elsewhere: Elsewhere | None = None,
     ) -> None:
-        """`own_profiles` is where profiles are saved; `workspace_profiles` finds further folders with profiles;
-        `active_profile` is the name, or the absolute path, of the one with which the system starts.
+        """`own_profiles` is the folder in which profiles are saved; `workspace_profiles` finds further folders with
+        profiles. `active_profile` is the name, or the absolute path, of the profile with which the system starts.
 
         `history` is the file that keeps parameter changes for later runs; None: they are not kept. `fetch` returns the
         local copy of a remote parameter file, or raises `OSError`; it may run in any thread.
 
-        `link` returns the state of the network; `foreign`: see `ConsoleNode`; `buffer` keeps the last minutes; `halted`
-        returns nodes of stopped processes; `types` builds missing message types, `generic` records those without a
-        definition; `stop_means` stop robots without lock; `expected` is the path of a file with the rates that topics
-        should have; `processes` returns the nodes of programs on this machine, by pid; `elsewhere` searches for those
-        started in other terminals.
+        `link` returns the state of the network. For `foreign`, see `ConsoleNode`. `buffer` keeps the last minutes.
+        `halted` returns the nodes of stopped processes. `types` builds missing message types, and `generic` provides
+        classes for those without a definition. `stop_means` stop robots without a lock. `expected` is the path of a
+        file with the expected rates of topics. `processes` returns the nodes of the programs on this machine, by pid;
+        `elsewhere` finds those started in other terminals.
         """
         super().__init__(
             self._connect_robot,
@@ -101,12 +101,12 @@ class RosConsole(NodePorts):
         """Receives what a program or a launch reports about the origin of parameters."""
 
     def start(self) -> None:
-        """Connect to the ROS system, in the background."""
+        """Connect to the ROS system in the background."""
         self._thread.start()
 
     def _serve(self) -> None:
         try:
-            # The robot first, so that no fault elsewhere can prevent a stop.
+            # The robot comes first, so that no fault elsewhere can prevent a stop.
             node = self._join(self.drive.connect())
             if self._closed:
                 self._leave(node)
@@ -115,7 +115,7 @@ class RosConsole(NodePorts):
             self.gate.open(node.executor.create_task)
             self._ready.set()
             node.spin()
-        except Exception as error:  # the thread's outermost frame: the panes show what ended it
+        except Exception as error:  # the thread's outermost frame: the panes show why it ended
             if self._closed:
                 self._leave(None)
                 return
@@ -137,7 +137,7 @@ class RosConsole(NodePorts):
         return robot
 
     def _join(self, robot: DriveNode) -> ConsoleNode:
-        """Set up everything else."""
+        """Set up everything except the connection to the robot."""
         from bot_console.tui.console.node import ConsoleNode
         from bot_console.tui.console.parameters.profile_store import ProfileStore
 
@@ -163,7 +163,7 @@ class RosConsole(NodePorts):
         return node
 
     def _guarded(self, name: str, make: Callable[[], T]) -> T | None:
-        """Make a part that the console can do without; if that fails, log it and return None."""
+        """Make a part that the console can do without; if that fails, log the error and return None."""
         try:
             return make()
         except Exception as error:
@@ -171,7 +171,7 @@ class RosConsole(NodePorts):
             return None
 
     def _report_fault(self, error: Exception) -> None:
-        """Log an exception of the node that stops the robot, which keeps running; the same one is logged once."""
+        """Log an exception in the node that stops the robot, which keeps running; equal ones are logged once."""
         text = f"an error in the connection to the robot, which stays up: {_placed(error)}"
         if text not in self._faults:
             self._faults.add(text)
@@ -191,15 +191,15 @@ class RosConsole(NodePorts):
         return ProfileStore(folders, own, workspace(), fetch)
 
     def wait_ready(self, timeout: float) -> bool:
-        """Wait until the console is connected or has failed to; returns whether it is connected."""
+        """Wait until the console has connected or has failed to; returns whether it is connected."""
         return self._ready.wait(timeout) and self._node is not None
 
     def record(self, stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
-        """Add a log record that a process printed and that does not come over `/rosout`."""
+        """Add a log record that a process printed and that does not arrive over `/rosout`."""
         self.logs.add(stamp, severity, name, text, site)
 
     def heard(self, name: str) -> bool:
-        """Whether any line of the logger with that name has come over `/rosout`."""
+        """Whether any line of the logger with this name has arrived over `/rosout`."""
         return name in self._heard
 
     def close(self) -> None:

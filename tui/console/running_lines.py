@@ -1,4 +1,4 @@
-"""Command lines that keep running, and their most recent output. Standard library only."""
+"""Command lines that keep running, and their latest output. Standard library only."""
 
 from __future__ import annotations
 
@@ -7,26 +7,26 @@ from collections import deque
 from collections.abc import Mapping, Sequence
 
 MAX_LINES = 200
-"""Lines that are kept."""
+"""The number of output lines kept."""
 GOING_ON: Mapping[str, tuple[str, ...]] = {
     "action": ("send_goal",),
     "service": ("echo",),
     "topic": ("bw", "delay", "echo", "hz"),
 }
-"""Commands and their subcommands that take as long as what they are about: a goal may take the robot minutes."""
+"""Commands and subcommands without a time limit: a goal, for example, may take the robot minutes."""
 ONCE = ("--once", "-h", "--help")
 HELP = ("-h", "--help")
 ONLY_PRINTING: Mapping[str, tuple[str, ...]] = {
     "launch": (*HELP, "-p", "--print", "--print-description", "-s", "--show-args", "--show-arguments"),
     "run": HELP,
 }
-"""Commands that start nodes, and the options with which they start nothing."""
+"""Commands that start nodes, with the options that make them only print something."""
 LINE_TIMEOUT_S = 15.0
-"""Seconds after which any other line that does not end by itself is interrupted, as by Ctrl-C."""
+"""Seconds after which any other line is interrupted as by Ctrl-C."""
 
 
 def goes_on(words: Sequence[str]) -> bool:
-    """Whether a `ros2` line (without that word) may run for any time, printing meanwhile."""
+    """Whether a `ros2` line (without that word) may run for any time and keeps printing."""
     return len(words) > 2 and words[1] in GOING_ON.get(words[0], ()) and not any(each in ONCE for each in words)
 
 
@@ -37,12 +37,12 @@ def starts_nodes(words: Sequence[str]) -> bool:
 
 
 def interrupted(seconds: float) -> str:
-    """The line after the output of a line that was interrupted after some time."""
+    """The last line of output of a line that was interrupted after a time (s)."""
     return f"interrupted after {seconds:g} s; a line that takes longer can be run in a terminal\n"
 
 
 class RunningLine:
-    """Collects what a line prints; any thread may append."""
+    """Collects the output of a line; any thread may append to it."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -67,7 +67,7 @@ class RunningLine:
             self._rest, self._new, self.ended = "", True, True
 
     def lines(self) -> Sequence[str]:
-        """The last lines; the same object until there are more."""
+        """The last lines of output; the same object until there are more."""
         with self._lock:
             if self._new:
                 self._new, self._reported = False, tuple(self._lines)

@@ -1,4 +1,4 @@
-"""Which files are the user's own code, and which belong to Python, to ROS or to this program's runtime."""
+"""Distinguishes the user's own code from files of Python, ROS, libraries and this program's runtime."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from pathlib import Path
 import yaml
 
 ROS = "/opt/ros/"
-"""Where the ROS 2 packages are installed."""
+"""The folder in which ROS 2 packages are installed."""
 
 
 def is_library_file(file: str) -> bool:
-    """Whether a file is not the user's code: it belongs to a library or the runtime, or is not a file at all."""
+    """Whether a file is not the user's code: it belongs to a library or the runtime, or is no file at all."""
     return file.startswith(("<", ROS, *library_folders()))
 
 

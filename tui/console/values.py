@@ -12,7 +12,7 @@ from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterValue
 
 
 def from_message(message: ParameterValue) -> Value:
-    """The value that a `rcl_interfaces/msg/ParameterValue` holds."""
+    """The value in a `rcl_interfaces/msg/ParameterValue`."""
     kind = _kind(message.type)
     if kind is Kind.NOT_SET:
         return None

@@ -1,1 +1,1 @@
-"""Time series collected from topics and parameters."""
+"""Collects time series from topics and parameters."""

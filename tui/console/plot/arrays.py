@@ -1,4 +1,4 @@
-"""Reduces a whole array, or a quaternion, to one number: the value of `min(/scan/ranges)` for each message."""
+"""Reduces an array or a quaternion to one number: the value of `/scan/ranges.min()` for each message."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _MADE: Mapping[str, Callable[[npt.NDArray[np.float64]], float]] = {
 
 
 def make(value: Any, made: str, name: str) -> float:
-    """The number; non-finite elements (a beam that hits nothing) are ignored. Raises `NotPlottable`."""
+    """Reduce a value with the function `made`, ignoring non-finite elements. Raises `NotPlottable`."""
     if made == "yaw":
         return _yaw(value, name)
     if isinstance(value, (str, bool, int, float, np.number)) or not hasattr(value, "__len__"):
@@ -40,7 +40,7 @@ def make(value: Any, made: str, name: str) -> float:
 
 
 def _yaw(value: Any, name: str) -> float:
-    """The rotation about the vertical axis, in rad."""
+    """The rotation of a quaternion about the vertical axis, in rad."""
     try:
         w, x, y, z = (float(getattr(value, each)) for each in "wxyz")
     except (AttributeError, TypeError):

@@ -1,4 +1,4 @@
-"""The port for time series: fields of topics and parameters of the system, collected by `PlotWatch`."""
+"""The port for time series: fields of topics and parameters of the system, collected by a `PlotWatch`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class NodePlots:
-    """Collects series; plotting changes nothing in the system, so that a read-only console plots too."""
+    """Collects series. Plotting changes nothing in the system, so a read-only console can plot too."""
 
     def __init__(
         self, gate: Gate, graph: Callable[[], GraphInfo], trees: Callable[[], Mapping[str, ParameterTree]]
@@ -26,7 +26,7 @@ class NodePlots:
         self._watch: PlotWatch | None = None
 
     def attach(self, watch: PlotWatch) -> None:
-        """The system has been reached."""
+        """Provide the collector, once the system has been reached."""
         self._watch = watch
 
     def parameter_is(self, node: str, name: str, value: Value) -> None:
@@ -50,9 +50,9 @@ class NodePlots:
         return self._watch.samples(path, after) if self._watch else Samples((), (), after)
 
     def time(self, stamp: int | None = None) -> float:
-        """The position of a time on the axis; its start before the system is reached."""
+        """The position of a time on the axis; 0 before the system is reached."""
         return self._watch.axis_time(stamp) if self._watch else 0.0
 
     def plottable(self) -> Sequence[str]:
-        """Paths that can be plotted."""
+        """The paths that can be plotted."""
         return self._watch.plottable(self._graph(), self._trees()) if self._watch else ()

@@ -1,4 +1,4 @@
-"""Which paths of a message type can be plotted: its numbers, arrays and quaternions."""
+"""Finds the paths of a message type that can be plotted: its numbers, arrays and quaternions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ MAX_DEPTH = 4
 """Depth to which nested messages are searched."""
 ARRAY = re.compile(r"sequence<([^,>]+).*>|(.+?)\[\d+\]")
 WHOLE = ("min", "max", "mean")
-"""Functions suggested for an array in addition to its first element."""
+"""Functions of whole arrays that are suggested in addition to the first element."""
 
 
 def message_class(type_name: str) -> Any:
@@ -21,7 +21,7 @@ def message_class(type_name: str) -> Any:
     package, _, rest = type_name.partition("/")
     try:
         return getattr(importlib.import_module(f"{package}.msg"), rest.rsplit("/", 1)[-1])
-    except (ImportError, AttributeError, TypeError, ValueError):  # the latter two if it is not a valid type name
+    except (ImportError, AttributeError, TypeError, ValueError):  # the latter two if the type name is not valid
         raise NotPlottable(f"the message type {type_name} is not known here") from None
 
 
@@ -43,12 +43,12 @@ def number_paths(type_name: str) -> tuple[str, ...]:
 
 
 def example(type_name: str) -> str:
-    """An example of a path that could be plotted."""
+    """An example of a path of this type that can be plotted."""
     return next(iter(number_paths(type_name)), "data")
 
 
 def _leaves(type_name: str, depth: int) -> Iterator[tuple[str, str]]:
-    """Paths and types of numbers, arrays of numbers and quaternions."""
+    """The paths and types of numbers, arrays of numbers and quaternions in a message type."""
     try:
         fields: dict[str, str] = message_class(type_name).get_fields_and_field_types()
     except NotPlottable:

@@ -1,4 +1,4 @@
-"""Time series of plotted values: a bounded ring of (time, value), read by cursor; and paths into messages."""
+"""Stores the values of a series in a ring buffer that is read by cursor, and parses paths into messages."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Step: TypeAlias = "str | int | slice[int | None]"
 
 
 class Series:
-    """A ring of samples; times are in s, and the cursor advances by one per sample."""
+    """A ring buffer of samples; times are in s, and the cursor advances by one per sample."""
 
     def __init__(self, capacity: int = 20_000) -> None:
         self._samples = np.zeros((3, capacity))
@@ -25,7 +25,7 @@ class Series:
         self._end = 0
 
     def add(self, time: float, value: float, header: float = math.nan) -> None:
-        """Append a sample, with the time from its message's header; a full ring drops the oldest."""
+        """Append a sample, with the time in its message's header; when the ring is full, the oldest is dropped."""
         self._samples[:, self._end % self._capacity] = (time, value, header)
         self._end += 1
 
@@ -38,9 +38,9 @@ class Series:
 
 
 def parse_path(text: str) -> tuple[tuple[Step, ...], str]:
-    """The steps of a field path and the function applied to the array there, if any; raises `NotPlottable`.
+    """The steps of a field path, and the function applied to the array at its end, if any; raises `NotPlottable`.
 
-    `linear.x`, `pose/position.x`, `ranges[3]`, `ranges[10:20].min()`.
+    Examples: `linear.x`, `pose/position.x`, `ranges[3]`, `ranges[10:20].min()`.
     """
     path, dot, made = text.rpartition(".")
     if not (dot and made.endswith("()")):
@@ -51,7 +51,7 @@ def parse_path(text: str) -> tuple[tuple[Step, ...], str]:
 
 
 def parse_steps(text: str) -> tuple[Step, ...]:
-    """The steps of a field path; raises `NotPlottable`."""
+    """Parse a field path into steps; raises `NotPlottable`."""
     steps: list[Step] = []
     for part in re.split(r"[./]", text):
         whole = 0
@@ -77,7 +77,7 @@ def _step(match: re.Match[str]) -> Step:
 
 
 def reader(steps: Sequence[Step], made: str = "") -> Callable[[Any], float]:
-    """A function from a message to the number at the path; it raises `NotPlottable` if there is none."""
+    """A function that returns the number at a path in a message; it raises `NotPlottable` if there is none."""
 
     def read(message: Any) -> float:
         value = message

@@ -1,4 +1,4 @@
-"""The time series being plotted: fields of topics, and parameters."""
+"""Collects the time series being plotted: fields of topics, and parameters."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 
 PLOT_QOS = QoSProfile(depth=50, reliability=ReliabilityPolicy.BEST_EFFORT)
 OTHER_CLOCK_S = 3600.0
-"""Difference (s) between a header's time and the time of reception from which the header's clock is a simulator's."""
+"""If a header's time differs from the time of reception by more than this (s), its clock is a simulator's."""
 RATE_POLL_S = 0.5
 """Seconds between two samples of a topic's rate."""
 NUMBERS = (Kind.BOOL, Kind.INTEGER, Kind.DOUBLE)
 
 
 class _Watched:
-    """A series and its source."""
+    """A watched series and its source."""
 
     def __init__(self) -> None:
         self.series = Series()
@@ -51,15 +51,15 @@ class PlotWatch:
         """Offset added to the times of a simulator's clock, so that its messages are shown beside others."""
 
     def now(self) -> float:
-        """Seconds since the console's start, the time axis of all series."""
+        """Seconds since the console's start, which is the time axis of all series."""
         return time.monotonic() - self._start
 
     def axis_time(self, stamp: int | None) -> float:
-        """The position of a time (ns since the epoch; None is now) on that axis."""
+        """The position of a time (ns since the epoch; None: now) on the time axis."""
         return self.now() if stamp is None else (stamp - self._started_at) / 1e9
 
     def watch(self, path: str, graph: GraphInfo, trees: Mapping[str, ParameterTree], requester: str = "") -> Answer:
-        """Start collecting a path; the answer says why if it cannot be plotted."""
+        """Start collecting a path; an unsuccessful answer says why it cannot be plotted."""
         if path in self._watched:
             self._watched[path].requesters.add(requester)
             return Answer(True, f"{path} is already plotted")
@@ -99,7 +99,7 @@ class PlotWatch:
         watched.subscription = self._node.create_subscription(kind, topic, self._collector(watched, read), PLOT_QOS)
 
     def _watch_rate(self, path: str, topic: str, graph: GraphInfo) -> None:
-        """Count the messages of a topic, without unpacking them."""
+        """Collect the rate of a topic by counting its messages without deserializing them."""
         types = next((each.types for each in graph.topics if each.name == topic), ())
         if not types:
             raise NotPlottable(f"there is no topic {topic}")
@@ -126,7 +126,7 @@ class PlotWatch:
         return collect
 
     def _header_time(self, message: Any) -> float:
-        """The time in a message's header, on the axis; NaN if there is none."""
+        """The time in a message's header, on the time axis; NaN if there is none."""
         stamp = getattr(getattr(message, "header", None), "stamp", None)
         if stamp is None or not (stamp.sec or stamp.nanosec):
             return math.nan
@@ -144,7 +144,7 @@ class PlotWatch:
             watched.series.add(self.now(), float(value))
 
     def unwatch(self, path: str, requester: str = "") -> None:
-        """Stop collecting a series and discard it, unless somebody else still needs it."""
+        """Stop collecting a series for a requester, and discard it unless another one still needs it."""
         watched = self._watched.get(path)
         if watched is None:
             return
@@ -157,7 +157,7 @@ class PlotWatch:
                 self._node.destroy_timer(watched.timer)
 
     def samples(self, path: str, after: int) -> Samples:
-        """New samples; none for a path that is not watched."""
+        """The new samples of a path; none if it is not watched."""
         watched = self._watched.get(path)
         if watched is None:
             return Samples((), (), after)
@@ -165,7 +165,7 @@ class PlotWatch:
         return replace(new, problem=watched.problem)
 
     def plottable(self, graph: GraphInfo, trees: Mapping[str, ParameterTree]) -> Sequence[str]:
-        """Paths to numbers: topic fields and parameters first, then elements and functions of arrays."""
+        """The paths to numbers: topic fields and parameters first, then elements and functions of arrays."""
         paths = [
             f"{topic.name}/{field}" for topic in graph.topics if topic.types for field in number_paths(topic.types[0])
         ]
@@ -176,7 +176,7 @@ class PlotWatch:
 
 
 def _split(path: str, graph: GraphInfo) -> tuple[str, tuple[str, ...], str]:
-    """Topic, its types, and the rest of a path; the longest matching topic name wins."""
+    """Split a path into the topic, its types, and the rest; the longest matching topic name wins."""
     path = "/" + path.lstrip("/")
     fitting = [
         each for each in graph.topics if path == each.name or path.startswith((each.name + "/", each.name + "."))
