@@ -1,1 +1,1 @@
-"""The console's view of the robot, and its commands to it."""
+"""The robot as the console sees it, and the commands that the console sends to it."""

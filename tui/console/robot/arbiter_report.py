@@ -1,4 +1,4 @@
-"""The report of a velocity arbiter on its last decision."""
+"""Parses the report of a velocity arbiter on its last decision."""
 
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 Velocity = tuple[float, float]
-"""Linear in m/s and angular in rad/s."""
+"""Linear (m/s) and angular (rad/s) velocity."""
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """An arbiter's decision about the command it selected: the rule or parameter that limited it, and the result."""
+    """An arbiter's decision on the command that it selected: the rule or parameter that limited it, and the result."""
 
     limited_by: str = ""
     asked: Velocity | None = None
@@ -19,7 +19,7 @@ class Verdict:
 
     @classmethod
     def of(cls, values: Mapping[str, str]) -> Verdict:
-        """Read the values of a report."""
+        """Parse the values of a report."""
         return cls(values["limited_by"], _velocity(values, "asked"), _velocity(values, "final"))
 
 

@@ -1,4 +1,4 @@
-"""The end points of a scan's beams, computed on demand: of ten scans per second most are never drawn."""
+"""The end points of a scan's beams, computed on demand, since most of ten scans per second are never drawn."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from bot_console.tui.console.robot.robot_model import Pose
 from sensor_msgs.msg import LaserScan
 
 MAX_RANGE_M = 1e7
-"""The greatest plausible range, in m."""
+"""The largest plausible range in m."""
 
 
 class BeamEnds(Sequence[tuple[float, float]]):
-    """The end points of beams in the pose's frame (x, y in m); empty if pose or angles are not finite."""
+    """The end points (x, y in m) of beams in the frame of the pose; empty if the pose or the angles are not finite."""
 
     def __init__(self, scan: LaserScan, pose: Pose | None) -> None:
-        """Beams without a return are infinite or outside the scan's limits (REP 117)."""
+        """Beams without a return are left out: their ranges are infinite or outside the scan's limits (REP 117)."""
         ranges = np.asarray(scan.ranges, float)
         self._valid = np.isfinite(ranges) & (ranges >= scan.range_min) & (ranges <= scan.range_max)
         self._ranges: npt.NDArray[np.float64] = ranges[self._valid]
         self._begin, self._step = scan.angle_min, scan.angle_increment
         self.nearest = float(self._ranges.min()) if len(self._ranges) else None
-        """The nearest return (m)."""
+        """The range of the nearest return (m); None if there is none."""
         bearings = (self._begin, self._step * len(ranges))
         known = pose is not None and all(map(math.isfinite, (pose.heading, *bearings)))
         self._pose = pose if known and len(self._ranges) and self._ranges.max() <= MAX_RANGE_M else None

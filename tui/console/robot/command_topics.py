@@ -1,4 +1,4 @@
-"""Topics on which robots take velocity commands: found by type and last name token, in any namespace, stamped or
+"""Finds the topics on which robots take velocity commands: by type and last name token, in any namespace, stamped or
 not.
 """
 
@@ -16,12 +16,12 @@ TWIST, STAMPED = "geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped"
 
 @dataclass(frozen=True)
 class CommandTopics:
-    """The command topics of one robot by their last token; a topic of any other name stands for itself."""
+    """The command topics of one robot by their last token; a topic with another name counts as the token `cmd_vel`."""
 
     robot: str
     topics: Mapping[str, str]
     standard: bool = True
-    """Whether the topics have the usual names, so that it is certainly a robot."""
+    """Whether the topics have the usual names, so that this certainly is a robot."""
 
     def get(self, token: str) -> str:
         """The topic with a token; empty if there is none."""
@@ -32,13 +32,13 @@ NOBODY = CommandTopics("", MappingProxyType({}))
 
 
 def command_types_of(graph: GraphInfo) -> dict[str, str]:
-    """The type of each velocity topic."""
+    """The velocity topics in a graph, with their types."""
     ends = (each for node in graph.nodes for each in (*node.publishers, *node.subscriptions))
     return {each.name: kind for each in ends for kind in each.types if kind in (TWIST, STAMPED)}
 
 
 def robots_of(graph: GraphInfo) -> tuple[CommandTopics, ...]:
-    """All robots that subscribe: those with the usual names first, shorter namespaces before longer ones."""
+    """The robots that subscribe to velocities: those with usual names first, shorter namespaces before longer ones."""
     listened = {
         each.name
         for node in graph.nodes

@@ -1,4 +1,4 @@
-"""Velocity commands from the console, and what becomes of them on their way to the robot."""
+"""Sends the console's velocity commands, and follows them on their way to the robot."""
 
 from __future__ import annotations
 
@@ -34,24 +34,24 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
 HOLD_PERIOD_S = 0.1
-"""Seconds between two zeros, or requests, while a stop is not acknowledged; a command expires after 0.5 s."""
+"""Seconds between two zeros or requests while a stop is not acknowledged; a command expires after 0.5 s."""
 
 BY_PERSON = "ALL STOP"
-"""The reason given for a stop that a person has requested by key."""
+"""The reason of a stop that a person has requested by key."""
 
 VERDICT = "diagnostics"
 DIAGNOSTICS = "diagnostic_msgs/msg/DiagnosticArray"
 VERDICT_LIFETIME_S = 2.0
 """Seconds after which a verdict is no longer shown: diagnostics are published at least once a second."""
 SEARCH_S = 4.0
-"""Seconds for which the first graph may lack robots and locks: other programs announce theirs one by one, and on a busy
+"""Seconds during which the graph may still lack robots and locks: programs announce theirs one by one, and on a busy
 machine with pauses.
 """
 COMMAND_LIFETIME_S = 0.5
-"""Seconds after which a velocity command expires, and the robot stops by itself."""
+"""Seconds after which a velocity command expires and the robot stops by itself."""
 CLOCK = "/clock"
 FORCED = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
-"""Compatible with every publisher, whatever it offers."""
+"""This profile is compatible with every publisher, whatever it offers."""
 NO_COMMAND = "no command on cmd_vel for 0.5 s"
 NO_ARBITER = "the node that takes cmd_vel_teleop has ended; start it again to drive"
 
@@ -62,9 +62,9 @@ class Surroundings:
 
     fleet: Fleet
     locks: Published
-    """Topics on which locks report their states."""
+    """The topics on which locks report their states."""
     verdicts: Published
-    """Topics on which arbiters may report their decisions, by type."""
+    """The topics on which arbiters may report their decisions; found by type."""
     simulated: bool
 
     @classmethod
@@ -80,7 +80,7 @@ class Surroundings:
 
 
 class DriveLink:
-    """Publishes Twists where the robot listens for a person, and watches the command chain.
+    """Publishes Twists on the topic on which the robot takes a person's commands, and watches the command chain.
 
     `drive`, `stop`, `hold_early` and `settle_early` may be called from any thread.
     """
@@ -107,7 +107,7 @@ class DriveLink:
         self._info = DriveInfo()
         self._found = Surroundings.of(GraphInfo())
         self._searching_until = math.inf
-        """Time after which a robot that has not been found counts as absent; known once there is a graph."""
+        """The time after which a robot that has not been found counts as absent; set with the first graph."""
         self._scope = Scope("/")
         self._robot = NOBODY
         self._chosen = ""
@@ -118,11 +118,11 @@ class DriveLink:
         node.create_timer(HOLD_PERIOD_S, self._repeat)
 
     def follow(self, graph: GraphInfo) -> None:
-        """Find the robots' command topics, and subscribe to those of the driven one."""
+        """Find the robots' command topics, and subscribe to those of the driven robot."""
         self.take(Surroundings.of(graph))
 
     def take(self, found: Surroundings) -> None:
-        """Apply what was found in a graph; in the thread that serves the node."""
+        """Apply what was found in a graph; to be called in the thread that serves the node."""
         self._found = found
         self._searching_until = min(self._searching_until, self._now() + SEARCH_S)
         before = self._robot.robot
@@ -139,7 +139,7 @@ class DriveLink:
         if before.robot not in ("", robot.robot):
             self._arbitrated = False
         if before.get(TELEOP) and not robot.get(TELEOP):
-            self.zero()  # so that it need not wait until its last command has expired
+            self.zero()  # so that the robot need not wait until its last command expires
         self._arbitrated = bool(robot.get(TELEOP)) or (self._arbitrated and bool(robot.get(FINAL)))
         named = {each for each in found.fleet.types if self._scope.owns(each)}
         for token in (FINAL, ASKED):
@@ -147,10 +147,10 @@ class DriveLink:
         self._watch(VERDICT, _topic(self._scope.own(found.verdicts), VERDICT))
         for each in (TELEOP, FINAL):
             if robot.get(each):
-                self._publisher(robot.get(each))  # now, since a first message may come too early for its subscriptions
+                self._publisher(robot.get(each))  # now: its first message must not precede its subscriptions
 
     def choose(self, robot: str) -> None:
-        """Drive another one of `DriveInfo.robots`; the previous one is sent a zero if it was driven from here."""
+        """Drive another of `DriveInfo.robots`; the previous one is sent a zero if this console drove it."""
         if robot != self._robot.robot:
             if self._acted:
                 self.zero()
@@ -177,7 +177,7 @@ class DriveLink:
             )
 
     def _reported(self, message: DiagnosticArray) -> None:
-        """Process what a velocity arbiter reports about its last decision."""
+        """Process the report of a velocity arbiter on its last decision."""
         for status in message.status:
             values = {each.key: each.value for each in status.values}
             if "limited_by" in values:
@@ -193,17 +193,17 @@ class DriveLink:
         self._seen[token] = velocity
         self._heard[token] = self._now()
         if token == FINAL and self._holds_by_zeros and (velocity != (0.0, 0.0) or twist.linear.y):
-            # Somebody else keeps driving; without an arbiter the last command counts, so ours follows at once.
+            # Somebody else keeps driving. Without an arbiter the last command counts, so ours follows at once.
             self._send(FINAL, 0.0, 0.0)
 
     @property
     def topic(self) -> str:
-        """The topic of this console's commands; empty if no robot listens."""
+        """The topic of this console's commands; empty if no robot takes them."""
         return self._robot.get(self._token)
 
     @property
     def _token(self) -> str:
-        """The last token of that topic.
+        """The last token of `topic`.
 
         A robot whose arbiter has left is not driven directly, because its protection is gone.
         """
@@ -220,10 +220,10 @@ class DriveLink:
             self._send(self._token, linear, angular, sideways)
 
     def stop(self, hold: bool, reason: str, others: Sequence[str] = ()) -> None:
-        """Lock the robot, or withdraw that along with the stops of `others`, and send zero velocity now.
+        """Lock the robot or, without `hold`, release this console's stop and those of `others`; send zero velocity now.
 
-        Only a stop that a person has requested outlives the robot's nodes, not one made for the console's own reasons.
-        A robot without a lock is sent zeros repeatedly, and its configured means of stopping are tried in order.
+        Only a stop that a person has requested outlives the robot's nodes; one that the console makes by itself does
+        not. A robot without a lock is sent zeros repeatedly, and its configured means of stopping are tried in order.
         """
         if hold:
             self._stop.stop(reason, kept=reason == BY_PERSON)
@@ -233,8 +233,8 @@ class DriveLink:
         self._send_zeros(repeated=hold or bool(self._early))
 
     def _send_zeros(self, *, repeated: bool) -> None:
-        """Send zero velocity now, and with `repeated` as long as a stop holds, for robots without a lock; try their
-        means, too.
+        """Send zero velocity now; with `repeated`, keep sending it to robots without a lock while a stop holds, and try
+        their configured means.
         """
         self._zeros = repeated
         self._zero_all()
@@ -244,22 +244,22 @@ class DriveLink:
             self._means.hold()
 
     def hold_early(self, press: str) -> None:
-        """Stop the robot for a key press that is not processed yet, with a separate stop."""
+        """Stop the robot for a key press that has not been handled yet, with a separate stop."""
         self._early.hold(press)
         self._send_zeros(repeated=True)
 
     def settle_early(self, press: str, *, keep: bool) -> None:
-        """Make that stop one of this console's, or withdraw it and no other."""
+        """Turn the stop for a key press into an ordinary stop of this console, or withdraw it and no other."""
         if self._early.settle(press, keep=keep):
             self._send_zeros(repeated=False)
 
     @property
     def steers(self) -> bool:
-        """Whether control of the robot is claimed here."""
+        """Whether this console claims control of the robot."""
         return self._stop.steering
 
     def steer(self, hold: bool) -> None:
-        """Claim control of the robot or hand it back; a claim is to be repeated ten times a second."""
+        """Claim control of the robot, or hand it back; a claim has to be repeated ten times a second."""
         if hold:
             self._stop.steer()
         else:
@@ -269,7 +269,8 @@ class DriveLink:
     def close(self, timeout_s: float = 0.0) -> None:
         """Send zero velocity, and lock the robot if this console leaves while it has control.
 
-        A robot that was only watched is left alone, without waiting; for any other it waits as `await_standing` does.
+        A robot that was only watched is left alone, without waiting; for any other robot, wait as `await_standing`
+        does.
         """
         steering, acted = self._stop.steering, self._acted
         if steering:
@@ -280,10 +281,9 @@ class DriveLink:
             self.await_standing(timeout_s)
 
     def await_standing(self, timeout_s: float) -> None:
-        """Wait until all locks hold the robot, at most this long.
+        """Wait until all locks hold the robot, at most `timeout_s`.
 
-        Without a lock that is the whole time, since nothing acknowledges a zero; if there are no subscriptions, it does
-        not wait.
+        Without a lock, wait the whole time, since nothing acknowledges a zero; but do not wait if nobody subscribes.
         """
         if self._stop.info.stopped and self._stop.info.locks:
             self._stop.await_held(timeout_s)
@@ -297,28 +297,28 @@ class DriveLink:
         return any(each.get_subscription_count() > own.count(each.topic_name) for each in published)
 
     def zero(self) -> None:
-        """Send a zero to every topic to which the driven robot, or its arbiter, subscribes."""
+        """Send a zero to the topics to which the driven robot and its arbiter subscribe."""
         for token in (TELEOP, FINAL):
             self._send(token, 0.0, 0.0)
 
     def _each_robot(self) -> Iterable[CommandTopics]:
-        """All robots with the usual topic names, and the driven one."""
+        """All robots whose topics have the usual names, and the driven robot."""
         every = {each.robot: each for each in (*self._found.fleet.robots, self._robot)}
         return [each for each in every.values() if each.standard or each is self._robot]
 
     def _zero_all(self) -> None:
-        """Send a zero to every topic of every robot."""
+        """Send a zero to all topics of all these robots."""
         for topic in (topic for robot in self._each_robot() for topic in robot.topics.values()):
             self._publish(topic, 0.0, 0.0)
 
     def _repeat(self) -> None:
         self._stop.repeat()
         if self._stop.info.locks and not (self._stop.stopping or (self._unlocked and self._stop.info.stopped)):
-            # A locked robot needs no zeros, and they would still hold it after somebody else has released the stop.
+            # A locked robot needs no zeros, which would still hold it after somebody else has released the stop.
             self._zeros = False
             self._means.release()
         if self._stop.info.locks and self._stop.stopping:
-            self._zero_all()  # until it reports that it has locked: it may hang, or be gone without having left
+            self._zero_all()  # until the lock has acknowledged: it may hang, or have ended without leaving the graph
         elif self._zeros:
             for robot in self._unlocked if self._stop.info.locks else self._each_robot():
                 self._publish(robot.get(TELEOP) or robot.get(FINAL), 0.0, 0.0)
@@ -327,12 +327,12 @@ class DriveLink:
 
     @property
     def _needs_means(self) -> bool:
-        """Whether a robot has no lock, as far as is known; one that has not been discovered yet counts as well."""
+        """Whether a robot has no lock, as far as is known; also true while no lock has been found at all."""
         return bool(self._unlocked) or not self._stop.info.locks
 
     @property
     def _holds_by_zeros(self) -> bool:
-        """Whether zeros hold the driven robot: it has no lock, or none has acknowledged our stop."""
+        """Whether zeros hold the driven robot: it has no lock, or not every lock has acknowledged our stop."""
         locked = self._stop.info.locks and self._robot not in self._unlocked
         return self._stop.stopping or (self._zeros and not locked)
 
@@ -352,19 +352,17 @@ class DriveLink:
         twist = getattr(message, "twist", message)
         twist.linear.x, twist.linear.y, twist.angular.z = float(linear), float(sideways), float(angular)
         if twist is not message and not self._found.simulated:
-            # With simulated time our own clock would give a wrong stamp; zero means now.
+            # With simulated time our own clock would give a wrong stamp; a stamp of zero means now.
             message.header.stamp = self._node.get_clock().now().to_msg()
         self._publisher(topic).publish(message)
 
     def _recent(self, token: str, lifetime_s: float) -> bool:
-        """Whether a message of this kind was received within the last `lifetime_s` seconds."""
+        """Whether a message on the topic with this token was received within the last `lifetime_s` seconds."""
         heard = self._heard.get(token)
         return heard is not None and self._now() - heard <= lifetime_s
 
     def info(self, world: WorldInfo) -> DriveInfo:
-        """The current state of the command chain, including the robot's own report; the same object while nothing
-        changes.
-        """
+        """The state of the command chain, including the robot's own report; the same object while nothing changes."""
         here = world.robot in ("", self._robot.robot)
         final, asked = (self._recent(token, COMMAND_LIFETIME_S) for token in (FINAL, ASKED))
         silent = FINAL in self._seen and not final
@@ -406,6 +404,6 @@ class DriveLink:
 
 
 def _topic(names: Set[str], token: str) -> str:
-    """The shortest topic that ends in a token; empty if there is none."""
+    """The shortest topic name that ends in a token; empty if there is none."""
     fitting = [name for name in names if name.rsplit("/", 1)[-1] == token]
     return min(fitting, key=lambda name: (len(name), name), default="")

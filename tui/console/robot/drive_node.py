@@ -1,5 +1,5 @@
-"""The connection to the robot, in a separate node and thread, so that a stop waits for nothing else the console
-does.
+"""The connection to the robot, in a separate node and thread, so that a stop does not wait for the console's other
+work.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ NAME = "_bot_console_drive"
 
 
 class DriveNode:
-    """Serves a `DriveLink`, so that the robot's lock is heard while graph and parameters are being read.
+    """Serves a `DriveLink`, so that the robot's lock is heard while the graph and parameters are being read.
 
     When 500 nodes appear at once, the console's own thread is busy for seconds.
     """
@@ -28,7 +28,7 @@ class DriveNode:
     def __init__(
         self, context: Context, fault: Callable[[Exception], None], means: Sequence[ConfiguredMeans] = ()
     ) -> None:
-        """`fault` receives an exception in anything this node serves; the rest goes on.
+        """`fault` receives each exception in what this node serves; everything else continues.
 
         `means` stop robots that have no lock.
         """
@@ -44,7 +44,7 @@ class DriveNode:
         self._closed = False
 
     def start(self) -> None:
-        """Serve until `close`."""
+        """Start serving until `close`."""
         self._thread.start()
 
     def _spin(self) -> None:
@@ -52,22 +52,20 @@ class DriveNode:
             try:
                 with contextlib.suppress(ExternalShutdownException):
                     self._executor.spin()
-            except Exception as error:  # whatever it is, the robot can still be stopped
+            except Exception as error:  # whatever it is, it must still be possible to stop the robot
                 self._fault(error)
 
     def follow(self, graph: GraphInfo) -> None:
-        """Find the robots of a graph: searches in the calling thread, applies the result in the thread that serves the
-        link.
-        """
+        """Find the robots of a graph in the calling thread, and apply the result in the thread that serves the link."""
         self._executor.create_task(self.link.take, Surroundings.of(graph))
 
     def follow_alone(self) -> None:
-        """Find the robots without the console's own node, which has failed."""
+        """Find the robots through this node once, because the console's main node has failed."""
         if not self._closed:
             self._executor.create_task(lambda: GraphWatch(self._node, self.link.follow).poll())
 
     def close(self) -> None:
-        """Stop serving, and leave the graph; a second call does nothing."""
+        """Stop serving and leave the graph; a second call does nothing."""
         if self._closed:
             return
         self._closed = True

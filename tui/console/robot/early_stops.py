@@ -1,4 +1,4 @@
-"""Stops for key presses that are not processed yet."""
+"""Stops for key presses that have not been handled yet."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ REASON = "ALL STOP"
 
 
 class EarlyStops:
-    """Stops the robot for each key press separately. May be used from any thread."""
+    """Stops the robot separately for each key press. Thread-safe."""
 
     def __init__(self, link: StopLink) -> None:
         self._link = link
@@ -19,12 +19,13 @@ class EarlyStops:
         return bool(self._ids)
 
     def hold(self, press: str) -> None:
-        """Stop the robot."""
+        """Stop the robot for a key press."""
         self._ids[press] = self._link.add_stop(REASON)
 
     def settle(self, press: str, *, keep: bool) -> bool:
-        """Make the stop one of the console's, or withdraw it alone; returns whether that was the console's last
-        stop.
+        """Turn the stop for a key press into an ordinary one, or withdraw it and no other.
+
+        Returns whether that was the console's last stop.
         """
         id = self._ids.pop(press, "")
         if not id or keep:

@@ -1,4 +1,4 @@
-"""The robots on a graph: which topics, nodes and parameters belong to each of them.
+"""The robots in a graph, and the topics and nodes that belong to each.
 
 A robot is identified by the topics on which it takes velocities. It owns everything in its namespace, and everything
 published by nodes that obey these topics, directly or through further velocity topics (a multiplexer, a stamper).
@@ -13,11 +13,11 @@ from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.robot.command_topics import NOBODY, CommandTopics, command_types_of, robots_of
 
 Published = Mapping[str, Collection[str]]
-"""Topics, each with the names of its publishers' nodes."""
+"""The names of the publishing nodes, by topic."""
 
 
 def steered_of(robots: Iterable[CommandTopics], chosen: str) -> CommandTopics:
-    """The robot with the chosen name, else the first one whose topics have the usual names."""
+    """The robot with the chosen name, or else the first one whose topics have the usual names."""
     every = list(robots)
     usual = (each for each in every if each.standard)
     return next((each for each in every if each.robot == chosen), next(usual, NOBODY))
@@ -25,19 +25,19 @@ def steered_of(robots: Iterable[CommandTopics], chosen: str) -> CommandTopics:
 
 @dataclass(frozen=True)
 class Scope:
-    """The topics and nodes that belong to one robot, and those of others."""
+    """The topics and nodes that belong to one robot, and those that belong to others."""
 
     namespace: str
-    """Its namespace, which ends in a slash."""
+    """The robot's namespace, which ends in a slash."""
     others: frozenset[str] = frozenset()
-    """Namespaces of robots that neither drive this one nor are driven by it; each ends in a slash."""
+    """The namespaces of robots that neither drive this one nor are driven by it; each ends in a slash."""
     nodes: frozenset[str] = frozenset()
-    """Nodes that obey its commands, directly or through others."""
+    """The nodes that obey the robot's commands, directly or through other nodes."""
     foreign_nodes: frozenset[str] = frozenset()
-    """Nodes that obey only the commands of others."""
+    """The nodes that obey only the commands of other robots."""
 
     def owns(self, name: str) -> bool:
-        """Whether a topic or node is in the namespace of this robot, and not in a longer one of another."""
+        """Whether a topic or node is in the robot's namespace, and not in a longer one of another robot."""
         return self._space(name) == self.namespace
 
     def is_foreign(self, name: str) -> bool:
@@ -46,14 +46,14 @@ class Scope:
         return space != self.namespace and space in self.others
 
     def _space(self, name: str) -> str:
-        """The longest known namespace that contains a name; a name equal to a namespace is in it."""
+        """The longest known namespace that contains a name; a name that equals a namespace is in it."""
         space = f"{name}/"
         while space and space != self.namespace and space not in self.others:
             space = space[: space.rstrip("/").rfind("/") + 1]
         return space
 
     def own(self, published: Published, *, shared: bool = False) -> set[str]:
-        """The topics that belong to this robot; only those that belong to it most certainly.
+        """The topics that most certainly belong to this robot.
 
         With `shared`, topics that no other robot's nodes publish may serve several robots, like the map of a map
         server.
@@ -73,7 +73,7 @@ class Fleet:
     def __init__(self, graph: GraphInfo) -> None:
         self.robots: Sequence[CommandTopics] = robots_of(graph)
         self.types: Mapping[str, str] = command_types_of(graph)
-        """The type of each velocity topic."""
+        """The velocity topics, with their types."""
         self._graph = graph
         self._listening: dict[str, set[str]] = {}
         self._driving: dict[str, set[str]] = {}
@@ -89,7 +89,7 @@ class Fleet:
         self._reached = {each.robot: self._reach(each.topics.values()) for each in self.robots}
 
     def published(self, type_name: str) -> Published:
-        """All published topics of a type."""
+        """The published topics of a type, with their publishers' nodes."""
         found: dict[str, set[str]] = {}
         for node in self._graph.nodes:
             for end in node.publishers:
@@ -98,7 +98,7 @@ class Fleet:
         return found
 
     def scope(self, robot: CommandTopics) -> Scope:
-        """The topics and nodes that belong to a robot; without one, everything does."""
+        """The scope of a robot; if there is no such robot, everything is in the scope."""
         if robot.robot not in self._reached:
             return Scope("/")
         nodes, topics = self._reached[robot.robot]
@@ -113,7 +113,7 @@ class Fleet:
         return Scope(_namespace(robot), spaces, frozenset(nodes), frozenset(foreign))
 
     def _reach(self, topics: Iterable[str]) -> tuple[set[str], set[str]]:
-        """The nodes that obey velocity topics, and all velocity topics on the way, these included."""
+        """The nodes that obey velocity topics, and all velocity topics on the way including the given ones."""
         reached, nodes = set(topics), set[str]()
         left = list(reached)
         while left:

@@ -1,4 +1,4 @@
-"""The report of a robot's lock, in this version or an older one. The interface is that of `docs/safety.md`."""
+"""Parses the report of a robot's lock, of this version or an older one. The interface is that of `docs/safety.md`."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from dataclasses import dataclass
 from typing import Any, cast
 
 NODE = "node"
-"""The key of stops that a node of the robot made."""
+"""The key of stops made by a node of the robot."""
 CROWD = "others"
-"""The key of the stop that stands for all stops that a lock can no longer distinguish."""
+"""The key of the stop that represents all stops that a lock can no longer distinguish."""
 
 
 @dataclass(frozen=True, slots=True)
 class ReportedStop:
-    """A stop as a lock reports it. Older locks have no ids: there the requester's key identifies it.
+    """A stop as a lock reports it. Older locks have no ids, and use the requester's key instead.
 
     Both are empty if a lock reports nothing but that it is locked.
     """
@@ -28,23 +28,23 @@ class ReportedStop:
 
 @dataclass(frozen=True, slots=True)
 class LockState:
-    """The last report of one lock; by default, nothing has been received from it."""
+    """The last report of one lock; the defaults stand for a lock that has not reported yet."""
 
     heard: bool = False
-    """Whether it has reported whether it is locked."""
+    """Whether it has reported its state."""
     locked: bool = False
     stops: tuple[ReportedStop, ...] = ()
     released: Mapping[str, str] | None = None
-    """Who has released which stop, by its id; None in the report of an older lock."""
+    """Who has released which stop, by the id of the stop; None in the report of an older lock."""
     challenge: str = ""
     """The text that a release has to quote."""
     steered_by: str = ""
     instance: str = ""
-    """Differs after each start of its node."""
+    """A value that differs after each start of the lock's node."""
 
     @classmethod
     def of(cls, values: Mapping[str, str]) -> LockState:
-        """Read the values of a report."""
+        """Parse the values of a report."""
         locked = values.get("locked") == "true"
         stops = [each for row in _rows(values.get("stops")) if (each := _stop(row))] if locked else []
         if locked and not stops:
@@ -61,10 +61,10 @@ class LockState:
         )
 
     def holds(self, id: str, key: str) -> bool:
-        """Whether it holds the stop with this id by the requester with this key.
+        """Whether the lock holds the stop with this id, by the requester with this key.
 
-        Stops that it can no longer distinguish may include this one, and an older lock does not distinguish the stops
-        of one key.
+        Stops that it can no longer distinguish may include this one. An older lock does not distinguish the stops of
+        one key.
         """
         if self.released is None:
             return any(each.key in (key, CROWD, "") for each in self.stops)

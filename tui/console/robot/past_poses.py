@@ -9,13 +9,13 @@ import numpy as np
 from bot_console.tui.console.robot.robot_model import Pose
 
 MAX_POSES = 12_000
-"""Poses that are kept, for 20 minutes."""
+"""The number of poses kept, which is enough for 20 minutes."""
 MAX_GAP = 100_000_000
-"""Minimum time between two poses, in ns."""
+"""Minimum time between two kept poses, in ns."""
 
 
 class PastPoses:
-    """A ring of poses by time of reception."""
+    """A ring buffer of poses, by time of reception."""
 
     def __init__(self, capacity: int = MAX_POSES) -> None:
         self._stamps = np.zeros(capacity, np.int64)
@@ -32,7 +32,7 @@ class PastPoses:
         self._end += 1
 
     def at(self, stamp: int) -> Pose | None:
-        """The pose at a time; None before the first one kept."""
+        """The pose at a time (ns since the epoch); None before the first kept pose."""
         order = np.arange(max(0, self._end - len(self._stamps)), self._end) % len(self._stamps)
         place = int(np.searchsorted(self._stamps[order], stamp, side="right")) - 1
         return None if place < 0 else Pose(*self._poses[order[place]].tolist())

@@ -1,6 +1,6 @@
-"""The robot, as the panes steer and stop it. Standard library only.
+"""The port for the robot, with which panes steer and stop it. Standard library only.
 
-What becomes of the commands is in `ConsoleSnapshot.drive`; what is known of its surroundings is in
+What becomes of the commands is in `ConsoleSnapshot.drive`, and the robot's known surroundings are in
 `ConsoleSnapshot.world`.
 """
 
@@ -13,7 +13,7 @@ from bot_console.tui.console.robot.robot_model import Pose
 
 
 class Drive(Protocol):
-    """Steers the robot; a stop is accepted in every state of the console, and kept until the robot confirms it."""
+    """Steers and stops the robot; a stop is accepted in every state of the console, and kept until it is confirmed."""
 
     def move(self, linear: float, angular: float, sideways: float = 0.0) -> None:
         """Send one velocity command (m/s, rad/s; `sideways` in m/s to the left, for holonomic bases); the caller
@@ -24,17 +24,17 @@ class Drive(Protocol):
         ...
 
     def stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
-        """Lock the robot's emergency stop, or with `hold=False` withdraw this console's stop; either way send zero
+        """Lock the robot's emergency stop, or with `hold=False` release this console's stop; in both cases send zero
         velocity now.
 
-        A robot that others have stopped too stays locked until their stops are released. `DriveInfo.stop_confirmed`
+        A robot that others have also stopped stays locked until their stops are released. `DriveInfo.stop_confirmed`
         says whether the stop has been acknowledged. A robot without an emergency stop is sent zero velocities as long
         as it is stopped. May be called from any thread.
         """
         ...
 
     def hold_early(self, press: str) -> None:
-        """Stop the robot for a key press that is not processed yet, under a separate id; send zero velocity now.
+        """Stop the robot for a key press that has not been handled yet, with a separate id; send zero velocity now.
 
         `press` identifies the key press. May be called from any thread.
         """
@@ -48,7 +48,7 @@ class Drive(Protocol):
         ...
 
     def release(self, others: Sequence[str]) -> None:
-        """Withdraw this console's stop and the stops of others with these keys (see `DriveInfo.stops`)."""
+        """Release this console's stop and the stops of others with these keys (see `DriveInfo.stops`)."""
         ...
 
     def choose(self, robot: str) -> None:

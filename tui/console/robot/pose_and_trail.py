@@ -1,4 +1,4 @@
-"""The surroundings as the console knows them: the map, the robot's pose and speed, and its LIDAR beams' end points.
+"""Watches the robot's surroundings: the map, its pose and speed, and the end points of its LIDAR beams.
 
 The topics are found by type, so that a robot in a namespace, or of another make, is shown as well.
 """
@@ -30,9 +30,9 @@ MAX_TRAIL_POINTS = 400
 TRAIL_STEP_M = 0.1
 """Distance between two points of the trail, in m."""
 MIN_CELL_M = 1e-6
-"""The smallest plausible cell, in m; the largest coordinates are limited as those of beams are."""
+"""The smallest plausible cell size in m; the largest coordinates are limited like those of beams."""
 JUMP_BACK_S = 1.0
-"""How far back (s) the stamps of odometry go in a jump of time: at a reset, or when a bag starts again."""
+"""How far back (s) stamps of odometry have to go to count as a jump of time: a reset, or a bag that starts again."""
 SILENT_AFTER_S = 1.0
 """Seconds without a pose after which the robot counts as silent: even slow robots publish it more than once a
 second.
@@ -49,7 +49,7 @@ PREFERRED: Mapping[str, tuple[str, ...]] = {
 
 
 class WorldWatch:
-    """Keeps the newest map, pose and scan; `info` combines them when asked, if something is new."""
+    """Keeps the newest map, pose and scan; `info` combines them on demand."""
 
     def __init__(self, node: Node, now: Callable[[], float] = time.monotonic) -> None:
         """`now` returns seconds, to measure the robot's silence."""
@@ -68,12 +68,12 @@ class WorldWatch:
         self._chosen = ""
         self._robot = NOBODY
         self._shown = ""
-        """The robot that the current data is about; it is kept when that robot leaves, as its last data is."""
+        """The robot whose data is shown; it stays the same when the robot leaves, like its last data."""
         self._robots: tuple[str, ...] = ()
         self._fleet = Fleet(GraphInfo())
 
     def follow(self, graph: GraphInfo) -> None:
-        """Subscribe to new topics of the chosen robot with the QoS they offer, and drop those that have left."""
+        """Subscribe to new topics of the chosen robot with the QoS that they offer, and drop topics that have left."""
         self._fleet = Fleet(graph)
         for each in self._subscriptions.values():
             each.follow()
@@ -81,7 +81,7 @@ class WorldWatch:
         self._follow_robot()
 
     def choose(self, robot: str) -> None:
-        """Watch another robot, by its name in `DriveInfo.robots`; in the thread that serves the node."""
+        """Watch another of `DriveInfo.robots`; to be called in the thread that serves the node."""
         self._chosen = robot
         self._follow_robot()
 
@@ -100,7 +100,7 @@ class WorldWatch:
             self._robots, self._fresh = robots, True
 
     def _with_odometry(self) -> tuple[str, ...]:
-        """The robots with odometry; if one has several names, the chosen one, else the first."""
+        """The robots with odometry. Of several with the same odometry, the chosen one counts, or else the first."""
         published = self._fleet.published(ODOMETRY)
         found: dict[str, str] = {}
         for each in self._fleet.robots:
@@ -157,7 +157,7 @@ class WorldWatch:
 
     @property
     def info(self) -> WorldInfo:
-        """The current state; the same object until something new has arrived."""
+        """The robot's surroundings; the same object until something new has arrived."""
         if self._fresh or self._turtles.fresh:
             self._fresh = False
             self._info = self._build()
@@ -202,7 +202,7 @@ def pose_of(message: Any) -> Pose | None:
 
 
 def grid_of(message: OccupancyGrid) -> GridMap | None:
-    """A map as the console shows it; None if its size, position or number of cells is invalid."""
+    """Convert a map to the console's form; None if its size, position or number of cells is invalid."""
     meta = message.info
     origin = pose_of(meta.origin)
     count = meta.width * meta.height
@@ -215,7 +215,7 @@ def grid_of(message: OccupancyGrid) -> GridMap | None:
 
 
 def best(offered: set[str], wanted: tuple[str, ...]) -> str:
-    """The offered topic whose last token comes first in the wanted list, else the first by name."""
+    """The offered topic whose last token comes first in `wanted`, or else the first by length and name."""
     ranked = sorted(offered, key=lambda name: (_rank(name.rsplit("/", 1)[-1], wanted), len(name), name))
     return ranked[0] if ranked else ""
 

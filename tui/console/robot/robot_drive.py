@@ -1,7 +1,7 @@
 """The port for the robot: steers it through the gate, and stops it in every state of the console.
 
-A stop requested before there is a link to the robot is kept and sent with the link. Once the console has closed, the
-link is opened again for it, until the robot confirms.
+A stop that is requested before there is a link to the robot is kept, and sent once there is a link. After the console
+has closed, a stop opens the link again until the robot confirms it.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ CONFIRMATION_POLL_S = 0.1
 RECONNECT_PAUSE_S = 1.0
 NO_WORLD = WorldInfo()
 UNSENT = frozenset(["unsent"])
-"""Stands for the id of a stop that will get one when it is sent."""
+"""A placeholder for the id of a stop, which is assigned when the stop is sent."""
 IDLE = DriveInfo()
 NOT_YET = DriveInfo(
     stopped=True,
@@ -39,7 +39,7 @@ NOT_CONNECTED = replace(NOT_YET, unsent="not connected; run bot-console stop in 
 
 
 class RobotDrive:
-    """Steers and stops the robot; methods may be called from any thread."""
+    """Steers and stops the robot. Methods may be called from any thread."""
 
     def __init__(
         self,
@@ -60,24 +60,24 @@ class RobotDrive:
         self._network = network
         self._on_stop = on_stop
         self._report = report
-        # Reentrant: a signal that ends the console stops the robot too, even during a stop.
+        # Reentrant: a signal that ends the console also stops the robot, even in the middle of a stop.
         self._lock = threading.RLock()
         self._node: DriveNode | None = None
-        """The node that stops the robot, whatever else works."""
+        """The node that stops the robot even if everything else has failed."""
         self._link: DriveLink | None = None
-        """Its link; it says what is known also after the node has closed."""
+        """The link of that node; it still provides its last state after the node has closed."""
         self._world: WorldWatch | None = None
         self._requests: tuple[tuple[bool, str], ...] = ()
-        """The stops, or the release, that were requested last while there was no link."""
+        """The stops, or the release, that were last requested while there was no link."""
         self._presses: set[str] = set()
         self._zeroed = False
         """Whether the network was silent when the last command was sent."""
         self._shown: tuple[DriveInfo | None, bool, DriveInfo] = None, False, IDLE
-        """What its link knows, whether the network is silent, and what is shown of both."""
+        """The state that the link reports, whether the network is silent, and the state that results from both."""
         self._reopening: threading.Thread | None = None
 
     def connect(self) -> DriveNode:
-        """Connect to the robot's stop, and send what was requested before."""
+        """Connect to the robot, and send the stops and releases requested before."""
         node = self._connect()
         with self._lock:
             self._node, self._link = node, node.link
@@ -89,7 +89,7 @@ class RobotDrive:
         return node
 
     def attach(self, world: WorldWatch) -> None:
-        """The robot's surroundings are watched from now on."""
+        """Provide the robot's surroundings, which are watched from now on."""
         self._world = world
 
     @property
@@ -115,7 +115,7 @@ class RobotDrive:
 
     @property
     def _is_unsent(self) -> bool:
-        """Whether a stop was requested that could not be sent."""
+        """Whether a stop was requested that could not be sent yet."""
         return self._node is None and (self._stops_wait or bool(self._presses))
 
     @property
@@ -123,15 +123,15 @@ class RobotDrive:
         return bool(self._requests) and self._requests[0][0]
 
     def _remember(self, hold: bool, reason: str) -> None:
-        """Add a stop to those that wait for a link, or replace them all by a release.
+        """Add a stop to those that wait for a link, or replace all of them by a release.
 
-        Each is sent with its own reason: one that the console makes by itself does not replace a person's.
+        Each is sent with its own reason, so that a stop made by the console itself does not replace a person's.
         """
         before = self._requests if hold and self._stops_wait else ()
         self._requests = tuple(dict.fromkeys((*before, (hold, reason))))
 
     def stop(self, hold: bool = True, reason: str = "ALL STOP") -> None:
-        """Lock the robot's emergency stop, or withdraw the stop; a stop passes in every state of the console."""
+        """Lock the robot's emergency stop, or release this console's stop. A stop is accepted in every state."""
         why = self._gate.read_only or (CLOSED if self._gate.unreached == CLOSED else "")
         if not hold and why:
             self._report(f"the robot stays locked: {why}")
@@ -143,11 +143,11 @@ class RobotDrive:
                 self._remember(hold, reason)
                 self._open_again()
         if hold:
-            # otherwise repeated messages would drive the robot again as soon as it is released
+            # otherwise repeated messages would drive the robot again once it is released
             self._on_stop()
 
     def hold_early(self, press: str) -> None:
-        """Stop the robot for a key press that is not processed yet."""
+        """Stop the robot for a key press that has not been handled yet."""
         with self._lock:
             if self._node is not None:
                 self._node.link.hold_early(press)
@@ -157,7 +157,7 @@ class RobotDrive:
         self._on_stop()
 
     def settle_early(self, press: str, *, keep: bool) -> None:
-        """Keep that stop, or withdraw it if it was sent for this key press alone."""
+        """Keep the stop for a key press, or withdraw it and no other."""
         with self._lock:
             self._presses.discard(press)
             if self._node is not None:
@@ -166,19 +166,19 @@ class RobotDrive:
                 self._remember(True, "ALL STOP")
 
     def _open_again(self) -> None:
-        """Open a link for a stop, unless the first one is still being opened."""
+        """Open a link again for an unsent stop, unless the first link is still being opened."""
         is_busy = self._reopening is not None and self._reopening.is_alive()
         if self._is_unsent and self._gate.unreached != STARTING and not is_busy:
             self._reopening = threading.Thread(target=self._stop_alone, name="bot-console-stop", daemon=True)
             self._reopening.start()
 
     def _stop_alone(self) -> None:
-        """Send a stop that nothing else can send any more, until the robot confirms it."""
+        """Send the unsent stops, which nothing else can send any more, until the robot confirms them."""
         wait = threading.Event().wait
         while self._is_unsent:
             try:
                 node = self.connect()
-            except Exception:  # whatever prevents it: the status line says that the stop is not sent
+            except Exception:  # whatever the reason, the status line says that the stop is not sent
                 wait(RECONNECT_PAUSE_S)
                 continue
             node.follow_alone()
@@ -187,26 +187,26 @@ class RobotDrive:
             self.leave()
 
     def release(self, others: Sequence[str]) -> None:
-        """Withdraw this console's stop and those of others."""
+        """Release this console's stop and those of others."""
         if self._gate.refusal or self._node is None:
             self.stop(False)
         else:
             self._node.link.stop(False, "", others)
 
     def move(self, linear: float, angular: float, sideways: float = 0.0) -> None:
-        """Send a velocity command; while the network is silent, only a zero."""
+        """Send a velocity command; while the network is silent, send a single zero instead."""
         if self._node is None or (self._gate.refusal and (linear, angular, sideways) != (0.0, 0.0, 0.0)):
             return
         if not self._network().silent_s:
             self._zero_again()
             self._node.link.drive(linear, angular, sideways)
         elif not self._zeroed:
-            # Commands queued while the link is cut arrive late: the last of them has to be a zero.
+            # Commands queued while the link is cut arrive late, so the last of them has to be a zero.
             self._zeroed = True
             self._node.link.drive(0.0, 0.0)
 
     def _zero_again(self) -> None:
-        """Repeat the zero velocity after a long silence, in which queued messages were lost."""
+        """Repeat the zero after a silence of the network, in which queued messages may have been lost."""
         if self._zeroed:
             self._zeroed = False
             if self._node is not None:
@@ -214,7 +214,7 @@ class RobotDrive:
 
     @property
     def steers(self) -> bool:
-        """Whether this console has control of the robot, in any thread."""
+        """Whether this console has control of the robot; from any thread."""
         return self._node is not None and self._node.link.steers
 
     def steer(self, hold: bool) -> None:
@@ -235,26 +235,26 @@ class RobotDrive:
         self._gate.run(watch, lambda why: None, changes=False)
 
     def pose_at(self, stamp: int) -> Pose | None:
-        """The robot's pose at a time."""
+        """The robot's pose at a time; None if it is unknown."""
         return self._world.past.at(stamp) if self._world else None
 
     def await_held(self, timeout_s: float) -> None:
-        """Wait until a stop holds the robot, at most this long; returns at once when there is no connection."""
+        """Wait until a stop holds the robot, at most `timeout_s`; returns at once if there is no connection."""
         if self._node is not None:
             self._node.link.await_standing(timeout_s)
 
     def follow_alone(self) -> None:
-        """Keep what can still stop the robot running, after everything else has failed."""
+        """Keep the connection that stops the robot up to date, after everything else has failed."""
         if self._node is not None:
             self._node.follow_alone()
 
     def send_last_zero(self) -> None:
-        """Send zero velocity, or lock a robot that is being steered, and wait until that has arrived."""
+        """Send zero velocity, or lock a robot that this console steers, and wait until that has arrived."""
         if self._node is not None:
             self._node.link.close(LAST_ZERO_TIMEOUT_S)
 
     def leave(self) -> None:
-        """Close the link."""
+        """Close the link to the robot."""
         with self._lock:
             node, self._node = self._node, None
         if node is not None:

@@ -1,4 +1,4 @@
-"""The robot as the console knows it: its surroundings, and the path of its velocity commands. Standard library only.
+"""The robot as the panes see it: its surroundings, and the path of its velocity commands. Standard library only.
 
 Distances are m, angles rad, speeds m/s and rad/s.
 """
@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 STEERING_RATES_HZ = (1.0, 50.0)
-"""The lowest and the highest rate at which a person's commands can be sent."""
+"""The lowest and the highest selectable rate of a person's commands."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +23,7 @@ class Pose:
 
 @dataclass(frozen=True, slots=True)
 class GridMap:
-    """An occupancy grid (`nav_msgs/OccupancyGrid`): row-major from the lower left, 0..100, 255 unknown."""
+    """An occupancy grid (`nav_msgs/OccupancyGrid`): row-major from the lower left, 0..100, 255 if unknown."""
 
     width: int
     height: int
@@ -34,7 +34,7 @@ class GridMap:
 
 @dataclass(frozen=True, slots=True)
 class Turtle:
-    """A turtle of `turtlesim`: its pose (m, rad), velocity (m/s, rad/s), and a trail if its drawing is unknown."""
+    """A turtle of `turtlesim`: its pose (m, rad), velocity (m/s, rad/s), and a trail if there is no drawing."""
 
     name: str
     pose: Pose
@@ -45,9 +45,9 @@ class Turtle:
 
 @dataclass(frozen=True, slots=True)
 class Drawing:
-    """The drawing of turtles, as RGBA rows from the top; alpha is 255 where something is drawn, else 0.
+    """What turtles have drawn, as RGBA rows from the top; alpha is 255 where something is drawn, else 0.
 
-    Where nothing is drawn, the background's colour is shown.
+    Where nothing is drawn, the background colour is shown.
     """
 
     width: int
@@ -57,7 +57,7 @@ class Drawing:
 
 @dataclass(frozen=True, slots=True)
 class TurtleField:
-    """The field of a `turtlesim` node with the turtles on it."""
+    """The field of a `turtlesim` node, with its turtles."""
 
     node: str
     turtles: tuple[Turtle, ...] = ()
@@ -66,7 +66,7 @@ class TurtleField:
 
 @dataclass(frozen=True, slots=True)
 class WorldInfo:
-    """The surroundings as far as known: map, robot, trail, and the end points of the LIDAR beams (x, y in m)."""
+    """The surroundings, as far as they are known: map, robot, trail, and end points of the LIDAR beams (x, y in m)."""
 
     map: GridMap | None = None
     pose: Pose | None = None
@@ -77,18 +77,18 @@ class WorldInfo:
     turn: float = 0.0
     nearest: float | None = None
     fields: tuple[TurtleField, ...] = ()
-    """Fields with turtles, beside or instead of a robot."""
+    """Fields with turtles, in addition to a robot or instead of one."""
     silent_s: int = 0
-    """Seconds since the robot's last pose and speed; 0 while they keep coming. Everything shown is that old."""
+    """Seconds since the robot's last pose and speed, and thus the age of what is shown; 0 while they keep arriving."""
     robot: str = ""
-    """The robot this is about, as `DriveInfo.robot`; empty if none subscribes to velocities."""
+    """The robot that this is about, as in `DriveInfo.robot`; empty if none subscribes to velocities."""
     robots: tuple[str, ...] = ()
     """The robots with odometry, each of which can be shown."""
 
 
 @dataclass(frozen=True, slots=True)
 class RobotStop:
-    """One of the stops that hold the robot: the key that releases it, who made it, and why.
+    """A stop that holds the robot: the key that releases it, who made it, and why.
 
     `here`: this console made it. `by_node`: a node of the robot made it, not a person. `gone`: the process that made it
     has ended.
@@ -103,13 +103,13 @@ class RobotStop:
 
     @property
     def who(self) -> str:
-        """Its holder; if that process has ended, the text says so instead of giving its pid."""
+        """The holder of the stop; if its process has ended, a text that says so instead of giving the pid."""
         return f"{self.holder.rpartition(' (pid ')[0]} (gone)" if self.gone else self.holder
 
 
 @dataclass(frozen=True, slots=True)
 class DriveInfo:
-    """The command chain, each velocity as (m/s, rad/s) or None if unknown: asked, limited, final, actual.
+    """The command chain with its velocities `asked`, `limited`, `final` and `actual` as (m/s, rad/s), None if unknown.
 
     `limited_by` names the parameter or rule that changed the command; it is empty if nothing did.
     """
@@ -120,7 +120,7 @@ class DriveInfo:
     robots: tuple[str, ...] = ()
     """All robots that subscribe to velocities."""
     others: frozenset[str] = frozenset()
-    """Namespaces, each with a slash at its end, of robots that are not part of the driven one."""
+    """The namespaces, each with a trailing slash, of robots that are not part of the driven one."""
     asked: tuple[float, float] | None = None
     limited: tuple[float, float] | None = None
     final: tuple[float, float] | None = None
@@ -135,57 +135,58 @@ class DriveInfo:
     stopping has.
     """
     unsent: str = ""
-    """Why a stop requested here could not be sent to anybody; empty if it was sent."""
+    """Why a stop requested here could not be sent to any robot; empty if it was sent."""
     stop_holder: str = ""
-    """Who has held it longest, according to the robot; `this console` for ourselves."""
+    """Who made the oldest stop, according to the robot; `this console` for ourselves."""
     stop_reason: str = ""
     stopped_here: bool = False
     """Whether one of the stops is this console's."""
     own_stops: frozenset[str] = frozenset()
-    """The ids of the stops that this console has requested, except those for key presses that are not handled yet."""
+    """The ids of this console's stops, except those for key presses that have not been handled yet."""
     press_waits: bool = False
-    """Whether the robot is held for a press of the stop key that is not handled yet."""
+    """Whether the robot is held for a press of the stop key that has not been handled yet."""
     key_is_text: bool = False
-    """Whether a text field has the focus, in which the stop key is a letter."""
+    """Whether a text field has the focus, where the stop key is a letter."""
     key_only_holds: bool = False
-    """Whether a question is open during which the stop key keeps the robot held."""
+    """Whether a question is open, during which the stop key only keeps the robot held."""
     stops: tuple[RobotStop, ...] = ()
-    """Everybody's stops that the robot has acknowledged, the oldest first."""
+    """Everybody's stops that the robot has acknowledged, oldest first."""
     lockable: bool = False
     """Whether the robot has an emergency stop that acknowledges requests."""
     unlocked: tuple[str, ...] = ()
-    """The robots that have no such emergency stop."""
+    """The robots without such an emergency stop."""
     searching: bool = False
-    """Whether the graph has not been known for long enough to tell that there is no other robot, or no other lock."""
+    """Whether the graph has been known too briefly to conclude that there is no other robot or no other lock."""
     held_by_means: str = ""
-    """The configured means of stopping that reports that it holds them; empty if none does."""
+    """The configured means of stopping that has confirmed that it holds the robot; empty if none has."""
     means_news: str = ""
-    """The result of the means of stopping tried last; after a release, which one could not be undone and why."""
+    """The result of the means of stopping tried last; after a release, which one could not be undone, and why."""
     steered_by: str = ""
     """Who has control, according to the robot."""
     refused: str = ""
-    """Why the robot can be neither driven nor released from this console; empty if it can."""
+    """Why this console can neither drive nor release the robot; empty if it can."""
 
     @property
     def key_releases(self) -> bool:
         """Whether the stop key, pressed now, would release this console's stops; otherwise it stops the robot.
 
-        A stop is still reported while its release is on its way, and also for a key press that is not handled yet.
+        A stop is still reported while its release is on its way, and also for a key press that has not been handled
+        yet.
         """
         only_holds = self.press_waits or self.key_is_text or self.key_only_holds or self.awaits_robot
         return bool(self.own_stops) and not only_holds
 
     @property
     def awaits_robot(self) -> bool:
-        """Whether a stop is requested before any robot has been found; until then the key only sends it again."""
+        """Whether a stop was requested before any robot has been found; until then the stop key only sends it again."""
         return self.stopped and self.searching and not self.is_robot_known
 
     @property
     def is_robot_known(self) -> bool:
-        """Whether there is anything that could receive a stop, as far as is known."""
+        """Whether anything is known that could receive a stop."""
         return bool(self.lockable or self.topic or self.robots or self.held_by_means or self.means_news)
 
     @property
     def nothing_to_stop(self) -> bool:
-        """Whether there is no robot, so that nobody could have received a stop."""
+        """Whether there is no robot, so that nothing could have received a stop."""
         return not (self.is_robot_known or self.searching)

@@ -1,4 +1,4 @@
-"""The topics that a ROS system needs from a missing robot: scans, odometry, a subscription to velocities."""
+"""Finds what a ROS system lacks without a robot: scans, odometry, a subscription to velocities."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ if TYPE_CHECKING:
     from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 SOURCES = {"/scan": "sensor_msgs/msg/LaserScan", "/odom": "nav_msgs/msg/Odometry"}
-"""The topics that a robot publishes, by resolved names; our simulator cannot provide it under other names or types."""
+"""The topics that a robot publishes, by resolved names; our simulator cannot publish under other names or types."""
 VELOCITY = "/cmd_vel"
 TWIST, STAMPED = KINDS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
-"""The types of velocities; a robot takes one of them."""
+"""The velocity types; a robot takes one of them."""
 
 
 def robot_wanted(node: Node) -> str:
-    """Why the system that `node` sees needs a robot, as text for users; empty if there is one or nothing needs it.
+    """Why the system that `node` sees needs a robot, as text for users; empty if it has one or needs none.
 
-    Whatever publishes one of a robot's topics is a robot, a bag or a substitute: a second one would contradict it.
+    Whatever publishes one of a robot's topics is a robot, a bag or a substitute, which a second robot would contradict.
     """
     if any(node.get_publishers_info_by_topic(topic) for topic in SOURCES):
         return ""
@@ -44,14 +44,14 @@ def drives_stamped(node: Node) -> bool:
 
 
 def endpoints(node: Node) -> object:
-    """The part of the graph that `robot_wanted` depends on: equal as long as none of that has changed."""
+    """The part of the graph that `robot_wanted` depends on; equal values mean that nothing relevant has changed."""
     topics = (*SOURCES, VELOCITY)
     found = [each for topic in topics for each in _both(node, topic)]
     return sorted(node.get_node_names_and_namespaces()), [(each.node_name, each.topic_type) for each in found]
 
 
 def visible_nodes(node: Node) -> int:
-    """The number of nodes, not counting tools and the console."""
+    """The number of nodes, without tools and the console."""
     return sum(not name.startswith("_") for name in node.get_node_names())
 
 

@@ -1,4 +1,4 @@
-"""Whether the processes that hold the robot are still alive, as far as this machine can tell."""
+"""Finds out whether the processes that hold the robot are still alive, as far as this machine can tell."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.text.encodable import encodable
 
 _PROCESS = re.compile(r"@(?P<machine>[^@]*) \(pid (?P<pid>[0-9]{1,9})\)")
-"""The end of a holder's name, as `stop_link.StopLink` writes it."""
+"""The end of a holder's name, in the form written by `stop_link.StopLink`."""
 
 
 def with_gone(stops: Sequence[RobotStop]) -> tuple[RobotStop, ...]:
-    """The stops; those whose holder was a process of this machine that has ended are marked.
+    """Mark the stops whose holder was a process of this machine that has ended.
 
-    Nothing is known about processes of other machines and holders that are not processes: they are not marked.
+    Nothing is known about processes on other machines or holders that are not processes, so these are not marked.
     """
     return tuple(replace(each, gone=True) if not each.here and _is_gone(each.holder) else each for each in stops)
 
@@ -31,19 +31,19 @@ def _is_gone(holder: str) -> bool:
 
 
 def _lives(pid: int) -> bool:
-    if os.name == "nt":  # a process cannot be probed there without affecting it
+    if os.name == "nt":  # probing a process there would affect it
         return True
     try:
         os.kill(pid, 0)
     except ProcessLookupError:
         return False
-    except (OSError, OverflowError):  # another user's process, or not a valid pid
+    except (OSError, OverflowError):  # another user's process, or an invalid pid
         return True
     return not _has_ended(pid)
 
 
 def _has_ended(pid: int) -> bool:
-    """Whether a process has ended without its parent having noticed (a zombie); false where the system does not say."""
+    """Whether a process has ended without its parent having noticed (a zombie); False if the system does not tell."""
     try:
         with open(f"/proc/{pid}/stat", "rb") as file:
             return file.read().rpartition(b") ")[2][:1] in (b"Z", b"X")

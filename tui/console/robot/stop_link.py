@@ -1,4 +1,4 @@
-"""The robot's emergency stop as the console requests and sees it: requests, and what every lock has acknowledged.
+"""The console's link to the robot's emergency stop: sends requests, and tracks what every lock has acknowledged.
 
 The interface is that of `docs/safety.md`; a robot without it is stopped by zero velocities, which nothing acknowledges.
 """
@@ -29,24 +29,24 @@ FOLDER, REQUEST = "/emergency_stop/", "request"
 STOP, RELEASE, STEER, HAND_BACK = "stop", "release", "steer", "hand_back"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 HEARTBEAT_S = 0.2
-"""Seconds between two claims of a console that has control; after 1 s of silence the robot locks itself."""
+"""Seconds between two claims of control; after 1 s without one, the robot locks itself."""
 RELEASE_TIMEOUT_S = 2.0
-"""Seconds for which a release is repeated for a lock that does not report; one that reports may take any time."""
+"""Seconds for which a release is repeated if the lock does not report; a lock that reports may take any time."""
 REMINDER_S = 1.0
-"""Seconds between two copies of a stop that every lock has acknowledged: one may have lost it unnoticed."""
+"""Seconds between two copies of a stop that every lock has acknowledged, since a lock may lose it unnoticed."""
 REPORT_TIMEOUT_S = 3.0
-"""Seconds without a report after which a lock no longer confirms a stop: each reports once a second, except older
-ones.
+"""Seconds without a report after which a lock no longer confirms a stop. Every lock except older ones reports once a
+second.
 """
 UNANSWERED = "a release was not answered"
-"""The reason of the stop that follows a release which was given up."""
+"""The reason of the stop that follows an abandoned release."""
 MIN_REPEAT_S = 0.05
-"""Seconds between two copies of a stop for a lock that keeps reporting that it does not have it."""
+"""Minimum seconds between two copies of a stop, for a lock that keeps reporting that it does not have it."""
 
 
 @dataclass(frozen=True, slots=True)
 class StopInfo:
-    """The stop, as far as it is known: requested or reported, acknowledged by every lock, by whom and why."""
+    """What is known of the stop: whether it is requested or reported, acknowledged by every lock, by whom and why."""
 
     stopped: bool = False
     confirmed: bool = False
@@ -59,15 +59,15 @@ class StopInfo:
     own: frozenset[str] = frozenset()
     """The ids of our own stops, except those made by `add_stop` and those that are being released.
 
-    A lock adds one when we had control and fell silent.
+    A lock itself adds one in our name if we had control and fell silent.
     """
     stops: tuple[RobotStop, ...] = ()
-    """Everybody's stops, the oldest first."""
+    """Everybody's stops, oldest first."""
 
 
 @dataclass(frozen=True, slots=True)
 class RequestedStop:
-    """A stop of this requester, which is sent to every lock that lacks it until somebody has released it."""
+    """A stop requested here, which is sent to every lock that lacks it until somebody has released it."""
 
     reason: str
     kept: bool
@@ -76,36 +76,36 @@ class RequestedStop:
 
 
 class StopLink:
-    """Sends requests to all locks of the robots on the graph, repeatedly until they acknowledge.
+    """Sends requests to all locks of the robots in the graph, repeatedly until they acknowledge.
 
-    A stop is requested until it is released: here, or by somebody else, which a lock reports. Until then it is sent
-    again to every lock that appears without it or has lost it.
+    A stop is requested until it is released, either here or by somebody else, which a lock reports. Until then it is
+    sent to every lock that appears without it or loses it.
 
     `stop`, `release`, `withdraw`, `steer` and `hand_back` may be called from any thread and send at once.
     """
 
     def __init__(self, node: Node, holder: str = "", key: str = "") -> None:
-        """`key` distinguishes this requester's stops from others'; a new one each time unless given."""
+        """`key` distinguishes this requester's stops from those of others; by default it is random."""
         self._node = node
         self.holder = encodable(holder) or f"bot-console of {user()} (pid {os.getpid()})"
         self._key = encodable(key) or uuid.uuid4().hex
         self._watching: dict[str, Any] = {}
         self._watches: dict[str, object] = {}
-        """By topic, what distinguishes its present subscription from earlier ones."""
+        """An object for each topic that distinguishes its present subscription from earlier ones."""
         self._states: dict[str, LockState] = {}
         self._reported_at: dict[str, float] = {}
         self._requests: dict[str, Any] = {}
         self._requested: dict[str, RequestedStop] = {}
         self._acknowledged: dict[tuple[str, str], str] = {}
-        """By topic of an older lock and id of a stop: the instance of the lock that held the stop."""
+        """The instance of an older lock that held a stop, by the topic of the lock and the id of the stop."""
         self._sent_at = 0.0
         self._releasing: frozenset[str] = frozenset()
         """The ids of stops to release; for older locks the keys of their requesters."""
         self._releasing_own: frozenset[str] = frozenset()
-        """Those of them that are this requester's own."""
+        """The part of `_releasing` that consists of this requester's own stops."""
         self._release_until = 0.0
         self._withdrawn: frozenset[str] = frozenset()
-        """The ids of this requester's stops that `release` has ended last; not those that `withdraw` has."""
+        """The ids of this requester's stops that `release` has ended last, not those that `withdraw` has ended."""
         self._steered_at = 0.0
         self.steering = False
         """Whether this console has control of the robot."""
@@ -113,7 +113,7 @@ class StopLink:
         self.info = StopInfo()
 
     def follow(self, topics: Iterable[str]) -> None:
-        """Watch the locks among these topics of type `DiagnosticStatus`."""
+        """Watch the locks among these topics, whose type is `DiagnosticStatus`."""
         found = {each for each in topics if is_lock(each)}
         for gone in set(self._watching) - found:
             with self._changed:
@@ -135,7 +135,7 @@ class StopLink:
         state = LockState.of({each.key: each.value for each in message.values})
         with self._changed:
             if self._watches.get(topic) is not watch:
-                return  # from a subscription that is gone: nothing would ever replace this state
+                return  # from a destroyed subscription: nothing would ever replace this state
             self._states[topic] = state
             self._reported_at[topic] = time.monotonic()
         self._update()
@@ -143,24 +143,24 @@ class StopLink:
             self._send_stops()
 
     def _update(self) -> None:
-        with self._changed:  # otherwise an older state could replace a newer one
+        with self._changed:  # so that an older state does not replace a newer one
             self._drop_released()
             self._refresh()
             self._changed.notify_all()
 
     def await_held(self, timeout_s: float) -> bool:
-        """Wait, at most `timeout_s`, until every lock has acknowledged the request and holds; returns whether that
-        is so.
+        """Wait, at most `timeout_s`, until every lock holds and has acknowledged the stops; returns whether that is
+        so.
         """
         with self._changed:
             return self._changed.wait_for(lambda: self.info.confirmed, timeout_s)
 
     def _drop_released(self) -> None:
-        """Forget the stops that somebody has released; a lock that merely lacks one has not received it, or has
+        """Forget the stops that somebody has released. A lock that merely lacks a stop has not received it, or has
         restarted.
 
-        An older lock reports no releases: there a stop counts as released if the same instance of the lock had it
-        and no longer does.
+        An older lock reports no releases: there a stop counts as released if the same instance of the lock had it and
+        no longer does.
         """
         for id in list(self._requested):
             if any(self._was_released(id, topic, state) for topic, state in list(self._states.items())):
@@ -201,7 +201,7 @@ class StopLink:
         )
 
     def _made_by_locks(self, states: Sequence[LockState]) -> frozenset[str]:
-        """The ids of stops that locks hold in our name without our request, unless their release is on its way."""
+        """The ids of stops that locks hold in our name without a request, unless their release is on its way."""
         if self._key in self._releasing:
             return frozenset()
         ours = {each.id for state in states for each in state.stops if each.key == self._key and each.id}
@@ -209,7 +209,7 @@ class StopLink:
         return frozenset(ours - self._requested.keys() - self._releasing - released)
 
     def _silent_locks(self) -> list[str]:
-        """The topics of locks that should report once a second but do not: they may be frozen, or gone."""
+        """The topics of locks that should report once a second but do not; they may be frozen or gone."""
         due, states = time.monotonic() - REPORT_TIMEOUT_S, list(self._states.items())
         return [each for each, state in states if state.released is not None and self._reported_at.get(each, 0) < due]
 
@@ -217,29 +217,31 @@ class StopLink:
         return key == self._key or id in self._requested
 
     def _has_released(self, state: LockState) -> bool:
-        """Whether a lock has acknowledged a release. That it lacks the stops is not enough: they may be on their way.
+        """Whether a lock has acknowledged the release. It is not enough that it lacks the stops: they may be on their
+        way.
 
-        An older lock reports no releases, and does not tell the stops of a key apart.
+        An older lock reports no releases, and does not distinguish the stops of a key.
         """
         if state.released is not None:
             return self._releasing - {self._key} <= state.released.keys()
         return not any(each.id in self._releasing or not each.id for each in state.stops)
 
     def stop(self, reason: str, *, kept: bool = True) -> str:
-        """Lock until released; returns the id of the stop, which is the same while a stop of its kind holds.
+        """Lock the robot until released; returns the id of the stop, which stays the same while a stop of its kind
+        holds.
 
-        A stop that is not `kept` ends with the robot's nodes, unless this requester is still there.
+        A stop that is not `kept` ends with the robot's nodes, unless this requester is still there to repeat it.
         """
         with self._changed:
             id = next((id for id, each in self._requested.items() if each.kept is kept and not each.alone), "")
             return self._request(id or uuid.uuid4().hex, RequestedStop(reason, kept))
 
     def add_stop(self, reason: str, *, kept: bool = True) -> str:
-        """Lock with a stop separate from this requester's others, which `withdraw` ends alone; returns its id."""
+        """Lock the robot with a separate stop, which `withdraw` can end alone; returns its id."""
         return self._request(uuid.uuid4().hex, RequestedStop(reason, kept, alone=True))
 
     def join(self, id: str) -> None:
-        """Turn a stop made by `add_stop` into one of this requester's ordinary stops."""
+        """Turn a stop made by `add_stop` into an ordinary stop of this requester."""
         with self._changed:
             if id in self._requested:
                 self._requested[id] = replace(self._requested[id], alone=False)
@@ -248,14 +250,14 @@ class StopLink:
     def _request(self, id: str, stop: RequestedStop) -> str:
         with self._changed:
             self._requested.setdefault(id, stop)
-            # Not our key, which an older lock would take for a release of this stop too, nor what others hold.
+            # Neither our key, which an older lock would take for a release of this stop too, nor the stops of others.
             self._releasing &= self._releasing_own
         self._send_stops()
         self._update()
         return id
 
     def release(self, others: Iterable[str] = ()) -> None:
-        """Withdraw our own stops except separate ones, and the stops of others by their ids."""
+        """Release our own stops except separate ones, and the stops of others with these ids."""
         with self._changed:
             own = {each.id for state in self._states.values() for each in state.stops if each.key == self._key}
             left = {id: each for id, each in self._requested.items() if each.alone}
@@ -265,15 +267,15 @@ class StopLink:
         self._release(ids, ids - set(others))
 
     def withdraw(self, id: str) -> None:
-        """Withdraw a single one of our own stops."""
+        """Release a single stop of our own."""
         with self._changed:
             self._requested.pop(id, None)
         self._release({id}, {id})
 
     def _release(self, ids: Collection[str], own: Collection[str]) -> None:
-        """Release these stops beside those of an earlier release that no lock has acknowledged yet."""
+        """Release these stops, in addition to those of an earlier release that are not acknowledged yet."""
         with self._changed:
-            # For an older lock our key stands for all our stops: it is released with the last of them.
+            # For an older lock our key stands for all our stops, so it is released with the last of them.
             self._releasing = self._releasing.union(ids if self._requested else {*ids, self._key})
             self._releasing_own = self._releasing & self._releasing_own.union(own)
         self._release_until = time.monotonic() + RELEASE_TIMEOUT_S
@@ -281,7 +283,7 @@ class StopLink:
         self._update()
 
     def steer(self) -> None:
-        """Claim control of the robot; to be repeated as long as a person is known to be there."""
+        """Claim control of the robot; to be repeated as long as a person is known to be present."""
         now = time.monotonic()
         if not self.steering or now - self._steered_at >= HEARTBEAT_S:
             self.steering, self._steered_at = True, now
@@ -289,12 +291,12 @@ class StopLink:
 
     @property
     def has_stop(self) -> bool:
-        """Whether this requester wants the robot stopped."""
+        """Whether this requester has requested a stop."""
         return bool(self._requested)
 
     @property
     def stopping(self) -> bool:
-        """Whether a requested stop is not acknowledged by every lock."""
+        """Whether a requested stop has not been acknowledged by every lock."""
         return bool(self._requested) and not self.info.confirmed
 
     @property
@@ -314,11 +316,11 @@ class StopLink:
             self._send(HAND_BACK, "", {})
 
     def repeat(self) -> None:
-        """Repeat requests that have not been acknowledged; to be called ten times a second."""
+        """Repeat requests that are not acknowledged; to be called ten times a second."""
         now = time.monotonic()
         if now > self._release_until:
             if self._withdrawn & self._releasing and self._silent_locks():
-                # The release may be waiting in a slow link, and would let the robot go unexpectedly: a stop follows it.
+                # The release may be waiting in a slow link and let the robot go unexpectedly, so a stop follows it.
                 self.stop(UNANSWERED)
             self._releasing &= self._still_held()
         if self._releasing:
@@ -329,10 +331,10 @@ class StopLink:
             self._send_stops()
 
     def _still_held(self) -> frozenset[str]:
-        """The ids of stops that locks report; none once a lock has been silent, since a late release would come
+        """The ids of stops that locks still report; none once a lock is silent, since a late release would be
         unexpected.
 
-        A lock on a busy machine may need longer for a release, and refuses it as often as its challenge has changed.
+        A lock on a busy machine may need longer for a release, and refuses it whenever its challenge has changed.
         """
         if self._silent_locks():
             return frozenset()
@@ -345,7 +347,7 @@ class StopLink:
             self._send(STOP, stop.reason, {"id": id} if stop.kept else {"id": id, "kept": "false"})
 
     def _send_release(self) -> None:
-        names = sorted(self._releasing)  # from these, older locks read the keys
+        names = sorted(self._releasing)  # older locks read the keys from these
         challenges = [each.challenge for each in list(self._states.values()) if each.challenge]
         lists = {"of": names, "ids": [each for each in names if each != self._key], "challenges": challenges}
         self._send(RELEASE, "", {key: json.dumps(each) for key, each in lists.items()})
@@ -354,7 +356,7 @@ class StopLink:
         for publisher in list(self._requests.values()):
             try:
                 publisher.publish(self._message(verb, self.holder, reason, values))
-            except (TypeError, ValueError):  # the text cannot be sent: the request matters, not its holder and reason
+            except (TypeError, ValueError):  # a text cannot be sent: the request matters, not its holder and reason
                 publisher.publish(self._message(verb, "", "", values))
 
     def _message(self, verb: str, holder: str, reason: str, values: Mapping[str, str]) -> DiagnosticStatus:
@@ -368,12 +370,12 @@ class StopLink:
 
 
 def is_lock(topic: str) -> bool:
-    """Whether a topic of type `DiagnosticStatus` is one on which a lock reports its state."""
+    """Whether a lock reports its state on this topic of type `DiagnosticStatus`."""
     return FOLDER in topic and not topic.endswith(FOLDER + REQUEST)
 
 
 def user() -> str:
-    """The user of this machine, as others see it; encodable, whatever the environment contains."""
+    """The user and the machine, as shown to others; encodable, whatever the environment contains."""
     try:
         name = getpass.getuser()
     except (KeyError, OSError):  # a user id without a name, as in containers

@@ -1,6 +1,7 @@
-"""Turtles as the console knows them: where they are, and what they have drawn.
+"""Watches turtles: their poses, and what they have drawn.
 
-Any `turtlesim` is recognised by the type of its poses; without the hidden topic of its drawing, short trails are shown.
+Any `turtlesim` is recognised by the type of its poses. If there is no hidden topic with the drawing, short trails are
+shown.
 """
 
 from __future__ import annotations
@@ -19,15 +20,15 @@ from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
 POSE, IMAGE = "turtlesim/msg/Pose", "sensor_msgs/msg/Image"
 CANVAS = "_canvas"
-"""The last token of the hidden topic on which our own turtlesim publishes what has been drawn."""
+"""The last token of the hidden topic on which our own turtlesim publishes its drawing."""
 MAX_TRAIL_POINTS, TRAIL_STEP_M = 400, 0.1
-"""Points of a trail, and the distance between two of them in m."""
+"""The number of points of a trail, and the distance between two of them in m."""
 NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class TurtleWatch:
-    """Keeps the newest pose of each turtle and the newest drawing of each field, as long as they are in the graph."""
+    """Keeps the newest pose of each turtle and the newest drawing of each field while they are in the graph."""
 
     def __init__(self, node: Node) -> None:
         self._node = node
@@ -38,10 +39,10 @@ class TurtleWatch:
         self._trails: dict[str, deque[tuple[float, float]]] = {}
         self._drawings: dict[str, Drawing] = {}
         self.fresh = False
-        """Whether there is something new since `fields` was last called."""
+        """Whether there is something new since the last call of `fields`."""
 
     def follow(self, graph: GraphInfo) -> None:
-        """Subscribe to what the graph offers, and forget what has left."""
+        """Subscribe to the turtles in the graph, and forget those that have left."""
         names = {node.name: _turtles(node) for node in graph.nodes if _topics(node, POSE)}
         canvases = {name: topic for node in graph.nodes if (name := node.name) in names for topic in _canvas(node)}
         if (names, canvases) == (self._names, self._canvases):
@@ -60,7 +61,7 @@ class TurtleWatch:
     def _subscribe_pose(self, topic: str) -> None:
         try:
             kind = interface(Payload.MESSAGE, POSE)
-        except ValueError:  # the turtles run on another machine; turtlesim is not installed here
+        except ValueError:  # the turtles run on another machine, and turtlesim is not installed here
             return
         self._trails[topic] = deque(maxlen=MAX_TRAIL_POINTS)
         self._subscriptions[topic] = self._node.create_subscription(kind, topic, partial(self._on_pose, topic), NEWEST)
@@ -88,7 +89,7 @@ class TurtleWatch:
             self.fresh = True
 
     def fields(self) -> tuple[TurtleField, ...]:
-        """All fields with their turtles, ordered by node name."""
+        """All fields with their turtles, sorted by node name."""
         self.fresh = False
         return tuple(self._field(node) for node in sorted(self._names))
 
@@ -109,7 +110,7 @@ def _topics(node: NodeInfo, kind: str) -> list[str]:
 
 
 def _turtles(node: NodeInfo) -> dict[str, str]:
-    """The turtle names of a node by their pose topics; its namespace is left out of the names."""
+    """The names of a node's turtles by their pose topics, without the node's namespace."""
     space = node.name.rpartition("/")[0] + "/"
     return {topic: topic.removeprefix(space).strip("/").removesuffix("/pose") for topic in _topics(node, POSE)}
 

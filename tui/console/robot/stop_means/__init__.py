@@ -1,1 +1,1 @@
-"""How a robot without the emergency stop of `docs/safety.md` is stopped: by its own means, if they are configured."""
+"""The configured means of stopping a robot that lacks the emergency stop of `docs/safety.md`."""

@@ -1,4 +1,4 @@
-"""The means of stopping that the settings file lists. Standard library only."""
+"""Reads the means of stopping from the settings. Standard library only."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any, cast
 
 LOCK, SET_BOOL, TRIGGER, DEACTIVATE, SWITCH = KINDS = ("lock", "set_bool", "trigger", "deactivate", "switch")
-"""A Bool topic, a SetBool or Trigger service, a lifecycle node, a controller manager."""
+"""The kinds of means: a Bool topic, a SetBool or Trigger service, a lifecycle node, a controller manager."""
 OPTIONS: Mapping[str, tuple[str, ...]] = {
     LOCK: ("hold", "state"),
     SET_BOOL: ("hold",),
@@ -24,16 +24,16 @@ NAME = re.compile(r"/?[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
 
 @dataclass(frozen=True)
 class ConfiguredMeans:
-    """One means of stopping a robot: what kind it is, and the full name of its topic, service or node."""
+    """One means of stopping a robot: its kind, and the full name of its topic, service or node."""
 
     kind: str
     target: str
     hold: bool = True
     """The value of a lock topic or SetBool that holds the robot; the opposite releases it."""
     release: str = ""
-    """The Trigger service that undoes a Trigger; empty: it is undone at the robot."""
+    """The Trigger service that undoes a Trigger; empty if it has to be undone at the robot."""
     state: str = ""
-    """The Bool topic on which the robot reports that a lock topic holds it; empty: nothing acknowledges it."""
+    """The Bool topic on which the robot reports that a lock topic holds it; empty if nothing acknowledges it."""
     controllers: tuple[str, ...] = ()
     """The controllers to deactivate, and to activate again on release."""
 
@@ -44,7 +44,7 @@ class ConfiguredMeans:
 
 
 def configured_means(data: object) -> tuple[tuple[ConfiguredMeans, ...], list[str]]:
-    """The means in a list from a settings file, and what is wrong with the entries that are left out."""
+    """Parse the means listed in a settings file; also returns what is wrong with entries that are left out."""
     if data is None:
         return (), []
     if not isinstance(data, Sequence) or isinstance(data, (str, bytes)):

@@ -1,4 +1,4 @@
-"""The means of stopping a robot, as ROS interfaces: each is requested without waiting, and later reports whether it
+"""The means of stopping a robot through ROS interfaces: each is requested without waiting, and later reports whether it
 holds.
 """
 
@@ -39,12 +39,12 @@ class Status(Enum):
 
 
 class StopMeans(Protocol):
-    """One means of stopping; its methods return at once, and none of them raises."""
+    """One means of stopping. Its methods return at once, and none of them raises."""
 
     name: str
     status: Status
     problem: str
-    """Why it does not hold, or was not released; empty if there is no reason."""
+    """Why it does not hold or was not released; empty if there is no such reason."""
 
     def hold(self) -> None:
         """Request that it hold the robot."""
@@ -55,12 +55,12 @@ class StopMeans(Protocol):
         ...
 
     def refresh(self) -> None:
-        """Check whether it still holds, and repeat what must be repeated; called ten times a second."""
+        """Check whether it still holds, and repeat what must be repeated; to be called ten times a second."""
         ...
 
 
 class LockTopic:
-    """A Bool topic, like the locks of twist_mux; nothing acknowledges it, unless another topic reports its state."""
+    """A Bool topic like the locks of twist_mux; nothing acknowledges it unless another topic reports its state."""
 
     def __init__(self, node: Node, configured: ConfiguredMeans) -> None:
         self.name = configured.name
@@ -76,30 +76,30 @@ class LockTopic:
         self._reported = bool(message.data)
 
     def hold(self) -> None:
-        """Publish the value that holds, now and with every `refresh`."""
+        """Publish the value that holds the robot, now and with every `refresh`."""
         self.status, self.problem = Status.ASKED, "is sent, but nothing acknowledges it"
         self.refresh()
 
     def release(self) -> None:
-        """Publish the opposite, once, so as not to override others who lock by this topic."""
+        """Publish the opposite value only once, so as not to override others who lock with this topic."""
         if self.status is not Status.RELEASED:
             self.status, self.problem = Status.RELEASED, ""
             self._publisher.publish(Bool(data=not self._hold))
 
     def refresh(self) -> None:
-        """Publish again: such a lock may expire when it has received nothing for a while."""
+        """Publish the value again: such a lock may expire if it receives nothing for a while."""
         if self.status in (Status.ASKED, Status.HOLDS):
             self.status = Status.HOLDS if self._reported else Status.ASKED
             self._publisher.publish(Bool(data=self._hold))
 
 
 class ServiceMeans:
-    """A service that holds, and one that undoes it, which may be the same."""
+    """A service that holds the robot, and one that undoes it; they may be the same."""
 
     def __init__(
         self, node: Node, name: str, kind: Any, service: str, held: Any, release_service: str = "", freed: Any = None
     ) -> None:
-        """`held` and `freed` are the requests; without `freed` it is undone at the robot."""
+        """`held` and `freed` are the requests; without `freed`, the stop has to be undone at the robot."""
         self.name = name
         self.status = Status.RELEASED
         self.problem = ""
@@ -108,14 +108,14 @@ class ServiceMeans:
         self._release_client = node.create_client(kind, release_service) if release_service else self._client
         self._held, self._freed = held, freed
         self._turn = 0
-        """Counts changes between holding and releasing: a response to a request from before the last change is
+        """Counts changes between holding and releasing, so that a response to a request from before the last change is
         ignored.
         """
         self._holding = False
         self._sent = False
 
     def hold(self) -> None:
-        """Send the request; again if it was sent before and has not succeeded."""
+        """Send the request; send it again if it has not succeeded."""
         if self._holding and self.status is Status.HOLDS:
             return
         self._turn += not self._holding
@@ -124,7 +124,7 @@ class ServiceMeans:
         self._sent |= self._ask(self._client, self._service, self._held, self._on_held)
 
     def release(self) -> None:
-        """Send the request that undoes it."""
+        """Send the request that undoes the stop."""
         self._turn += 1
         self._holding = False
         if not self._sent:
@@ -137,7 +137,7 @@ class ServiceMeans:
             self._ask(self._release_client, self._release_service, self._freed, self._on_released)
 
     def refresh(self) -> None:
-        """Note when the server has gone, since it then no longer holds the robot."""
+        """Check whether the server has left, since it then no longer holds the robot."""
         if self.status is Status.HOLDS and not self._client.service_is_ready():
             self._fail(f"the node of {self._service} has gone")
 
@@ -173,7 +173,7 @@ class ServiceMeans:
 
 
 class LifecycleMeans(ServiceMeans):
-    """Deactivates a lifecycle node; one that is not active already holds, and is not activated by a release."""
+    """Deactivates a lifecycle node; a node that is not active counts as held, and a release does not activate it."""
 
     def __init__(self, node: Node, configured: ConfiguredMeans) -> None:
         def change(id: int) -> Any:
@@ -198,14 +198,14 @@ class LifecycleMeans(ServiceMeans):
 
 
 class UnknownMeans:
-    """A means whose message types are unknown here: it only reports that."""
+    """A means whose message types are not available here; it only reports that."""
 
     def __init__(self, name: str, problem: str) -> None:
         self.name, self._why = name, problem
         self.status, self.problem = Status.RELEASED, ""
 
     def hold(self) -> None:
-        """Fail."""
+        """Fail with the reason."""
         self.status, self.problem = Status.FAILED, self._why
 
     def release(self) -> None:
@@ -217,7 +217,7 @@ class UnknownMeans:
 
 
 def means_of(node: Node, configured: ConfiguredMeans) -> StopMeans:
-    """A means as configured, using interfaces of a node; one that cannot be set up reports that when it is used."""
+    """Create a configured means with the interfaces of a node; one that cannot be set up reports that when used."""
     try:
         return _made(node, configured)
     except Exception as error:

@@ -9,16 +9,16 @@ from collections.abc import Callable, Sequence
 from bot_console.tui.console.robot.stop_means.means import Status, StopMeans
 
 NEXT_AFTER_S = 0.3
-"""Seconds after which the next means is tried, unless one holds; after a failure it is tried sooner."""
+"""Seconds after which the next means is tried unless one holds; after a failure, it is tried sooner."""
 AGAIN_AFTER_S = 1.0
-"""Seconds from the last means until the first is tried again."""
+"""Seconds after the last means until the first one is tried again."""
 
 TICK_S = 0.1
 """Seconds between two calls of `tick`."""
 
 
 class StopSequence:
-    """The means of stopping in order; methods may be called from any thread, and return at once."""
+    """Tries the configured means of stopping in order. Methods may be called from any thread, and return at once."""
 
     def __init__(self, means: Sequence[StopMeans], now: Callable[[], float] = time.monotonic) -> None:
         """`now` returns seconds."""
@@ -53,7 +53,7 @@ class StopSequence:
             return "; ".join(f"{each.name} {each.problem or 'has not answered yet'}" for each in failed)
 
     def hold(self) -> None:
-        """Try the first means now, and the next ones with `tick`."""
+        """Try the first means now; `tick` continues with the next ones."""
         with self._lock:
             if self._means:
                 self._holding, self._next = True, 0
@@ -87,7 +87,7 @@ class StopSequence:
 
     @staticmethod
     def _ask(means: StopMeans, step: Callable[[], None]) -> None:
-        """Run a step of a means; its failure must prevent neither zeros nor the next means from being sent."""
+        """Run a step of a means; its failure must not keep zeros or the next means from being sent."""
         try:
             step()
         except Exception as error:
