@@ -1,1 +1,1 @@
-"""The robot's diagnostics, cameras and frames."""
+"""Receives the robot's diagnostics, images and frames."""

@@ -1,4 +1,4 @@
-"""A robot's diagnostics as the panes show them: each status, and when it counts as stale. Standard library only."""
+"""A robot's diagnostics as the panes see them: each status, and when it counts as stale. Standard library only."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ STALE_AFTER_S = 5.0
 
 
 class Level(IntEnum):
-    """Levels of `diagnostic_msgs/msg/DiagnosticStatus`, with its codes."""
+    """The levels of `diagnostic_msgs/msg/DiagnosticStatus`, with its codes."""
 
     OK = 0
     WARN = 1
@@ -19,13 +19,13 @@ class Level(IntEnum):
 
     @property
     def weight(self) -> int:
-        """How severe it is: an error is worse than stale, and stale is worse than a warning."""
+        """The severity as a number: an error is worse than stale, and stale is worse than a warning."""
         return (0, 1, 3, 2)[self]
 
 
 @dataclass(frozen=True, slots=True)
 class ReportedStatus:
-    """The time (ns since the epoch) at which a status changed its level, or its message at the same level."""
+    """A change of a status: its level, or its message at the same level; `stamp` is in ns since the epoch."""
 
     stamp: int
     level: Level
@@ -34,7 +34,7 @@ class ReportedStatus:
 
 @dataclass(frozen=True, slots=True)
 class Status:
-    """The latest status of one part of the robot. The slashes in its name are the levels of a tree."""
+    """The latest status of one part of the robot. The slashes in its name separate the levels of a tree."""
 
     name: str
     level: Level
@@ -44,20 +44,20 @@ class Status:
     heard: float = 0.0
     """When it was last received, in s of a monotonic clock."""
     history: tuple[ReportedStatus, ...] = ()
-    """Its past changes, the newest last."""
+    """Its past changes, newest last."""
 
     def now(self, clock: float) -> Level:
-        """Its level, or stale when it has been silent for too long."""
+        """The level, or stale if nothing has been received for too long."""
         return Level.STALE if clock - self.heard > STALE_AFTER_S else self.level
 
 
 @dataclass(frozen=True, slots=True)
 class Diagnostics:
-    """The latest status of each name; `problem` says why there is none, and is empty when all is well."""
+    """The latest status of each name; `problem` says why there is none, and is empty if all is well."""
 
     statuses: tuple[Status, ...] = ()
     topics: tuple[str, ...] = ()
-    """The topics they come from."""
+    """The topics that the statuses come from."""
     dropped: int = 0
-    """Names beyond the maximum number."""
+    """The number of names beyond the maximum."""
     problem: str = ""

@@ -1,4 +1,4 @@
-"""The diagnostics of the whole system, by name, with the history of each."""
+"""Collects the diagnostics of the whole system by name, with the history of each."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from rclpy.node import Node
 
 TYPE = "diagnostic_msgs/msg/DiagnosticArray"
 AGGREGATED = "_agg"
-"""Suffix of an aggregator's topic, which repeats the statuses of the others under different names."""
+"""Suffix of the topic of an aggregator, which repeats the statuses of the other topics under different names."""
 MAX_NAMES = 1000
-"""Names that are kept."""
+"""The number of names kept."""
 MAX_CHANGES_PER_NAME = 100
-"""Changes that are kept per name."""
+"""The number of changes kept per name."""
 
 
 class DiagnosticsWatch:
@@ -53,7 +53,7 @@ class DiagnosticsWatch:
             self._report()
 
     def take(self, message: DiagnosticArray) -> None:
-        """Process a message."""
+        """Process a message of a diagnostics topic."""
         stamp, heard = time.time_ns(), self._clock()
         found = dict(self._statuses)
         for each in message.status:
@@ -84,6 +84,6 @@ def _status(new: DiagnosticStatus, before: Status | None, stamp: int, heard: flo
 
 
 def _level(code: Any) -> Level:
-    """A level that is a byte, as in Jazzy, or a number; an unknown one counts as an error."""
+    """Convert a level, which is a byte in Jazzy and a number elsewhere; an unknown level counts as an error."""
     number = code[0] if isinstance(code, bytes) and code else code
     return Level(number) if number in tuple(Level) else Level.ERROR

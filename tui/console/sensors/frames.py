@@ -1,4 +1,4 @@
-"""The frames of tf2 as the panes show them, and what is wrong with them. Standard library only."""
+"""The frames of tf2 as the panes see them, and the faults in them. Standard library only."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 QUIET_S = 1.0
-"""Seconds after which a moving frame counts as silent, or three times its period if that is longer."""
+"""A moving frame counts as silent after this time (s), or after three times its period if that is longer."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,27 +16,27 @@ class Frame:
     name: str
     parent: str
     fixed: bool = False
-    """Whether it was published on `/tf_static`, so that it stays valid until it is published again."""
+    """Whether it was published on `/tf_static`, and so stays valid until it is published again."""
     place: tuple[float, float, float] = (0.0, 0.0, 0.0)
     turn: tuple[float, float, float] = (0.0, 0.0, 0.0)
     rate: float | None = None
-    """How often it is published (Hz); None until that is known."""
+    """The rate (Hz) at which it is published; None until that is known."""
     heard: float = 0.0
     """When it was last received, in s of a monotonic clock."""
     late: float | None = None
-    """The age (s) of the transform when it was received, by its own stamp; None if the clocks differ."""
+    """The age (s) of the transform on reception, by its own stamp; None if the clocks differ."""
     others: tuple[str, ...] = ()
-    """Other parents with which it was published recently, or on `/tf_static`."""
+    """Other parents with which it was recently published on `/tf`, or ever on `/tf_static`."""
 
     def silent(self, clock: float) -> bool:
-        """Whether it is a moving frame that has not been published for too long."""
+        """Whether this is a moving frame that has not been published for too long."""
         timeout_s = max(QUIET_S, 3.0 / self.rate if self.rate else 0.0)
         return not self.fixed and clock - self.heard > timeout_s
 
 
 @dataclass(frozen=True, slots=True)
 class Frames:
-    """All frames, as far as they are known; `problem` says why nothing is, and is empty when all is well."""
+    """All known frames; `problem` says why there are none, and is empty if all is well."""
 
     frames: tuple[Frame, ...] = ()
     moving_by: tuple[str, ...] = ()
@@ -44,11 +44,11 @@ class Frames:
     fixed_by: tuple[str, ...] = ()
     """The nodes that publish `/tf_static`."""
     dropped: int = 0
-    """Transforms of frames beyond the maximum number."""
+    """The number of transforms of frames beyond the maximum."""
     problem: str = ""
 
     def publishers(self, frame: Frame) -> tuple[str, ...]:
-        """The nodes that may publish a frame; messages do not say which of several nodes it is."""
+        """The nodes that may publish a frame; messages do not tell which of them does."""
         return self.fixed_by if frame.fixed else self.moving_by
 
 
@@ -58,7 +58,7 @@ def roots(parents: Mapping[str, str]) -> list[str]:
 
 
 def loop_of(name: str, parents: Mapping[str, str]) -> tuple[str, ...]:
-    """The frames on the way from a frame back to itself; empty if there is no loop."""
+    """The frames on the way from a frame up to itself; empty if there is no loop."""
     way = [name]
     while (above := parents.get(way[-1])) is not None and above not in way:
         way.append(above)
@@ -66,7 +66,7 @@ def loop_of(name: str, parents: Mapping[str, str]) -> tuple[str, ...]:
 
 
 def findings(info: Frames, clock: float) -> Iterator[tuple[str, str]]:
-    """The faults of the frames, each with the frame concerned."""
+    """The faults of the frames, each with the name of the frame."""
     parents = {each.name: each.parent for each in info.frames}
     reported: set[str] = set()
     for each in info.frames:

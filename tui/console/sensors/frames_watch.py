@@ -1,4 +1,4 @@
-"""The frames published on `/tf` and `/tf_static`, while somebody is viewing them."""
+"""Collects the frames published on `/tf` and `/tf_static` while somebody is viewing them."""
 
 from __future__ import annotations
 
@@ -23,22 +23,22 @@ if TYPE_CHECKING:  # a minimal ROS 2 installation has no tf2_msgs
 MOVING, FIXED = "/tf", "/tf_static"
 TYPE = "tf2_msgs/msg/TFMessage"
 DEPTH = {MOVING: 100, FIXED: 1000}
-"""Queue depths; static transforms come all at once, and each only once."""
+"""Queue depths: static transforms arrive all at once, and each only once."""
 MAX_FRAMES = 2000
-"""Frames that are kept."""
+"""The number of frames kept."""
 OTHER_PARENT_S = 5.0
-"""Seconds for which another parent seen on `/tf` is remembered; one on `/tf_static` is published once, and stays."""
+"""Seconds that another parent on `/tf` is remembered; one on `/tf_static` is published only once, so it stays."""
 WINDOW_S = 2.0
 """Seconds over which a rate is measured."""
 JUMP_BACK_S = 1.0
-"""How far back (s) the stamps of a frame have to go to count as a jump of time: a reset, or a bag that starts again."""
+"""How far back (s) a frame's stamps have to go to count as a jump of time: a reset, or a bag that starts again."""
 SAME_CLOCK_S = 60.0
-"""Difference (s) beyond which a stamp is considered to be from another clock."""
+"""A stamp that differs by more than this (s) is considered to be from another clock."""
 
 
 @dataclass
 class _FrameState:
-    """A frame as received: the newest transform, and the number of transforms since a given time."""
+    """A frame as received: the newest transform, and the number of transforms since a time."""
 
     transform: TransformStamped
     fixed: bool
@@ -49,11 +49,11 @@ class _FrameState:
     rate: float | None = None
     parents: dict[str, float] = field(default_factory=dict[str, float])
     stamps: dict[str, float] = field(default_factory=dict[str, float])
-    """The newest stamp (s) of the transforms from each parent: two publishers may have two clocks."""
+    """The newest stamp (s) of the transforms from each parent, since two publishers may have two clocks."""
 
 
 class FramesWatch:
-    """Subscribes while it is being viewed, and keeps what was received; `/tf` may be the busiest topic of a robot."""
+    """Subscribes only while somebody is viewing the frames, since `/tf` may be the busiest topic of a robot."""
 
     def __init__(self, node: Node, clock: Callable[[], float] = time.monotonic) -> None:
         self._node = node
@@ -93,7 +93,7 @@ class FramesWatch:
             return
         profile.depth = DEPTH[topic]
         if topic == MOVING:
-            profile.reliability = ReliabilityPolicy.BEST_EFFORT  # a console must not slow down a robot
+            profile.reliability = ReliabilityPolicy.BEST_EFFORT  # a console must not slow down the robot
         take = self.take_fixed if topic == FIXED else self.take_moving
         self._subscriptions[topic] = offer, self._node.create_subscription(kind, topic, take, profile)
 
@@ -126,12 +126,12 @@ class FramesWatch:
             seen.parents[parent] = math.inf if fixed else now
 
     def _forget_moving(self) -> None:
-        """Forget what was published before time jumped back, as tf2 does."""
+        """Forget the moving frames from before time jumped back, as tf2 does."""
         for name in [name for name, each in self._seen.items() if not each.fixed]:
             del self._seen[name]
 
     def frames(self) -> Frames:
-        """The latest transforms; from any thread."""
+        """The frames with their latest transforms; from any thread."""
         now = self._clock()
         frames = tuple(_frame(name, each, now) for name, each in sorted(tuple(self._seen.items())))
         return Frames(frames, self._publishers[MOVING], self._publishers[FIXED], self._dropped, self._problem)

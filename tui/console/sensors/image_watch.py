@@ -1,4 +1,4 @@
-"""The newest image of one topic, scaled on demand for a text screen."""
+"""Receives the newest image of one topic, and scales it on demand for a text screen."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
 MAX_IMAGE_BYTES = 50_000_000
-"""Limit of a compressed image in bytes, and also in pixels; a larger one is not decoded."""
+"""Maximum size of a compressed image in bytes, and also in pixels; a larger one is not decoded."""
 NO_PIL = "compressed images need Pillow: pip install 'bot-console[images]'"
 
 
 class ImageWatch(FollowedTopic):
-    """Keeps the latest message; it is converted to pixels only on demand."""
+    """Keeps the newest message, and converts it to pixels only on demand."""
 
     def __init__(self, node: Node) -> None:
         super().__init__(node)
@@ -31,7 +31,7 @@ class ImageWatch(FollowedTopic):
         self._made: tuple[object, Picture] = (None, Picture())
 
     def watch_image(self, topic: str, columns: int, rows: int, graph: GraphInfo) -> None:
-        """Receive this topic and no other; called by the executor."""
+        """Subscribe to this topic and no other; called by the executor."""
         self._size = (columns, rows)
         if topic != self._topic:
             self._detach()
@@ -51,9 +51,7 @@ class ImageWatch(FollowedTopic):
         self._newest = (self._newest[0] + 1, message)
 
     def picture(self) -> Picture:
-        """The latest image; from any thread, and the same object until there is another or another size is
-        requested.
-        """
+        """The newest image, from any thread; the same object until there is another or another size is requested."""
         count, message = self._newest
         key = (self._topic, count, self._size, self._problem)
         if self._made[0] != key:
@@ -94,7 +92,7 @@ def _shown(message: Any, columns: int, rows: int) -> tuple[int, int, str, pixels
 
 
 def _unpacked(data: bytes) -> Any:
-    """A JPEG or PNG as an array of RGB; raises `ValueError`."""
+    """Decode a JPEG or PNG to an array of RGB; raises `ValueError`."""
     try:
         library: Any = importlib.import_module("PIL.Image")
     except ImportError:

@@ -19,12 +19,12 @@ if TYPE_CHECKING:
 
 
 class NodeSensors:
-    """The robot's sensor data; its methods may be called from any thread, the executor does the work."""
+    """The robot's sensor data. Methods may be called from any thread; the executor does the work."""
 
     _diagnostics: DiagnosticsWatch | None = None
     _images: ImageWatch
     _frames: FramesWatch
-    """There from `attach` on, as is `_diagnostics`."""
+    """Exist after `attach`, like `_diagnostics`."""
 
     def __init__(self, gate: Gate, graph: Callable[[], GraphInfo]) -> None:
         self._gate = gate
@@ -32,7 +32,7 @@ class NodeSensors:
         self._nothing: tuple[Diagnostics, Picture, Frames] = Diagnostics(), Picture(), Frames()
 
     def attach(self, node: Node) -> None:
-        """The system has been reached."""
+        """Create the watches, once the system has been reached."""
         from bot_console.tui.console.sensors.diagnostics_watch import DiagnosticsWatch
         from bot_console.tui.console.sensors.frames_watch import FramesWatch
         from bot_console.tui.console.sensors.image_watch import ImageWatch
@@ -49,7 +49,7 @@ class NodeSensors:
             self._frames.follow(graph)
 
     def _explained(self) -> tuple[Diagnostics, Picture, Frames]:
-        """The contents before the system is reached: nothing, with the reason; the same objects until that changes."""
+        """Before the system is reached: nothing, with the reason; the same objects until the reason changes."""
         why = self._gate.unreached
         if self._nothing[0].problem != why:
             self._nothing = Diagnostics(problem=why), Picture(problem=why), Frames(problem=why)
@@ -60,7 +60,7 @@ class NodeSensors:
         return self._diagnostics.diagnostics() if self._diagnostics else self._explained()[0]
 
     def watch_image(self, topic: str, columns: int, rows: int) -> None:
-        """Receive the images of this topic."""
+        """Receive the images of a topic."""
         self._gate.run_when_open(lambda: self._images.watch_image(topic, columns, rows, self._graph()))
 
     def picture(self) -> Picture:

@@ -1,16 +1,16 @@
-"""An image of a camera as the panes show it. Standard library only."""
+"""A camera image as the panes see it. Standard library only."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 IMAGE, COMPRESSED = "sensor_msgs/msg/Image", "sensor_msgs/msg/CompressedImage"
-"""The types that can be viewed."""
+"""The message types that can be viewed."""
 
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """The newest image of the topic being viewed, scaled to the size asked for."""
+    """The newest image of the topic being viewed, scaled to the requested size."""
 
     topic: str = ""
     count: int = 0
@@ -22,10 +22,10 @@ class Picture:
     columns: int = 0
     rows: int = 0
     pixels: bytes = b""
-    """Red, green and blue of each pixel shown, row by row."""
+    """Red, green and blue of each displayed pixel, row by row."""
     message: str = ""
-    """The meaning of black and white, if they are not colours."""
+    """The values that black and white stand for, if they are not colours."""
     seconds: float = 0.0
-    """How long scaling took."""
+    """How long scaling took, in seconds."""
     problem: str = ""
-    """Why there is none; empty when all is well."""
+    """Why there is no image; empty when all is well."""

@@ -1,4 +1,4 @@
-"""ROS images as rows of RGB pixels, scaled down to what a text screen can show. Pure functions using NumPy."""
+"""Converts ROS images to rows of RGB pixels, scaled down for a text screen. Pure functions using NumPy."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ COLOURS = {
     "8UC3": (2, 1, 0),
     "8UC4": (2, 1, 0),
 }
-"""Positions of red, green and blue in a pixel."""
+"""The positions of red, green and blue in a pixel."""
 CHANNELS = {"rgba8": 4, "bgra8": 4, "8UC4": 4}
 GREYS = {
     **dict.fromkeys(("mono8", "8UC1"), "u1"),
@@ -29,12 +29,13 @@ GREYS = {
     **dict.fromkeys((f"bayer_{each}8" for each in ("rggb", "bggr", "gbrg", "grbg")), "u1"),
     **dict.fromkeys((f"bayer_{each}16" for each in ("rggb", "bggr", "gbrg", "grbg")), "u2"),
 }
-"""Encodings with one number per pixel, and its type; raw Bayer patterns are shown as grey."""
+"""The encodings with one number per pixel, with its type; raw Bayer patterns are shown in grey."""
 KNOWN = (*COLOURS, *GREYS)
 
 
 def scaled(message: Any, columns: int, rows: int) -> tuple[Pixels, str]:
-    """The pixels of a `sensor_msgs/msg/Image`, at most `columns` x `rows`, and a note on how numbers became greys.
+    """Scale a `sensor_msgs/msg/Image` to at most `columns` x `rows` pixels; also returns a note on how numbers became
+    greys.
 
     Raises `ValueError` with a readable message if it cannot be shown.
     """
@@ -64,7 +65,7 @@ def scaled(message: Any, columns: int, rows: int) -> tuple[Pixels, str]:
 
 
 def of_colours(image: Grey, columns: int, rows: int) -> Pixels:
-    """The pixels of an array (height, width, 3) of RGB, at most `columns` x `rows`."""
+    """Scale an RGB array (height, width, 3) to at most `columns` x `rows` pixels."""
     height, width = image.shape[:2]
     across, down = fitting(width, height, columns, rows)
     return _shrunk(image[_picked(height, rows)][:, _picked(width, columns)].astype(np.float32), across, down).astype(
@@ -73,19 +74,19 @@ def of_colours(image: Grey, columns: int, rows: int) -> Pixels:
 
 
 def fitting(width: int, height: int, columns: int, rows: int) -> tuple[int, int]:
-    """The size, within `columns` and `rows`, at which an image keeps its aspect ratio; never larger than the image."""
+    """The largest size within `columns` and `rows` that keeps the aspect ratio of an image and does not exceed it."""
     scale = min(columns / width, rows / height, 1.0)
     return max(1, round(width * scale)), max(1, round(height * scale))
 
 
 def _picked(size: int, wanted: int) -> npt.NDArray[np.intp]:
-    """The rows or columns to sample: four for each one shown, so that large images cost no more than small ones."""
+    """The rows or columns to sample: four for each displayed one, so that large images cost no more than small ones."""
     count = min(size, max(1, wanted) * 4)
     return ((np.arange(count) + 0.5) * size / count).astype(np.intp)
 
 
 def _shrunk(image: npt.NDArray[np.floating[Any]], across: int, down: int) -> npt.NDArray[np.floating[Any]]:
-    """Each resulting pixel is the mean of the pixels it covers."""
+    """Shrink an image; each resulting pixel is the mean of the pixels that it covers."""
     height, width = image.shape[:2]
     rows, columns = np.arange(down) * height // down, np.arange(across) * width // across
     sums = np.add.reduceat(np.add.reduceat(image, rows, axis=0), columns, axis=1)
@@ -94,8 +95,8 @@ def _shrunk(image: npt.NDArray[np.floating[Any]], across: int, down: int) -> npt
 
 
 def _as_grey(image: npt.NDArray[np.float64], *, wide: bool) -> tuple[npt.NDArray[np.float64], str]:
-    """Bytes unchanged; wider numbers, such as depths, scaled from the least (black) to the greatest (white); NaN is
-    black.
+    """Convert numbers to grey values: bytes stay unchanged; wider numbers, such as depths, are scaled from the least
+    (black) to the greatest (white); NaN is black. Also returns a note on the scale.
     """
     if not wide:
         return image, ""

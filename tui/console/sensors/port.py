@@ -1,4 +1,4 @@
-"""What a pane may ask of a robot's sensors: diagnostics, images and frames. Standard library only."""
+"""The port for a robot's sensors: diagnostics, images and frames. Standard library only."""
 
 from __future__ import annotations
 
@@ -10,18 +10,18 @@ from bot_console.tui.console.sensors.picture import Picture
 
 
 class Sensors(Protocol):
-    """A robot's diagnostics, images and frames."""
+    """Provides a robot's diagnostics, images and frames."""
 
     def diagnostics(self) -> Diagnostics:
         """The newest diagnostics; the same object until a status changes."""
         ...
 
     def watch_image(self, topic: str, columns: int, rows: int) -> None:
-        """Subscribe to one image topic only, scaled to a size in pixels; an empty name stops that."""
+        """Subscribe to this image topic only, and scale images to a size in pixels; an empty name ends that."""
         ...
 
     def picture(self) -> Picture:
-        """The newest image; the same object until there is another."""
+        """The newest image; the same object until there is another one."""
         ...
 
     def watch_frames(self, on: bool) -> None:

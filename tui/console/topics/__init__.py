@@ -1,1 +1,1 @@
-"""Topics as the console watches and uses them: measured, read, published; services called, goals sent."""
+"""Measures, reads and publishes topics, calls services, and sends goals for the console."""

@@ -1,4 +1,4 @@
-"""Headings: conversion between quaternions and yaw."""
+"""Converts between quaternions and yaw."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ DEGREES = ("°", "deg", "degrees")
 
 
 def quaternion(yaw: float) -> tuple[float, float, float, float]:
-    """x, y, z and w of a rotation about the vertical axis (rad)."""
+    """The quaternion (x, y, z, w) of a rotation about the vertical axis (rad)."""
     return 0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)
 
 
 def parse_yaw(text: str) -> float:
-    """A yaw in rad from `1.57`, `90°` or `90 deg`; raises `ValueError`."""
+    """Parse a yaw in rad from `1.57`, `90°` or `90 deg`; raises `ValueError`."""
     words = text.strip().lower().removeprefix("yaw").strip()
     unit = next((each for each in DEGREES if words.endswith(each)), "")
     words = words.removesuffix(unit).removesuffix("rad").strip()
@@ -28,7 +28,7 @@ def parse_yaw(text: str) -> float:
 
 
 def angles_text(q: Any) -> str:
-    """A quaternion in degrees: its yaw, and roll and pitch if they are not zero."""
+    """A quaternion as text in degrees: its yaw, and roll and pitch if they are not zero."""
     norm = math.hypot(q.x, q.y, q.z, q.w)
     if not math.isfinite(norm):
         return "not finite"

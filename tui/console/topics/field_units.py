@@ -1,4 +1,4 @@
-"""Units of the fields of common messages (REP 103 and the comments of the message definitions)."""
+"""Units of the fields of common messages, from REP 103 and the comments in the message definitions."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ OF_FIELD: Mapping[tuple[str, str], str] = {
     ("sensor_msgs/Image", "step"): "bytes",
 }
 INHERITED = ("geometry_msgs/Vector3", "geometry_msgs/Point", "geometry_msgs/Point32")
-"""Types whose fields take the unit of the field that contains them."""
+"""Types whose fields have the unit of the field that contains them."""
 
 
 def field_unit(type_name: str, field: str, outer: str) -> str:

@@ -1,4 +1,4 @@
-"""A subscription to one topic, kept while somebody needs it and adapted to the QoS offered."""
+"""A subscription to one topic, which exists while somebody needs it and adapts to the QoS that is offered."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from rclpy.qos import QoSProfile
 
 
 class FollowedTopic:
-    """A subscription that is made when the topic appears, remade when its offer changes, and ends when it is not
+    """Subscribes when the topic appears, again when its type or the offered QoS changes, and ends when no longer
     needed.
     """
 
@@ -43,7 +43,7 @@ class FollowedTopic:
         self._subscription = self._node.create_subscription(kind, topic, self._take, self._profile(offer))
 
     def _class(self, kind: str) -> type:
-        """The message class of a type; raises `ValueError` with the message to show if it cannot be used."""
+        """The message class of a type; raises `ValueError` with a message for the user if it cannot be used."""
         raise NotImplementedError
 
     def _profile(self, offer: Offer) -> QoSProfile:

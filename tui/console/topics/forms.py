@@ -1,4 +1,4 @@
-"""Forms for messages, requests and goals: their fields with values, and the message filled in from them."""
+"""Forms for messages, requests and goals: their fields with values, and the messages filled in from them."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ from bot_console.tui.console.topics.typed import NOW, parse
 from rosidl_runtime_py import message_to_ordereddict
 
 MAX_DEFAULT_CHARACTERS = 60
-"""Maximum length, in characters, of an array's default that is written out."""
+"""The maximum length, in characters, at which an array's default is written out."""
 
 
 def slots(payload: Payload, type_name: str, values: Values) -> list[Slot]:
-    """The fields of a type, in order, with what was typed, else their defaults; raises `ValueError`."""
+    """The fields of a type, in order, with the typed values or their defaults; raises `ValueError`."""
     message = filled_class(payload, type_name)()
     return list(_slots(message, short_name(type_name), "", 0, "", values))
 
@@ -70,7 +70,7 @@ def _default(value: Any, kind: str, owner: str, names: Any) -> str:
 
 
 def field_at(message: Any, path: str) -> tuple[Any, str, str]:
-    """The message that contains the field at a path, the field's name and its type; raises `ValueError`."""
+    """The message that contains the field at a path, and the name and type of the field; raises `ValueError`."""
     *outer, name = path.split(".")
     for step in outer:
         if step not in fields_of(message):
@@ -91,7 +91,7 @@ def wrong(payload: Payload, type_name: str, path: str, text: str) -> str:
 
 
 def _put(message: Any, path: str, text: str) -> bool:
-    """Set a field; returns whether it is a time to be set to the current time whenever the message is sent."""
+    """Set a field; returns whether it is a time that is to be set whenever the message is sent."""
     holder, name, kind = field_at(message, path)
     value = parse(kind, text, constants(holder).get(name, {}))
     if value is None:
@@ -104,7 +104,7 @@ def _put(message: Any, path: str, text: str) -> bool:
 
 
 def filled(payload: Payload, type_name: str, values: Values) -> tuple[Any, Sequence[str]]:
-    """The message with what was typed, and the paths of the times that are `now`; raises `ValueError`."""
+    """A message filled in with typed values, and the paths of the times that are `now`; raises `ValueError`."""
     message = filled_class(payload, type_name)()
     now = [each.path for each in slots(payload, type_name, values) if each.type in TIMES and each.text == NOW]
     for path, text in values.items():
@@ -113,14 +113,14 @@ def filled(payload: Payload, type_name: str, values: Values) -> tuple[Any, Seque
 
 
 def stamp(message: Any, paths: Sequence[str], clock: Callable[[], Any]) -> None:
-    """Set these fields to the current time."""
+    """Set the fields at these paths to the current time."""
     for path in paths:
         holder, name, _ = field_at(message, path)
         setattr(holder, name, clock())
 
 
 def typed_fields(payload: Payload, type_name: str, values: Values) -> dict[str, Any]:
-    """The typed values, as nested fields for a command line; times that are `now` stay that word."""
+    """The typed values as nested fields for a command line; times that are `now` stay the word `now`."""
     message, now = filled(payload, type_name, values)
     whole = message_to_ordereddict(message)
     found: dict[str, Any] = {}

@@ -1,4 +1,4 @@
-"""Goals that a user sends to actions: their feedback, result and cancellation."""
+"""Sends goals to actions for a user, and keeps their feedback and results."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class _Sent:
 
 
 class Goals:
-    """The last goal of each action; `send` and `cancel` must be called in the executor's thread."""
+    """The last goal sent to each action; `send` and `cancel` must be called in the executor's thread."""
 
     def __init__(self, node: Node) -> None:
         self._node = node
@@ -41,7 +41,7 @@ class Goals:
         self._sent: dict[str, _Sent] = {}
 
     def send(self, action: str, type_name: str, values: Values) -> None:
-        """Send a goal; raises `ValueError` for one that cannot be filled in."""
+        """Send a goal; raises `ValueError` if it cannot be filled in."""
         goal, now = filled(Payload.GOAL, type_name, values)
         kind = interface(Payload.GOAL, type_name)
         key = action, type_name
@@ -53,7 +53,7 @@ class Goals:
         self._when_ready(client, goal, sent)
 
     def _when_ready(self, client: Any, goal: Any, sent: _Sent, polls: int = 40) -> None:
-        """Send the goal as soon as a new client has discovered its server."""
+        """Send the goal once its client has discovered the server; after `polls` polls, fail."""
         if client.server_is_ready():
             answer = client.send_goal_async(goal, feedback_callback=partial(self._feedback, sent))
             answer.add_done_callback(partial(self._accepted, sent))
@@ -109,7 +109,7 @@ class Goals:
         """Request cancellation of the last goal."""
         sent = self._sent[action]
         if not sent.goal.active:
-            return  # it has ended in the meantime
+            return  # the goal has ended in the meantime
         sent.goal = replace(sent.goal, status="cancelling")
         sent.handle.cancel_goal_async().add_done_callback(partial(self._cancelled, sent))
 

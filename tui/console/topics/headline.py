@@ -24,11 +24,11 @@ from bot_console.tui.console.topics.interfaces import (
 from bot_console.tui.console.topics.message_tree import scalar_text
 
 MAX_PARTS = 4
-"""Fields that are named on one line."""
+"""The number of fields shown on the line."""
 MAX_CHARACTERS = 80
-"""Characters of the line; no column is wider."""
+"""Maximum length of the line, in characters; no column is wider."""
 NOT_A_NUMBER = "nan"
-"""Left out like a zero beside other values, but not where it is all that a message says."""
+"""Left out beside other values, as a zero is, but not if a message contains nothing else."""
 
 PREFERRED: Mapping[str, tuple[str, ...]] = {
     "diagnostic_msgs/DiagnosticStatus": ("level", "message"),
@@ -49,13 +49,13 @@ PREFERRED: Mapping[str, tuple[str, ...]] = {
     "sensor_msgs/PointCloud2": ("width", "height"),
     "sensor_msgs/Range": ("range",),
 }
-"""The fields that say most; of other types the first ones that have a value."""
+"""The most informative fields; for other types, the first fields that have a value."""
 
 
 SELF_EVIDENT = ("position", "point", "translation", "angular_velocity", "linear_acceleration")
-"""Vectors whose components are named without them."""
+"""Vectors whose components are named without the vector."""
 UNNAMED: Mapping[str, str] = {"linear.x": "", "angular.z": ""}
-"""Speed and turn rate of a base, which their units tell apart."""
+"""Speed and turn rate of a base, which need no names because their units differ."""
 
 
 def headline(message: Any, type_name: str) -> str:
@@ -74,7 +74,7 @@ def headline(message: Any, type_name: str) -> str:
 
 
 def _at(message: Any, type_name: str, path: str) -> Iterator[tuple[str, str]]:
-    """Names and texts of the parts of a field that lies deeper in a message."""
+    """Names and texts of the parts of a field at a path in a message."""
     *steps, name = path.split(".")
     unit = ""
     for step in steps:
@@ -106,7 +106,7 @@ def _field(owner: Any, type_name: str, name: str, above: str, unit: str) -> Iter
 
 
 def _name(above: str, name: str) -> str:
-    """The name of a scalar; a component of a vector is named with it, unless its unit says enough."""
+    """The name of a scalar; a component is named with its vector unless its unit says enough."""
     if len(name) > 1 or above in SELF_EVIDENT:
         return name
     return UNNAMED.get(f"{above}.{name}", f"{above}.{name}" if above else name)
@@ -119,7 +119,7 @@ def _value_text(owner: Any, value: Any, name: str, unit: str) -> str:
 
 
 def _number(value: float, unit: str) -> str:
-    """A number as short as it can be read; without its unit where none was measured."""
+    """A number as short as possible, with its unit unless it is NaN."""
     if math.isnan(value):
         return NOT_A_NUMBER
     text = f"{value:.2f}" if 0.005 <= abs(value) < 1000 else f"{value:.3g}" if abs(value) >= 1000 else "0"

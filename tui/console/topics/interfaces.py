@@ -1,4 +1,4 @@
-"""Classes and field types of messages, services and actions, using the public names of rosidl."""
+"""Classes and field types of messages, services and actions, through the public names of rosidl."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ HEADER = "std_msgs/Header"
 
 
 def interface(payload: Payload, type_name: str) -> Any:
-    """The class of a type such as `std_srvs/srv/SetBool`; raises `ValueError` when it is not installed."""
+    """The class of a type such as `std_srvs/srv/SetBool`; raises `ValueError` if it is not installed."""
     package, _, rest = type_name.partition("/")
     try:
         return getattr(importlib.import_module(f"{package}.{FOLDERS[payload]}"), rest.rsplit("/", 1)[-1])
@@ -29,7 +29,7 @@ def interface(payload: Payload, type_name: str) -> Any:
 
 
 def filled_class(payload: Payload, type_name: str) -> Any:
-    """The class of what is filled in: the message itself, a service request, or an action goal."""
+    """The class of the message to fill in: the message itself, a service request, or an action goal."""
     found = interface(payload, type_name)
     return {
         Payload.MESSAGE: found,
@@ -39,7 +39,7 @@ def filled_class(payload: Payload, type_name: str) -> Any:
 
 
 def fields_of(message: Any) -> Mapping[str, str]:
-    """Names and types of the fields of a message or of its class."""
+    """The names and types of the fields of a message or of its class."""
     return message.get_fields_and_field_types()
 
 
@@ -55,28 +55,28 @@ def element_type(type_name: str) -> str:
 
 
 def full_type_name(field_type: str) -> str:
-    """`geometry_msgs/Point` as `geometry_msgs/msg/Point`."""
+    """Convert `geometry_msgs/Point` to `geometry_msgs/msg/Point`."""
     package, _, name = field_type.partition("/")
     return f"{package}/msg/{name}"
 
 
 def short_name(type_name: str) -> str:
-    """`geometry_msgs/msg/Point` as `geometry_msgs/Point`."""
+    """Convert `geometry_msgs/msg/Point` to `geometry_msgs/Point`."""
     package, _, rest = type_name.partition("/")
     return f"{package}/{rest.rsplit('/', 1)[-1]}"
 
 
 def constants(message: Any) -> Mapping[str, Mapping[int, str]]:
-    """For each integer field of a message whose values are named by constants: the name of each value."""
+    """The names of values, for each integer field of a message whose values are named by constants."""
     return constants_of(message.__class__)
 
 
 @lru_cache(maxsize=512)
 def constants_of(message_class: Any) -> Mapping[str, Mapping[int, str]]:
-    """The same for a class.
+    """The same for a message class.
 
-    A constant belongs to the field whose name it begins with; if there is no such field, it belongs to the only
-    one-byte field, provided there is exactly one.
+    A constant belongs to the field with whose name it begins; if there is no such field, it belongs to the only
+    one-byte field, provided that there is exactly one.
     """
     fields = {name: kind for name, kind in fields_of(message_class).items() if kind in INTEGERS or kind == "octet"}
     found: dict[str, dict[int, str]] = {}
@@ -90,7 +90,7 @@ def constants_of(message_class: Any) -> Mapping[str, Mapping[int, str]]:
         if owner:
             found.setdefault(owner, {})[number] = name.removeprefix(f"{owner.upper()}_")
         elif number in rest:
-            rest[number] = ""  # two names for one value, so they belong to different fields
+            rest[number] = ""  # the same value has two names, so they belong to different fields
         else:
             rest[number] = name
     small = [name for name, kind in fields.items() if name not in found and kind in ("uint8", "int8", "octet")]

@@ -1,4 +1,4 @@
-"""The newest message of one topic, as lines."""
+"""Receives the newest message of one topic, and converts it to lines."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ RELIABILITY = {"reliable": ReliabilityPolicy.RELIABLE, "best_effort": Reliabilit
 DURABILITY = {"volatile": DurabilityPolicy.VOLATILE, "transient_local": DurabilityPolicy.TRANSIENT_LOCAL}
 HISTORY = {"keep_last": HistoryPolicy.KEEP_LAST, "keep_all": HistoryPolicy.KEEP_ALL}
 MAX_AGES = 10
-"""Steps per second in which an age is shown, so that the object does not change at every poll."""
+"""The displayed age has this many steps per second, so that the object does not change at every poll."""
 
 
 class Listening(FollowedTopic):
-    """Keeps the latest message; it is converted to lines only on demand."""
+    """Keeps the newest message, and converts it to lines only on demand."""
 
     def __init__(self, node: Node, explain: Callable[[str, str], str]) -> None:
-        """`explain` returns why a type is unknown, or else the given text."""
+        """`explain` returns why a type is unknown or, if it does not know, the given text."""
         super().__init__(node)
         self._explain = explain
         self._qos = AS_OFFERED
@@ -51,7 +51,7 @@ class Listening(FollowedTopic):
             raise ValueError(self._explain(kind, str(error))) from None
 
     def _profile(self, offer: Offer) -> QoSProfile:
-        """The requested profile; the rest as it is offered."""
+        """The requested profile, completed by what the publishers offer."""
         profile, qos = offer.profile(), self._qos
         if qos.reliability:
             profile.reliability = RELIABILITY[qos.reliability]
@@ -67,7 +67,7 @@ class Listening(FollowedTopic):
         self._newest = (self._newest[0] + 1, message, time.monotonic())
 
     def heard(self) -> LiveMessage:
-        """The latest message; from any thread, and the same object until something changes."""
+        """The newest message, from any thread; the same object until something changes."""
         count, message, moment = self._newest
         age = round((time.monotonic() - moment) * MAX_AGES) / MAX_AGES if count else None
         old = self._live

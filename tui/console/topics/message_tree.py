@@ -1,4 +1,4 @@
-"""A message as lines: nested fields, long arrays as a summary, enumerations by name. Pure functions."""
+"""Converts a message to lines: nested fields, summaries of long arrays, names of enumerators. Pure functions."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from bot_console.tui.console.topics.port import Field
 MAX_ELEMENTS = 8
 """Maximum number of array elements shown on separate lines, or together on one line."""
 MAX_FIELDS = 2000
-"""Maximum number of lines of a message; a single line stands for the rest."""
+"""Maximum number of lines for a message; a single line stands for the rest."""
 MAX_TEXT_CHARACTERS = 400
-"""Characters of a string that are shown."""
+"""Characters shown of a string."""
 
 
 def tree(message: Any, type_name: str) -> tuple[Field, ...]:
-    """The lines of a message of a type (`package/msg/Name`)."""
+    """The lines for a message of a type (`package/msg/Name`)."""
     lines = _fields(message, short_name(type_name), "", 0, "", [MAX_FIELDS])
     return tuple(lines)
 
@@ -82,7 +82,7 @@ def _array(
 
 
 def _summary(owner: Any, name: str, value: Any, element: str) -> str:
-    """An array of scalars on one line: complete if it is short, else its statistics."""
+    """An array of scalars on one line: all its elements if it is short, else statistics."""
     count = len(value)
     if name == "data" and hasattr(owner, "encoding") and hasattr(owner, "width"):
         return f"image of {owner.width} x {owner.height}, {owner.encoding}, {count} bytes"
@@ -102,7 +102,7 @@ def _summary(owner: Any, name: str, value: Any, element: str) -> str:
 
 
 def scalar_text(value: Any, names: Any) -> str:
-    """A number, string or boolean on one line; for an enumeration its name, too."""
+    """A number, string or boolean on one line; an enumerator with its name."""
     if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
     if isinstance(value, bytes):

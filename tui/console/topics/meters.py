@@ -1,4 +1,4 @@
-"""Rate, bandwidth, age and latency of topics, measured on serialized messages; only the newest one of a topic is
+"""Measures rate, bandwidth, age and latency of topics on serialized messages; only the newest message of a topic is
 deserialized, when its value is read.
 """
 
@@ -21,27 +21,27 @@ from rclpy.serialization import deserialize_message
 WINDOW_S = 5.0
 """Seconds over which a rate is measured."""
 MIN_MEASURED_S = 3.0
-"""Seconds over which messages must have arrived for a rate to be reliable: the first ones often arrive together."""
+"""Seconds over which messages must have arrived for a reliable rate: the first ones often arrive together."""
 TURN_S = 3.0
-"""Seconds for which the choice of measured topics stays the same."""
+"""Seconds between two choices of the topics to measure."""
 MAX_MESSAGES_PER_S = 1000.0
-"""Maximum number of messages measured per second."""
+"""Maximum number of messages to measure per second."""
 METER_POLL_S = 0.25
-"""Minimum number of seconds between two polls that are kept."""
+"""Minimum time (s) between two polls that are kept."""
 OTHER_CLOCK_S = 3600.0
-"""Difference (s) from which a stamp is considered to be from another clock."""
+"""A stamp that differs by at least this (s) is considered to be from another clock."""
 LITTLE, BIG = struct.Struct("<iI"), struct.Struct(">iI")
 MAX_VALUE_BYTES = 16_384
-"""Bytes of a message whose value is read; images and the like would take too long."""
+"""Maximum size of a message whose value is read; images and the like would take too long."""
 STAMP_OFFSET_BYTES = 4
-"""Offset of the message after the four bytes that identify its serialization."""
+"""The offset of a message's content, after the four bytes that identify its serialization."""
 
 
 class Meter:
     """Counts the messages of one topic; `take` is called by the executor, `poll` by the drawing thread."""
 
     def __init__(self, stamped: bool, clock: Callable[[], int], *, known: bool = False) -> None:
-        """`known`: the topic was measured before, and has only waited for its turn."""
+        """`known` says that the topic was measured before and has only waited for its turn."""
         self._known = known
         self._stamped = stamped
         self._clock = clock
@@ -54,7 +54,7 @@ class Meter:
         self._polls: deque[tuple[float, float, int, int, int, int]] = deque([(time.monotonic(), 0.0, 0, 0, 0, 0)])
 
     def take(self, data: bytes, info: Mapping[str, int | None]) -> None:
-        """Count one serialized message, at the time it was received rather than taken: others may have waited too."""
+        """Count a serialized message, at the time it was received rather than taken, since it may have been queued."""
         received = info["received_timestamp"] or self._clock()
         waited = min(max(self._clock() - received, 0) / 1e9, WINDOW_S)
         now = max(time.monotonic() - waited, self._last)
@@ -68,7 +68,7 @@ class Meter:
             self._stamps += 1
 
     def poll(self) -> Measure:
-        """The measurements of the last seconds."""
+        """The measurements over the last seconds."""
         now = time.monotonic()
         here = (now, self._last, self._count, self._size, self._late, self._stamps)
         polls = self._polls
@@ -84,7 +84,7 @@ class Meter:
         span, spaces = (self._last - first, new) if count else (self._last - self._first, new - 1)
         rate = spaces / span if span > 0 else None
         if rate and now - self._last > 2 / rate:
-            rate = new / (now - begun)  # the topic has become slower, or has ended
+            rate = new / (now - begun)  # the topic has become slower or has ended
         stamped = self._stamps - stamps
         latency = (self._late - late) / stamped / 1e9 if stamped else None
         if latency is not None and abs(latency) > OTHER_CLOCK_S:
@@ -98,26 +98,26 @@ class Meter:
 
 
 class Meters:
-    """The topics being measured: those in view.
+    """Measures the topics in view.
 
-    Each measured message costs some 40 us. If more than `MAX_MESSAGES_PER_S` arrive, the fastest topics take turns; the
-    last measurement of a topic is shown until its next turn.
+    Each measured message costs about 40 us. If more than `MAX_MESSAGES_PER_S` arrive, the fastest topics take turns;
+    the last measurement of a topic is shown until its next turn.
     """
 
     def __init__(self, node: Node) -> None:
         self._node = node
         self._meters: dict[str, tuple[Any, Meter, tuple[bool, bool]]] = {}
         self._values: dict[str, tuple[bytes, str]] = {}
-        """The messages whose values were read last, with what they say."""
+        """The messages whose values were read last, with these values as text."""
         self._resting: dict[str, Measure] = {}
-        """The last measurements of topics that are waiting for their next turn, the longest wait first."""
+        """The last measurements of topics that wait for their next turn, the longest wait first."""
         self._wanted: frozenset[str] = frozenset()
         self._problems: dict[str, str] = {}
         self._timer: Any = None
         self._graph = GraphInfo()
 
     def measure(self, topics: Collection[str], graph: GraphInfo) -> None:
-        """Measure these topics and no others, each with the QoS now offered; called by the executor."""
+        """Measure these topics and no others, each with the QoS that is offered now; called by the executor."""
         self._wanted = frozenset(topics)
         for topic in list(self._meters):
             if topic not in self._wanted or self._meters[topic][2] != offered_qos(graph, topic).key:
@@ -155,7 +155,7 @@ class Meters:
         self._problems.pop(topic, None)
 
     def turn(self, graph: GraphInfo) -> None:
-        """Choose the topics that are measured until the next turn."""
+        """Choose the topics to measure until the next turn."""
         rates = {topic: each.rate or 0.0 for topic, each in self.measured().items()}
         chosen = in_turn(rates, list(self._resting), MAX_MESSAGES_PER_S)
         for topic in [each for each in self._meters if each not in chosen]:
@@ -172,7 +172,7 @@ class Meters:
         return now if now.rate is not None else self._resting.get(topic, now)
 
     def follow(self, graph: GraphInfo) -> None:
-        """Process a changed graph: measured topics may have appeared, or be offered with another QoS."""
+        """Process a changed graph: measured topics may have appeared, or changed the QoS that they offer."""
         if self._wanted:
             self.measure(self._wanted, graph)
 
@@ -192,7 +192,7 @@ class Meters:
 
 
 def value_text(data: bytes, kind: Any) -> str:
-    """A serialized message on one line; empty if it cannot be read."""
+    """A serialized message as one line of text; empty if it cannot be read."""
     try:
         return headline(deserialize_message(data, kind), f"{kind.__module__.partition('.')[0]}/msg/{kind.__name__}")
     except (AttributeError, OverflowError, RuntimeError, TypeError, ValueError):
@@ -200,9 +200,9 @@ def value_text(data: bytes, kind: Any) -> str:
 
 
 def in_turn(rates: Mapping[str, float], resting: Sequence[str], budget: float) -> set[str]:
-    """The topics (rates in Hz) to measure next: all if their sum is within the budget.
+    """The topics to measure next, given their rates (Hz): all of them if the sum is within the budget.
 
-    Otherwise all slow ones, and those of the others that have waited longest.
+    Otherwise the slow ones, and those of the fast ones that have waited longest.
     """
     if sum(rates.values()) <= budget:
         return set(rates)

@@ -1,4 +1,4 @@
-"""The port for topics, services and actions, over the console's node."""
+"""The port for topics, services and actions, served by the console's node."""
 
 from __future__ import annotations
 
@@ -39,13 +39,13 @@ if TYPE_CHECKING:
 ANSWER_TIMEOUT_S = 30.0
 """Seconds to wait for the response of a service called by a user."""
 MAX_NAMED_TOPICS = 3
-"""Topics that are named one by one in an answer."""
+"""The number of topics that an answer lists by name."""
 MAX_REMEMBERED = 50
-"""Messages, requests and goals kept per name, so that they can be sent again."""
+"""The number of messages, requests and goals kept per name, so that they can be sent again."""
 
 
 class NodeTopics:
-    """Topics, services and actions; its methods may be called from any thread, the executor does the work."""
+    """Topics, services and actions. Methods may be called from any thread; the executor does the work."""
 
     _discovery: TypeDiscovery
     _meters: Meters
@@ -53,10 +53,10 @@ class NodeTopics:
     _publishing: Publishing
     _goals: Goals
     _calls: Calls
-    """There from `attach` on."""
+    """These exist after `attach`."""
 
     def __init__(self, gate: Gate, graph: Callable[[], GraphInfo], types: TypeSource | None = None) -> None:
-        """`types` builds types that this program does not have; without it they stay unknown."""
+        """`types` builds types that this program lacks; without it, they stay unknown."""
         self._gate = gate
         self._graph = graph
         self._types = types
@@ -67,7 +67,7 @@ class NodeTopics:
         self.rate_checks = RateChecks(self)
 
     def attach(self, node: Node, calls: Calls) -> None:
-        """The system has been reached."""
+        """Create what watches and uses the topics, once the system has been reached."""
         from bot_console.tui.console.graph.type_discovery import TypeDiscovery
         from bot_console.tui.console.topics.goals import Goals
         from bot_console.tui.console.topics.listening import Listening
@@ -91,7 +91,7 @@ class NodeTopics:
             self._listening.follow(graph)
 
     def _follow_known(self) -> None:
-        """Retry with a type that has become available."""
+        """Use a type that has just become available."""
         graph = self._graph()
         self._meters.follow(graph)
         self._listening.follow(graph)
@@ -103,21 +103,21 @@ class NodeTopics:
             self._goals.close()
 
     def measure(self, topics: Collection[str], requester: str = "") -> None:
-        """Measure these topics, and those that other requesters need."""
+        """Measure these topics for a requester, in addition to those that other requesters need."""
         self._requested[requester] = frozenset(topics)
         wanted = {topic for each in self._requested.values() for topic in each}
         self._gate.run_when_open(lambda: self._meters.measure(wanted, self._graph()))
 
     def measured(self) -> Mapping[str, Measure]:
-        """Their measurements."""
+        """The measurements of all requested topics."""
         return self._meters.measured() if self._attached else {}
 
     def newest(self) -> Mapping[str, str]:
-        """Their newest values."""
+        """The newest values of all requested topics."""
         return self._meters.newest() if self._attached else {}
 
     def expect(self, path: str) -> Answer:
-        """Check the rates and ages that a file expects."""
+        """Check topics against the rates and ages in a file."""
         from bot_console.tui.console.graph.expected import read_file
 
         try:
@@ -142,7 +142,7 @@ class NodeTopics:
 
     @property
     def _forms(self) -> Any:
-        """The module of forms; imported when it is first used, since it imports the types of messages."""
+        """The module for forms, imported on first use because it imports message types."""
         from bot_console.tui.console.topics import forms
 
         return forms
@@ -157,11 +157,11 @@ class NodeTopics:
             raise ValueError(self._discovery.explain(type_name, str(error))) from None
 
     def wrong(self, payload: Payload, type_name: str, path: str, text: str) -> str:
-        """Why a text is not valid in a slot."""
+        """Why a text is not valid in a slot; empty if it is."""
         return self._gate.unreached or self._forms.wrong(payload, type_name, path, text)
 
     def line(self, payload: Payload, name: str, type_name: str, values: Values, rate: float = 0.0) -> str:
-        """The `ros2` command line that sends the same."""
+        """The `ros2` command line that sends the same message, request or goal."""
         import yaml
 
         if self._gate.unreached:
@@ -175,7 +175,7 @@ class NodeTopics:
         return shlex.join(["ros2", *verbs[payload].split(), *how, name, type_name, text])
 
     def earlier(self, name: str) -> Sequence[Values]:
-        """The values that were sent from here."""
+        """The values sent from here to a topic, service or action."""
         return tuple(self._earlier.get(name, ()))
 
     def _remember(self, name: str, values: Values) -> None:
@@ -186,7 +186,7 @@ class NodeTopics:
         del known[:-MAX_REMEMBERED]
 
     def publish(self, topic: str, type_name: str, values: Values, rate: float = 0.0) -> Answer:
-        """Publish once, or at a rate."""
+        """Publish a message once, or at a rate (Hz)."""
         from bot_console.tui.console.topics.publishing import MAX_RATE_HZ
 
         wrong = self._gate.refusal or self._all_wrong(Payload.MESSAGE, type_name, values)
@@ -240,7 +240,7 @@ class NodeTopics:
         return self._gate.run(lambda: self.request(service, type_name, fields), partial(Answer, False))
 
     async def request(self, service: str, type_name: str, fields: Mapping[str, object]) -> Answer:
-        """The coroutine of `call_service`, for the console's executor."""
+        """The coroutine behind `call_service`, for the console's executor."""
         from bot_console.tui.console.calls import NoAnswer
         from rcl_interfaces.msg import SetParametersResult
         from rosidl_runtime_py import set_message_fields

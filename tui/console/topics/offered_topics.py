@@ -1,4 +1,4 @@
-"""How a topic is offered: its type, and a QoS compatible with all its publishers."""
+"""The type of a topic, and a QoS compatible with all its publishers."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ DEPTH = 10
 
 @dataclass(frozen=True)
 class Offer:
-    """Whether all publishers are reliable, and whether all are transient local."""
+    """The offered QoS: whether all publishers are reliable, and whether all are transient local."""
 
     reliable: bool
     latched: bool
@@ -20,11 +20,11 @@ class Offer:
 
     @property
     def key(self) -> tuple[bool, bool]:
-        """The settings that must stay the same for a subscription to remain suitable."""
+        """The settings that have to stay the same for a subscription to remain suitable."""
         return self.reliable, self.latched
 
     def profile(self) -> QoSProfile:
-        """The profile of a subscription to the topic."""
+        """The QoS profile for a subscription to the topic."""
         return QoSProfile(
             history=HistoryPolicy.KEEP_LAST,
             depth=self.depth,
@@ -34,7 +34,7 @@ class Offer:
 
 
 def offered_qos(graph: GraphInfo, topic: str) -> Offer:
-    """The QoS that all publishers of a topic offer; the usual QoS if nobody publishes yet."""
+    """The QoS that all publishers of a topic offer; reliable and volatile if nobody publishes yet."""
     profiles = [each.qos for node in graph.nodes for each in node.publishers if each.name == topic and each.qos]
     return Offer(
         all(not each.startswith("best effort") for each in profiles),
@@ -43,7 +43,7 @@ def offered_qos(graph: GraphInfo, topic: str) -> Offer:
 
 
 def offered_types_of(graph: GraphInfo, topic: str) -> tuple[str, ...]:
-    """The types of a topic: those of publishers take precedence over those of subscriptions."""
+    """The types of a topic; those of publishers come before those of subscriptions."""
     nodes = graph.nodes
     published = (each for node in nodes for each in node.publishers if each.name == topic)
     listened = (each for node in nodes for each in node.subscriptions if each.name == topic)

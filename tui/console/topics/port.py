@@ -1,4 +1,4 @@
-"""Topics, services and actions, as a person inspects and uses them. Standard library only."""
+"""The port for topics, services and actions, as a person inspects and uses them. Standard library only."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ class Payload(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Measure:
-    """Measurements of a topic; None if there are none yet, or if its messages do not allow them."""
+    """The measurements of a topic; None where there are none yet, or where its messages do not allow them."""
 
     rate: float | None = None
-    """Hz over the last seconds; 0 if nothing was received."""
+    """The rate in Hz over the last seconds; 0 if nothing was received."""
     bandwidth: float | None = None
     """Bytes per second, serialized."""
     age: float | None = None
@@ -33,49 +33,49 @@ class Measure:
     """Mean time from the stamp in the header to reception, in seconds."""
     count: int = 0
     problem: str = ""
-    """Why it cannot be measured; empty when it can."""
+    """Why the topic cannot be measured; empty if it can."""
     provisional: bool = False
     """Whether too little was measured for the rate and the bandwidth to be reliable."""
 
 
 MAX_DEPTH = 10_000
-"""The longest queue of a subscription that can be asked for."""
+"""The maximum depth that a person can request for a subscription."""
 
 
 @dataclass(frozen=True, slots=True)
 class RequestedQos:
-    """The QoS of a subscription as a person asks for it; what is empty, or 0, is as the publishers offer it."""
+    """The QoS that a person requests for a subscription; an empty or zero value means: as the publishers offer it."""
 
     reliability: str = ""
-    """`reliable` or `best_effort`, likewise the next two: the names that `ros2 topic echo --qos-...` takes."""
+    """`reliable` or `best_effort`. Like the next two, it has the names that `ros2 topic echo --qos-...` accepts."""
     durability: str = ""
     history: str = ""
     depth: int = 0
 
     @property
     def text(self) -> str:
-        """The requested settings, in the words of the list; empty: nothing."""
+        """The requested settings, in the words of the QoS list; empty if nothing is requested."""
         words = [each.replace("_", " ") for each in (self.reliability, self.durability, self.history) if each]
         return " ".join([*words, *([f"depth {self.depth}"] if self.depth else [])])
 
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """A row of a message: a field, or an element of an array."""
+    """A line of a message: a field, or an element of an array."""
 
     path: str
     name: str
     depth: int
     type: str
     text: str = ""
-    """The value on one line; for a field with lines below it, a summary or nothing."""
+    """The value on one line; for a field with lines below it, a summary or an empty text."""
     unit: str = ""
     number: bool = False
     """Whether it can be plotted."""
     holds: int = 0
-    """How many of the following lines are part of it."""
+    """The number of following lines that are part of it."""
     closed: bool = False
-    """Whether the following lines are of little use to most users."""
+    """Whether the following lines are collapsed, being of little use to most users."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,12 +89,12 @@ class LiveMessage:
     """Number of messages received so far."""
     age: float | None = None
     problem: str = ""
-    """Why there is none, or why nothing can come; empty when all is well."""
+    """Why there is no message, or why none can arrive; empty when all is well."""
 
 
 @dataclass(frozen=True, slots=True)
 class Slot:
-    """A field of a form: its value, and which values are valid."""
+    """A field of a form: its current text, and the choices for it."""
 
     path: str
     name: str
@@ -104,7 +104,7 @@ class Slot:
     choices: tuple[str, ...] = ()
     unit: str = ""
     editable: bool = True
-    """Whether the field can be typed; if not, the following slots are its parts."""
+    """Whether a value can be typed; if not, the following slots are the parts of the field."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,19 +113,19 @@ class Repeated:
 
     type: str
     rate: float
-    """In Hz."""
+    """The rate in Hz."""
     count: int = 0
     problem: str = ""
 
 
 @dataclass(frozen=True, slots=True)
 class Reply:
-    """A service's response as fields, or why there is none."""
+    """The response of a service as fields, or why there is none."""
 
     ok: bool
     text: str = ""
     seconds: float = 0.0
-    """Time from the request to the response."""
+    """Seconds from the request to the response."""
     fields: tuple[Field, ...] = ()
 
 
@@ -138,7 +138,7 @@ class Goal:
     """A text such as `executing`, `succeeded` or `rejected`."""
     active: bool = True
     seconds: float = 0.0
-    """Time from when it was sent to its end, or to now."""
+    """Seconds from the sending of the goal to its end, or to now."""
     feedback: tuple[Field, ...] = ()
     feedback_count: int = 0
     result: tuple[Field, ...] = ()
@@ -150,50 +150,52 @@ Values = Mapping[str, str]
 
 
 class Topics(Protocol):
-    """Topics, services and actions of a ROS system, as a person uses them."""
+    """Inspects and uses the topics, services and actions of a ROS system."""
 
     def measure(self, topics: Collection[str], requester: str = "") -> None:
-        """From now on measure exactly these topics for the requester, with the QoS that their publishers offer."""
+        """From now on, measure exactly these topics for a requester, with the QoS that their publishers offer."""
         ...
 
     def measured(self) -> Mapping[str, Measure]:
-        """The measurements of those topics."""
+        """The measurements of all requested topics."""
         ...
 
     def newest(self) -> Mapping[str, str]:
-        """The newest value of each of those topics, on one line; without those that are too large to be read."""
+        """The newest value of each requested topic on one line, except where messages are too large to read."""
         ...
 
     def expect(self, path: str) -> Answer:
-        """Check all the time whether topics have the rates and ages that a file expects; the results are in
-        `ConsoleSnapshot.rate_checks`. An empty path ends that.
+        """Check continuously whether topics have the rates and ages that a file expects; an empty path ends the checks.
+
+        The results are in `ConsoleSnapshot.rate_checks`.
         """
         ...
 
     def listen(self, topic: str, qos: RequestedQos | None = None) -> None:
-        """Keep the newest message of this topic and of no other; an empty name stops that. Without `qos` it is heard as
-        its publishers offer it.
+        """Keep the newest message of this topic and no other; an empty name ends that.
+
+        Without `qos`, the subscription has the QoS that the publishers offer.
         """
         ...
 
     def heard(self) -> LiveMessage:
-        """The newest message of that topic; the same object until there is another."""
+        """The newest message of that topic; the same object until there is another one."""
         ...
 
     def slots(self, payload: Payload, type_name: str, values: Values) -> Sequence[Slot]:
-        """The form of a type, with what has been typed so far; raises `ValueError` when the type is unknown here."""
+        """The form of a type, with the values typed so far; raises `ValueError` if the type is unknown here."""
         ...
 
     def wrong(self, payload: Payload, type_name: str, path: str, text: str) -> str:
-        """Why a text is not valid in a slot; empty when it is."""
+        """Why a text is not valid in a slot; empty if it is."""
         ...
 
     def line(self, payload: Payload, name: str, type_name: str, values: Values, rate: float = 0.0) -> str:
-        """The `ros2` command line that sends the same."""
+        """The `ros2` command line that sends the same message (at `rate`, or once), request or goal."""
         ...
 
     def earlier(self, name: str) -> Sequence[Values]:
-        """The values sent from here to a topic, service or action before, newest last."""
+        """The values sent from here to a topic, service or action, newest last."""
         ...
 
     def publish(self, topic: str, type_name: str, values: Values, rate: float = 0.0) -> Answer:
@@ -205,7 +207,7 @@ class Topics(Protocol):
         ...
 
     def stop(self, topic: str = "") -> None:
-        """Stop publishing to a topic; without a name, to all topics."""
+        """Stop publishing to a topic, or to all topics if no name is given."""
         ...
 
     def call(self, service: str, type_name: str, values: Values) -> Future[Reply]:
@@ -213,7 +215,7 @@ class Topics(Protocol):
         ...
 
     def call_service(self, service: str, type_name: str, fields: Mapping[str, object]) -> Future[Answer]:
-        """Call a service with the given request fields; the answer is what it says of its success."""
+        """Call a service with the given request fields; the answer is the outcome that the response reports."""
         ...
 
     def send_goal(self, action: str, type_name: str, values: Values) -> Answer:

@@ -1,4 +1,4 @@
-"""Messages that a user publishes: once, or repeatedly."""
+"""Publishes messages for a user, once or repeatedly."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
 MAX_RATE_HZ = 1000.0
-"""Highest rate at which a message can be published, in Hz."""
+"""The highest rate (Hz) at which a message can be published."""
 MATCH_POLL_S = 0.05
 """Seconds between two checks whether a new publisher has discovered its subscriptions."""
 MAX_MATCH_POLLS = 20
@@ -30,7 +30,7 @@ class _Running:
 
 
 class Publishing:
-    """Publishers made on demand; only the executor's thread may call this."""
+    """Creates publishers on demand; may only be used in the executor's thread."""
 
     def __init__(self, node: Node) -> None:
         self._node = node
@@ -39,9 +39,9 @@ class Publishing:
         self._repeated: Mapping[str, Repeated] = {}
 
     def publish(self, topic: str, type_name: str, values: Values, rate: float, graph: GraphInfo) -> None:
-        """Publish once (rate 0), or at a rate (Hz), which replaces what is being published there at a rate.
+        """Publish once (rate 0), or at a rate (Hz), which replaces an earlier repeated message on this topic.
 
-        Raises `ValueError` for a message that cannot be filled in.
+        Raises `ValueError` if the message cannot be filled in.
         """
         message, now = filled(Payload.MESSAGE, type_name, values)
         publisher = self._publisher(topic, type_name, type(message), graph)
@@ -75,7 +75,7 @@ class Publishing:
         return self._publishers[key]
 
     def _when_matched(self, publisher: Any, send: Any, polls: int) -> None:
-        """Send as soon as the publisher has a subscription, or after a while in any case."""
+        """Send once the publisher has a subscription, or after a while in any case."""
         if not polls or publisher.get_subscription_count():
             send()
             return
@@ -90,7 +90,7 @@ class Publishing:
         timer = self._node.create_timer(MATCH_POLL_S, poll)
 
     def stop(self, topic: str = "") -> None:
-        """Stop publishing at a rate, on one topic or on all."""
+        """Stop publishing repeatedly, on one topic or on all."""
         for name in [topic] if topic else list(self._running):
             running = self._running.pop(name, None)
             if running is not None:

@@ -1,4 +1,4 @@
-"""Checks the topics whose rates are expected, once a second, as long as anything is expected."""
+"""Checks once a second the topics that have an expected rate or age."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from bot_console.tui.text.figures import coarse_rate, steady
 
 CHECK_POLL_S = 1.0
 SETTLING_S = 6.0
-"""Seconds after the first look at a topic during which one without messages is not yet late."""
+"""Seconds after a topic was first expected, during which a topic without messages is not late yet."""
 REQUESTER = "expected rates"
 
 
 class RateChecks:
-    """The expectations of topics: they come from a file, from the active profile and from running monitors; the last
-    one counts.
+    """The expectations of topics, from a file, the active profile and running monitors; in this order, the last one
+    counts.
     """
 
     def __init__(self, topics: Topics, clock: Callable[[], float] = time.monotonic) -> None:
@@ -31,16 +31,16 @@ class RateChecks:
         self._begun: dict[str, float] = {}
         """When each topic was first expected."""
         self._rates: dict[str, float | None] = {}
-        """The rates as shown."""
+        """The displayed rates."""
         self._polled = float("-inf")
         self._checks: tuple[RateCheck, ...] = ()
 
     def expect(self, topics: Mapping[str, ExpectedTopic]) -> None:
-        """Expect what a file says, in place of the file before it."""
+        """Set the expectations from a file, which replace those from an earlier file."""
         self._of_file = {name: topic for name, topic in topics.items() if topic.is_measured}
 
     def poll(self, profile: Profile | None, trees: Mapping[str, ParameterTree]) -> tuple[RateCheck, ...]:
-        """All checks by name, those that are late first; the same object until something changes."""
+        """The checks by name, late topics first; the same object until something changes."""
         now = self._clock()
         if now - self._polled < CHECK_POLL_S:
             return self._checks

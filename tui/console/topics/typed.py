@@ -1,4 +1,4 @@
-"""Converts what a user types into a field of a message to the field's value."""
+"""Converts the text that a user types for a field of a message to the field's value."""
 
 from __future__ import annotations
 
@@ -27,9 +27,10 @@ TRUE, FALSE = ("true", "yes", "on", "1"), ("false", "no", "off", "0")
 
 
 def parse(kind: str, text: str, names: Mapping[int, str] | None = None) -> Any:
-    """The value of a field type that a text stands for; raises `ValueError` with what would be valid.
+    """Parse the text for a field of type `kind`; raises `ValueError` with what would be valid.
 
-    A quaternion takes a yaw (`90°`, `1.57`), a time `now` (None) or seconds, an array YAML's `[1.0, 2.0]`.
+    A quaternion is given as a yaw (`90°`, `1.57`), a time as `now` (the result is None) or in seconds, an array in YAML
+    as `[1.0, 2.0]`.
     """
     words = text.strip()
     if kind in INTEGERS or kind == "octet":
