@@ -1,1 +1,1 @@
-"""A console session: what it reaches or starts, and how both end. See `composition.py`."""
+"""Console sessions: what a console reaches or starts, and how both end. See `composition.py`."""

@@ -1,4 +1,4 @@
-"""A console session on a system that it did not start, and that outlives it."""
+"""A console session on a system that it did not start and that outlives it."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ READY_TIMEOUT_S = 20.0
 
 
 class AttachedSession:
-    """Console, app and terminal."""
+    """The console and the app of an attached session."""
 
     def __init__(
         self,
@@ -31,7 +31,7 @@ class AttachedSession:
         on_first_frame: Callable[[], None] = lambda: None,
         on_close: Callable[[], None] = lambda: None,
     ) -> None:
-        """`message` are lines for the log; `on_close` ends what was started with the console, before that leaves."""
+        """`message` are lines for the log; `on_close` ends what was started with the console, before it leaves."""
         self._console = console
         self._last_message = message
         self._first_frame = on_first_frame
@@ -50,7 +50,7 @@ class AttachedSession:
         self._foreground = Foreground(self.app, console.printed, self._end, lambda: console.drive.steers)
 
     def run(self) -> int:
-        """Show the console until it quits. Stops the robot if this console steers it; everything else keeps running."""
+        """Show the console until it is quit. It stops the robot if it steers it; everything else keeps running."""
         return self._foreground.run(self._close)
 
     def _close(self) -> None:

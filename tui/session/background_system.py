@@ -1,6 +1,6 @@
 """The process of a background system: a launch host without a console.
 
-`python -m bot_console.tui.session.background_system LOG WORDS...`; the words are those of `bot-console up`.
+Run as `python -m bot_console.tui.session.background_system LOG WORDS...`, with the words of `bot-console up`.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ from bot_console.tui.session.protocol import ClosableLauncher
 from bot_console.tui.session.system_log import SystemLog
 
 ROBOT_SEARCH_TIMEOUT_S = 5.0
-"""Seconds that the search for a robot may take to end."""
+"""Seconds that the search for a robot may take to stop."""
 
 
 def main(words: Sequence[str] | None = None) -> int:
-    """Run the system until it is asked to end; 1 if it could not be launched, which the log explains."""
+    """Run the system until it is asked to end; returns 1 if it could not be launched; the log says why."""
     log, *rest = sys.argv[1:] if words is None else words
     options = parse(["--headless", *rest])
     problem = become_host(options.workspace)
@@ -47,7 +47,7 @@ def _run(options: Options, file: Path) -> int:
         return made[0]
 
     host = LaunchHost(make, log.printed)
-    forget = log_process_reports(host.noticed, host.learn)  # Before the nodes start, which report their declarations.
+    forget = log_process_reports(host.noticed, host.learn)  # before the nodes start: they report their declarations
     [launcher] = made
     arguments = dict(options.launch_arguments)
     if not options.launch:

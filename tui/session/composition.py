@@ -1,7 +1,7 @@
-"""Builds what a session runs with: the one file that imports both the runtime and the console.
+"""Assembles what a session needs. This is the only file here that imports both the runtime and the console.
 
-A launcher for a console in this process, in a launch host that it owns, or in those of other programs; and the launch
-host itself.
+It makes the launcher of a console (in this process, through a launch host that this process owns, or through the hosts
+of other programs), and the launch host itself.
 """
 
 from __future__ import annotations
@@ -56,11 +56,11 @@ if TYPE_CHECKING:
     from bot_console.tui.console.ros_console import RosConsole
 
 CONNECT_TIMEOUT_S = 20.0
-"""Seconds after which other hosts are searched for even though the console has not connected."""
+"""Seconds after which the search for other hosts begins even if the console has not connected."""
 
 
 class Launching:
-    """One running launch, as a node process: its output goes to the log, not to the screen."""
+    """A running launch in a node process, whose output goes to the log instead of the screen."""
 
     def __init__(self, target: Callable[[], None], printed: Printed, env: dict[str, str]) -> None:
         self._process = NodeProcess("launch")
@@ -68,12 +68,12 @@ class Launching:
         self._process.start(target, env=launch_variables(env), stdout=report, stderr=report)
 
     def join(self, timeout: float | None = None) -> object:
-        """Wait for the end, at most `timeout` seconds."""
+        """Wait until it has ended, at most `timeout` seconds."""
         return self._process.wait(timeout)
 
 
 def node_process(name: str) -> NodeProcess:
-    """A node process of this program, which runs in real time."""
+    """Create a node process of this program, which runs in real time."""
     return NodeProcess(name)
 
 
@@ -83,7 +83,7 @@ def launcher_here(
     heard: Callable[[str], bool] = lambda name: True,
     every: Add | None = None,
 ) -> RosLauncher:
-    """A launcher in this process."""
+    """A launcher that runs launches in this process."""
 
     def spawn(target: Callable[[], None], path: str) -> Launching:
         return Launching(target, printed, launch_environment(path))
@@ -97,14 +97,14 @@ def launcher_here(
 
 
 def embedded(console: RosConsole) -> RosLauncher:
-    """Everything in this process, with the nodes as threads: for pilot tests, and where programs cannot find each
+    """A launcher in this process, with the nodes as threads: for pilot tests, and where programs cannot find each
     other.
     """
     return launcher_here(console.record, console.printed, console.heard)
 
 
 def hosted(host: Host, buffer: HostedSnapshotBuffer | None) -> Callable[[RosConsole], HostedLauncher]:
-    """Through a launch host that this process owns, and that keeps the last minutes of traffic."""
+    """A launcher through a launch host that this process owns; the host may keep the last minutes of traffic."""
 
     def make(console: RosConsole) -> HostedLauncher:
         launcher = _of_own(host, console)
@@ -127,7 +127,7 @@ def _of_own(host: Host, console: RosConsole) -> HostedLauncher:
 
 
 def attached(start_own: Callable[[], Host]) -> Callable[[RosConsole], CombinedLauncher]:
-    """Through the hosts of all other programs in the domain, and one of its own once it launches something itself."""
+    """A launcher through the hosts of all other programs in the domain, and its own host once it launches something."""
 
     def make(console: RosConsole) -> CombinedLauncher:
         def enter(address: str) -> HostedLauncher | None:
@@ -149,7 +149,7 @@ def attached(start_own: Callable[[], Host]) -> Callable[[RosConsole], CombinedLa
 
 
 def become_host(workspaces: Sequence[Path]) -> str:
-    """Make this process one that starts nodes of its domain; why it cannot, in one line, or an empty text."""
+    """Prepare this process for starting nodes of its domain; returns why it cannot, in one line, or an empty text."""
     install()
     choose(workspaces)
     if problem := take_part():
@@ -160,11 +160,11 @@ def become_host(workspaces: Sequence[Path]) -> str:
 
 
 def host_launches(owner: socket.socket, workspaces: Sequence[Path], kept: SnapshotSize | None) -> int:
-    """Serve the console that owns this process, and further ones, until everything has ended.
+    """Serve the console that owns this process, and further consoles, until everything has ended.
 
-    `kept` is how much recorded traffic stays in memory.
+    `kept` limits the recorded traffic in memory; None: it is not kept. Returns an exit code.
     """
-    os.environ[SHOW] = "1"  # what launched programs report is for the log, which a person reads
+    os.environ[SHOW] = "1"  # launched programs report for the log, which a person reads
     if problem := become_host(workspaces):
         print(problem, file=sys.stderr)
         return 1
@@ -178,9 +178,9 @@ def host_launches(owner: socket.socket, workspaces: Sequence[Path], kept: Snapsh
 
 
 def serve(host: LaunchHost, seconds: float | None = None, forget: Callable[[], None] | None = None) -> None:
-    """Also serve further consoles of the user, until everything was ended, or for at most `seconds`.
+    """Serve further consoles of the user as well, until everything has ended, or for at most `seconds`.
 
-    `forget` stops the reporting of process facts if that has already started.
+    `forget` stops the reporting of process facts, if that has already started.
     """
     from launch.child import close_fork_server
 
@@ -195,11 +195,11 @@ def serve(host: LaunchHost, seconds: float | None = None, forget: Callable[[], N
     host.close()
     close_fork_server()
     if os.getsid(0) == os.getpid():
-        end_session(os.getpid())  # What launched programs have started themselves.
+        end_session(os.getpid())  # programs that launched programs have started themselves
 
 
 def close_on_signals(close: Callable[[], None]) -> None:
-    """End everything on SIGINT and SIGTERM, as at a console's request."""
+    """End everything on SIGINT and SIGTERM, as if a console had requested it."""
 
     def end(number: int, frame: FrameType | None) -> None:
         threading.Thread(target=close, name="close").start()
@@ -209,7 +209,7 @@ def close_on_signals(close: Callable[[], None]) -> None:
 
 
 def overhear(size: SnapshotSize) -> SnapshotBuffer:
-    """Keep what the nodes of this process publish and receive."""
+    """Start keeping what the nodes of this process publish and receive."""
     from bot_console.tui.console.bags.snapshot_buffer import SnapshotBuffer
 
     buffer = SnapshotBuffer(size, serialize, type_hash.text)

@@ -1,4 +1,4 @@
-"""The console's parts once a system is reached, and the launch that belongs to it; imported after the first frame."""
+"""The parts of a console that has a system, and the launch that belongs to it; imported after the first frame."""
 
 from __future__ import annotations
 
@@ -38,14 +38,14 @@ from bot_console.tui.settings.settings import read_settings
 
 ROOT = Path(__file__).resolve().parents[2]
 LAST_MESSAGE_TIMEOUT_S = 0.2
-"""Seconds for a robot to acknowledge its stop, or to receive its last zero, before anything is shut down."""
+"""Seconds allowed for a robot to acknowledge its stop, or to receive its last zero, before anything is shut down."""
 READY_TIMEOUT_S = 20.0
 HISTORY = "history.sqlite"
-"""The database with the parameter changes of all runs, in the user's state folder."""
+"""The database of the parameter changes of all runs, in the user's state folder."""
 
 
 class Connected:
-    """The console, the launcher, and the system that it starts."""
+    """The console and its launcher, and the system that it starts."""
 
     def __init__(
         self,
@@ -54,7 +54,7 @@ class Connected:
         system: Callable[[RosConsole], ClosableLauncher] = embedded,
         buffer: Keeper | None = None,
     ) -> None:
-        """`message` are early lines for the log; `system` makes the launcher, in this process by default.
+        """`message` contains early lines for the log; `system` makes the launcher, in this process by default.
 
         `buffer` keeps the last minutes.
         """
@@ -86,14 +86,14 @@ class Connected:
         self.tuner = None if options.read_only else self._local_tuner
 
     def _other_hosts(self) -> list[int]:
-        """The launch hosts that this console can ask, whose processes it can control."""
+        """The pids of the launch hosts that this console reaches, whose processes it can control."""
         return [pid_of_address(each) for each in host_addresses(socket_folder())] if self._options.attach else []
 
     def _launch_info(self) -> LaunchInfo:
         return self.launcher.info()
 
     def begin(self) -> System:
-        """Connect, and start the system as soon as that is done; returns the services for the panes."""
+        """Start connecting, and start the system once connected; returns the services for the panes."""
         take_over_streams()
         self.console.start()
         threading.Thread(target=self._launch, name="start", daemon=True).start()
@@ -107,7 +107,7 @@ class Connected:
         return find_plugins()
 
     def _launch(self) -> None:
-        """Start the system once the console listens, so that not even its first log line is lost."""
+        """Start the system once the console is connected, so that not even the first log line is lost."""
         if not self.console.wait_ready(READY_TIMEOUT_S):
             return
         self._forget_notices = log_process_reports(self.console.printed, self.console.learn)
@@ -137,16 +137,16 @@ class Connected:
     def close(self) -> None:
         """Send zero velocity, end the launched processes, then leave the graph.
 
-        A robot that was attached to keeps running. If this console steers it, leaving the graph locks it.
+        A robot that this console only attached to keeps running. If this console steers it, leaving the graph locks it.
         """
         if not self._options.attach:
             self.console.drive.stop(True, "bot-console was quit")
             self.console.drive.await_held(LAST_MESSAGE_TIMEOUT_S)
-            # Otherwise its silence would be a stop that the robot still has at its next start.
+            # Otherwise its silence would count as a stop, which the robot would still have at its next start.
             self.console.drive.steer(False)
         if self._watching is not None:
             self._watching.stop()
         self.launcher.close()
         self._local_tuner.close()
         self._forget_notices()
-        self.console.close()  # Its own zero is the last command to a robot that outlives this program.
+        self.console.close()  # Its zero is the last command to a robot that outlives this program.

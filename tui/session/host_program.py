@@ -1,6 +1,6 @@
-"""The process that runs launch files for consoles: it holds the launches, and the nodes that are threads.
+"""The process that runs launch files for consoles: it contains the launches, and those nodes that are threads.
 
-`python -m bot_console.tui.session.host_program`; its options say whom it serves, see `launch_host.child`.
+Run as `python -m bot_console.tui.session.host_program`; its options say whom it serves, see `launch_host.child`.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from bot_console.tui.session.machine.hosting import host_launches as host_launch
 
 
 def main(words: Sequence[str] | None = None) -> int:
-    """Serve until everything has ended: at a console's request, by a signal, or because the owner is gone."""
+    """Serve until everything has ended: at a console's request, by a signal, or because the owner has gone."""
     given = _parser().parse_args(words)
     owner = socket.socket(fileno=given.owner)
     if given.ros:

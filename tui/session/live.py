@@ -1,4 +1,4 @@
-"""A console session: the app, the launched system, and how both end."""
+"""A console session with a launched system: the app, the system, and how both end."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ if TYPE_CHECKING:
 
 
 class Session:
-    """Holds the parts together."""
+    """The app and, once connected, the console and the launched system."""
 
     def __init__(self, options: Options, connect: Callable[[], Connected] | None = None) -> None:
-        """`connect` makes what is shown, all in this process unless it is given; it is called after the first frame."""
+        """`connect` makes the console and its launcher, by default in this process; called after the first frame."""
         self._options = options
         self._connect = connect or self._embedded
         self._closed = False
@@ -42,12 +42,12 @@ class Session:
 
     @cached_property
     def connected(self) -> Connected:
-        """The console and what it has started; made on first use."""
+        """The console and what it has started; created on first use."""
         return self._connect()
 
     @property
     def console(self) -> RosConsole:
-        """The console of the robot."""
+        """The console of the session."""
         return self.connected.console
 
     @property
@@ -75,7 +75,7 @@ class Session:
         return self._is_connected() and self.console.drive.steers
 
     def _printed(self, severity: int, label: str, text: str) -> None:
-        if self._is_connected():  # Before that, nobody reads the log.
+        if self._is_connected():  # before that, nobody reads the log
             self.console.printed(severity, label, text)
 
     def run(self) -> int:
@@ -87,7 +87,7 @@ class Session:
             self.close()
 
     def _end(self, number: int) -> None:
-        """Stop the robot, then end the app: on SIGINT from outside, SIGTERM and SIGHUP (a closed terminal)."""
+        """Stop the robot, then end the app: on a SIGINT from outside, SIGTERM or SIGHUP (a closed terminal)."""
         try:
             if not self._options.attach and self._is_connected():
                 self.console.drive.stop(True, f"bot-console was ended by {signal.Signals(number).name}")
@@ -97,7 +97,7 @@ class Session:
     def close(self) -> None:
         """Send zero velocity, end the launched processes, then leave the graph; a second call does nothing.
 
-        A robot that was attached to keeps running. If this console steers it, leaving the graph locks it.
+        A robot that this console only attached to keeps running. If this console steers it, leaving the graph locks it.
         """
         if not self._closed and self._is_connected():
             self.connected.close()

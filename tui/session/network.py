@@ -31,11 +31,11 @@ OUTPUT = (
 )
 
 OTHER_DOMAINS_POLL_S = 3.0
-"""Seconds between two queries for nodes in other domains, while there is none in this one."""
+"""Seconds between two queries for nodes in other domains, while this domain has none."""
 
 
 def run_network(options: AttachOptions) -> int:
-    """Connect, then show the console; 1 if the connection fails, with the reason."""
+    """Connect and show the console; returns 1 if the connection fails, after printing the reason."""
     assert options.way is not None
     try:
         buses = connect(options.way)
@@ -84,7 +84,7 @@ def report_other_domains(
     printed: Callable[[int, str, str], None],
     ended: threading.Event,
 ) -> None:
-    """Log once that the nodes are in another domain; return when one appears in this one, or when `ended` is set."""
+    """Log once that the nodes are in another domain; return then, when this domain has a node, or `ended` is set."""
     while not ended.wait(OTHER_DOMAINS_POLL_S):
         if not all(each.hidden for each in graph().nodes):
             return

@@ -1,4 +1,4 @@
-"""Finds the panes of other packages: installed ones, and those of the workspace."""
+"""Finds the panes of other packages: of installed ones, and of those in the workspace."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ from bot_console.tui.session.embedded.workspaces import installed_panes, panes
 
 
 def find_plugins() -> list[PluginEntry]:
-    """All panes of other packages, by name; none of them is imported yet.
+    """Find the panes of other packages by name, without importing them.
 
-    The workspace's take precedence over installed ones of the same name; none may use the name of a built-in pane.
+    Those of the workspace take precedence over installed ones with the same name; none may have the name of a built-in
+    pane.
     """
     found = {each.id: each for each in (_entry(*one) for one in (*installed_panes(), *panes()))}
     return [found[id] for id in sorted(found) if id not in {each.id for each in OWN}]

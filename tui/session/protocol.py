@@ -9,12 +9,12 @@ from bot_console.tui.console.model import LaunchInfo
 
 
 class ClosableLauncher(Launcher, Protocol):
-    """A launcher with its state and its end: what a console holds, and what a launch host serves."""
+    """A launcher with its state, which can be closed; a console uses it, and a launch host serves it."""
 
     def info(self) -> LaunchInfo:
-        """The newest state; the same object until something changes."""
+        """The state of the launches; the same object until something changes."""
         ...
 
     def close(self) -> None:
-        """End what it has started; a second call does nothing."""
+        """End everything that it has started; a second call does nothing."""
         ...

@@ -1,4 +1,4 @@
-"""A console without a screen, for verbs that read and change what is running in the domain."""
+"""A console without a screen, for verbs that read and change the running system of the domain."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from bot_console.tui.session.launch_host.merged import MergedInfo
 from bot_console.tui.session.launch_host.proxy import HostedLauncher
 
 LINK_TIMEOUT_S = 10.0
-"""Seconds to connect."""
+"""Seconds allowed to connect."""
 GRAPH_SETTLED_S = 0.5
-"""Seconds without any change after which the system counts as known."""
+"""Seconds without any change after which the system is considered to be known."""
 POLL_S = 0.05
 T = TypeVar("T")
 
 
 @contextlib.contextmanager
 def reached_console(*, learning: bool = False) -> Generator[RosConsole | None]:
-    """A console on the system of this domain, or behind the routers in the environment; None, after printing why.
+    """A console on the system of this domain, or behind the routers in the environment; None after printing the reason.
 
     With `learning`, the launch hosts of the domain report what they have launched, and what nodes have declared.
     """
@@ -74,7 +74,7 @@ def known(console: RosConsole, timeout_s: float) -> bool:
 
 
 def settled(poll: Callable[[], T], is_there: Callable[[T], bool], still: float, timeout_s: float) -> T:
-    """A value, once it exists and has not changed for `still` seconds; at the latest after `timeout_s`."""
+    """Wait until a value exists and has not changed for `still` seconds, at most `timeout_s`; returns the value."""
     deadline = time.monotonic() + timeout_s
     seen, since = poll(), time.monotonic()
     while time.monotonic() < deadline and not (is_there(seen) and time.monotonic() - since >= still):

@@ -1,4 +1,4 @@
-"""How a verb observes and requests emergency stops in its domain: a node for the length of a `with` block."""
+"""Lets a verb observe and request emergency stops in its domain, through a node in a `with` block."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class ReachedStop:
-    """The locks of the robots that are found, followed as they come and go."""
+    """Follows the locks of the robots in the domain, and sends them requests through `link`."""
 
     def __init__(self, node_name: str, holder: str = "", key: str = "") -> None:
         self._name, self._holder, self._key = node_name, holder, key
@@ -32,7 +32,7 @@ class ReachedStop:
 
     @property
     def info(self) -> StopInfo:
-        """The reports of the locks."""
+        """What the locks have reported."""
         return self.link.info
 
     def follow(self) -> None:
@@ -43,7 +43,7 @@ class ReachedStop:
         self.link.follow(name for name, types in names if STATUS in types and self._node.count_publishers(name))
 
     def hear(self) -> None:
-        """Receive their reports for a tenth of a second."""
+        """Receive reports of the locks for a tenth of a second."""
         import rclpy
 
         for _ in range(10):

@@ -1,4 +1,4 @@
-"""Starts the simulated robot beside a launch file or a program whose nodes need a robot that is missing."""
+"""Starts the simulated robot beside a launch file or a program whose nodes need a missing robot."""
 
 from __future__ import annotations
 
@@ -19,46 +19,46 @@ GRAPH_POLL_S = 0.25
 SETTLED_S = 1.0
 """Seconds without a change after which the nodes of a launch count as up."""
 NODE_TIMEOUT_S = 10.0
-"""Seconds to wait for a process to create a node; it may not be a ROS program."""
+"""Seconds to wait for a process to create a node, since it may not be a ROS program."""
 MAX_DELAY_S = 30.0
-"""Seconds to wait for starts that the launch file delays: one of them may bring a robot."""
+"""Seconds to wait for starts that the launch file delays, since one of them may start a robot."""
 
 
 class RobotProcess(Protocol):
-    """The node process that polls the graph."""
+    """The node process in which the graph is polled."""
 
     def start(self, target: Callable[[], None], *, argv: Sequence[str]) -> object:
-        """Run a function in it."""
+        """Run a function in the process."""
         ...
 
     def stop(self, grace: float = ...) -> object:
-        """End it, with at most `grace` s between the steps."""
+        """End the process, with at most `grace` seconds between the steps."""
         ...
 
 
 @dataclass(frozen=True)
 class System:
-    """The launched system, as far as the decision about a robot requires."""
+    """What the decision about a robot requires of the launched system."""
 
     processes: Callable[[], tuple[int, int]]
-    """The number of running processes, and of delayed starts."""
+    """Returns the number of running processes, and of delayed starts."""
     report: Callable[[str], None]
     """Writes a line to the log."""
     start: Callable[[Mapping[str, str]], None]
-    """Launches `SIMULATOR_LAUNCH` with arguments."""
+    """Launches `SIMULATOR_LAUNCH` with these arguments."""
     others: int = 0
-    """Visible nodes that were in the domain before the launch, and so belong to none of its processes."""
+    """The number of visible nodes that were in the domain before the launch, and so belong to none of its processes."""
 
 
 class RobotStarter:
     """Polls the graph until a robot is needed, then starts one and reports why.
 
     The nodes are up when each running process has created one, no start is delayed, and the graph does not change. All
-    times are of the steady clock, so that a stepped run always decides the same.
+    times are those of the steady clock, so that a stepped run always decides the same.
     """
 
     def __init__(self, system: System, given: Mapping[str, str]) -> None:
-        """`given` are launch arguments that the robot always gets."""
+        """`given` contains launch arguments that the robot always gets."""
         self._system = system
         self._given = given
         self._seen: object = None
@@ -67,7 +67,7 @@ class RobotStarter:
         self.started = False
 
     def watch(self) -> None:
-        """The main function of a node process; returns when the robot was started, or on an interrupt."""
+        """The main function of the node process; returns when the robot has been started, or on an interrupt."""
         import rclpy
         from rclpy.clock import Clock, ClockType
         from rclpy.executors import ExternalShutdownException
@@ -103,7 +103,7 @@ class RobotStarter:
             self._system.start({**self._given, "stamped": "true"} if drives_stamped(node) else self._given)
 
     def _waits(self, why: str) -> bool:
-        """Whether something that the launch file starts later may still bring the robot; logged once."""
+        """Whether a delayed start of the launch file may still bring the robot, which is logged once."""
         if self._delayed is None:
             self._delayed = 0.0
             self._system.report(
@@ -114,16 +114,16 @@ class RobotStarter:
 
 
 def processes(info: LaunchInfo) -> tuple[int, int]:
-    """The number of running processes, and of delayed starts; for `System.processes`."""
+    """The number of running processes and of delayed starts, for `System.processes`."""
     return sum(each.state is ProcessState.RUNNING for each in info.processes), info.delayed
 
 
 def begin(options: Options, system: System, make: Callable[[str], Process]) -> Process | None:
-    """Start a robot now, if one is needed, or never, as the options say; returns the polling node process, if any.
+    """Start a robot now, once it is needed, or never, as the options say; returns the node process that polls, if any.
 
-    `make` makes a node process of that name.
+    `make` creates a node process with a name.
     """
-    if options.simulator is False or not options.launch:  # Our own system includes a robot.
+    if options.simulator is False or not options.launch:  # our own system includes a robot
         return None
     if options.simulator:
         system.report("the simulated robot runs beside it, as --simulator requests")
@@ -135,6 +135,6 @@ def begin(options: Options, system: System, make: Callable[[str], Process]) -> P
 
 
 def arguments(options: Options) -> dict[str, str]:
-    """The arguments with which `SIMULATOR_LAUNCH` is launched."""
+    """The arguments for `SIMULATOR_LAUNCH`."""
     given = {"world": options.world, "seed": "" if options.seed is None else str(options.seed)}
     return {name: value for name, value in given.items() if value}

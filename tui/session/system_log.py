@@ -1,4 +1,4 @@
-"""The log of a background system: every line of its processes, in rotating files."""
+"""Writes the log of a background system, with every line of its processes, to rotating files."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from bot_console.tui.files.folders import state_folder
 from bot_console.tui.session.embedded.rotating_file import STANDARD_STREAMS, RotatingFile
 
 MAX_FILE_BYTES = 5_000_000
-"""The size at which a file is rotated."""
+"""The size at which a file is rotated, in bytes."""
 MAX_OLD_FILES = 4
-"""Older files of one system that are kept, named `.1` (the newest) and up."""
+"""The number of older files kept per system, named `.1` (the newest) and up."""
 MAX_SYSTEMS = 5
-"""Systems whose logs are kept."""
+"""The number of systems whose logs are kept."""
 NAMES = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
 
 
@@ -26,7 +26,7 @@ class SystemLog:
         self._handler = RotatingFile(path, max_bytes, MAX_OLD_FILES, STANDARD_STREAMS)
 
     def logged(self, stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
-        """Write a logger's line; `stamp` in ns since the epoch."""
+        """Write a logger's line; `stamp` is in ns since the epoch."""
         line = f"[{NAMES.get(severity, 'INFO')}] [{stamp * 1e-9:.6f}] [{name}]: {text}"
         self._handler.handle(logging.LogRecord(name, severity, site[0], site[2], line, None, None))
 
@@ -40,7 +40,7 @@ class SystemLog:
 
 
 def new_log(pid: int) -> Path:
-    """The log file for a system that starts now; deletes the logs of all but the newest systems."""
+    """The path of the log of a system that starts now; deletes the logs of all but the newest systems."""
     folder = state_folder() / "systems"
     folder.mkdir(parents=True, exist_ok=True)
     old = sorted(folder.glob("*.log"), key=lambda each: each.stat().st_mtime)
@@ -51,5 +51,5 @@ def new_log(pid: int) -> Path:
 
 
 def parts(log: Path) -> Iterator[Path]:
-    """The rotated files of a log."""
+    """The older, rotated files of a log."""
     return log.parent.glob(f"{log.name}.*")

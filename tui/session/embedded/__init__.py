@@ -1,1 +1,1 @@
-"""The session's imports from the runtime: its domain, workspace, processes and log files."""
+"""What a session uses of the runtime: its domain, workspace, processes and log files."""

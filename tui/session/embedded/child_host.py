@@ -1,4 +1,4 @@
-"""The launch host that a console starts; imported before the first frame, so that both start at once."""
+"""Starts the launch host of a console; imported before the first frame, so that both start at the same time."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ HANGS = (
 
 
 def start_host(options: Sequence[str] = (), *, log: Path | None = None) -> Host:
-    """Start a launch host that this process owns; what it prints itself, which should be nothing, goes to `log`."""
+    """Start a launch host that this process owns; what the host itself prints, normally nothing, goes to `log`."""
 
     def hangs(pid: int) -> bool:
         return bool(GilHolder(pid).held_in())
@@ -27,12 +27,12 @@ def start_host(options: Sequence[str] = (), *, log: Path | None = None) -> Host:
 
 
 def start_host_of_machine(environment: dict[str, str], output: int) -> Host:
-    """Start a launch host for one launch file of the machine's ROS 2."""
+    """Start a launch host that this process owns, for one launch file of the machine's ROS 2."""
     return start_host_process(["--ros"], output, env=environment, end_session=end_session)
 
 
 def why_it_hangs(pid: int) -> Callable[[], str]:
-    """A function that returns why a launch host does not respond; an empty text if it does."""
+    """A function that returns why a launch host does not respond, or an empty text if it does."""
     lock = GilHolder(pid)
 
     def why() -> str:

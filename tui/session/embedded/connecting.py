@@ -1,4 +1,4 @@
-"""Connects a program without a screen to a robot's router, as a client."""
+"""Connects a program to a robot's router, as a client."""
 
 from __future__ import annotations
 
@@ -17,22 +17,22 @@ from bot_console.runtime.rmw.zenoh.settings import leaves
 from bot_console.tui.session.embedded.domain import CONNECT_VARIABLE, domain, note_connection
 
 ESCAPED_SEMICOLON = "\\u003b"
-"""In a JSON5 string; a plain one separates the settings of the variable."""
+"""A semicolon in a JSON5 string; a plain one would separate the settings in the variable."""
 
 
 def connect(way: Way) -> NetworkBuses:
-    """Make the contexts of this process clients of a router from now on; raises `SessionError` with the reason."""
+    """From now on make the contexts of this process clients of a router; raises `SessionError` with the reason."""
     install()
     buses = NetworkBuses(with_environment(way))
     choose_middleware(buses, RMW_ZENOH)
     atexit.register(buses.close)
-    bus_of(domain())  # Connect now, so that a failure is reported before there is a screen.
+    bus_of(domain())  # connects now, so that a failure is reported before there is a screen
     note_connection()
     return buses
 
 
 def lead_children_to(way: Way) -> None:
-    """Make the programs that this one starts reach the same router, by the environment that they inherit."""
+    """Make programs that this one starts connect to the same router, through the environment that they inherit."""
     tls = leaves({"transport": {"link": {"tls": way.tls.as_client()}}})
     settings = [f"{path}={value.replace(';', ESCAPED_SEMICOLON)}" for path, value in tls]
     given = os.environ.get(OVERRIDE_VARIABLE, "")
@@ -41,7 +41,7 @@ def lead_children_to(way: Way) -> None:
 
 
 def connect_to(endpoints: Sequence[str]) -> str:
-    """Connect to these routers; returns why that fails in one line, or an empty text on success."""
+    """Connect to these routers; returns why that fails, in one line, or an empty text."""
     try:
         for each in endpoints:
             place_of(each)

@@ -1,7 +1,7 @@
 """A program's membership of its ROS domain, whose graph spans all programs of the user on this machine.
 
-Only the composition root calls this: what a verb, `run` or `launch` starts is then visible to the others, and vice
-versa.
+Only the composition root calls this: the nodes that a verb, `run` or `launch` starts are then visible to the other
+programs, and vice versa.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _taking_part = False
 _connected = False
 
 CONNECT_VARIABLE = "BOT_CONSOLE_CONNECT"
-"""The router that `--connect` would name, for verbs, and for shells that work with one robot."""
+"""Names the router as `--connect` would, for verbs, and for shells in which a person works with one robot."""
 
 
 def unusable_domain() -> str:
@@ -49,7 +49,7 @@ def why_alone() -> str:
 def join_domain() -> str:
     """Make contexts initialised from now on share the graph of their domain; never in a stepped run.
 
-    Returns why joining fails in one line, or an empty text on success.
+    Returns why that fails, in one line, or an empty text.
     """
     global _taking_part
     if alone := why_alone():
@@ -64,7 +64,7 @@ def join_domain() -> str:
 
 
 def take_part() -> str:
-    """Join the domain as `join_domain` does, and tell nodes that this program starts where stops are kept."""
+    """Join the domain as `join_domain` does, and tell the nodes that this program starts where stops are kept."""
     alone = join_domain()
     if not alone:
         os.environ[STOP_FILE_VARIABLE] = str(stop_file())
@@ -78,7 +78,7 @@ def note_connection() -> None:
 
 
 def isolate_from_domain() -> None:
-    """Isolate this program and those that it launches from all others: they meet in a folder of their own."""
+    """Isolate this program and those that it launches from all others, in a socket folder of their own."""
     import atexit
     import shutil
     import tempfile
@@ -87,22 +87,22 @@ def isolate_from_domain() -> None:
     from bot_console.runtime.rmw.zenoh.domain.folder import BASE_VARIABLE
 
     close_shared_buses()
-    place = "/tmp" if os.path.isdir("/tmp") else None  # the path of a socket must be short, whatever TMPDIR says
+    place = "/tmp" if os.path.isdir("/tmp") else None  # the path of a socket has to be short, whatever TMPDIR is
     folder = os.environ[BASE_VARIABLE] = tempfile.mkdtemp(prefix="bot-console-", dir=place)
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     join_domain()
-    os.environ.pop(STOP_FILE_VARIABLE, None)  # An isolated system is another robot.
+    os.environ.pop(STOP_FILE_VARIABLE, None)  # the robot of an isolated system is another one, with its own stops
 
 
 def is_in_range() -> bool:
-    """Whether the environment lets programs of this machine find each other, as it does by default."""
+    """Whether the environment lets the programs of this machine find each other, as it does by default."""
     from bot_console.runtime.rmw.zenoh.domain.discovery_range import is_in_range
 
     return is_in_range()
 
 
 def others_take_part() -> bool:
-    """Whether another process of this user is in the domain, judging by the folder of their sockets."""
+    """Whether another process of this user is in the domain, according to its socket folder."""
     from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
     from bot_console.runtime.rmw.zenoh.domain.sockets import lives, sockets
 
@@ -126,7 +126,7 @@ def frozen() -> list[int]:
 
 
 def line_in_debugger(pid: int) -> str | None:
-    """The line at which a process of this user in the domain is stopped in a debugger; None if it is not."""
+    """The line at which a process in the domain is stopped in a debugger; None if it is not."""
     from bot_console.runtime.rmw.zenoh.domain.debugger_note import debugger_line
     from bot_console.runtime.rmw.zenoh.domain.folder import base_folder
 
@@ -136,7 +136,7 @@ def line_in_debugger(pid: int) -> str | None:
 def robot_there() -> list[str]:
     """The nodes of other processes that form a robot: they obey velocities, or publish scans or odometry.
 
-    Tools and consoles, whose names begin with an underscore, only watch what a robot is sent and do not count. Call
+    Tools and consoles, whose names begin with an underscore, only watch the commands to a robot and do not count. Call
     this after `take_part` and before anything runs in this process.
     """
     from bot_console.runtime.rmw.middleware import bus_of
@@ -160,7 +160,7 @@ def nodes_there() -> list[str]:
 
 
 def robot_claim() -> RobotClaim:
-    """Claim the robot of this domain, for programs that start one; only if `why_alone` is empty."""
+    """The claim to the robot of this domain, for programs that start one; only if `why_alone` returns an empty text."""
     from pathlib import Path
 
     from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
@@ -170,9 +170,10 @@ def robot_claim() -> RobotClaim:
 
 
 def same_names_there(arguments: Mapping[str, str]) -> list[str]:
-    """The nodes of other processes that have the same names as those of our system, launched with these arguments.
+    """The nodes of other processes that have the names of nodes in our system, launched with these arguments.
 
-    Parameters, logs and commands of two nodes of one name cannot be told apart. The rules of `robot_there` apply.
+    The parameters, logs and commands of two nodes with the same name cannot be told apart. As for `robot_there`, call
+    this after `take_part` and before anything runs in this process.
     """
     from bot_console.tui.session.embedded.workspaces import NAVIGATOR, SYSTEM_NODES
 
@@ -183,7 +184,7 @@ def same_names_there(arguments: Mapping[str, str]) -> list[str]:
 def why_no_robot(robot: Sequence[str], arguments: Mapping[str, str]) -> str:
     """Why our system, launched with these arguments, must not join this domain, in one line; empty if it may.
 
-    `robot` is the running one. The rules of `robot_there` apply.
+    `robot` contains the nodes of a running robot. Call this when `robot_there` may be called.
     """
     if robot:
         return f"a robot is already running in ROS domain {domain()}: {', '.join(robot)}"
@@ -193,19 +194,19 @@ def why_no_robot(robot: Sequence[str], arguments: Mapping[str, str]) -> str:
 
 
 def report_of_other_start() -> None:
-    """Print, on standard error, that this program waits for a robot that another one is starting."""
+    """Print on standard error that this program waits for another one that is starting a robot."""
     print(f"Another bot-console is starting a robot in ROS domain {domain()}: waiting for it ...", file=sys.stderr)
 
 
 def socket_folder() -> str:
-    """The folder with the sockets of the domain's programs; raises `FolderRefusedError`."""
+    """The folder that contains the sockets of the domain's programs; raises `FolderRefusedError`."""
     from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
 
     return domain_folder(domain())
 
 
 def domain() -> int:
-    """The domain id from the environment; a text that is not a number is reported when a context is made."""
+    """The domain id from the environment; 0 if it is invalid, which is reported when a context is created."""
     try:
         return domain_id()
     except ValueError:
@@ -213,7 +214,7 @@ def domain() -> int:
 
 
 def begin_program() -> None:
-    """Prepare the process and its environment, before it starts threads and other processes."""
+    """Prepare this process and its environment, before it starts threads and other processes."""
     from bot_console.runtime.children.ros_wheels import clear_wheel_environment
     from bot_console.runtime.process.machine_limits import reserve_little_address_space
 
@@ -222,16 +223,16 @@ def begin_program() -> None:
 
 
 def end_program(code: int) -> NoReturn:
-    """End the process; at once if it has joined a domain or a router.
+    """End this process; at once if it has joined a domain or a router.
 
-    Closing waits up to 0.5 s for a frozen process, and a thread that is in Zenoh while the interpreter is finalized
-    would abort the process.
+    Closing would wait up to 0.5 s for a frozen process, and a thread that is in Zenoh while the interpreter is
+    finalized would abort the process.
     """
     if _taking_part or "zenoh" in sys.modules:
         try:
             from bot_console.runtime.process.ending import exit_functions_run
-        except (MemoryError, ImportError):  # Too little memory even to end; the cause has already been reported.
+        except (MemoryError, ImportError):  # too little memory even to end; the cause has already been reported
             os._exit(code)
-        # Exit functions remove its sockets and temporary folders, as at any other end.
+        # Exit functions remove sockets and temporary folders, as at any other end.
         os._exit(exit_functions_run(code))
     sys.exit(code)

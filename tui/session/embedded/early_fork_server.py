@@ -1,4 +1,4 @@
-"""The fork server of a program that launches, started early, and the watch of its threads."""
+"""Starts the fork server of a launching program early, and watches the program's threads."""
 
 from __future__ import annotations
 
@@ -15,11 +15,12 @@ from bot_console.runtime.process.watch.gil_watch import GilWatch
 from bot_console.runtime.rmw.zenoh.domain.discovery_range import is_in_range
 
 STARTS_NOTHING = {"-h", "--help", "-p", "--print", "--print-description", "-s", "--show-args", "--show-arguments"}
-"""Arguments with which `launch` needs no process."""
+"""Arguments with which `launch` starts no process."""
 
 
 def prefork(words: Sequence[str], *, from_here: bool = False) -> None:
-    """Start the fork server early for a `launch` with these arguments: it warms up while the launch file is read.
+    """Start the fork server early for a `launch` with these arguments, so that it warms up while the launch file is
+    read.
 
     With `from_here`, in a program that has just started, it is forked from this process if possible.
     """
@@ -34,7 +35,7 @@ def prefork(words: Sequence[str], *, from_here: bool = False) -> None:
 
 
 def watch_threads() -> None:
-    """Report when C code of a node that is a thread of this process blocks all other threads."""
+    """Report when C code in a node that is a thread of this process blocks all other threads."""
 
     def report(ident: int, text: str) -> None:
         notify(process_of_thread(ident) or MAIN, text)

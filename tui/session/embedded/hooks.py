@@ -1,4 +1,4 @@
-"""Questions of the console to the runtime that no ROS interface answers."""
+"""What the console asks of the runtime because no ROS interface provides it."""
 
 from __future__ import annotations
 
@@ -16,37 +16,37 @@ from bot_console.tui.session.embedded.domain import domain
 
 
 class DomainTypes:
-    """A `TypeSource`: makes interfaces from the definitions that nodes send, for types that the console lacks.
+    """A `TypeSource`: builds interfaces that the console lacks from the definitions that nodes send.
 
-    Also `GenericTypes`, for recording and playing messages of types without a definition.
+    Also a `GenericTypes`, for recording and playing messages of types without a definition.
     """
 
     def inquiries(self, domain: int, type_name: str) -> Mapping[str, Generator[tuple[str, str], Any, str]]:
-        """The queries to send for a type, by node of another process that can be asked."""
+        """The dialogues about a type, by the nodes of other processes that can be asked."""
         return inquiries(domain, type_name)
 
     def generic_class(self, type_name: str, type_hash: str) -> Any:
-        """A class for messages of which only the bytes are known; raises `ValueError` for an invalid name or hash."""
+        """A class for serialized messages of an unknown type; raises `ValueError` for an invalid name or hash."""
         return generic_class(type_name, type_hash)
 
     def type_hash(self, kind: Any) -> str:
-        """The hash of a message class, without which no message of another definition is received."""
+        """The type hash of a message class; messages with another one are not received."""
         return text(kind)
 
 
 def graph_events(domain: int, changed: Callable[[tuple[str, str]], None]) -> Callable[[], None]:
-    """Call back after each change of a domain's graph, with name and namespace; returns a function that ends this."""
+    """Call `changed` with name and namespace of each changed node of a domain; returns a function that ends this."""
     return bus_of(domain).on_graph_change(changed)
 
 
 def halted_nodes(domain: int) -> tuple[Mapping[int, Sequence[str]], Mapping[str, str]]:
-    """The frozen processes of a domain, by pid, with their nodes; and the nodes in a debugger, with the line."""
+    """The frozen processes of a domain with their nodes, by pid; and the nodes in a debugger, with the line."""
     bus = bus_of(domain)
     return bus.stopped(), bus.debugged()
 
 
 def node_processes() -> Mapping[int, Sequence[str]]:
-    """The processes of this machine in the domain, by pid, with their nodes."""
+    """The nodes of the domain's processes on this machine, by pid."""
     return bus_of(domain()).processes()
 
 
@@ -56,5 +56,5 @@ def fetched(address: str) -> Path:
 
 
 def take_over_streams() -> None:
-    """Give standard input and output back to the node processes, which Textual has replaced with its own."""
+    """Give standard input and output back to the node processes, after Textual has replaced the streams."""
     reinstall_stdio()

@@ -1,4 +1,4 @@
-"""The state of the link to a robot's router, for the status line: its delay, and since when it is silent."""
+"""The state of the link to a robot's router for the status line: its delay, and how long it has been silent."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from bot_console.runtime.rmw.zenoh.network.network_bus import NetworkBuses
 from bot_console.tui.console.model import LinkInfo
 
 NO_ANSWER_AFTER_S = 1
-"""Seconds without an answer after which the status line counts them."""
+"""Seconds without a response from which on the status line counts them."""
 
 
 class LinkWords:
-    """The state of the link, in steps worth drawing; returns the same object until it changes."""
+    """The state of the link in steps that are worth drawing."""
 
     def __init__(self, buses: NetworkBuses) -> None:
         self._buses = buses
         self._info = LinkInfo()
 
     def info(self) -> LinkInfo:
-        """The newest information."""
+        """The state of the link; the same object until it changes."""
         info = words_of(self._buses.link(), time.monotonic())
         if info != self._info:
             self._info = info
@@ -28,7 +28,7 @@ class LinkWords:
 
 
 def words_of(state: LinkState, now: float) -> LinkInfo:
-    """The state of the link at a given time; delays are rounded to about a tenth of their value so that the display is
+    """The state of the link at a monotonic time (s); delays above 20 ms are rounded to 10 ms so that the display is
     calm.
     """
     silent_s = 0.0 if state.heard is None else now - state.heard

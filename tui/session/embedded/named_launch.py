@@ -1,4 +1,4 @@
-"""The launch file that `--launch` names: a path, or a package and one of its launch files, as in `ros2 launch`."""
+"""Finds the launch file that `--launch` names: by its path, or by a package and its name, as in `ros2 launch`."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from dataclasses import replace
 from bot_console.tui.cli.arguments import Options
 
 PATHS = (".py", ".xml", ".yaml", ".yml")
-"""The endings of a word that is meant as a path; no package name has them."""
+"""The suffixes by which a word is recognised as a path; package names have none of them."""
 
 
 def with_launch_file(options: Options) -> tuple[Options, str]:
     """The options with the path of the launch file, and the reason if there is none; `launch` finds the same file.
 
-    Packages are looked for in the folders of the options, or else in the working directory.
+    Packages are searched in the folders of the options, or else in the working directory.
     """
     named, name = options.launch, options.launch_file
     if not named or (not name and os.path.isfile(named)):
@@ -30,7 +30,7 @@ def with_launch_file(options: Options) -> tuple[Options, str]:
 
     try:
         path, left = named_launch_file(named, [name] if name else [])
-        parse_launch_arguments(left)  # A word after a path that is not an argument.
+        parse_launch_arguments(left)  # raises for a word after a path that is not an argument
     except LaunchFileError as error:
         return options, str(error)
     report_workspace(named)

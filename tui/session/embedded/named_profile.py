@@ -1,4 +1,4 @@
-"""The profile that a command line names: one of the robot, the user or the workspace, or the path of a file."""
+"""Finds the profile that a command line names: one of the robot, the user or the workspace, or the path of a file."""
 
 from __future__ import annotations
 
@@ -15,34 +15,34 @@ BUNDLED = Path(__file__).resolve().parents[3] / "profiles"
 
 
 class NoProfileError(ValueError):
-    """There is no such profile, or its file cannot be used; the text says why."""
+    """There is no such profile, or its file cannot be used; the message says why."""
 
 
 @dataclass(frozen=True)
 class NamedProfile:
-    """A profile's name, and its file unless it comes with the robot."""
+    """The name of a profile, and its file unless it comes with the robot."""
 
     name: str
     path: str = ""
-    """Absolute; empty for a profile that comes with the robot."""
+    """The absolute path; empty for a profile that comes with the robot."""
     launch: str = ""
-    """For a launch profile: the launch file that it runs."""
+    """The launch file that a launch profile runs; empty for any other profile."""
     arguments: dict[str, str] = field(default_factory=dict[str, str])
-    """The arguments of that launch file."""
+    """The arguments of the launch file."""
 
 
 def bundled_names() -> list[str]:
-    """The profiles that come with the robot."""
+    """The names of the profiles that come with the robot."""
     return sorted(path.stem for path in BUNDLED.glob("*.yaml"))
 
 
 def profile_names(folders: Sequence[Path]) -> list[str]:
-    """The profiles that can be named without a path: the robot's, those of the given folders, and the user's own."""
+    """The profiles that can be named without a path: the robot's, those in the given folders, and the user's own."""
     return sorted({*bundled_names(), *(path.stem for folder in _folders(folders) for path in _files(folder))})
 
 
 def is_path(word: str) -> bool:
-    """Whether a word means a file rather than the name of a profile."""
+    """Whether a word is a path rather than the name of a profile."""
     return word.endswith(ENDINGS) or os.sep in word
 
 
@@ -51,14 +51,14 @@ def named_profile(
 ) -> NamedProfile:
     """Find a profile by its name or path; raises `NoProfileError`, which says that there is no `expected`.
 
-    A name is looked for as in the Profiles pane: among those of the robot, in `folders`, among the user's own, then in
-    the packages below `workspace` (empty: the current directory).
+    A name is searched for as in the Profiles pane: among the robot's profiles, in `folders`, among the user's own, then
+    in the packages below `workspace` (empty: the current directory).
     """
     if word in bundled_names():
         return NamedProfile(word)
     if is_path(word):
         path = expanded_path(word)
-        if not os.path.isfile(path):  # which is false, where `Path` raises, for a name that is too long
+        if not os.path.isfile(path):  # False for a name that is too long, for which `Path` raises
             raise NoProfileError(f"there is no file {word}")
         return _loaded(path)
     for folder in _folders(folders):
@@ -84,7 +84,7 @@ def _workspace_folders(workspace: Sequence[Path]) -> Sequence[Path]:
 
 
 def _files(folder: Path, name: str = "") -> list[Path]:
-    """The profiles of a folder, or those with a name."""
+    """The profiles in a folder, or only those with this name."""
     try:
         return sorted(path for path in folder.iterdir() if path.suffix in ENDINGS and (not name or path.stem == name))
     except OSError:
@@ -94,7 +94,7 @@ def _files(folder: Path, name: str = "") -> list[Path]:
 def _loaded(path: Path) -> NamedProfile:
     from bot_console.runtime.importer import install
 
-    install()  # The reader of parameter files is of the console's half that imports ROS names.
+    install()  # the reader of parameter files belongs to the half of the console that imports ROS names
     from bot_console.tui.console.parameters.profiles import load
 
     profile = load(path.absolute())

@@ -1,4 +1,4 @@
-"""Reports of launched processes about themselves, as log lines."""
+"""Logs what launched processes report about themselves."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ Printed = Callable[[int, str, str], None]
 
 
 def log_process_reports(printed: Printed, learn: Learn) -> Callable[[], None]:
-    """Log notices and crashes of all processes, and pass on their facts, whether or not they are threads of this one.
+    """Log notices and crashes of all processes, threads of this one or not, and pass on the facts that they report.
 
     Returns a function that ends the reporting.
     """
-    from launch.child import on_news  # ROS names can be imported only in a composed program.
+    from launch.child import on_news  # ROS names can only be imported in a composed program
 
     def noticed(process: Warned, text: str) -> None:
         printed(Severity.WARN, process.name, text)

@@ -1,4 +1,4 @@
-"""How a verb reaches its system: in the domain, or through named routers."""
+"""How a verb reaches its system: through the domain, or through routers that are named."""
 
 from __future__ import annotations
 
@@ -19,9 +19,7 @@ def named_routers() -> list[str]:
 
 
 def without_connect(words: Sequence[str]) -> str:
-    """How to write a command line with `--connect`, which only `attach` and `doctor` take, without it; empty if it has
-    none.
-    """
+    """How to write a command line without `--connect`, which only `attach` and `doctor` take; empty if it has none."""
     from shlex import join
 
     place = next((at for at, each in enumerate(words) if each.partition("=")[0] == "--connect"), None)
@@ -29,7 +27,7 @@ def without_connect(words: Sequence[str]) -> str:
         return ""
     _, given, endpoint = words[place].partition("=")
     rest = [*words[:place], *words[place + 1 :]]
-    if not given and place < len(rest) and rest[place].find("/") > 0:  # not a node or a topic
+    if not given and place < len(rest) and rest[place].find("/") > 0:  # neither a node nor a topic
         endpoint = rest.pop(place)
     endpoint = endpoint or "tcp/robot:7447"
     if place == 0:
@@ -39,9 +37,9 @@ def without_connect(words: Sequence[str]) -> str:
 
 
 def leave_router() -> str:
-    """Forget the robot's router that the environment names, for this program and all that it starts.
+    """Forget the robot's router that the environment names, for this program and all programs that it starts.
 
-    Returns that nodes are started on this machine all the same; empty if no router was named.
+    Returns a warning that nodes are started on this machine all the same; empty if no router was named.
     """
     endpoints = " ".join(named_routers())
     os.environ.pop(CONNECT_VARIABLE, None)
@@ -54,13 +52,13 @@ def leave_router() -> str:
 
 
 def report_left_router() -> None:
-    """The same for programs that start nodes; prints it."""
+    """Forget the robot's router in a program that starts nodes, and print the warning."""
     if why := leave_router():
         print(f"[WARN] [bot-console]: {why}", file=sys.stderr)
 
 
 def reach_system() -> str:
-    """Join the domain of this machine, or become a client of the robot's router named by the environment."""
+    """Join this machine's domain, or connect to the router in the environment; returns why that fails, if it does."""
     endpoints = named_routers()
     if not endpoints:
         return join_domain()
@@ -70,7 +68,7 @@ def reach_system() -> str:
 
 
 def reach_ros() -> str:
-    """Like `reach_system`, for a program that imports ROS names itself."""
+    """Do as `reach_system`, for a program that imports ROS names itself."""
     from bot_console.runtime.importer import install
 
     problem = reach_system()
@@ -79,7 +77,7 @@ def reach_ros() -> str:
 
 
 def reach_when_asked() -> None:
-    """Connect with the first context, for verbs that rarely make one; if that fails, the verb runs isolated."""
+    """Connect with the first context, for verbs that rarely create one; if that fails, the verb runs isolated."""
     from bot_console.runtime.rmw.local import local_bus
     from bot_console.runtime.rmw.middleware import bus_of, choose_middleware
 

@@ -22,27 +22,27 @@ from bot_console.tui.console.running_lines import LINE_TIMEOUT_S, RunningLine, g
 from bot_console.tui.learn.command_log import log_for, record, recorded
 
 START_TIMEOUT_S = 30.0
-"""Seconds to wait for what a line launches; after that, the Launch pane shows the rest."""
+"""Seconds to wait for the start of what a line launches; after that, the Launch pane shows the rest."""
 
 
 class Ros2CommandLine:
     """Runs each line in its own node process; implements `tui.console.command_line.CommandLine`."""
 
     def __init__(self, launcher: Launcher | None = None, no_launch: str = "") -> None:
-        """`launcher` starts what `ros2 run` and `ros2 launch` name: it keeps running, and is listed in the Launch
-        pane. `no_launch` is why nothing can be started where the console's system is.
+        """`launcher` starts what `ros2 run` and `ros2 launch` name, which keeps running and is listed in the Launch
+        pane. `no_launch` is the reason if nothing can be started in the console's system.
         """
         self._launcher = launcher
         self._no_launch = no_launch
         self._known: dict[tuple[str, ...], list[str]] = {}
-        """Output of verbs that does not change while the console runs: packages, types."""
+        """The output of verbs that does not change while the console runs, such as packages and types."""
 
     def run(self, line: str) -> Future[str]:
-        """Run a line in the background; the future has its output, or the `ValueError` of a line that cannot be run."""
+        """Run a line in the background; the result is its output, or a `ValueError` if it cannot be run."""
         return in_background(lambda: self._recorded(line), "ros2")
 
     def stream(self, line: str) -> Stream | None:
-        """Start a line that keeps printing; None for any other."""
+        """Start a line that keeps printing; returns None for any other line."""
         try:
             words = _words(line)
         except ValueError:
@@ -73,7 +73,7 @@ class Ros2CommandLine:
         return text
 
     def _done(self, words: Sequence[str]) -> tuple[str, int]:
-        """The output of a line, and its exit code."""
+        """Run a line; returns its output and exit code."""
         if words[:1] == ["colcon"]:
             return "\n".join(answers(words[1:])), 0
         if self._no_launch and starts_nodes(words):
@@ -90,26 +90,26 @@ class Ros2CommandLine:
 
 
 class _Names:
-    """Names for completion: running things as the console knows them; everything else as the verbs print it."""
+    """Names for completion: those of running things from the console's snapshot, all others as verbs print them."""
 
     def __init__(self, snapshot: ConsoleSnapshot, known: dict[tuple[str, ...], list[str]]) -> None:
         self._snapshot = snapshot
         self._known = known
 
     def asked(self, *words: str) -> list[str]:
-        """The lines that a verb prints."""
+        """The lines that a verb prints, which are cached."""
         if words not in self._known:
             self._known[words] = [each.strip() for each in _printed_by(words)[0].splitlines()]
         return self._known[words]
 
     def live(self, *words: str) -> list[str]:
-        """The same for verbs that query what is running."""
+        """The same for verbs that query running things; not cached."""
         found = live_names(self._snapshot, words)
         return found if found is not None else [each.strip() for each in _printed_by(words)[0].splitlines()]
 
 
 class _Streamed(RunningLine):
-    """A command in a node process, and the last lines it has printed; a lesson that is open sees it."""
+    """A command in a node process, with the last lines that it has printed; recorded for an open lesson."""
 
     def __init__(self, words: Sequence[str]) -> None:
         super().__init__()
@@ -146,7 +146,7 @@ def _start(
 
 
 def _printed_by(words: Sequence[str]) -> tuple[str, int]:
-    """The output of a line, and its exit code; that of an interrupt if it did not end in time."""
+    """Run a line in a node process; returns its output and exit code, that of an interrupt if it has timed out."""
     printed: list[str] = []
     process = _start(words, printed)
     code = process.wait(LINE_TIMEOUT_S)

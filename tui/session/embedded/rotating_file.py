@@ -1,4 +1,4 @@
-"""Rotating log files, so that a node that floods its output does not fill the disk."""
+"""Rotating log files, so that a node with a flood of output does not fill the disk."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from bot_console.runtime.files.unwritable_log import UnwritableLog
 
 STANDARD_STREAMS = (1, 2)
 LAUNCH_BYTES = 2_000_000
-"""The size at which a log file of launch is rotated."""
+"""The size at which a log file of launch is rotated, in bytes."""
 MAX_OLDER_FILES = 1
-"""The number of older files that are kept."""
+"""The number of older files kept."""
 
 
 class RotatingFile(UnwritableLog, RotatingFileHandler):
-    """Writes to a file until it has `max_bytes`; rotated files are named `.1` (the newest) and up.
+    """Writes to a file until it has `max_bytes`; older files are named `.1` (the newest) and up.
 
-    Descriptors in `followed` that refer to the file are redirected to the new one on rotation: otherwise what this
+    Descriptors in `followed` that refer to the file are redirected to the new one on rotation. Otherwise, what this
     program writes to standard output, bypassing the log, would end up in a file that is soon deleted.
     """
 
@@ -31,7 +31,7 @@ class RotatingFile(UnwritableLog, RotatingFileHandler):
         self._followed = followed
 
     def shouldRollover(self, record: logging.LogRecord) -> bool:
-        """Whether the record does not fit; the base class would ask the file system for each record."""
+        """Whether the record does not fit. The base class would query the file system for each record."""
         if self.stream is None:
             self.stream = self._open()
         return self.stream.tell() + len(self.format(record)) + 1 > self.maxBytes and self.stream.tell() > 0

@@ -1,4 +1,4 @@
-"""Lets only one background system start at a time: checking, starting and recording it is one step."""
+"""Lets only one background system start at a time: checking, starting and recording it are a single step."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from types import FrameType
 from bot_console.runtime.rmw.zenoh.domain.file_lock import open_lock, try_lock
 
 LOCK_POLL_S = 0.02
-"""Seconds between two checks whether the other start is done."""
+"""Seconds between two checks whether the other start has finished."""
 SIGNALS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
 
 
 @contextlib.contextmanager
 def start_lock(lock: Path, timeout_s: float) -> Generator[bool]:
-    """Hold the lock, and the signals that would end this process, for the length of a `with` block.
+    """Hold the lock, and hold back the signals that would end this process, for the length of a `with` block.
 
-    Yields whether the lock was acquired within `timeout_s`. A signal takes effect after the block: within it, a system
-    could run that is not recorded, so that nobody could end it.
+    Yields whether the lock was acquired within `timeout_s`. Signals take effect after the block: if one ended this
+    process inside it, a system could be running that is not recorded, so that nobody could end it.
     """
     handle = open_lock(lock)
     try:
@@ -37,7 +37,7 @@ def start_lock(lock: Path, timeout_s: float) -> Generator[bool]:
 
 @contextlib.contextmanager
 def _signals_held_back() -> Generator[None]:
-    """Uses handlers and not a mask, which a program that is started meanwhile would inherit."""
+    """Hold signals back with handlers, because a program that is started meanwhile would inherit a mask."""
     came: list[int] = []
 
     def keep(number: int, frame: FrameType | None) -> None:

@@ -1,4 +1,4 @@
-"""CPU time and memory of launched processes, and whether a process's code kept running after it was killed."""
+"""The vitals of launched processes: CPU time, memory, hangs, and code that keeps running after it was killed."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class SystemVitals:
-    """The vitals of one process; nothing is known without `/proc`."""
+    """The vitals of an operating system process; nothing is known without `/proc`."""
 
     def __init__(self, pid: int) -> None:
         self._pid = pid
@@ -27,19 +27,19 @@ class SystemVitals:
         self._statm = Path(f"/proc/{pid}/statm")
 
     def cpu_seconds(self) -> float | None:
-        """CPU time (s) of the process."""
+        """The CPU time (s) of the process; None if it has ended."""
         try:
             fields = self._stat.read_bytes().rpartition(b")")[2].split()
-        except OSError:  # It has ended, or the system has no such file.
+        except OSError:  # the process has ended, or the system has no such file
             return None
         return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
     def wanted_seconds(self) -> float | None:
-        """How long (s) its main thread has run or waited for a CPU, but for nothing else."""
+        """How long (s) its main thread has run or waited only for a CPU."""
         return wanted_seconds(str(self._pid))
 
     def memory_bytes(self) -> int | None:
-        """Resident memory, as `top`'s RES: includes what it shares with the fork server, if that started it."""
+        """The resident memory, like RES in `top`: includes memory shared with the fork server, if that started it."""
         try:
             return int(self._statm.read_bytes().split()[1]) * os.sysconf("SC_PAGE_SIZE")
         except OSError:
@@ -53,11 +53,11 @@ class SystemVitals:
             return False
 
     def line_in_debugger(self) -> str | None:
-        """The line at which its nodes have stopped in a debugger, if it is in this process's domain."""
+        """The line at which its nodes are stopped in a debugger, if it is in the domain of this process."""
         return line_in_debugger(self._pid)
 
     def holds_lock_in(self) -> str:
-        """The line of code that holds its interpreter lock."""
+        """The line of code that holds its interpreter lock; empty if none does."""
         return self._lock.held_in()
 
     def hangs_in(self) -> str:
@@ -66,21 +66,21 @@ class SystemVitals:
 
 
 class NodeVitals:
-    """The vitals of a node process: a thread of this process, and the threads it starts."""
+    """The vitals of a node process, that is, a thread of this process and the threads that it starts."""
 
     def __init__(self, process: RunningProcess) -> None:
         self._process = process
 
     def cpu_seconds(self) -> float | None:
-        """CPU time (s) of its threads."""
+        """The CPU time (s) of its threads."""
         return self._process.cpu_seconds()
 
     def wanted_seconds(self) -> float | None:
-        """Its CPU time: whether a thread waits for the interpreter or for something else is not known."""
+        """Its CPU time, since it is unknown whether a thread waits for the interpreter or for something else."""
         return self.cpu_seconds()
 
     def memory_bytes(self) -> int | None:
-        """None: threads share their memory."""
+        """Always None: threads share their memory."""
         return None
 
     def is_stopped(self) -> bool:
@@ -91,11 +91,11 @@ class NodeVitals:
         """Always None: a debugger would stop this whole process."""
 
     def holds_lock_in(self) -> str:
-        """Always empty: while the lock is held, nobody in this process can ask."""
+        """Always empty: while the lock is held, no code in this process can ask."""
         return ""
 
     def hangs_in(self) -> str:
-        """Where its code still runs although it was killed, as the runtime's notice describes it."""
+        """Where its code still runs although it was killed, in the words of the runtime's notice."""
         process = self._process
         return process.notices[-1] if process.state is ProcessState.ABANDONED and process.notices else ""
 

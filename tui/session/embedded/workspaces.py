@@ -1,4 +1,4 @@
-"""The workspace of a run, and the launch files in it."""
+"""The workspace of a run, with the launch files and panes in it."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from bot_console.runtime.workspace.setup_py import PANES
 from bot_console.tui.cli.foreground.once_per_shell import report_once
 
 PROGRAM_LAUNCH = ROOT / "launch" / "program.launch.py"
-"""Runs what the user has named, which is not ours."""
+"""Runs a program that the user has named, which is not one of ours."""
 SIMULATOR_LAUNCH = str(ROOT / "launch" / "simulator.launch.py")
-"""Starts the simulated robot beside something else."""
+"""Starts the simulated robot beside another launch."""
 SYSTEM_LAUNCH = str(ROOT / "launch" / "robot_system.launch.py")
-"""The launch file that `bot-console` starts."""
+"""The launch file that `bot-console` runs by default."""
 PANE_GROUP = PANES
-"""The entry points by which packages offer panes."""
+"""The entry point group by which packages provide panes."""
 SYSTEM_NODES = frozenset(
     (
         "/motion_controller",
@@ -36,21 +36,21 @@ SYSTEM_NODES = frozenset(
         "/telemetry_publisher",
     )
 )
-"""The nodes of `SYSTEM_LAUNCH`, by their full names."""
+"""The fully qualified names of the nodes of `SYSTEM_LAUNCH`."""
 NAVIGATOR = "/robot_navigator"
-"""The one that the launch argument `navigator` replaces or leaves out."""
+"""The node that the launch argument `navigator` replaces or leaves out."""
 
 
 def choose(folders: Sequence[Path]) -> None:
-    """Look for packages in these folders, and in the `src/` of each, instead of in the working directory."""
+    """Search for packages in these folders, and in the `src/` of each, instead of in the working directory."""
     if folders:
         use(Workspace([each for folder in folders for each in default_folders(folder)]))
 
 
 def launch_environment(file: str) -> dict[str, str]:
-    """The environment of a launch. A launch file of ours starts our nodes whatever the workspace contains.
+    """The environment for a launch file. One of our launch files starts our nodes whatever the workspace contains.
 
-    The workspace may contain a package of the same name, such as one that was exported and changed.
+    The workspace may contain a package with the same name, such as one that was exported and changed.
     """
     path = Path(file).resolve()
     ours = path.parent == ROOT / "launch" and path != PROGRAM_LAUNCH
@@ -58,10 +58,10 @@ def launch_environment(file: str) -> dict[str, str]:
 
 
 def report_workspace(package: str) -> None:
-    """Print on stderr, once per shell, that a named package is the workspace's, if one of ours has the same name."""
+    """Print on stderr, once per shell, that a package is the workspace's although one of ours has the same name."""
     here = workspace()
     if package not in (NAME, PAGE_NAME):
-        return  # Packages are not searched for: the working directory may be large.
+        return  # without searching for packages, since the working directory may be large
     found = here.packages.get(package)
     if found is not None and not is_own(found):
         built_in = f"; the bundled robot is '{NAME}'" if package != NAME else ", not the bundled one"
@@ -69,7 +69,7 @@ def report_workspace(package: str) -> None:
 
 
 def panes() -> Iterator[tuple[str, Callable[[], Any], str]]:
-    """The panes of the workspace's packages: name, a function that imports the pane, and its source."""
+    """The panes of the workspace's packages: name, a function that imports the pane, and the source."""
     for package in workspace().packages.values():
         for name, point in package.panes.items():
             yield name, _importing(package, point.module, point.function), f"package {package.name}"
@@ -98,7 +98,7 @@ def config_folders() -> tuple[Path, ...]:
 
 
 def launch_files() -> tuple[str, ...]:
-    """The launch files of all packages in the workspace, the user's own packages first."""
+    """The launch files of all packages in the workspace; those of the user's own packages come first."""
     packages = workspace().packages
     names = sorted(packages, key=lambda name: is_own(packages[name]) or is_demo(packages[name]))
     return tuple(str(path) for name in names for path in launch_file_paths(name))

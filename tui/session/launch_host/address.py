@@ -19,7 +19,7 @@ class HostListener:
     """Accepts consoles until it is closed."""
 
     def __init__(self, folder: str, enter: Callable[[socket.socket], None]) -> None:
-        """`enter` receives each connection; raises `OSError` if the folder cannot hold a socket."""
+        """`enter` receives each connection. Raises `OSError` if no socket can be created in the folder."""
         self.path = address_of(folder, os.getpid())
         self._socket = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         self._enter = enter
@@ -28,7 +28,7 @@ class HostListener:
             os.unlink(early)
         self._socket.bind(early)
         self._socket.listen(BACKLOG)
-        os.rename(early, self.path)  # from now on anyone who sees the name can connect
+        os.rename(early, self.path)  # from now on, any program that sees the name can connect
         threading.Thread(target=self._serve, name="further consoles", daemon=True).start()
 
     def _serve(self) -> None:
@@ -49,7 +49,7 @@ class HostListener:
 
 
 def address_of(folder: str, pid: int) -> str:
-    """The path of the socket of a process."""
+    """The path of a launch host's socket."""
     return os.path.join(folder, f"{pid}{ADDRESS_SUFFIX}")
 
 
@@ -59,7 +59,7 @@ def host_addresses(folder: str) -> list[str]:
 
 
 def remove_addresses_of_dead_hosts(folder: str, lives: Callable[[int], bool]) -> None:
-    """Remove the sockets that killed hosts have left in a folder; `lives` says whether a process is alive."""
+    """Remove the sockets that killed hosts have left in a folder; `lives` returns whether a process is alive."""
     for left in host_addresses(folder):
         if not lives(pid_of_address(left)):
             with contextlib.suppress(FileNotFoundError):
@@ -67,12 +67,12 @@ def remove_addresses_of_dead_hosts(folder: str, lives: Callable[[int], bool]) ->
 
 
 def pid_of_address(path: str) -> int:
-    """The pid of the process that a socket belongs to."""
+    """The pid of the launch host to which a socket belongs."""
     return int(os.path.basename(path).removesuffix(ADDRESS_SUFFIX))
 
 
 def connect_to_host(path: str) -> socket.socket | None:
-    """A connection to a launch host; the socket of a dead host is removed, and the result is None."""
+    """Connect to a launch host; if it is dead, its socket is removed and None is returned."""
     connection = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
     try:
         connection.connect(path)

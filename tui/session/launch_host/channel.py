@@ -1,4 +1,4 @@
-"""One JSON object per line over a stream socket, in both directions, without ever blocking the sender."""
+"""Exchanges JSON objects, one per line, over a stream socket in both directions, without ever blocking the sender."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from typing import Any
 Message = Mapping[str, Any]
 
 SPARE_BYTES = 4 << 20
-"""Queued bytes beyond which expendable messages are dropped, and counted."""
+"""If more bytes than this are queued, expendable messages are dropped and counted."""
 MAX_MESSAGE_BYTES = 64 << 20
-"""Queued bytes beyond which the connection to a slow reader is closed."""
+"""If more bytes than this are queued, the connection to the slow reader is closed."""
 
 
 class Channel:
@@ -41,7 +41,7 @@ class Channel:
             each.start()
 
     def send(self, message: Message, *, spare: bool = False) -> None:
-        """Queue a message; an expendable one is dropped if the other side does not read."""
+        """Queue a message; a `spare` message is dropped if the other side does not read fast enough."""
         line = json.dumps(message).encode() + b"\n"
         with self._news:
             if self._closed:
@@ -61,7 +61,7 @@ class Channel:
             self._news.notify()
 
     def close(self, timeout_s: float = 1.0) -> None:
-        """Write what is queued, for at most `timeout_s`, then disconnect; a second call does nothing."""
+        """Write the queued messages, for at most `timeout_s`, then disconnect; a second call does nothing."""
         with self._news:
             self._news.wait_for(lambda: self._closed or not self._bytes, timeout_s)
             self._shut()
@@ -79,7 +79,7 @@ class Channel:
             with self._socket.makefile("rb") as lines:
                 for line in lines:
                     self._received(json.loads(line))
-        except (OSError, ValueError):  # disconnected, or not a launch host at all
+        except (OSError, ValueError):  # disconnected, or the other side is no launch host
             pass
         finally:
             with self._news:
@@ -96,7 +96,7 @@ class Channel:
                 line = self._waiting.popleft()
             try:
                 self._socket.sendall(line)
-            except OSError:  # the reading thread notices it, too
+            except OSError:  # the reading thread notices it as well
                 with self._news:
                     self._shut()
                 return

@@ -1,4 +1,4 @@
-"""The launch host that a console starts and owns."""
+"""Starts and ends a launch host that a console owns."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from bot_console.tui.child_command import child_command
 
 SWITCH = "bot_console.tui.session.host_program"
 END_S = 15.0
-"""Seconds that a host may take to end after its owner has hung up."""
+"""Seconds that a host may take to end after its owner has disconnected."""
 
 
 @dataclass(frozen=True)
@@ -25,16 +25,17 @@ class Host:
     process: subprocess.Popen[bytes]
     connection: socket.socket
     rest: threading.Thread
-    """Ends what the host leaves behind, however it ends."""
+    """Ends what the host leaves behind, in whatever way the host ends."""
     hangs: Callable[[], bool]
-    """Whether it cannot notice that its owner hangs up."""
+    """Whether the host hangs, so that it cannot notice that its owner disconnects."""
 
     def thaw(self) -> None:
-        """Let it continue if it is frozen: otherwise it could not end what it has started."""
+        """Resume the host if it is frozen: otherwise it could not end what it has started."""
         self.process.send_signal(signal.SIGCONT)
 
     def end(self, timeout_s: float = END_S) -> None:
-        """Close the connection, which ends the host and all it started; waits, and kills it if that takes too long.
+        """Close the connection, which ends the host and everything that it has started; wait, and kill a host that
+        takes too long.
 
         A host that hangs is killed at once.
         """
@@ -56,11 +57,11 @@ def start_host_process(
     end_session: Callable[[int], object] = lambda pid: None,
     hangs: Callable[[int], bool] = lambda pid: False,
 ) -> Host:
-    """Start a host that this process owns: when the owner hangs up, the host ends everything it has started, then
-    itself.
+    """Start a host that this process owns: when the owner disconnects, the host ends everything that it has started,
+    then itself.
 
-    What the host itself prints goes to `output`. `end_session` ends the programs of a host that was killed, by the
-    host's pid; `hangs` tells whether a host does not respond.
+    Anything that the host itself prints goes to `output`. `end_session` ends the programs of a host that was killed,
+    given the host's pid; `hangs` returns whether a host does not respond.
     """
     ours, theirs = socket.socketpair()
     with theirs:
@@ -75,7 +76,7 @@ def start_host_process(
         )
 
     def end_rest() -> None:
-        if process.wait() != 0:  # It was killed; otherwise it has ended its programs itself.
+        if process.wait() != 0:  # the host was killed; otherwise it has ended its programs itself
             end_session(process.pid)
 
     rest = threading.Thread(target=end_rest, name="rest of the launch host", daemon=True)

@@ -1,4 +1,4 @@
-"""Several launch hosts as one launcher: those that this console has started, and those of other programs."""
+"""Combines several launch hosts to one launcher: those that this console has started, and those of other programs."""
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ CLOSE_TIMEOUT_S = 15.0
 """Seconds that launched processes may take to end."""
 
 Start = Callable[[], "tuple[str, HostedLauncher]"]
-"""Starts a host of this console; returns its name, which is its socket's path if it has one, and the connection to
+"""Starts a host of this console; returns its name, which is the path of its socket if it has one, and the connection to
 it.
 """
 
 
 @dataclass(frozen=True)
 class OtherHosts:
-    """How hosts of other programs are found: `addresses` lists the sockets of all hosts, `enter` connects to one.
+    """How to find the hosts of other programs: `addresses` lists the sockets of all hosts, `enter` connects to one.
 
-    `enter` returns None if the host is gone. The search begins as soon as `ready`, which may block, has returned.
+    `enter` returns None if the host has gone. The search begins once `ready` has returned, which may block.
     """
 
     addresses: Callable[[], Sequence[str]]
@@ -40,13 +40,13 @@ class OtherHosts:
 
 
 class CombinedLauncher(ProcessVerbs):
-    """One launcher over several hosts. Methods may be called from any thread."""
+    """A launcher over several hosts. Methods may be called from any thread."""
 
     def __init__(
         self, start: Start, files: Callable[[], Sequence[str]], others: OtherHosts | None = None, *, reuse: bool = True
     ) -> None:
-        """Without `reuse` each launch file gets a separate host; otherwise all share one, started when it is first
-        needed.
+        """Without `reuse`, each launch file gets a separate host; otherwise all share one, which is started when it is
+        first needed.
         """
         self._start = start
         self._files = files
@@ -95,7 +95,7 @@ class CombinedLauncher(ProcessVerbs):
             return self._merged.of({name: each.info() for name, each in (*self._others.items(), *self._own.items())})
 
     def _free(self, *, use: bool) -> HostedLauncher | None:
-        """A host of this console that can take one more launch; with `use`, it is reserved for that launch."""
+        """A host of this console that can take another launch; with `use`, it is reserved for that launch."""
         with self._lock:
             for name, each in self._own.items():
                 if not each.is_gone and (self._reuse or name not in self._used):
@@ -104,7 +104,7 @@ class CombinedLauncher(ProcessVerbs):
         return None
 
     def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
-        """Run another launch file, which ends with this console; if a host has to be started, that happens in the
+        """Run another launch file, which ends with this console; if a host has to be started, this happens in the
         background.
         """
         if self._over.is_set():
@@ -115,17 +115,17 @@ class CombinedLauncher(ProcessVerbs):
         def start() -> Answer:
             try:
                 return self._host(use=True).launch(path, arguments).result()
-            except Exception as error:  # whatever kept the host from starting
+            except Exception as error:  # whatever has kept the host from starting
                 return Answer(False, str(error))
 
         return in_background(start, "launch host")
 
     def arguments(self, path: str) -> Sequence[LaunchArgument]:
-        """The arguments a launch file declares; raises `ValueError` when it cannot be read."""
+        """The arguments that a launch file declares; raises `ValueError` if it cannot be read."""
         return self._host(use=False).arguments(path)
 
     def files(self) -> Sequence[str]:
-        """Launch files that can be opened."""
+        """The launch files to choose from."""
         return self._files()
 
     def _want(self, verb: str, key: str) -> Future[Answer]:
@@ -138,9 +138,9 @@ class CombinedLauncher(ProcessVerbs):
         return outcome
 
     def _host(self, *, use: bool) -> HostedLauncher:
-        """Like `_free`, but starts a host if there is none.
+        """Return a host like `_free`, but start one if there is none.
 
-        Raises `ValueError` if none can be started, or once the console is closing.
+        Raises `ValueError` if none can be started, or when the console is closing.
         """
         with self._starting:
             return self._free(use=use) or self._start_own(use=use)
@@ -150,12 +150,12 @@ class CombinedLauncher(ProcessVerbs):
             raise ValueError(CLOSED)
         try:
             name, launcher = self._start()
-        except Exception as error:  # whatever it is, the console goes on without the launch
+        except Exception as error:  # whatever it is, the console continues without the launch
             raise ValueError(f"no launch host could be started: {error}") from error
         with self._lock:
             self._own[name] = launcher
             self._used |= {name} if use else set()
-            # its socket was found before this console knew that the host is its own
+            # the search had found the host's socket before this console knew that the host is its own
             twice = self._others.pop(name, None)
             over = self._over.is_set()
         if twice is not None:
@@ -165,7 +165,7 @@ class CombinedLauncher(ProcessVerbs):
         return launcher
 
     def close(self) -> None:
-        """End what this console has started, and disconnect from the other hosts."""
+        """End what this console has started, and disconnect from all hosts."""
         self._over.set()
         with self._lock:
             launchers = [*self._own.values(), *self._others.values()]

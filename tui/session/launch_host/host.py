@@ -1,4 +1,4 @@
-"""Serves a launcher to consoles: accepts their requests, and sends them its state and what processes print."""
+"""Serves a launcher to consoles: accepts their requests, and sends them its state and the output of processes."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from bot_console.tui.session.launch_host.plain_data import of_arguments, of_info
 from bot_console.tui.session.protocol import ClosableLauncher
 
 LAUNCHER_POLL_S = 0.1
-"""Seconds between two checks for changes."""
+"""Seconds between two checks for changes while a console is connected."""
 UNSEEN_POLL_S = 0.5
-"""The same while no console is connected: then only a process that has failed is restarted, and its output settled."""
+"""The same while none is connected, when only failed processes are restarted and output is settled."""
 MAX_LINES = 1000
-"""Past lines of output that are sent to a console which connects later."""
+"""The number of past lines of output that are sent to a console which connects later."""
 MAX_FACTS = 10_000
-"""Past facts, one per declared parameter, that are sent to such a console."""
+"""The number of past facts, one per declared parameter, that are sent to such a console."""
 
 VERBS = ("launch", "start", "stop", "kill", "restart", "restart_on_failure", "leave_ended")
 
@@ -44,7 +44,7 @@ class _Console:
 
 
 class LaunchHost:
-    """A launcher and the consoles that control it. Methods may be called from any thread."""
+    """A launcher, and the consoles that control it. Methods may be called from any thread."""
 
     def __init__(
         self,
@@ -52,9 +52,9 @@ class LaunchHost:
         also: Printed | None = None,
         buffer: Keeper | None = None,
     ) -> None:
-        """`make` receives the functions for log records and for printed lines; `also` receives printed lines, too.
+        """`make` receives the functions for log records and for printed lines; `also` receives printed lines as well.
 
-        `buffer` keeps the last minutes of this process; None: they are not kept.
+        `buffer` keeps the last minutes of this process's traffic; None: they are not kept.
         """
         self._also = also
         self._buffer = buffer
@@ -63,7 +63,7 @@ class LaunchHost:
         self._lines: deque[Message] = deque(maxlen=MAX_LINES)
         self._facts: deque[Message] = deque(maxlen=MAX_FACTS)
         self.over = threading.Event()
-        """Set when everything has ended: because a console requested it, or the one that owns this host has gone."""
+        """Set when everything has ended, at a console's request or because the console that owns this host has gone."""
         self._replies: deque[tuple[_Console, Message]] = deque()
         self._wake = threading.Event()
         self._ended = False
@@ -71,7 +71,7 @@ class LaunchHost:
         threading.Thread(target=self._poll, name="launcher state", daemon=True).start()
 
     def connect(self, connection: socket.socket, *, owner: bool = False) -> None:
-        """Serve one more console; when an owner disconnects, everything ends."""
+        """Serve another console; when an owner disconnects, everything ends."""
         console = _Console(owner)
         console.channel = Channel(connection, partial(self._received, console), partial(self._lost, console))
         with self._lock:
@@ -85,7 +85,7 @@ class LaunchHost:
         self._line(_record_message(stamp, severity, name, text, site))
 
     def printed(self, severity: int, name: str, text: str) -> None:
-        """Send a line to all consoles."""
+        """Send a printed line to all consoles."""
         self._also_notified(severity, name, text)
         self._line(_record_message(time.time_ns(), severity, name, text))
 
@@ -94,7 +94,7 @@ class LaunchHost:
         self._pass_on({"fact": [kind, dict(facts)]}, self._facts, spare=False)
 
     def noticed(self, severity: int, name: str, text: str) -> None:
-        """Send a notice about a process, which a flood of its output cannot displace."""
+        """Send a notice about a process to all consoles; unlike a line, it is not displaced by a flood of output."""
         self._also_notified(severity, name, text)
         self._pass_on(_record_message(time.time_ns(), severity, name, text), self._facts, spare=False)
 
@@ -112,13 +112,13 @@ class LaunchHost:
                 each.channel.send(message, spare=spare)
 
     def _poll(self) -> None:
-        """Send what is new; a lock serializes this, or an older state might follow a newer one."""
+        """Send changes to the consoles; a lock keeps an older state from following a newer one."""
         while not self.over.is_set():
             self._wake.wait(LAUNCHER_POLL_S if self._consoles else UNSEEN_POLL_S)
             self._wake.clear()
             ended = self._ended
             replies = [self._replies.popleft() for _ in range(len(self._replies))]
-            # newer than the replies, so that a console which has an answer also has the state it refers to
+            # newer than the replies, so that a console with a reply also has the state that it refers to
             info = self._service.info()
             with self._lock:
                 for each in self._consoles:
@@ -186,5 +186,5 @@ class LaunchHost:
 def _record_message(
     stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int] = ("", "", 0)
 ) -> Message:
-    """A line with the time (ns since the epoch) at which it came, which a console that connects later shows, too."""
+    """A line with the time (ns since the epoch) at which it arrived, for consoles that connect later too."""
     return {"record": [stamp, severity, name, text, list(site)]}

@@ -1,4 +1,4 @@
-"""The states of several launch hosts as one."""
+"""Merges the states of several launch hosts."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ SEPARATOR = "|"
 
 
 class MergedInfo:
-    """Keys are prefixed with the host's name, events renumbered in order of arrival."""
+    """Merges states: keys are prefixed with the host's name, events are renumbered in order of arrival."""
 
     def __init__(self) -> None:
         self._infos: dict[str, LaunchInfo] = {}
@@ -21,15 +21,16 @@ class MergedInfo:
         self._info = LaunchInfo()
 
     def forget(self, name: str, text: str) -> None:
-        """Remove a host; the text becomes an event."""
-        self._infos = {}  # forces the next merge, which differs even if it is empty
+        """Remove a host, and add a text as an event."""
+        self._infos = {}  # forces the next merge, even if the result is empty
         self._seen.pop(name, None)
         stamp = self._info.timeline[-1].stamp if self._info.timeline else 0
         self._add([LaunchEvent(0, stamp, text)])
 
     def of(self, infos: Mapping[str, LaunchInfo]) -> LaunchInfo:
-        """The merged state; the same object if nothing is new. If several hosts have a problem, the last one's is
-        shown.
+        """Merge the states of hosts, by their names; returns the same object if nothing is new.
+
+        If several hosts have a problem, that of the last one is shown.
         """
         same = infos.keys() == self._infos.keys() and all(infos[name] is self._infos[name] for name in infos)
         if same and (infos or not self._info.processes):

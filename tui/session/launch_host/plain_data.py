@@ -1,4 +1,4 @@
-"""A launcher's state as plain data and back."""
+"""Converts a launcher's state to plain data and back."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from bot_console.tui.console.model import (
 
 
 def of_info(info: LaunchInfo, timeline_from: int) -> dict[str, Any]:
-    """A launcher's state, with the timeline events from that number on."""
+    """The state of a launcher as plain data, with the timeline events from number `timeline_from` on."""
     return {
         "files": list(info.files),
         "problem": info.problem,
@@ -31,7 +31,7 @@ def of_info(info: LaunchInfo, timeline_from: int) -> dict[str, Any]:
 
 
 def to_info(data: Mapping[str, Any], before: LaunchInfo, kept: int) -> LaunchInfo:
-    """The state from `of_info`, on top of the previous one; unchanged parts are the same objects."""
+    """The state from the data of `of_info`, applied to the previous state; unchanged parts are the same objects."""
     known = {each.key: each for each in before.processes}
     processes: list[ProcessInfo] = []
     for each in data["processes"]:
@@ -53,12 +53,12 @@ def _process(data: Mapping[str, Any]) -> ProcessInfo:
 
 
 def of_arguments(arguments: Iterable[LaunchArgument]) -> list[dict[str, Any]]:
-    """The arguments of a launch file."""
+    """The arguments of a launch file as plain data."""
     return [asdict(each) for each in arguments]
 
 
 def to_arguments(data: Sequence[Mapping[str, Any]]) -> tuple[LaunchArgument, ...]:
-    """The arguments from `of_arguments`."""
+    """The arguments from the data of `of_arguments`."""
     return tuple(
         LaunchArgument(each["name"], each["description"], each["default"], tuple(each["choices"])) for each in data
     )

@@ -1,4 +1,4 @@
-"""A launcher in another process, and the last minutes that it keeps in memory, as the console sees them."""
+"""The console's proxies for a launcher in another process, and for the traffic that it keeps in memory."""
 
 from __future__ import annotations
 
@@ -28,13 +28,13 @@ GONE = "the launch host has ended, and everything it had started has ended with 
 CONNECTION_POLL_S = 0.5
 """Seconds between two checks whether the host hangs."""
 FILES_TIMEOUT_S = 2.0
-"""Seconds to wait for the list of files; after that it is empty."""
+"""Seconds to wait for the list of files; after that, it is taken to be empty."""
 ARGUMENTS_TIMEOUT_S = 30.0
 """Seconds that a launch file, which is a program, may take to report its arguments."""
 
 
 class HostedLauncher(ProcessVerbs):
-    """The proxy of a launch host. Methods may be called from any thread."""
+    """A launcher that is the proxy of a launch host. Methods may be called from any thread."""
 
     def __init__(
         self,
@@ -69,7 +69,7 @@ class HostedLauncher(ProcessVerbs):
         self._reported: set[str] = set()
         self._closed = False
         self._ends = False
-        """Whether this console ends its host."""
+        """Whether this console is ending its host."""
         self._gone = threading.Event()
         self._channel = Channel(connection, self._received, self._lost)
         self._channel.start()
@@ -80,7 +80,7 @@ class HostedLauncher(ProcessVerbs):
         return self._gone.is_set()
 
     def info(self) -> LaunchInfo:
-        """The current state; the same object until something changes."""
+        """The state of the host's launches; the same object until something changes."""
         if (now := time.monotonic()) - self._polled >= CONNECTION_POLL_S:
             self._polled = now
             before, self._hangs = self._hangs, "" if self._gone.is_set() else self._why_it_hangs()
@@ -92,7 +92,7 @@ class HostedLauncher(ProcessVerbs):
         return self._shown if self._hangs else self._info
 
     def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
-        """Run another launch file; answered when its first process runs, or when it has failed or ended."""
+        """Run another launch file; the answer comes when its first process runs, or when it has failed or ended."""
         return self._want("launch", path, dict(arguments))
 
     def keep(self, folder: str) -> Future[Answer]:
@@ -100,7 +100,7 @@ class HostedLauncher(ProcessVerbs):
         return self._want("keep", folder)
 
     def arguments(self, path: str) -> Sequence[LaunchArgument]:
-        """The arguments a launch file declares; raises `ValueError` when it cannot be read."""
+        """The arguments that a launch file declares; raises `ValueError` if it cannot be read."""
         try:
             message = self._ask("arguments", path).result(ARGUMENTS_TIMEOUT_S)
         except TooLate:
@@ -110,7 +110,7 @@ class HostedLauncher(ProcessVerbs):
         return to_arguments(message["value"])
 
     def files(self) -> Sequence[str]:
-        """Launch files of the host's workspace."""
+        """The launch files of the host's workspace."""
         try:
             return tuple(self._ask("files").result(FILES_TIMEOUT_S).get("value", ()))
         except TooLate:
@@ -124,7 +124,7 @@ class HostedLauncher(ProcessVerbs):
             self._ends = True
             hangs = bool(self._hangs)
         if self._owner:
-            # always, since a host that seems to hang may have been frozen while it held the interpreter lock
+            # in any case, since a host that seems to hang may have been frozen while it held the interpreter lock
             self._thaw()
         if self._owner and not hangs:
             ended = self._ask("close")
@@ -156,7 +156,7 @@ class HostedLauncher(ProcessVerbs):
             if not refusal:
                 self._asked[number] = asked
         if refusal:
-            if refusal == GONE and self._owner:  # during start-up nobody reads the answer yet when the host ends
+            if refusal == GONE and self._owner:  # during start-up, nobody reads the answer yet when the host ends
                 self._printed(Severity.ERROR, "launch", GONE)
             asked.set_result({"error": refusal})
         else:
@@ -187,8 +187,8 @@ class HostedLauncher(ProcessVerbs):
             left = list(self._asked.values())
             self._asked.clear()
             why = CLOSED if self._closed else GONE
-        # A console's own host ends only on its request; a host that ended before it started anything has left no other
-        # trace.
+        # A console's own host ends only at its request, and if it ended before it started anything, nothing else
+        # reveals it.
         own = self._owner and not self._ends
         if why == GONE and (own or any(each.state not in ENDED for each in self._info.processes)):
             processes = tuple(map(_with_its_host, self._info.processes))
@@ -200,14 +200,14 @@ class HostedLauncher(ProcessVerbs):
 
 
 class HostedSnapshotBuffer:
-    """The last minutes of the system's traffic, kept in memory by the launch host of a console."""
+    """The last minutes of the system's traffic, which the console's launch host keeps in memory."""
 
     def __init__(self, kept_s: float) -> None:
         self.kept_s = kept_s
         self.host: HostedLauncher | None = None
 
     def keep(self, folder: str) -> Future[Answer]:
-        """Save it as a new bag."""
+        """Save the last minutes as a new bag."""
         if self.host is not None:
             return self.host.keep(folder)
         return done(Answer(False, "nothing has been started yet"))

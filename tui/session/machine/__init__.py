@@ -1,1 +1,1 @@
-"""The console on this machine's ROS 2."""
+"""The console on the machine's own ROS 2."""

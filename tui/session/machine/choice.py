@@ -1,4 +1,4 @@
-"""Which system of this machine the console attaches to, if there may be two."""
+"""Chooses the system of this machine to which the console attaches, as there may be two."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ NO_ROS = (
 
 @dataclass(frozen=True)
 class Kind:
-    """The choice: the machine's ROS 2, or an embedded system; an exit code other than 0 if nothing was chosen."""
+    """The choice: the machine's ROS 2 or, if `ros` is None, an embedded system; `code` is not 0 if there is none."""
 
     ros: MachineRos | None = None
     code: int = 0
@@ -33,8 +33,8 @@ def choose(
     ask: Callable[[str], str] = input,
     interactive: Callable[[], bool] = lambda: sys.stdin.isatty() and sys.stdout.isatty(),
 ) -> Kind:
-    """Choose a system. `ros` and `embedded` are explicit requests; `system_there`: an embedded system runs in the
-    domain.
+    """Choose a system. `ros` and `embedded` are explicit requests; `system_there` says that an embedded system runs in
+    the domain.
     """
     if embedded:
         return Kind()

@@ -1,4 +1,4 @@
-"""The packages that the console needs of the machine's ROS 2 besides `rclpy`, which comes with few message packages."""
+"""The packages that the console needs besides the machine's `rclpy`, which comes with few message packages."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from bot_console.tui.session.machine.machine_ros import RUNTIME
 
 MESSAGES = ("diagnostic_msgs", "geometry_msgs", "nav_msgs", "rcl_interfaces", "sensor_msgs")
 BUNDLED_PACKAGE = ("rosidl_runtime_py", "ros2cli", "launch", "launch_ros", "launch_xml", "launch_yaml")
-"""Pure Python packages on top of the machine's `rclpy` and `rosidl_parser`, of which PyPI has no releases."""
+"""Pure Python packages that work on top of the machine's `rclpy` and `rosidl_parser`; PyPI has no releases of them."""
 
 
 class LentPackages:
-    """A finder for the end of `sys.meta_path` that provides our copies of packages that the machine does not have."""
+    """A finder for the end of `sys.meta_path` that provides our copies of packages that the machine lacks."""
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
@@ -32,13 +32,13 @@ class LentPackages:
 
 
 def provide_missing() -> None:
-    """Make the bundled packages importable if they are not installed; the machine's own take precedence."""
+    """Make the bundled packages importable where they are not installed; the machine's own take precedence."""
     if not any(isinstance(each, LentPackages) for each in sys.meta_path):
         sys.meta_path.append(LentPackages())
 
 
 def missing_messages(path: Iterable[str] | None = None) -> str:
-    """One line that names the message packages the console lacks; empty if none is missing."""
+    """A line that names the message packages that the console lacks; empty if none is missing."""
     where = None if path is None else list(path)
     missing = [each for each in MESSAGES if PathFinder.find_spec(each, where) is None]
     if not missing:

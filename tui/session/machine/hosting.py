@@ -1,4 +1,4 @@
-"""Runs a launch file of a real ROS 2 in a launch host: in its main thread, since LaunchService runs nowhere else."""
+"""Runs a launch file of a real ROS 2 in a launch host, in its main thread, since LaunchService works nowhere else."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Turn:
         self.done = threading.Event()
 
     def join(self, timeout: float | None = None) -> object:
-        """Wait for its end, at most `timeout` seconds."""
+        """Wait until it is done, at most `timeout` seconds."""
         return self.done.wait(timeout)
 
 
@@ -35,7 +35,7 @@ class MainThread:
         self._turns: queue.SimpleQueue[Turn | None] = queue.SimpleQueue()
 
     def spawn(self, work: Callable[[], None], file: str) -> Turn:
-        """Queue a launch, to run once the previous one has ended."""
+        """Queue a launch, which runs once the previous one has ended."""
         turn = Turn(work)
         self._turns.put(turn)
         return turn
@@ -49,12 +49,12 @@ class MainThread:
                 turn.done.set()
 
     def end(self) -> None:
-        """Accept no more work."""
+        """End `serve` after the queued work."""
         self._turns.put(None)
 
 
 def host_launches(owner: socket.socket) -> None:
-    """Serve until everything has ended because a console requested it, or until the owner is gone."""
+    """Serve until everything has ended at a console's request, or because the owner has gone."""
     provide_missing()
     main_thread = MainThread()
 

@@ -1,4 +1,4 @@
-"""The launch files of the machine's packages; there may be hundreds, so they are searched in the background."""
+"""Finds the launch files of the machine's packages, in the background because there may be hundreds."""
 
 from __future__ import annotations
 
@@ -8,17 +8,17 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 ENDINGS = ("launch.py", "launch.xml", "launch.yaml", "launch.yml")
-"""The endings that `ros2 launch` knows: `talker.launch.py`, and `talker_launch.py` as in Nav2 and many others."""
+"""The suffixes that `ros2 launch` recognises: `talker.launch.py`, and `talker_launch.py` as in Nav2 and many others."""
 SEARCH_TIMEOUT_S = 2.0
-"""Seconds that the first caller waits at most."""
+"""The longest time (s) that the first caller waits."""
 
 
 def launch_files() -> Sequence[str]:
-    """The launch files of all packages in the environment; empty if no prefix is sourced."""
+    """The launch files of all packages in the environment; empty if no prefix has been sourced."""
     from ament_index_python.packages import get_packages_with_prefixes
 
     if not os.environ.get("AMENT_PREFIX_PATH"):
-        return ()  # The index raises OSError then: an rclpy installed by pip has no prefix.
+        return ()  # the index would raise OSError; an rclpy installed by pip has no prefix
     found: list[str] = []
     for name, prefix in sorted(get_packages_with_prefixes().items()):
         share = Path(prefix) / "share" / name
@@ -27,10 +27,10 @@ def launch_files() -> Sequence[str]:
 
 
 class LaunchFiles:
-    """The result of the last search; thread-safe."""
+    """Keeps the result of the last search; thread-safe."""
 
     def __init__(self, poll: Callable[[], Sequence[str]] = launch_files) -> None:
-        """Start the first search at once."""
+        """Start the first search."""
         self._poll = poll
         self._lock = threading.Lock()
         self._found: Sequence[str] = ()
@@ -39,7 +39,7 @@ class LaunchFiles:
         self._begin()
 
     def now(self) -> Sequence[str]:
-        """The files that are known now; starts another search for the next caller."""
+        """The files found so far; also starts another search for the next caller."""
         if self._polled.wait(SEARCH_TIMEOUT_S):
             self._begin()
         return self._found

@@ -1,4 +1,4 @@
-"""The launches of a console on a real ROS 2: one host process per launch file, combined into a single launcher."""
+"""The launcher of a console on a real ROS 2: combines one host process per launch file."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from bot_console.tui.session.machine.launch_files import LaunchFiles
 
 
 def launcher_of_machine(record: Add, printed: Printed) -> CombinedLauncher:
-    """A launcher that gives each launch file its own host, since launch runs only in a process's main thread there."""
+    """A launcher that gives each launch file its own host, since there launch only runs in a process's main thread."""
 
     def start() -> tuple[str, HostedLauncher]:
         host = start_host_of_machine(launch_variables(os.environ), subprocess.PIPE)
@@ -27,7 +27,7 @@ def launcher_of_machine(record: Add, printed: Printed) -> CombinedLauncher:
 
 
 def _read(process: subprocess.Popen[bytes], printed: Printed) -> None:
-    """Log what launch prints, which comes through the standard output of the host."""
+    """Log what launch prints to the standard output of its host."""
     report = notifier(printed)
     with process.stdout or open(os.devnull, "rb") as lines:
         for line in lines:

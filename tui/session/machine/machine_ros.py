@@ -1,4 +1,4 @@
-"""Whether a real ROS 2 is installed: an `rclpy` that is not ours. ROS_DISTRO proves nothing, since we set it too."""
+"""Finds an installed real ROS 2, that is, an `rclpy` that is not ours. ROS_DISTRO proves nothing, as we set it too."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pathlib import Path
 
 RUNTIME = Path(__file__).resolve().parents[3] / "runtime"
 OLDEST = (3, 10)
-"""The oldest Python that bot-console runs on."""
+"""The oldest Python that bot-console supports."""
 _EXTENSION = re.compile(r"_rclpy_pybind11\.(?:cpython-)?(\d)(\d+)")
 _WHEEL = re.compile(r"ros_([a-z]+)_rclpy-")
 _FOLDER = re.compile(r"python(\d)\.(\d+)$")
@@ -20,8 +20,8 @@ _FOLDER = re.compile(r"python(\d)\.(\d+)$")
 
 @dataclass(frozen=True)
 class MachineRos:
-    """An `rclpy` of the machine: its folder, the Python it was built for if that is not the running one, and the
-    distributions whose wheels of PyPI are installed beside it.
+    """An `rclpy` of the machine: its folder, the Python that it was built for if that is another than the running one,
+    and the distributions whose wheels from PyPI are installed beside it.
     """
 
     folder: Path
@@ -30,7 +30,7 @@ class MachineRos:
 
     @property
     def usable(self) -> bool:
-        """Whether this program can import it."""
+        """Whether this program can import the `rclpy`."""
         return not self.other_python and not self.is_mixed
 
     @property
@@ -44,7 +44,7 @@ class MachineRos:
 
 
 def find_machine_ros(path: Iterable[str] | None = None) -> MachineRos | None:
-    """The `rclpy` that an import would find without our finder, or else one from the sourced prefixes."""
+    """Find the `rclpy` that an import would find without our finder, or else one in the sourced prefixes."""
     found = _importable(path)
     if found is not None:
         return found
@@ -56,7 +56,7 @@ def find_machine_ros(path: Iterable[str] | None = None) -> MachineRos | None:
 
 
 def how_to_install(ros: MachineRos) -> str:
-    """One line of advice when the machine's ROS 2 is for another Python, or a mixture."""
+    """One line of advice if the machine's ROS 2 is for another Python, or is a mixture."""
     if ros.is_mixed:
         one = ros.wheels[-1]
         return (
@@ -77,7 +77,7 @@ def how_to_install(ros: MachineRos) -> str:
 
 
 def _is_too_old(python: str) -> bool:
-    """Whether bot-console cannot run on a Python of that version."""
+    """Whether bot-console does not support a Python of this version."""
     major, _, minor = python.partition(".")
     return major.isdigit() and minor.isdigit() and (int(major), int(minor)) < OLDEST
 
@@ -89,17 +89,17 @@ def _importable(path: Iterable[str] | None) -> MachineRos | None:
         return None
     origin = Path(spec.origin)
     if origin.name != "__init__.py" or RUNTIME in origin.resolve().parents:
-        return None  # Ours.
+        return None  # it is ours
     return MachineRos(origin.parent, _other_python(origin.parent), _wheels(origin.parent))
 
 
 def _has_shims(folder: str) -> bool:
-    """Whether a folder holds what `bot-console setup` puts on the path in place of the packages of ROS."""
+    """Whether a folder contains what `bot-console setup` puts on the path in place of the ROS packages."""
     return os.path.lexists(os.path.join(folder, "bot_console_shims.py"))
 
 
 def _other_python(folder: Path) -> str:
-    """The Python that its extension module was built for, if the running one cannot load it."""
+    """The Python for which the extension module of an `rclpy` was built; empty if the running one can load it."""
     extensions = [*folder.glob("_rclpy_pybind11*"), *folder.parent.glob("_rclpy_pybind11*")]
     names = [each.name for each in extensions if each.suffix in (".so", ".pyd")]
     suffixes = tuple(importlib.machinery.EXTENSION_SUFFIXES)
@@ -110,7 +110,7 @@ def _other_python(folder: Path) -> str:
 
 
 def _wheels(folder: Path) -> tuple[str, ...]:
-    """The distributions of which PyPI's package of `rclpy` is installed: `ros-jazzy-rclpy`, `ros-kilted-rclpy`."""
+    """The distributions whose `rclpy` from PyPI is installed: `ros-jazzy-rclpy`, `ros-kilted-rclpy`."""
     names = (_WHEEL.match(each.name) for each in folder.parent.glob("ros_*_rclpy-*.dist-info"))
     return tuple(sorted({name[1] for name in names if name}))
 

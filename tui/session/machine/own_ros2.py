@@ -1,4 +1,4 @@
-"""Our `ros2` on the machine's `rclpy`, as a program: `python -m` this module `topic list`."""
+"""Runs our `ros2` on the machine's `rclpy`: `python -m` this module `topic list`."""
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ def run_ros(options: AttachOptions, described: str) -> int:
     launchers = launcher_of_machine(console.record, console.printed)
     console.attach_launcher(launchers)
     rmw = os.environ.get("RMW_IMPLEMENTATION", "as installed")
-    # Where it searches has a line of its own, which fits a small terminal: an empty console is explained by it.
+    # A separate line, which fits a small terminal, says where it searches, because that explains an empty console.
     lines = (f"Searching {network_use(os.environ)}", OUTPUT.format(described, rmw))
     message = [(Severity.INFO, line) for line in lines]
     session = AttachedSession(

@@ -1,4 +1,4 @@
-"""Runs `ros2 ...` lines with the machine's own `ros2`, or with ours where only an `rclpy` is installed."""
+"""Runs `ros2 ...` lines with the machine's own `ros2`, or with ours if only an `rclpy` is installed."""
 
 from __future__ import annotations
 
@@ -40,13 +40,13 @@ COMMANDS = (
     "colcon",
 )
 OWN_COMMANDS = ("action", "interface", "lifecycle", "node", "param", "service", "topic")
-"""The commands that our `ros2` has without the packages of an installed ROS 2."""
+"""The commands that our `ros2` provides without the packages of an installed ROS 2."""
 INTERRUPT_TIMEOUT_S = 3.0
-"""Seconds that it has to end after the interrupt."""
+"""Seconds that a command has to end after the interrupt."""
 
 
 class _Streamed(RunningLine):
-    """A command in its own process, and the last lines it has printed."""
+    """A command in a separate process, with the last lines that it has printed."""
 
     def __init__(self, words: Sequence[str]) -> None:
         super().__init__()
@@ -70,11 +70,11 @@ class MachineCommandLine:
     """Runs each line as a process; implements `tui.console.command_line.CommandLine`."""
 
     def commands(self) -> Sequence[str]:
-        """The commands that a `ros2` of any release may have, or those of ours."""
+        """The commands that a `ros2` of any release may have, or else those of ours."""
         return COMMANDS if shutil.which("ros2") else OWN_COMMANDS
 
     def complete(self, words: Sequence[str], snapshot: ConsoleSnapshot) -> Future[Sequence[str]]:
-        """Completions from what is running; only the machine's own shell knows the others."""
+        """Completions from the running system; only the machine's own shell knows others."""
         if len(words) < 2:
             found: Sequence[str] = self.commands()
         elif words[0] in ("node", "param", "lifecycle"):
@@ -85,7 +85,7 @@ class MachineCommandLine:
         return done(sorted(each for each in found if each.startswith(words[-1])) if words else ())
 
     def stream(self, line: str) -> Stream | None:
-        """Start a line that keeps printing; None for any other line, or if there is no such command."""
+        """Start a line that keeps printing; returns None for any other line, or if there is no such command."""
         try:
             words = _words(line)
         except ValueError:
@@ -94,14 +94,14 @@ class MachineCommandLine:
         return _Streamed(program) if program and (goes_on(words[1:]) or _starts(words[1:])) else None
 
     def run(self, line: str) -> Future[str]:
-        """Run a line in the background; the future has its output, or the `ValueError` of an unmatched quotation
-        mark.
+        """Run a line in the background; the result is its output, or a `ValueError` if a quotation mark is
+        unmatched.
         """
         return in_background(lambda: printed_by(line), "ros2")
 
 
 def printed_by(line: str, limit: float = LINE_TIMEOUT_S) -> str:
-    """The output of a line, including errors."""
+    """Run a line; returns its output, including errors."""
     words = _words(line)
     program = _program(words)
     if not program:
@@ -126,13 +126,13 @@ def _words(line: str) -> list[str]:
 
 
 def _starts(words: Sequence[str]) -> bool:
-    """Whether a line (without `ros2`) starts nodes, or records or plays a bag; as typed in a terminal, until Ctrl-C."""
+    """Whether a line (without `ros2`) starts nodes, or records or plays a bag: in a terminal, it runs until Ctrl-C."""
     bag = list(words[:2]) in (["bag", "play"], ["bag", "record"]) and not any(each in HELP for each in words)
     return bag or starts_nodes(words)
 
 
 def _program(words: Sequence[str]) -> Sequence[str]:
-    """The command line of a process that runs these words; empty if neither the machine nor we can."""
+    """The command line of a process that runs these words; empty if neither the machine nor we provide it."""
     if shutil.which(words[0]):
         return words
     ours = words[0] == "ros2" and words[1:] and words[1] in OWN_COMMANDS
@@ -147,7 +147,7 @@ def _missing(words: Sequence[str]) -> str:
 def _start(words: Sequence[str]) -> subprocess.Popen[bytes]:
     return subprocess.Popen(
         words,
-        env={**os.environ, "PYTHONUNBUFFERED": "1"},  # or what is printed into a pipe appears only at the end
+        env={**os.environ, "PYTHONUNBUFFERED": "1"},  # otherwise output to a pipe would only appear at the end
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
