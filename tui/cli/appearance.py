@@ -1,4 +1,4 @@
-"""How the screen should look: from the command line, else the settings file, else the terminal."""
+"""Determines how the screen looks, from the command line, else the settings file, else the terminal."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def appearance_of(options: Options) -> Appearance:
 
 
 def _system(options: Options) -> str:
-    """An id of the system shown: how its screen was left is remembered separately for each system."""
+    """An id of the shown system, since the state of the screen is kept separately for each system."""
     if options.attach:
         return f"attach {options.reached_by}"
     return str(Path(options.launch).resolve()) if options.launch else "robot"
@@ -79,7 +79,7 @@ def _plain(options: Options, settings: Settings) -> bool:
 
 
 def _can_show() -> bool:
-    """Whether the locale has the characters that the console draws with."""
+    """Whether the locale has the characters with which the console draws."""
     encoding = getattr(sys.stdout, "encoding", None) or locale.getpreferredencoding(False)
     try:
         "─⣿→".encode(encoding)

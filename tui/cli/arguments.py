@@ -23,7 +23,7 @@ from bot_console.tui.session.embedded.named_profile import (
 from bot_console.tui.settings.names import THEME_NAMES
 
 LEAST_SIMILARITY = 0.8
-"""Of a mistyped word to the one that is suggested, from 0 to 1."""
+"""The minimum similarity, from 0 to 1, of a mistyped word to the one that is suggested."""
 EXAMPLES = """\
 examples:
   bot-console                              a robot in an office, with its parameters, log and map
@@ -72,15 +72,15 @@ class Options:
     """The layout to start with; empty: the one in the settings."""
     theme: str = ""
     plain: bool | None = None
-    """Whether to draw with ASCII characters instead of lines and braille; None: as the settings and the locale say."""
+    """Whether to draw with ASCII characters instead of lines and braille; None: as the settings or the locale say."""
     attach: bool = False
-    """Whether the console shows what is already running in the domain, and starts nothing."""
+    """Whether the console shows what is already running in the domain and starts nothing."""
     reached_by: str = ""
-    """With `attach`: the endpoints of a robot on the network; empty for this machine."""
+    """With `attach`: the endpoints of a robot on the network; empty: this machine."""
     read_only: bool = False
     """Whether the console may not change anything."""
     extra_panes: Sequence[PaneEntry] = ()
-    """Panes that a command brings along, as plug-ins."""
+    """Further panes of a command, shown like those of plug-ins."""
 
     @property
     def profile_arguments(self) -> dict[str, str]:
@@ -89,7 +89,7 @@ class Options:
 
 
 def attach_parser() -> argparse.ArgumentParser:
-    """The options that all ways of attaching have in common."""
+    """Return the parser of the options that all ways of attaching have in common."""
     parser = argparse.ArgumentParser(
         "bot-console attach",
         description="Open the console on a running system, without starting a robot. The names of rqt's tools do "
@@ -106,7 +106,7 @@ def attach_parser() -> argparse.ArgumentParser:
 
 
 def parse_attach(words: Sequence[str], parser: argparse.ArgumentParser) -> tuple[Options, argparse.Namespace]:
-    """Read what follows `attach`; ends the program with exit code 2 for wrong usage."""
+    """Parse the words after `attach`; ends the program with exit code 2 for wrong usage."""
     opening, words = rqt_opening(words) if is_rqt(words) else (None, words)
     given = parser.parse_args(words)
     _check_pane(parser, given.pane)
@@ -147,9 +147,9 @@ def _with_perspective(opening: Opening, given: argparse.Namespace) -> Opening:
 
 
 def parse(words: Sequence[str], commands: Collection[str] = ()) -> Options:
-    """Read a command line; ends the program with exit code 2 for wrong usage.
+    """Parse a command line; ends the program with exit code 2 for wrong usage.
 
-    `commands` are suggested for a mistyped word.
+    If a word is mistyped, a similar one of `commands` is suggested.
     """
     parser = option_parser()
     opening, words = rqt_opening(words) if is_rqt(words) else (None, words)
@@ -237,10 +237,10 @@ def _similar(word: str, known: Collection[str]) -> str:
 
 
 def _launch_file(parser: argparse.ArgumentParser, words: Sequence[str], given: argparse.Namespace) -> str:
-    """The launch file named after a package; a path has none, and nothing else may follow either."""
+    """The name of a launch file given after a package; empty after a path, which nothing else may follow."""
     if given.profile is not None or (words and words[0] in bundled_names()):
         parser.error("a launch file brings its own settings: give either a profile or --launch")
-    left = [*words] if os.path.isfile(given.launch) else words[1:]  # `Path` raises where the name is too long
+    left = [*words] if os.path.isfile(given.launch) else words[1:]  # `Path` raises if the name is too long
     if left:
         parser.error(f"malformed launch argument '{left[0]}', expected format '<name>:=<value>'")
     return words[0] if words else ""
@@ -261,7 +261,7 @@ SIMULATOR_HELP = "run the simulated robot beside it, or not (default: if its nod
 
 
 def option_parser() -> argparse.ArgumentParser:
-    """Return the parser of a `bot-console` without a command."""
+    """Return the parser of `bot-console` without a command."""
     parser = argparse.ArgumentParser(
         "bot-console",
         description="rqt for the terminal, with the robot included.",

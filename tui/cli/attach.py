@@ -1,4 +1,4 @@
-"""`bot-console attach`: the console on a running system: an embedded one, the machine's ROS 2, or a remote one."""
+"""`bot-console attach`: the console on a running system, be it embedded, this machine's ROS 2, or remote."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from bot_console.tui.session.network import run_network
 
 
 def run(words: Sequence[str]) -> int:
-    """Show the console on the chosen system; exit code 2 when the choice is unclear and nobody can be asked."""
+    """Show the console on the chosen system; returns 2 if the choice is unclear and nobody can be asked."""
     options = parse(words)
     if options.way is not None:
         return _needs_terminal() or _network(options)

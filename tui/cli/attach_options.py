@@ -27,12 +27,12 @@ examples:
 
 @dataclass(frozen=True)
 class AttachOptions:
-    """The options given: one of the three ways to attach, or none."""
+    """The parsed options: one of the three ways to attach, or none."""
 
     appearance: Options
     """The options that every console has."""
     way: Way | None = None
-    """The route to a robot on the network."""
+    """The route to a robot on the network; None if none was given."""
     ros: bool = False
     embedded: bool = False
 

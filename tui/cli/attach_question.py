@@ -1,4 +1,4 @@
-"""The question at start-up where a robot already runs: attach to it, or start nothing."""
+"""The question at start-up if a robot is already running: whether to attach to it, or to start nothing."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from bot_console.tui.session.embedded.domain import domain
 
 
 def wants_to_attach(there: list[str], *, robot: bool) -> bool:
-    """Ask whether to attach to a running robot, or to nodes that have names of ours.
+    """Ask whether to attach to a running robot, or to nodes that have the names of our robot's nodes.
 
     Two robots in one domain would obey each other's commands, and two nodes of one name share their parameters and log.
     """

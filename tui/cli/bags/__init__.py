@@ -1,1 +1,1 @@
-"""The verbs of `bot-console bag`: their arguments, and what they do."""
+"""The arguments and implementations of the verbs of `bot-console bag`."""

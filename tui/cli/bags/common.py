@@ -19,14 +19,14 @@ if TYPE_CHECKING:
 
 
 def named_folder(text: str) -> Path:
-    """A path that is not empty; raises `ArgumentTypeError`."""
+    """Argument type: a path that is not empty."""
     if not text:
         raise argparse.ArgumentTypeError("the name of the bag is empty")
     return Path(text)
 
 
 def existing_file(text: str) -> Path:
-    """A file that exists; raises `ArgumentTypeError`."""
+    """Argument type: the path of an existing file."""
     path = Path(text)
     if not path.is_file():
         raise argparse.ArgumentTypeError(f"there is no file {text}")
@@ -34,14 +34,14 @@ def existing_file(text: str) -> Path:
 
 
 def report_unused(given: argparse.Namespace, unused: Mapping[str, str]) -> None:
-    """Say which options were given that change nothing here, and why."""
+    """Print which of the given options are ignored, and why."""
     for name, why in unused.items():
         if getattr(given, name, None) not in (None, False):
             print(f"--{name.replace('_', '-')} is ignored: {why}", file=sys.stderr)
 
 
 def new_folder(near: Path | None = None) -> Path:
-    """A folder that does not exist: the given one or, with the time in its name, one here; numbered if necessary."""
+    """The path of a new folder: `near`, or `rosbag2_` and the time in the current one; numbered if that exists."""
     base = near or Path(f"rosbag2_{time.strftime('%Y_%m_%d-%H_%M_%S')}")
     found, number = base, 0
     while found.exists():
@@ -51,9 +51,9 @@ def new_folder(near: Path | None = None) -> Path:
 
 
 def make_node(name: str, *, machine: bool = False) -> Any:
-    """A node in the domain, or behind the robot's router; None, after printing why, if neither can be reached.
+    """Create a node in the domain or behind the robot's router; if that fails, print why and return None.
 
-    With `machine`, a node of the machine's ROS 2.
+    With `machine`, create a node of the machine's ROS 2.
     """
     made = join_domain(name, machine=machine)
     if isinstance(made, str):
@@ -63,9 +63,9 @@ def make_node(name: str, *, machine: bool = False) -> Any:
 
 
 def join_domain(name: str = "rosbag2_player", *, machine: bool = False) -> Any:
-    """A node in the domain, or behind the robot's router; a text that says why if neither can be reached.
+    """Create a node in the domain or behind the robot's router; if that fails, return a text that says why.
 
-    With `machine`, a node of the machine's ROS 2.
+    With `machine`, create a node of the machine's ROS 2.
     """
     import rclpy
 
@@ -77,14 +77,14 @@ def join_domain(name: str = "rosbag2_player", *, machine: bool = False) -> Any:
 
 
 def generic_types(*, machine: bool) -> GenericTypes | None:
-    """Classes for messages of types without a definition here; None for the machine's ROS 2, which takes none."""
+    """Generic classes for message types without a definition here; None for the machine's ROS 2, which has none."""
     from bot_console.tui.session.embedded.hooks import DomainTypes
 
     return None if machine else DomainTypes()
 
 
 def service_types() -> Any:
-    """The services of rosbag2; None where a ROS 2 without them is used."""
+    """The module of rosbag2's services; None if the ROS 2 in use does not have it."""
     try:
         return importlib.import_module("rosbag2_interfaces.srv")
     except ImportError:
@@ -92,7 +92,7 @@ def service_types() -> Any:
 
 
 def spin(node: Node, duration: float | None, stopped: threading.Event | None = None) -> None:
-    """Spin until the time (s) is up, or until it is stopped or the program is asked to end."""
+    """Spin a node for `duration` seconds, or until `stopped` is set or the program is asked to end."""
     from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 
     end = None if duration is None else time.monotonic() + duration

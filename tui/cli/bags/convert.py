@@ -25,14 +25,14 @@ PLUGINS: Mapping[str, tuple[str, ...]] = {
     "compression": ("rosbag2_compression_zstd::ZstdCompressor",),
     "decompression": ("rosbag2_compression_zstd::ZstdDecompressor",),
 }
-"""The names under which rosbag2 lists what can be done here, too."""
+"""The plug-ins of rosbag2, by type, whose work can be done here too."""
 DONE_HERE = frozenset(
     ["uri", "storage_id", "max_bagfile_size", "max_bagfile_duration", "storage_preset_profile", "topics", "services",
      "topic_types", "all", "all_topics", "all_services", "regex", "exclude_regex", "exclude_topics",
      "exclude_topic_types", "exclude_services", "exclude", "compression_mode", "compression_format", "custom_data",
      "include_hidden_topics", "include_unpublished_topics"]
 )  # fmt: skip
-"""Keys of an output that are followed; others are ignored with a line."""
+"""Keys of an output that have an effect; others are ignored with a warning."""
 _V = TypeVar("_V")
 
 
@@ -108,7 +108,7 @@ def _listed(value: Any) -> list[Any]:
 
 
 def _read(output: Mapping[str, Any], name: str, kind: Callable[[Any], _V], default: _V) -> _V:
-    """The value of a key, which may be missing; raises `ValueError` if it is none of this kind."""
+    """The value of a key, or `default` if it is missing; raises `ValueError` if it cannot be converted by `kind`."""
     value = output.get(name)
     try:
         return kind(value) if value else default
@@ -149,7 +149,7 @@ def reindex(given: argparse.Namespace) -> int:
 
 
 def list_plugins(given: argparse.Namespace) -> int:
-    """Print the names of plug-ins; returns 0."""
+    """Print the names of the plug-ins; returns 0."""
     if given.verbose:
         print(f"available {given.plugin_type} plugins are:")
     for each in PLUGINS[given.plugin_type]:

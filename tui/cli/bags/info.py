@@ -1,4 +1,4 @@
-"""`bag info`: what a bag contains."""
+"""`bag info`: prints what a bag contains."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from bot_console.tui.text.sanitize import sanitize
 
 
 def info(given: argparse.Namespace) -> int:
-    """Print it; returns 0."""
+    """Print the contents of a bag; returns 0."""
     from bot_console.tui.console.bags.reader import Bag
 
     bag = Bag(given.bag)
@@ -67,7 +67,7 @@ def _service(topic: Any, calls: Counter[str] | None) -> str:
 
 
 def _calls(bag: Any, services: set[str]) -> dict[str, Counter[str]]:
-    """How often a request was sent or received, and a response, by topic; the code follows the CDR header."""
+    """Count sent and received requests and responses, by topic; the kind of an event follows the CDR header."""
     found = {name: Counter[str]() for name in services}
     for entry in bag.messages(services):
         code = entry.data[4] if len(entry.data) > 4 else 0

@@ -1,4 +1,4 @@
-"""Single keys from the terminal, for programs that print lines."""
+"""Reads single keys from the terminal, for programs that print lines."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ POLL_S = 0.2
 def keys_read(pressed: Callable[[str], None]) -> Generator[bool]:
     """Call `pressed` from a thread for every key while the block runs; yields whether there is a terminal to read.
 
-    A program in the background leaves the terminal alone: it would be stopped for reading from it.
+    A program in the background does not touch the terminal: reading from it would stop the program.
     """
     number = sys.stdin.fileno() if sys.stdin is not None and sys.stdin.isatty() else -1
     if number < 0 or os.tcgetpgrp(number) != os.getpgrp():
@@ -52,7 +52,7 @@ def keys_read(pressed: Callable[[str], None]) -> Generator[bool]:
 
 
 def split_keys(data: bytes) -> Iterator[str]:
-    """The keys in what was read at once; what is not known is left out."""
+    """Split bytes that were read together into keys; unknown ones are dropped."""
     while data:
         known = next((each for each in KEYS if data.startswith(each)), b"")
         if known:

@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
 PROGRESS_S = 0.1
-"""Time between two updates of the line of progress."""
+"""Seconds between two updates of the progress line."""
 SEEK_S = 5.0
-"""Seconds of the bag that a key moves."""
+"""Seconds of the bag by which a key seeks."""
 RATE_FACTOR = 1.1
 KEYS_HELP = "space pause  → next message  ←/pgup -5 s  pgdn +5 s  home begin  ↑↓ rate  l loop  q quit"
 
@@ -78,7 +78,7 @@ def burst(given: argparse.Namespace) -> int:
 
 
 def press(player: Player, key: str, stopped: threading.Event) -> None:
-    """Carry out a key that is pressed while a bag is played."""
+    """Carry out a key pressed while a bag is playing."""
     if key == "space":
         player.paused = not player.paused
     elif key == "right":
@@ -96,12 +96,12 @@ def press(player: Player, key: str, stopped: threading.Event) -> None:
 
 
 def progress_line(player: Player) -> str:
-    """Where a player is, on one line."""
+    """The state of a player on one line."""
     return player.state.text()
 
 
 def _prepare(given: argparse.Namespace) -> tuple[Node, Player] | int:
-    """A node and a player; a return code if there cannot be one."""
+    """Create a node and a player; if that fails, print why and return the exit code."""
     from bot_console.tui.console.bags.playing.player import Player, Playing
     from bot_console.tui.console.bags.qos import read_overrides
     from bot_console.tui.console.bags.reader import Bag
@@ -149,7 +149,7 @@ def _prepare(given: argparse.Namespace) -> tuple[Node, Player] | int:
 
 
 def _run(node: Node, work: Callable[[], None], stopped: threading.Event) -> str:
-    """Do something in a thread while the node is spun, until it is done or stopped; returns what went wrong."""
+    """Run `work` in a thread and spin the node meanwhile, until it is done or stopped; returns what went wrong."""
     problem: list[str] = []
 
     def guarded() -> None:
@@ -178,13 +178,13 @@ def _report(player: Player, problem: str) -> int:
 
 
 def report_repaired(bag: Any) -> None:
-    """Say which files were unfinished."""
+    """Print which files of a bag were unfinished and have been repaired."""
     for each in bag.repaired:
         print(sanitize(each), file=sys.stderr)
 
 
 def _offer_services(node: Node, player: Player) -> None:
-    """The services of rosbag2's player, where their types are known."""
+    """Offer the services of rosbag2's player, if their types are available."""
     kinds = service_types()
 
     def offer(kind: str, name: str, do: Callable[[Any, Any], object]) -> None:

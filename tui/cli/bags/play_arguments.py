@@ -1,4 +1,4 @@
-"""The arguments of `bag play` and `bag burst`: all of Jazzy's (rosbag2 0.26), and some of newer releases."""
+"""The arguments of `bag play` and `bag burst`: all of those in Jazzy (rosbag2 0.26), and some of newer releases."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ NOT_NEEDED = {
     "progress_bar_update_rate": "the line of progress follows the terminal",
     "progress_bar_separation_lines": "the line of progress follows the terminal",
 }
-"""Options that change nothing here, and why that does no harm."""
+"""Options that have no effect here, and why that does no harm."""
 
 
 def add_play_arguments(play: argparse.ArgumentParser) -> None:
@@ -81,7 +81,7 @@ def _add_reading(parser: argparse.ArgumentParser) -> None:
 
 
 def wrong_play(given: argparse.Namespace) -> str:
-    """The problem with a combination of options; empty if there is none."""
+    """What is wrong with the combination of options; empty if nothing is."""
     if given.bag is None and not given.input:
         return "Name a bag, or several with --input"
     for each in given.input:
@@ -101,7 +101,7 @@ def bag_paths(given: argparse.Namespace) -> list[Path]:
 
 
 def chosen_topics(given: argparse.Namespace) -> tuple[list[str] | None, Callable[[str], bool]]:
-    """The topics that were named (None: none were), and which of the others pass the remaining options."""
+    """The topics that were named (None if none were), and a function that applies the other options to a topic."""
     named: list[str] = [*(given.topics or []), *(f"{each.rstrip('/')}{SERVICE_EVENTS}" for each in given.services)]
     excluded = {f"/{each.lstrip('/')}" for each in given.exclude_topics}
     excluded |= {f"/{each.strip('/')}{SERVICE_EVENTS}" for each in given.exclude_services}
@@ -117,7 +117,7 @@ def chosen_topics(given: argparse.Namespace) -> tuple[list[str] | None, Callable
 
 
 def end_of(given: argparse.Namespace, begin: int) -> int | None:
-    """The time (ns since the epoch) at which to stop: the later of the two that may be given; None if neither is."""
+    """The time (ns since the epoch) at which to stop: the latest one given by an option; None if none is."""
     ends: list[int] = []
     if given.playback_duration >= 0:
         ends.append(begin + int((given.start_offset + given.playback_duration) * 1e9))

@@ -1,4 +1,4 @@
-"""`bag record`: records topics until Ctrl-C, or keeps them in memory until they are asked for."""
+"""`bag record`: records topics until Ctrl-C, or keeps them in memory until a snapshot is requested."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ if TYPE_CHECKING:
 
 RECORDER = "rosbag2_recorder"
 SNAPSHOT = f"/{RECORDER}/_snapshot"
-"""Writes a snapshot and answers where it is, unlike rosbag2's own service."""
+"""A service that writes a snapshot and, unlike rosbag2's own service, answers where it is."""
 MAX_SNAPSHOT_BYTES = 512 * 1024 * 1024
-"""The largest size of a snapshot."""
+"""Maximum size of a snapshot."""
 REPORT_S = 0.5
-"""Seconds between two reports of topics that were found."""
+"""Seconds between two reports of newly found topics."""
 
 
 def record(given: argparse.Namespace) -> int:
@@ -90,9 +90,9 @@ def _recorder(given: argparse.Namespace, node: Node, sink: Any) -> Recorder:
 
 
 class _Types:
-    """Returns the class of a message type; one that is unknown here is requested once from the nodes that use it.
+    """Finds the class of a message type; the definition of an unknown one is requested once from nodes that use it.
 
-    Raises `ImportError`, `AttributeError` or `ValueError` if there is none.
+    Calling it raises `ImportError`, `AttributeError` or `ValueError` if there is no class.
     """
 
     def __init__(self) -> None:
@@ -153,7 +153,7 @@ def _serve(given: argparse.Namespace, node: Node, recorder: Recorder, bag: BagWr
 
 
 def _offer_services(control: Node, prefix: str, recorder: Recorder, bag: BagWriter | None) -> None:
-    """The services of rosbag2's recorder, where their types are known."""
+    """Offer the services of rosbag2's recorder, if their types are available."""
     kinds = service_types()
     if kinds is None:
         return
@@ -211,7 +211,7 @@ def _write_snapshot(ring: Ring, folder: Path) -> tuple[bool, str]:
 
 
 def snapshot(given: argparse.Namespace) -> int:
-    """`bag snapshot`: make a recorder in snapshot mode write what it keeps; 0 done, 1 failed."""
+    """`bag snapshot`: make a recorder in snapshot mode write the messages it keeps; 0 done, 1 failed."""
     import rclpy
     from std_srvs.srv import Trigger
 

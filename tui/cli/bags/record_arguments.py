@@ -1,4 +1,4 @@
-"""The arguments of `bag record`: all of Jazzy's (rosbag2 0.26), and a few of our own."""
+"""The arguments of `bag record`: all of those in Jazzy (rosbag2 0.26), and a few of our own."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from bot_console.tui.cli.bags.common import existing_file, named_folder
 from bot_console.tui.cli.numbers import positive
 
 SERVICE_EVENTS = "/_service_event"
-"""How the topic of a service's events ends."""
+"""The suffix of the topic with a service's events."""
 PRESETS = ("none", "fastwrite", "zstd_fast", "zstd_small", "resilient")
 NOT_NEEDED = {
     "max_cache_size": "messages are written as they arrive",
@@ -20,11 +20,11 @@ NOT_NEEDED = {
     "storage_config_file": "it configures libraries that are not used here",
     "qos_profile_overrides_path": "topics are subscribed to with the QoS that their publishers offer",
 }
-"""Options that change nothing here, and why that does no harm."""
+"""Options that have no effect here, and why that does no harm."""
 
 
 def add_record_arguments(record: argparse.ArgumentParser) -> None:
-    """Declare them."""
+    """Declare the arguments of `record`."""
     record.add_argument("topics_positional", nargs="*", metavar="TOPIC", default=[])
     record.add_argument("-o", "--output", type=named_folder, metavar="FOLDER", help="default: rosbag2_ and the time")
     record.add_argument("-s", "--storage", choices=["mcap", "sqlite3"], default="mcap")
@@ -85,7 +85,7 @@ def _add_discovery(record: argparse.ArgumentParser) -> None:
 
 
 def wrong_record(given: argparse.Namespace) -> str:
-    """The problem with a combination of options, in rosbag2's words where it has them; empty if there is none."""
+    """What is wrong with the combination of options, in rosbag2's words if it checks that; empty if nothing is."""
     everything = given.all or given.all_topics or given.topic_types or given.regex
     named = given.topics or given.topics_positional or given.services
     if not (everything or given.all_services or named):
@@ -112,7 +112,10 @@ def wrong_record(given: argparse.Namespace) -> str:
 def wanted_topics(
     given: argparse.Namespace, published: Callable[[str], bool], subscribed: Callable[[str], bool]
 ) -> Callable[[str, Sequence[str]], bool]:
-    """Whether a topic, with its types, is to be recorded; the two functions tell about the graph."""
+    """Return a function that decides whether to record a topic, given its name and types.
+
+    `published` and `subscribed` return whether a topic has publishers and subscriptions.
+    """
     named = {f"/{each.lstrip('/')}" for each in (*given.topics, *given.topics_positional)}
     named |= {f"/{each.strip('/')}{SERVICE_EVENTS}" for each in given.services}
     excluded = {f"/{each.lstrip('/')}" for each in given.exclude_topics}
@@ -145,7 +148,7 @@ def wanted_topics(
 
 
 def pattern(text: str) -> re.Pattern[str] | None:
-    """A regular expression; an empty one is none. Raises `ArgumentTypeError`."""
+    """Argument type: a regular expression; None for an empty text."""
     try:
         return re.compile(text) if text else None
     except re.error as error:

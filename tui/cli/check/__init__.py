@@ -1,1 +1,1 @@
-"""`bot-console check`: runs a script of actions and expectations, as a person would carry them out at the screen."""
+"""`bot-console check`: runs a script of actions and expectations that a person could also carry out at the screen."""

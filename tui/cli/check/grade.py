@@ -15,15 +15,15 @@ from bot_console.tui.text.sanitize import sanitize
 
 
 def run_grading(given: argparse.Namespace) -> int:
-    """Grade and print the table; 0 if all rows passed but those for extra points, 1 if not, 2 for wrong usage.
+    """Grade and print the table; 0 if all rows passed, not counting extra points, 1 if not, 2 for wrong usage.
 
-    A workspace that cannot be graded gives 1.
+    Also returns 1 if the workspace cannot be graded.
     """
     workspace = Path(given.script).resolve()
     if not workspace.is_dir():
         print(f"there is no folder {given.script}: name the workspace that is to be graded", file=sys.stderr)
         return 2
-    install()  # Launch files are judged by the packages that there are.
+    install()  # Checking launch files needs the installed packages.
     try:
         course = read_course(find_course(given.course))
     except CourseError as error:
@@ -36,7 +36,7 @@ def run_grading(given: argparse.Namespace) -> int:
         results: list[RowResult] = []
         for result in grade(course, workspace, allow_network=given.allow_network):
             results.append(result)
-            if not given.json:  # Each takes some seconds: show it when it is there.
+            if not given.json:  # Each row takes some seconds, so print it at once.
                 _print(row_text(result))
     except NoSandboxError as refused:
         print(refused, file=sys.stderr)

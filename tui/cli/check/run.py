@@ -18,7 +18,7 @@ from bot_console.tui.session.reached_console import known, reached_console
 from bot_console.tui.text.sanitize import counted, sanitize
 
 MAX_SCRIPT_BYTES = 1_000_000
-"""The largest script that is accepted."""
+"""Maximum size of a script."""
 EPILOG = """one step per line, # starts a comment; a step that waits gives up after 5 s unless `within` says otherwise:
   set /robot_navigator max_speed 0.8
   expect-refused /robot_navigator max_speed 99 "out of range"
@@ -38,7 +38,7 @@ script
 
 
 def run(words: list[str]) -> int:
-    """Read the whole script, carry out its steps, print the report."""
+    """Parse the whole script, carry out its steps, print the report."""
     parser = argparse.ArgumentParser(
         "bot-console check",
         description="Set parameters, wait and check expectations on the system in this domain, for graders and CI.",
@@ -92,7 +92,7 @@ def run(words: list[str]) -> int:
 
 
 def _on_what_runs(steps: Sequence[Step], given: argparse.Namespace) -> list[Outcome] | None:
-    """The outcomes on the system of this domain; None, after printing why, if there is none."""
+    """Carry out the steps on the system in this domain; if there is none, print why and return None."""
     with reached_console() as console:
         if console is None:
             return None
@@ -103,7 +103,7 @@ def _on_what_runs(steps: Sequence[Step], given: argparse.Namespace) -> list[Outc
 
 
 def _stepped(steps: Sequence[Step], given: argparse.Namespace) -> list[Outcome] | None:
-    """The outcomes on what the options start; None, after printing why, if it cannot be started."""
+    """Carry out the steps on what `--start` starts; if that fails, print why and return None."""
     install()
     choose([])
     try:
@@ -140,14 +140,14 @@ def _done(runner: Runner, steps: Sequence[Step], *, print_progress: bool, stop: 
 
 
 def step_line(outcome: Outcome) -> str:
-    """A step on one line, with the reason for its failure below."""
+    """A step on one line; if it failed, the reason on a second one."""
     step = outcome.step
     head = f"{'FAIL' if outcome.why else 'ok  '} {step.line:>4}  {sanitize(step.text)}"
     return f"{head}\n           {sanitize(outcome.why)}" if outcome.why else head
 
 
 def summary(steps: Sequence[Step], outcomes: Sequence[Outcome]) -> str:
-    """The number of steps that succeeded, failed and were not run."""
+    """The numbers of steps that succeeded, failed and were not run."""
     failed = sum(bool(each.why) for each in outcomes)
     left = len(steps) - len(outcomes)
     parts = [f"{len(outcomes) - failed} of {counted(len(steps), 'step')} as expected"]

@@ -1,4 +1,4 @@
-"""Carries out the steps of a script one by one, and reports the outcome of each."""
+"""Carries out the steps of a script one by one, and returns the outcome of each."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ POLL_S = 0.05
 ANSWER_TIMEOUT_S = 10.0
 """Seconds that a node may take to answer."""
 RATE_TIMEOUT_S = 3.0
-"""Seconds beyond the measuring time within which a rate has to be known."""
+"""Seconds, in addition to the measuring time, within which a rate has to be known."""
 REQUESTER = "check"
 SIGNS: Mapping[str, Callable[[float, float], bool]] = {
     "<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "==": operator.eq,
@@ -32,7 +32,7 @@ SIGNS: Mapping[str, Callable[[float, float], bool]] = {
 
 @dataclass(frozen=True)
 class Outcome:
-    """The outcome of a step: `why` says what failed, and is empty on success; duration in s."""
+    """The outcome of a step and its duration in s; `why` says what failed, and is empty on success."""
 
     step: Step
     why: str
@@ -59,7 +59,7 @@ class Runner:
         return Outcome(step, why, self._clock() - began)
 
     def _until(self, seconds: float, poll: Callable[[], str]) -> str:
-        """Repeat a check until it passes, for at most so many seconds; returns the last failure, empty if it passed."""
+        """Repeat a check until it passes, for at most `seconds`; returns the last failure, or an empty text."""
         deadline = self._clock() + seconds
         while (why := poll()) and self._clock() < deadline:
             self._sleep(POLL_S)
@@ -72,7 +72,7 @@ class Runner:
         return future.result() if future.done() else None
 
     def _parameter(self, node: str, name: str) -> ParameterInfo | str:
-        """A parameter, after a short wait if needed, or the reason why there is none."""
+        """A parameter, waiting for it briefly if necessary, or the reason why there is none."""
 
         def poll() -> str:
             tree = self._console.snapshot().parameters.get(node)
@@ -85,7 +85,7 @@ class Runner:
         return found or why
 
     def _try(self, node: str, name: str, text: str) -> SetOutcome | str:
-        """A node's answer to a value, or the reason why it could not be asked."""
+        """Set a parameter; returns the outcome, or the reason why the node could not be asked."""
         parameter = self._parameter(node, name)
         if isinstance(parameter, str):
             return parameter

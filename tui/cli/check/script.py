@@ -1,4 +1,4 @@
-"""Scripts of `bot-console check`: one step per line, parsed and validated as a whole before anything is done. Pure."""
+"""Scripts of `bot-console check`: one step per line, all parsed and validated before the first is carried out. Pure."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from bot_console.tui.text.sanitize import cut
 DEFAULT_TIMEOUT_S = 5.0
 """Seconds that an expectation waits unless the script says otherwise."""
 MAX_TIMEOUT_S = 3600.0
-"""Seconds that a single line may take at most."""
+"""Maximum seconds for a single line."""
 SPAN = re.compile(r"(\d+(?:\.\d+)?)\s*(ms|s|min)?")
 UNITS = {"ms": 0.001, "s": 1.0, "min": 60.0, "": 1.0}
 WITHIN = re.compile(r"\s+(?:within|for)\s+(\S+(?:\s+(?:ms|s|min))?)\s*$")
 RATE = re.compile(r"(\S+)\s*(<=|>=|<|>|==)\s*(\S+)")
 QUOTED = re.compile(r"""(/\S+:\S+)\s*(==|!=)\s*("[^"]*"|'[^']*'|[A-Za-z_][\w.-]*|\[.*\])""")
-"""A comparison of a parameter that is not a number."""
+"""A comparison with a parameter whose value is not a number."""
 
 
 class ScriptError(ValueError):
@@ -28,7 +28,7 @@ class ScriptError(ValueError):
 
 @dataclass(frozen=True)
 class Step:
-    """One line: its number, text, action, arguments, and time limit (s)."""
+    """One line: its number, text, verb, arguments, and time limit (s)."""
 
     line: int
     text: str
@@ -38,7 +38,7 @@ class Step:
 
 
 def read(text: str) -> list[Step]:
-    """The steps of a script; raises `ScriptError` for the first line that is not a step."""
+    """Parse the steps of a script; raises `ScriptError` for the first line that is not a step."""
     found: list[Step] = []
     for number, line in enumerate(text.splitlines(), 1):
         stripped = line.strip()
@@ -150,4 +150,4 @@ VERBS: Mapping[str, Callable[[str], Read]] = {
     "wait": _wait,
     "stop": _words(0, 0, "stop"),
 }
-"""The words that a line may begin with."""
+"""The verbs, each with the function that parses the rest of the line."""

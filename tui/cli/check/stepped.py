@@ -1,4 +1,4 @@
-"""`bot-console check SCRIPT --start ...`: the steps on nodes of their own, in simulated time with a fixed seed."""
+"""`bot-console check SCRIPT --start ...`: starts programs and runs the steps in simulated time with a fixed seed."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from bot_console.tui.cli.check.script import Step
 from bot_console.tui.session.embedded.named_launch import with_launch_file
 
 LINK_TIMEOUT_S = 10.0
-"""Simulated seconds within which the console is connected."""
+"""Simulated seconds to wait for the console's connection."""
 NOT_REACHED = "not reached: "
-"""The beginning of the reason for a step before which the run had ended."""
+"""Prefix of the reason for a step that was not carried out because the run had ended."""
 STARTS = ("run", "launch")
 USAGE = "write `run PACKAGE EXECUTABLE [ARGUMENT ...]` or `launch PACKAGE FILE [NAME:=VALUE ...]`"
 HEAD = """\
@@ -35,12 +35,12 @@ def generate_launch_description():
 
 
 class StartError(ValueError):
-    """Something that cannot be started; the message says why."""
+    """A program cannot be started; the message says why."""
 
 
 @dataclass(frozen=True)
 class Start:
-    """The program to be started: a launch file with its arguments, or an executable of a package with its own."""
+    """What to start: a launch file or an executable of a package, with arguments."""
 
     launch_file: str = ""
     package: str = ""
@@ -48,7 +48,7 @@ class Start:
     arguments: tuple[str, ...] = ()
 
     def action(self) -> str:
-        """The action of a launch file that starts it."""
+        """The source text of the launch action that starts it."""
         if not self.launch_file:
             names = f"package={self.package!r}, executable={self.executable!r}, output='screen'"
             return f"Node({names}, arguments={[*self.arguments]!r})"
@@ -75,17 +75,17 @@ def read_start(line: str) -> Start:
 
 
 class Checker:
-    """Carries out the steps within a stepped run, in the place of the node that asks for the simulator's report."""
+    """Carries out the steps within a stepped run; it takes the place of the `Observer` that asks for the report."""
 
     def __init__(self, steps: Sequence[Step], wait_s: float, *, stop: bool) -> None:
-        """`wait_s` are the simulated seconds to wait for nodes; `stop`: at the first step that fails."""
+        """`wait_s` is the time (simulated s) to wait for nodes; with `stop`, stop at the first step that fails."""
         self._steps, self._wait_s, self._stop = steps, wait_s, stop
         self.outcomes: list[Outcome] = []
         self.done = threading.Event()
         self.complete = False
 
     def run(self) -> None:
-        """The main of a node process."""
+        """The main function of the node process."""
         from bot_console.tui.console.ros_console import RosConsole
         from bot_console.tui.session.reached_console import known
 
@@ -107,17 +107,17 @@ class Checker:
             self.done.set()
 
     def ask(self) -> None:
-        """Nothing is to be asked before the end."""
+        """Do nothing: the steps end by themselves."""
 
     def report(self) -> dict[str, Any]:
-        """Nothing but the outcomes."""
+        """Return an empty report; the results are in `outcomes`."""
         return {}
 
 
 def run_stepped(
     steps: Sequence[Step], starts: Sequence[Start], seed: int, wait_s: float, *, stop: bool
 ) -> list[Outcome]:
-    """Start nodes and launch files, carry out the steps, and end everything; `install` must have been called."""
+    """Start the programs, carry out the steps, and end everything; `install` must have been called before."""
     from bot_console.tui.cli.headless.run import simulated
 
     checker = Checker(steps, wait_s, stop=stop)
