@@ -1,6 +1,6 @@
-"""Completion of command lines for shells.
+"""Completes command lines for shells.
 
-Names come from the same verbs that a person would use, so that every completion is a name that the verbs know.
+Names come from the output of the verbs that a person would use, so that the verbs accept every completion.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ from bot_console.tui.session.embedded.named_profile import profile_names
 
 
 class Names(Protocol):
-    """Where names come from."""
+    """The source of names."""
 
     def asked(self, *words: str) -> list[str]:
         """The lines that a `ros2` verb prints; none if it fails."""
         ...
 
     def live(self, *words: str) -> list[str]:
-        """The same for verbs that query what runs."""
+        """The same for verbs that query the running system."""
         ...
 
 
@@ -48,7 +48,7 @@ def candidates(words: Sequence[str], names: Names | None = None) -> list[str]:
     if before and before[0] == "ros2":
         before = before[1:]
     found = {each for each in _offered(names or ShellNames(), before, begun) if each.startswith(begun)}
-    return sorted(each for each in found if each != begun or not each.endswith(":="))  # The value comes next.
+    return sorted(each for each in found if each != begun or not each.endswith(":="))  # the value comes after `:=`
 
 
 def _offered(names: Names, before: list[str], begun: str) -> Iterable[str]:
@@ -80,7 +80,7 @@ def _options(arguments: Callable[[argparse.ArgumentParser], None]) -> list[str]:
 
 
 class ShellNames:
-    """Names for a shell: this process ends right away, and must print nothing else."""
+    """The names for a shell; they come from verbs run in this process, whose output is captured."""
 
     def asked(self, *words: str) -> list[str]:
         """The lines that a verb prints; none if it fails."""
@@ -92,7 +92,7 @@ class ShellNames:
         return [] if failed else [line.strip() for line in printed.getvalue().splitlines()]
 
     def live(self, *words: str) -> list[str]:
-        """The same for what is running in the domain; returns nothing, immediately, if the domain is empty."""
+        """The same for verbs that query the running system; returns nothing, at once, if the domain is empty."""
         return self.asked(*words) if others_take_part() and not take_part() else []
 
 
@@ -105,7 +105,7 @@ def _running(*words: str) -> Source:
 
 
 def _profiles(before: Sequence[str]) -> Iterable[str]:
-    """The profiles that can be named, with those of the folders that `--profiles` gives."""
+    """The profiles that can be named, including those in the folders after `--profiles`."""
     given = pairwise(before)
     return profile_names([expanded_path(folder) for option, folder in given if option == "--profiles"])
 
@@ -185,14 +185,14 @@ _OURS: dict[str, Sequence[str]] = {
     "rqt_reconfigure": (),
     "rqt_robot_steering": (),
 }
-"""The commands that are not `ros2`'s, and what may follow them."""
+"""The commands that `ros2` does not have, and the words that may follow each."""
 
 _OUR_SOURCES: dict[str, Source] = {
     "rqt_plot": _TOPIC,
     "rqt_reconfigure": _NODE,
     "up": lambda names, given: _profiles(given),
 }
-"""Of these, the ones that names of running things may follow."""
+"""Of these commands, those after which names of topics, nodes or profiles are completed."""
 
 _PLACES: dict[tuple[str, str], Sequence[Source]] = {
     ("action", "send_goal"): (_ACTION, _type_of("action")),

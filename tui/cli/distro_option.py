@@ -1,4 +1,4 @@
-"""`--distro NAME`, before a command or among the console's options: whose answers a run gives, Jazzy's or another's."""
+"""`--distro NAME`, before a command or among the console's options: the ROS 2 distribution that a run behaves like."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ OPTION = "--distro"
 
 
 def without_distro(words: Sequence[str], is_command: Callable[[str], object]) -> list[str]:
-    """The words without the option, whose distribution is chosen; raises `ValueError` if there is none of that name.
+    """Choose the distribution that the option names, and return the other words; raises `ValueError` if it is unknown.
 
-    Behind a command the words may be those of a program, and stay as they are.
+    Words after a command may be meant for a program, and are kept.
     """
     rest: list[str] = []
     words = list(words)

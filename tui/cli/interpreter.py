@@ -13,16 +13,16 @@ SWITCH_INTERVAL_S = 0.0005
 
 @contextlib.contextmanager
 def without_collector() -> Generator[None]:
-    """Switch the garbage collector off until `collect_from_now_on` or the end.
+    """Switch the garbage collector off until `collect_from_now_on` is called or the block ends.
 
-    What is imported and built for the screen stays: traversing it again and again delays the first frame and the first
-    keys by tens of milliseconds each time.
+    The modules and objects of the screen stay alive, and traversing them repeatedly would delay the first frame and the
+    first keys by tens of milliseconds each time.
     """
     gc.disable()
     try:
         yield
     finally:
-        collect_from_now_on()  # Otherwise the end would start with a traversal of everything made so far.
+        collect_from_now_on()  # otherwise the shutdown would first traverse everything made so far
 
 
 def collect_from_now_on() -> None:

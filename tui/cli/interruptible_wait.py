@@ -1,4 +1,4 @@
-"""Waits in a main thread that signals can end."""
+"""Lets a main thread wait in such a way that signals are handled meanwhile."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ def wait_interruptibly(event: threading.Event, seconds: float | None = None) -> 
     """Wait for an event like `Event.wait`, and run signal handlers meanwhile, whichever thread received the signal.
 
     A signal that arrives while the process is frozen (SIGSTOP, Ctrl-Z) is delivered to any of its threads when it
-    continues. Only the main thread runs Python's handlers, and a thread that waits for a lock is woken by its own
-    signals alone.
+    continues. Only the main thread runs Python's handlers, and a thread that waits for a lock is woken only by signals
+    delivered to itself.
     """
     deadline = None if seconds is None else time.monotonic() + seconds
     while True:

@@ -1,4 +1,4 @@
-"""The `learn` command: opens a course in a workspace, prints where it stands, or begins a course of one's own."""
+"""The `learn` command: opens a course in a workspace, prints the progress, or writes the skeleton of a new course."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ DEFAULT = "week6"
 
 
 def run(words: list[str]) -> int:
-    """Open a course; 0 when it was left, 1 if it cannot be opened, 2 for wrong usage or a course with mistakes."""
+    """Run the command; 0 done, 1 if the course cannot be opened, 2 for wrong usage or a course with mistakes."""
     parser = argparse.ArgumentParser(
         "bot-console learn",
         description="Work through a course beside the console. A step is done when the system shows that it is.",
@@ -47,7 +47,7 @@ def run(words: list[str]) -> int:
     if not workspace.is_dir():
         print(f"there is no folder {given.workspace}: make it (`mkdir -p {given.workspace}/src`)", file=sys.stderr)
         return 1
-    install()  # Launch files are judged by the packages that there are.
+    install()  # Checking launch files needs the installed packages.
     try:
         course = read_course(find_course(given.course))
     except CourseError as error:
@@ -69,7 +69,7 @@ def run(words: list[str]) -> int:
 
 
 def listing(lesson: CourseLesson) -> str:
-    """All steps with a mark for those that are done, and what the first open one misses."""
+    """All steps with a mark for those that are done, and what the shown one still waits for."""
     lines: list[str] = []
     for chapter in lesson.course.chapters:
         lines.append(chapter.title)

@@ -1,4 +1,4 @@
-"""The program `bot-console`: its commands, and how their arguments are handled."""
+"""The program `bot-console`: dispatches command lines to its commands."""
 
 from __future__ import annotations
 
@@ -46,10 +46,10 @@ _COMMANDS = {
     "tune": "tune.run:run",
     "up": "verbs.background:up",
 }
-"""Each command's module below this package and its function, which takes the words; imported when needed."""
+"""The module (below this package) and the function of each command, which takes the words; imported when needed."""
 
 _REACHING = ("bag", "check", "graph", "lint", "release", "reset", "status", "stop")
-"""Commands that reach the robot which the environment names, besides the verbs."""
+"""Commands that, like the verbs of `ros2`, connect to the robot named by the environment."""
 
 _ROS2 = {
     "bag": _COMMANDS["bag"],
@@ -59,7 +59,7 @@ _ROS2 = {
     "run": _COMMANDS["run"],
     "wtf": "doctor:run_as_ros2",
 }
-"""Commands of `ros2` that are not among the recorded verbs, or do more than those."""
+"""Commands of `ros2` that are not among `ros2.VERBS`."""
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -84,7 +84,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     if reaches and (problem := without_connect(words)):
         print(f"bot-console: {problem}", file=sys.stderr)
         return 2
-    if words and words[0] in ros2.VERBS:  # The fastest path first.
+    if words and words[0] in ros2.VERBS:  # first, to answer these fastest
         return ros2.taking_part(words)
     from bot_console.tui.arrangement.opening import is_rqt, names_system
 
@@ -95,7 +95,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return _imported(_COMMANDS[words[0]])(words[1:])
     from bot_console.tui.cli.arguments import parse
 
-    os.getcwd()  # Raises if the folder was deleted, which is reported in one line; nodes could not be started in it.
+    os.getcwd()  # Raises if the folder was deleted, in which nodes could not start; reported on one line.
     options = parse(words, commands=[*_COMMANDS, *ros2.VERBS])
     if options.headless:
         report_left_router()
@@ -113,7 +113,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _of_distro(words: Words) -> Words:
-    """Process the choice of a distribution; raises `ValueError` if there is none of that name."""
+    """Handle the option `--distro`, and return the other words; raises `ValueError` for an unknown distribution."""
     if not os.environ.get("BOT_CONSOLE_DISTRO") and not any(each.startswith("--distro") for each in words):
         return words
     from bot_console.tui.cli.distro_option import without_distro
@@ -127,7 +127,7 @@ def is_command(word: str) -> bool:
 
 
 def _in_workspace(words: Words) -> Words:
-    """Process the option that names the workspace of a command; raises `ValueError` if there is no such folder."""
+    """Handle a command's option `--workspace`, and return the other words; raises `ValueError` for a missing folder."""
     if not any(each.partition("=")[0] == "--workspace" for each in words):
         return words
     from bot_console.tui.cli.workspace_option import without_workspace
@@ -138,14 +138,14 @@ def _in_workspace(words: Words) -> Words:
 
 
 def program() -> NoReturn:
-    """Run the command line of this process, and end it."""
+    """Run the command line of this process, and exit."""
     with recorded(sys.argv[1:]) as ended:
         code = ended(run_and_report(_program))
     end_program(code)
 
 
 def _program() -> int:
-    if signal.getsignal(signal.SIGINT) is signal.SIG_DFL:  # set for the imports; from here on Ctrl-C is handled
+    if signal.getsignal(signal.SIGINT) is signal.SIG_DFL:  # set during the imports; from here on, Ctrl-C is handled
         signal.signal(signal.SIGINT, signal.default_int_handler)
     begin_program()
     words = sys.argv[2:] if sys.argv[1:2] == ["ros2"] else sys.argv[1:]
@@ -178,14 +178,14 @@ def _attach(words: Words) -> int:
 
 
 def _imported(place: str) -> Callable[[Words], int]:
-    from importlib import import_module  # Imported late: `--version` does not need it.
+    from importlib import import_module  # late, since `--version` does not need it
 
     module, _, function = place.partition(":")
     return getattr(import_module(f"bot_console.tui.cli.{module}"), function)
 
 
 def ros2_command(words: Words) -> int:
-    """`bot-console ros2 WORDS`: as `bot-console WORDS`, except where upstream has a command of that name."""
+    """Run `bot-console ros2 WORDS`, like `bot-console WORDS` except for commands of that name that ROS 2 has too."""
     if problem := undecodable(words):
         print(f"ros2: {problem}", file=sys.stderr)
         return 2

@@ -1,4 +1,4 @@
-"""Numbers among the words of a command line, as types of `argparse`; each raises `ArgumentTypeError`."""
+"""Argument types of `argparse` for numbers; each raises `ArgumentTypeError`."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ import math
 from collections.abc import Callable
 
 MAX_SEED = 2**63 - 1
-"""A seed is an integer parameter of the simulator."""
+"""The largest seed: it is an integer parameter of the simulator."""
 MAX_PORT = 65535
-"""The greatest port of TCP."""
+"""The largest TCP port."""
 
 
 def positive(text: str) -> float:
@@ -46,7 +46,7 @@ def integer(least: int, greatest: int) -> Callable[[str], int]:
 seed = integer(0, MAX_SEED)
 """The seed of a world."""
 port = integer(0, MAX_PORT)
-"""A port of TCP; 0 is any free one."""
+"""A TCP port; 0 is any free one."""
 
 
 def _number(text: str) -> float:

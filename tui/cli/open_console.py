@@ -1,4 +1,4 @@
-"""Opens the console: what it shows, and whether it starts a robot."""
+"""Opens the console, on a running robot or on one that it starts."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def run(options: Options) -> int:
                 if there and not wants_to_attach(there, robot=bool(robot)):
                     return 1
                 if there:
-                    claim.release()  # Once that robot is gone, another console may start one.
+                    claim.release()  # another console may start a robot once this one is gone
                 options = replace(options, attach=bool(there))
 
         def start() -> Host:
@@ -76,7 +76,7 @@ def run(options: Options) -> int:
             return host
 
         together = not alone and is_in_range()
-        own = start() if together and not options.attach else None  # While this process imports the screen.
+        own = start() if together and not options.attach else None  # runs while this process imports the screen
         return Session(options, partial(_connect, options, warnings, own, start)).run()
 
 
@@ -91,7 +91,7 @@ def _prepare(options: Options) -> None:
 
 
 def _connect(options: Options, warnings: list[str], own: Host | None, start: Callable[[], Host]) -> Connected:
-    """Build what is shown, after the first frame: these imports take longer than everything before it."""
+    """Connect to the system, after the first frame, since these imports take longer than everything before it."""
     _prepare(options)
     from bot_console.tui.session.composition import attached, embedded, hosted, overhear
     from bot_console.tui.session.connected import Connected
@@ -124,12 +124,12 @@ def _refusal(options: Options) -> str:
 
 
 def _host(options: Options) -> Host:
-    """A launch host for this console alone."""
+    """Start a launch host for this console alone."""
     log = state_folder() / HOST_LOG
     try:
         log.parent.mkdir(parents=True, exist_ok=True)
         log.open("ab").close()
-    except OSError:  # A read-only home folder is no reason not to start the robot.
+    except OSError:  # a read-only home folder must not keep the robot from starting
         log = Path(os.devnull)
     words = [word for each in options.workspace for word in ("--workspace", str(each))]
     if size := read_settings().kept:

@@ -1,4 +1,4 @@
-"""A program named by the user, as arguments for the launch file that runs it."""
+"""Turns a program named by the user into arguments of the launch file that runs it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from bot_console.runtime.workspace.not_found import no_executable, no_package
 
 
 def program(words: list[str], hint: Callable[[str], None]) -> tuple[dict[str, str], str]:
-    """The launch arguments for `program.launch.py`, and the reason if it cannot run; `words` are those of `run`.
+    """The arguments for `program.launch.py`, and why the program cannot run, if so; `words` are those after `run`.
 
     `hint` is called with warnings about a file that can run nevertheless.
     """

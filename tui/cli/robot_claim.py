@@ -1,7 +1,7 @@
-"""The claim of a domain's robot: if several programs start at the same moment, only one starts a robot.
+"""Claims a domain's robot: if several programs start at the same moment, only one starts a robot.
 
-Each looks for a robot before those of the others are up, and finds none. So a program that starts one holds a lock file
-for as long as its robot may run, and a program that finds the lock held waits until that robot is visible.
+Each would look for a robot before those of the others are up, and find none. So a program that starts a robot holds a
+lock file for as long as its robot may run, and a program that finds the lock held waits until that robot is visible.
 """
 
 from __future__ import annotations
@@ -17,21 +17,19 @@ from bot_console.runtime.rmw.zenoh.domain.file_lock import open_lock, try_lock
 
 NAME = "robot.lock"
 ROBOT_START_TIMEOUT_S = 15.0
-"""Seconds that a robot has to come up; a program that claimed it and has none by then has ended it."""
+"""Seconds to wait for the other program's robot; if there is none by then, that program has ended it."""
 CLAIM_POLL_S = 0.1
 """Seconds between two polls for the other program's robot."""
 
 
 class RobotClaim:
-    """A lock on the robot of a domain, by a file in the domain's folder; counts as held if no file can be made
-    there.
-    """
+    """A lock on the robot of a domain: a file in the domain's folder. Counts as held if the file cannot be made."""
 
     def __init__(self, folder: Path) -> None:
         self._path = folder / NAME
         self._handle = -1
         self.held = self._take()
-        """Whether this program holds the claim: no other one has, or is starting, a robot."""
+        """Whether this program holds the claim, so that no other one has a robot or is starting one."""
 
     def _take(self) -> bool:
         """Lock the file; also true if the folder or the file system supports no locks."""
@@ -58,10 +56,9 @@ class RobotClaim:
         return (self._handle,) if self._handle >= 0 and sys.platform != "win32" else ()
 
     def seen(self, poll: Callable[[], list[str]], report: Callable[[], None]) -> list[str]:
-        """The robot that `poll` finds; if another program has claimed one, waits for it, or until the claim is given
-        up.
+        """Return the robot that `poll` finds; if another program holds the claim, wait for its robot or its release.
 
-        `report` is called once if there is something to wait for.
+        `report` is called once before waiting.
         """
         deadline, reported = time.monotonic() + ROBOT_START_TIMEOUT_S, False
         while not (found := poll()) and not self.held and time.monotonic() < deadline:
@@ -73,15 +70,15 @@ class RobotClaim:
         return found
 
     def hand_over(self) -> None:
-        """Leave the claim to a process that has inherited it, which holds it until it ends."""
+        """Leave the claim to a process that has inherited the descriptor, which holds it until it ends."""
         if self._handle >= 0:
             os.close(self._handle)
         self._handle, self.held = -1, False
 
     def release(self) -> None:
-        """Let another program bring the robot."""
+        """Give up the claim, so that another program may start a robot."""
         if self._handle >= 0:
-            with contextlib.suppress(OSError):  # If an open file cannot be removed it stays, which does no harm.
+            with contextlib.suppress(OSError):  # a file that cannot be removed while it is open does no harm
                 self._path.unlink()
         self.hand_over()
 

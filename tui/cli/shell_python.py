@@ -1,4 +1,4 @@
-"""The `python3` of a shell: which rclpy it imports."""
+"""Finds out which rclpy the `python3` of a shell imports."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class ShellPython:
     path: str
     version: tuple[int, int]
     set_up: bool
-    """Whether its path has shims of bot-console."""
+    """Whether its path contains the shims of bot-console."""
     real: str
     """The file of the real rclpy that it imports; empty if it imports none."""
 
@@ -36,7 +36,7 @@ class ShellPython:
         return f"python3 ({self.path}, Python {self.version[0]}.{self.version[1]})"
 
     def described(self) -> str:
-        """Which rclpy it imports, in one line."""
+        """Describe on one line which rclpy it imports."""
         if self.real:
             return f"{self} imports the real rclpy ({os.path.dirname(self.real)}); `bot-console run` the embedded one"
         if not self.set_up:
@@ -46,12 +46,12 @@ class ShellPython:
         return f"{self} imports bot-console's rclpy, as `bot-console run` does"
 
     def advice(self) -> str:
-        """How to run programs on the embedded runtime with it, if it is for another version; else empty."""
+        """How to run programs on the embedded runtime, if this interpreter is of another version; else empty."""
         return "" if self.real or self.fits else f"; start programs with {sys.executable}"
 
 
 def python_of_shell(environment: Mapping[str, str]) -> ShellPython | None:
-    """Ask the `python3` that the PATH of an environment has; None if there is none, or it does not answer."""
+    """Query the `python3` on the PATH of an environment; None if there is none, or it does not answer."""
     path = shutil.which("python3", path=environment.get("PATH"))
     if path is None:
         return None

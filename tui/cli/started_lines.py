@@ -1,4 +1,4 @@
-"""The console's `ros2 run` and `ros2 launch` lines: what they start keeps running, and is listed in the Launch pane."""
+"""Handles the console's `ros2 run` and `ros2 launch` lines, whose processes keep running and are in the Launch pane."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH
 
 @dataclass(frozen=True)
 class Wanted:
-    """A launch file and its arguments, or the reason why there is none."""
+    """A launch file and its arguments, or `problem`, the reason why the line cannot be launched."""
 
     name: str = ""
     file: str = ""
@@ -22,7 +22,7 @@ class Wanted:
 
 
 def launched_by(words: Sequence[str]) -> Wanted | None:
-    """What a line launches; None for one that starts nothing, such as `launch --show-args`."""
+    """The launch file that a line starts; None if it starts nothing, such as `launch --show-args`."""
     if len(words) < 2 or words[0] not in ("run", "launch") or words[1].startswith("-"):
         return None
     return _run(words[1:]) if words[0] == "run" else _launch(words[1:])

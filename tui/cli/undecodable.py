@@ -1,4 +1,4 @@
-"""Command lines with bytes that are not UTF-8: names and values of ROS are UTF-8, and only paths may be anything."""
+"""Refuses command lines with bytes that are not UTF-8, except in paths: names and values of ROS are UTF-8."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ WRITTEN = ("--output-dir", "--destination-directory", "--report", "--output", "-
 
 
 def undecodable(words: Sequence[str]) -> str:
-    """The problem with the first word that is neither UTF-8 nor a path; empty if there is none."""
+    """A message about the first word that is neither UTF-8 nor a path; empty if there is none."""
     for before, word in zip(["", *words], words, strict=False):
-        path = word.rpartition("=")[2]  # Also for `params_file:=PATH`.
+        path = word.rpartition("=")[2]  # also finds the path in `params_file:=PATH`
         if encodable(word) != word and not (os.path.lexists(path) or before in WRITTEN):
             return f"{encodable(word)}: not UTF-8, as names and values of ROS must be, and no file has this name"
     return ""

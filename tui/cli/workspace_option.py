@@ -1,4 +1,4 @@
-"""`--workspace DIR` on the command line of a command, before or right after its name."""
+"""Handles `--workspace DIR` before or right after the name of a command."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from bot_console.tui.session.embedded.workspaces import choose
 
 OPTION = "--workspace"
 ANYWHERE = ("launch",)
-"""Commands whose own words cannot be this option, wherever it stands; others may pass it on to a program."""
+"""Commands that accept the option anywhere; others may pass words like it on to a program."""
 THEIR_OWN = ("attach", "up")
-"""Commands whose parsers know the option."""
+"""Commands that parse the option themselves."""
 
 
 class NoWorkspaceError(ValueError):
-    """A workspace folder is missing from the command line, or does not exist."""
+    """The option names no folder, or one that does not exist."""
 
 
 def without_workspace(words: Sequence[str], is_command: Callable[[str], object]) -> list[str]:
-    """The words of a command without the option, whose folders become this run's workspace.
+    """Make the folders that the option names the workspace of this run, and return the other words.
 
-    Words that do not belong to the option stay as they are. Raises `NoWorkspaceError`.
+    For a command that parses the option itself, it is only moved behind the command. Raises `NoWorkspaceError`.
     """
     before, rest = _leading(words)
     if not rest or not is_command(rest[0]):
@@ -47,7 +47,7 @@ def use_folders(folders: Collection[str]) -> None:
 
 
 def _leading(words: Sequence[str]) -> tuple[list[str], list[str]]:
-    """The folders that the first words name, and the remaining words."""
+    """The folders of the options at the beginning, and the remaining words."""
     folders: list[str] = []
     rest = [*words]
     while rest and (rest[0] == OPTION or rest[0].startswith(f"{OPTION}=")):
@@ -58,7 +58,7 @@ def _leading(words: Sequence[str]) -> tuple[list[str], list[str]]:
 
 
 def _all(words: Sequence[str]) -> tuple[list[str], list[str]]:
-    """The folders that any of the words name, and the other words."""
+    """The folders of all options, and the other words."""
     folders: list[str] = []
     others: list[str] = []
     rest = [*words]
@@ -71,7 +71,7 @@ def _all(words: Sequence[str]) -> tuple[list[str], list[str]]:
 
 
 def _folder(words: Sequence[str]) -> tuple[str, int]:
-    """The folder that the first word names, possibly with the second, and the number of words used."""
+    """The folder of the option that begins with the first word, and the number of words that it takes."""
     if words[0] == OPTION:
         return (words[1], 2) if len(words) > 1 else ("", 1)
     return words[0].partition("=")[2], 1

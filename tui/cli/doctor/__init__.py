@@ -40,7 +40,7 @@ IN_NETWORK = (
     "address in ROS_STATIC_PEERS"
 )
 LISTEN_S = 2.0
-"""Seconds to listen to messages, without an option."""
+"""Seconds to listen to messages by default."""
 UPSTREAM_OPTIONS = ("--report", "-r", "--include-warnings", "-iw")
 
 
@@ -77,7 +77,7 @@ def run(words: Sequence[str]) -> int:
 
 
 def run_as_ros2(words: Sequence[str]) -> int:
-    """`ros2 doctor`: always prints the full report here, warnings included."""
+    """Run `ros2 doctor`, which here always prints the full report with warnings, whatever its options."""
     return run([each for each in words if each not in UPSTREAM_OPTIONS])
 
 
@@ -104,7 +104,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _change_range(wanted: str) -> DoctorFinding:
-    """Search in another range than that of the environment; the finding says so before the search begins."""
+    """Change the discovery range from that of the environment; returns a finding that says so."""
     before = discovery_range(os.environ)
     set_discovery_range(wanted)
     instead = f" instead of {before}" if before != wanted else ""
@@ -123,7 +123,7 @@ def _ros(seconds: float | None, report: Callable[[Sequence[DoctorFinding]], None
 
         hint = IN_NETWORK if discovery_range(os.environ) == "SUBNET" else BEYOND_RANGE
         report(node_findings(alone_hint=hint, settle=DDS_DISCOVERY_S if seconds is None else seconds))
-    # A library, or the middleware that RMW_IMPLEMENTATION names, is missing.
+    # Raised if a library, or the middleware that RMW_IMPLEMENTATION names, is missing.
     except (ImportError, RuntimeError) as error:
         hint = "check whether `ros2 node list` works in this shell, and source its setup file again"
         report([DoctorFinding(Level.FAIL, "ros", f"{ros} does not start: {error}", hint)])

@@ -1,4 +1,4 @@
-"""Whether the clocks of a robot and of this computer agree, as far as the stamps of received messages say."""
+"""Checks whether the clocks of a robot and of this computer agree, judging by the stamps of received messages."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
 
 MAX_OFFSET_S = 1.0
-"""Seconds by which clocks may differ before that is reported."""
+"""Maximum difference (s) between the clocks that is not reported as a fault."""
 
 Samples: TypeAlias = "Mapping[str, Sequence[tuple[bytes | None, int, int]]]"
 """Received messages by key: attachment, size in bytes, arrival time in ns."""

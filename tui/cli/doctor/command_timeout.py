@@ -1,4 +1,4 @@
-"""Whether the robot stops by itself when commands cease: by its emergency stop, or by a time-out of its base."""
+"""Checks whether the robot stops by itself when commands cease: by its emergency stop, or by a time-out of its base."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ TWISTS = ("geometry_msgs/msg/Twist", "geometry_msgs/msg/TwistStamped")
 TIMEOUT_PARAMETER = re.compile(
     r"(cmd|command|vel|twist|input|watchdog).*time_?out|time_?out.*(cmd|command|vel)|watchdog", re.I
 )
-"""Names of the parameters that stop a base or controller when commands cease."""
+"""Matches the names of parameters for time-outs that stop a base or a controller when commands cease."""
 TIMEOUT_S = 3.0
-"""Seconds for a node to list its parameters."""
+"""Seconds to wait for a node's parameter services."""
 HOW = (
     "let the base stop by itself when commands cease (ros2_controllers: cmd_vel_timeout; or the emergency "
     "stop of docs/safety.md; the timeout of twist_mux sends no zero): a console that has lost its link cannot stop it"
@@ -49,7 +49,7 @@ def base_finding(node: Node) -> DoctorFinding:
 
 
 def time_outs(node: Node, base: str) -> dict[str, float]:
-    """The numeric parameters of a node whose names suggest command time-outs."""
+    """The numeric parameters of a node whose names suggest command time-outs, with their values."""
     listed = _answer(node, ListParameters, f"{base}/list_parameters", ListParameters.Request())
     names = [each for each in listed.result.names if TIMEOUT_PARAMETER.search(each)] if listed else []
     reported = (
@@ -64,7 +64,7 @@ def time_outs(node: Node, base: str) -> dict[str, float]:
 
 
 def _answer(node: Node, kind: Any, service: str, request: Any) -> Any:
-    """The response of a service; None if there is none."""
+    """Call a service; returns the response, or None if there is none in time."""
     client = node.create_client(kind, service)
     try:
         spin_for(node, TIMEOUT_S, client.service_is_ready)

@@ -22,7 +22,7 @@ MARKS = {Level.OK: "✓", Level.NOTE: "·", Level.WARN: "!", Level.FAIL: "✗"}
 
 @dataclass(frozen=True)
 class DoctorFinding:
-    """One line; `hint` says how to fix it, and is empty if there is nothing to fix."""
+    """One finding; `hint` says how to fix it, and is empty if there is nothing to fix."""
 
     level: Level
     about: str
@@ -38,7 +38,7 @@ class DoctorFinding:
 
 def as_json(findings: Iterable[DoctorFinding]) -> list[dict[str, Any]]:
     """The findings as JSON data."""
-    # `mend` is the name that `hint` had in earlier releases; it is written for one more release.
+    # `hint` was called `mend` in earlier releases; that name is written for one more release.
     return [{**asdict(each), "level": each.level.value, "mend": each.hint} for each in findings]
 
 

@@ -1,4 +1,4 @@
-"""Checks of the graph through rclpy's public API, on every middleware: messages that are blocked, types, the base."""
+"""Checks of the graph through rclpy's public API, on any middleware: blocked messages, types, the base's time-out."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from rclpy.node import Node
 DISCOVERY_S = 1.5
 """Seconds for discovery."""
 DDS_DISCOVERY_S = 4.0
-"""Seconds for discovery over a network: Fast DDS repeats every three seconds what was lost at the start."""
+"""Seconds for discovery over a network: Fast DDS repeats announcements that were lost every three seconds."""
 
 
 def node_findings(
@@ -38,7 +38,7 @@ def node_findings(
 
 
 def others_finding(node: Node, alone_hint: str) -> DoctorFinding:
-    """How many other nodes were discovered, without hidden ones such as those of consoles."""
+    """The number of other nodes that were discovered, not counting hidden ones such as those of consoles."""
     count = sum(not name.startswith("_") for name in node.get_node_names())
     if not count:
         return DoctorFinding(Level.WARN, "graph", "no other node was found", alone_hint)
@@ -46,7 +46,7 @@ def others_finding(node: Node, alone_hint: str) -> DoctorFinding:
 
 
 def pair_findings(node: Node) -> list[DoctorFinding]:
-    """Publishers and subscriptions between which no messages pass."""
+    """A finding for each pair of publisher and subscription between which no messages pass."""
     found: list[DoctorFinding] = []
     for topic, _ in sorted(node.get_topic_names_and_types()):
         publishers, subscriptions = (
@@ -62,9 +62,9 @@ def pair_findings(node: Node) -> list[DoctorFinding]:
 
 
 def type_findings(node: Node, can_learn: Callable[[str], bool] = lambda type_name: False) -> list[DoctorFinding]:
-    """Types that are unknown here, or defined differently.
+    """Types that are unknown here or defined differently.
 
-    Those that `can_learn` accepts are requested from their nodes when they are used.
+    The definitions of those that `can_learn` accepts are requested from their nodes when they are used.
     """
     unknown: set[str] = set()
     learned: set[str] = set()

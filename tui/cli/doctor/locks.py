@@ -1,4 +1,4 @@
-"""Whether the robot's emergency stop answers: each lock is queried with a request that changes nothing."""
+"""Checks whether the robot's emergency stop answers, by sending each lock a request that changes nothing."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from rcl_interfaces.srv import ListParameters
 from rclpy.node import Node
 
 Spin = Callable[..., None]
-"""Spins a node for so many seconds, or until a condition holds."""
+"""Spins a node for a number of seconds, or until a condition holds."""
 ANSWER_TIMEOUT_S = 3.0
 REPEAT_S = 0.5
 """Seconds between two copies of a request; the first may be sent before the lock has discovered us."""
@@ -36,12 +36,12 @@ class AskedLock:
     reported: bool = False
     """Whether its state has been received."""
     older: bool = False
-    """Whether it is of a version that does not quote requests."""
+    """Whether its version does not quote requests yet."""
     answered: bool = False
 
 
 def find_locks(node: Node) -> list[AskedLock]:
-    """The locks that have a publisher; a topic with subscriptions only is not a lock."""
+    """The locks in the graph; a topic that has only subscriptions is not one."""
     found: list[AskedLock] = []
     for topic, types in sorted(node.get_topic_names_and_types()):
         if STATUS in types and is_lock(topic):
@@ -51,9 +51,7 @@ def find_locks(node: Node) -> list[AskedLock]:
 
 
 def ask_locks(node: Node, locks: Sequence[AskedLock], spin: Spin) -> Sequence[AskedLock]:
-    """Query the state of every lock; an older one, which quotes no request, is queried through its parameter
-    services.
-    """
+    """Query the state of every lock; an older one, which quotes no requests, via its node's parameter services."""
     question = uuid.uuid4().hex
 
     def heard(lock: AskedLock, message: DiagnosticStatus) -> None:
@@ -84,7 +82,7 @@ def ask_locks(node: Node, locks: Sequence[AskedLock], spin: Spin) -> Sequence[As
 
 
 def _question(question: str) -> DiagnosticStatus:
-    """A release without stops: locks of every version ignore it."""
+    """A release of no stops, which changes nothing in locks of any version."""
     nothing = json.dumps([question])
     values: Mapping[str, str] = {REQUEST: RELEASE, "ids": "[]", "of": nothing, "question": question}
     return DiagnosticStatus(
@@ -110,7 +108,7 @@ def _serves(node: Node, name: str, spin: Spin) -> bool:
 
 
 def lock_finding(locks: Sequence[AskedLock]) -> DoctorFinding:
-    """Whether all of them answered."""
+    """Whether all locks have answered."""
     silent = [each for each in locks if not each.answered]
     if not silent:
         return DoctorFinding(Level.OK, "time-out", f"the robot has an emergency stop that answers ({_listed(locks)})")

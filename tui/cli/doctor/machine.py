@@ -1,4 +1,4 @@
-"""Checks of this machine: Python, ROS, the domain, and what earlier programs have left behind."""
+"""Checks of this machine: Python, ROS, the domain, and sockets that earlier programs have left behind."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def machine_findings(environment: Mapping[str, str]) -> list[DoctorFinding]:
 
 
 def python_finding(version: tuple[int, int] = sys.version_info[:2]) -> DoctorFinding:
-    """Which Python this is."""
+    """The version of Python, and whether it is supported."""
     text = f"bot-console {__version__} on Python {platform.python_version()}, {platform.system()} {platform.machine()}"
     if OLDEST <= version <= NEWEST:
         return DoctorFinding(Level.OK, "python", text)
@@ -69,7 +69,7 @@ def rclpy_finding(python: ShellPython | None) -> DoctorFinding:
 
 
 def domain_finding(text: str) -> DoctorFinding:
-    """The domain that ROS_DOMAIN_ID names."""
+    """The domain that ROS_DOMAIN_ID names, and whether it is valid."""
     if not text:
         return DoctorFinding(Level.OK, "domain", "ROS_DOMAIN_ID is not set: 0")
     number = parse_domain(text)
@@ -84,7 +84,7 @@ def domain_finding(text: str) -> DoctorFinding:
 
 
 def sockets_findings() -> list[DoctorFinding]:
-    """The programs in the domain's folder, and sockets of programs that are dead or stopped."""
+    """The number of programs in the domain's folder, and the sockets of dead or stopped programs."""
     try:
         folder = domain_folder(domain())
     except FolderRefusedError as error:

@@ -1,4 +1,4 @@
-"""How the checks wait for answers."""
+"""Spins a node while a check waits for answers."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from rclpy.node import Node
 
 
 def spin_for(node: Node, seconds: float, until: Callable[[], bool] = lambda: False) -> None:
-    """Spin a node for this many seconds, or until something holds."""
+    """Spin a node for `seconds`, or until `until` returns true."""
     end = time.monotonic() + seconds
     while time.monotonic() < end and not until():
         rclpy.spin_once(node, timeout_sec=0.05)

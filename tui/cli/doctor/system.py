@@ -59,7 +59,7 @@ def answer_time(session: Session) -> float | None:
 
 
 def link_finding(to: str, delay: float | None) -> DoctorFinding:
-    """The latency of the router."""
+    """The latency of the link to the router."""
     if delay is None:
         return DoctorFinding(Level.FAIL, "link", f"{to} is reached, but does not answer", "is it a Zenoh 1.x router?")
     text = f"{to} answers after {delay * 1000:.1f} ms"

@@ -22,11 +22,11 @@ BURST = b"\x1b[0m" * 4096
 """16 kB of output that shows nothing."""
 SLOW_DELAY_MS, SLOW_KB_S = 300, 20
 MAX_MEASURABLE_KB_S = 3000
-"""The highest rate that the burst can measure: beyond it, the burst takes less time than answers vary."""
+"""The highest rate that the burst can measure; beyond it, the burst takes less time than answers vary by."""
 
 
 def terminal_findings(environment: Mapping[str, str]) -> list[DoctorFinding]:
-    """All checks of the terminal a console would use."""
+    """All checks of the terminal that a console would use."""
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
         return [DoctorFinding(Level.NOTE, ABOUT, "there is none here: size, colours and delay were not checked")]
     found = [size_finding(*shutil.get_terminal_size()), characters_finding(), colours_finding(environment)]
@@ -46,7 +46,7 @@ def size_finding(columns: int, lines: int) -> DoctorFinding:
 
 
 def characters_finding(encoding: str = "") -> DoctorFinding:
-    """Whether it can show lines and braille."""
+    """Whether the terminal's locale can show lines and braille."""
     encoding = encoding or locale.getpreferredencoding(False)
     if encoding.lower().replace("-", "") == "utf8":
         return DoctorFinding(Level.OK, ABOUT, "UTF-8")
@@ -59,7 +59,7 @@ def characters_finding(encoding: str = "") -> DoctorFinding:
 
 
 def colours_finding(environment: Mapping[str, str]) -> DoctorFinding:
-    """The number of colours that its name promises."""
+    """The number of colours that the terminal's name promises."""
     term = environment.get("TERM", "")
     if environment.get("COLORTERM", "") in ("truecolor", "24bit"):
         return DoctorFinding(Level.OK, ABOUT, f"{term}, 16 million colours")
@@ -70,7 +70,7 @@ def colours_finding(environment: Mapping[str, str]) -> DoctorFinding:
 
 
 def terminal_link_finding(delay: float | None, bytes_per_s: float | None) -> DoctorFinding:
-    """Its latency: seconds until it answers, and its throughput."""
+    """The terminal's delay (s) and throughput; None where they could not be measured."""
     if delay is None or bytes_per_s is None:
         return DoctorFinding(
             Level.NOTE, ABOUT, f"it did not report its cursor position within {ANSWER_TIMEOUT_S:g} s: delay unknown"

@@ -1,4 +1,4 @@
-"""Checks of rmw_zenoh traffic on the wire: tokens and message attachments, observed for a while and never changed."""
+"""Checks of rmw_zenoh's traffic on the wire, by observing tokens and message attachments for a while."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from bot_console.tui.cli.doctor.clock import clock_findings
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
 
 MAX_ATTACHMENTS_PER_KEY = 3
-"""Attachments that are kept per key."""
+"""Maximum number of attachments that are kept per key."""
 GRAPH_TIMEOUT_S = 5.0
 NAME = "_bot_console_doctor"
 _numbers = itertools.count(1)
@@ -33,7 +33,7 @@ _numbers = itertools.count(1)
 
 @dataclass
 class Wire:
-    """The traffic that was observed: tokens as text, and (attachment, size, arrival time in ns) by key."""
+    """The observed traffic: tokens as text, and (attachment, size in bytes, arrival time in ns) by key."""
 
     domain: int
     elsewhere: str = ""
@@ -56,7 +56,7 @@ class Wire:
 
 
 def watch_wire(session: Session, seconds: float) -> Wire:
-    """Collect all tokens, listen to every topic of the domain for so many seconds, and return what arrived."""
+    """Collect all tokens, and listen to every topic of the domain for `seconds`; returns what arrived."""
     wire = Wire(session.domain)
     wire.tokens = _tokens(session)
     good, _ = wire.parsed()
@@ -64,7 +64,7 @@ def watch_wire(session: Session, seconds: float) -> Wire:
     threading.Event().wait(seconds)
     for each in listening:
         each.undeclare()
-    # If the system has just started or is busy, not all of its tokens had reached the router.
+    # Again, since not all tokens of a system that has just started or is busy had reached the router before.
     wire.tokens = sorted({*wire.tokens, *_tokens(session)})
     wire.elsewhere = other_domains(session)
     return wire
@@ -81,7 +81,7 @@ def _publishers(tokens: Sequence[Token]) -> list[Token]:
 
 
 def _listen(session: Session, wire: Wire, publisher: Token) -> Declaration:
-    """Subscribe as a node would, with our own token: some publishers send only to subscribers they have discovered."""
+    """Subscribe as a node would, with a token, because some publishers send only to subscribers that they discover."""
     kept = wire.samples.setdefault(publisher.topic, [])
 
     def keep(payload: bytes, attachment: bytes | None) -> None:

@@ -1,1 +1,1 @@
-"""A program in the foreground of a terminal: descriptors, signals, the hang watch, and hints shown once."""
+"""Support for a program in the foreground of a terminal: descriptors, signals, the hang watch, hints shown once."""

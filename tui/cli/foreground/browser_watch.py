@@ -1,7 +1,7 @@
 """Ends a console that steers a robot when the browser that shows it falls silent.
 
-A tunnel keeps its end of a connection open when the browser is gone, so that nothing hangs up. `bot-console serve`
-therefore passes on each sign of life from the page, as a byte on a descriptor that this process inherits.
+A tunnel keeps its end of a connection open when the browser is gone, so that there is no hang-up. Therefore
+`bot-console serve` passes on each sign of life from the page, as a byte on a descriptor that this process inherits.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ def _watch(watch: BrowserWatch, descriptor: int, over: threading.Event) -> None:
     poller = select.poll()
     poller.register(descriptor, select.POLLIN)
     while not over.is_set():
-        # What has arrived is read before the silence is judged: this process itself may have been held up.
+        # Read what has arrived before judging the silence, since this process itself may have been held up.
         if poller.poll(POLL_S * 1000):
             if not os.read(descriptor, 4096):
                 break

@@ -1,8 +1,8 @@
-"""The console's own access to its terminal: descriptors that no other code has.
+"""Gives the console private descriptors for its terminal.
 
-What C libraries write to descriptors 1 and 2, bypassing Python, becomes lines of the log instead of damaging the
-screen. Code that closes or redirects 0, 1 and 2 affects neither keys nor screen, and a child that inherits them cannot
-read the keys.
+Output that C libraries write to descriptors 1 and 2, bypassing Python, becomes lines of the log instead of damaging the
+screen. Code that closes or redirects descriptors 0, 1 and 2 affects neither keys nor screen, and a child that inherits
+them cannot read the keys.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ LABEL = "stderr"
 MAX_LINE_BYTES = 1 << 16
 """Bytes after which an unterminated line is logged as it is."""
 DRAIN_TIMEOUT_S = 10.0
-"""How long at most the end waits until the lines written before it are in the log."""
+"""Maximum seconds that the end waits until all lines written before it are in the log."""
 MAX_PIPE_BYTES = 1 << 20
-"""The most that a pipe holds on Linux, unless root has raised it."""
+"""The maximum capacity of a pipe on Linux, unless root has raised it."""
 
 
 @contextlib.contextmanager
@@ -77,7 +77,7 @@ def _captured(number: int, name: str, printed: Printed) -> Generator[None]:
         setattr(sys, name, before)
         with contextlib.suppress(OSError):  # The terminal may be gone.
             screen.flush()
-        os.dup2(saved, number)  # This closes the last writing end, unless a child of this process has one.
+        os.dup2(saved, number)  # closes the last writing end, unless a child of this process has one
         os.close(saved)
         os.close(end)
         reader.join(DRAIN_TIMEOUT_S)
@@ -87,7 +87,7 @@ def _captured(number: int, name: str, printed: Printed) -> Generator[None]:
 
 def _report(descriptor: int, ended: int, printed: Printed) -> None:
     for line in _lines(descriptor, ended):
-        from bot_console.tui.console.model import Severity  # Imported with the first line, which most runs never have.
+        from bot_console.tui.console.model import Severity  # imported with the first line, since most runs have none
 
         printed(Severity.INFO, LABEL, line)
 
@@ -108,7 +108,7 @@ def _lines(descriptor: int, ended: int) -> Iterator[str]:
 
 
 def _blocks(descriptor: int, ended: int) -> Iterator[bytes]:
-    """The bytes that are written until `ended` is closed, even if a child goes on writing after that."""
+    """Yield the bytes that are written until `ended` is closed, even if a child goes on writing after that."""
     readable: list[int] = []
     while ended not in readable:
         readable, _, _ = select.select([descriptor, ended], [], [])

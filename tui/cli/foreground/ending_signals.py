@@ -1,4 +1,4 @@
-"""The signals that end a console, and detection of a terminal that vanishes without one (under some supervisors)."""
+"""Handles signals that end a console, and detects a terminal that vanishes without one (under some supervisors)."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from collections.abc import Callable, Generator
 from types import FrameType
 
 ENDING = [getattr(signal, each) for each in ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT") if hasattr(signal, each)]
-"""Signals that shut a console down in order."""
+"""The signals on which a console shuts down in order."""
 
 SIGNAL_POLL_MS = 1000
 END_TIMEOUT_S = 1.0
-"""Seconds to wait, after the console has ended, for what a signal handler has begun."""
+"""Seconds to wait, after the console has ended, for the thread that handles a signal."""
 
 
 @contextlib.contextmanager
 def ended_by_signals(end: Callable[[int], None]) -> Generator[None]:
     """Call `end` in a separate thread with the number of each signal that ends a console.
 
-    Ending needs locks, because the robot is stopped first. The interrupted thread may hold any of them at that moment,
-    and another signal may arrive meanwhile.
+    Ending needs locks, because the robot is stopped first. A signal handler must not wait for them: the interrupted
+    thread may hold any of them, and another signal may arrive meanwhile.
     """
     reading, writing = os.pipe()
     os.set_blocking(writing, False)
@@ -75,7 +75,7 @@ def hangup_as_signal() -> Generator[None]:
 
 def _watch(terminal: int, over: threading.Event) -> None:
     poller = select.poll()
-    poller.register(terminal, 0)  # A hang-up is always reported, without being requested.
+    poller.register(terminal, 0)  # `poll` reports a hang-up without being asked to
     while not over.is_set():
         with contextlib.suppress(InterruptedError):
             if poller.poll(SIGNAL_POLL_MS) and not over.is_set():

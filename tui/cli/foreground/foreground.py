@@ -1,4 +1,4 @@
-"""The app in the foreground of this terminal: its descriptors, its signals, and the watch for hangs."""
+"""Runs the app in the foreground of this terminal: its descriptors, its signals, and the watch for hangs."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from bot_console.tui.files.folders import state_folder
 
 
 class Foreground:
-    """Shows an app, and gives the terminal back afterwards."""
+    """Shows an app, and restores the terminal afterwards."""
 
     def __init__(
         self, app: BotConsoleApp, printed: Printed, end: Callable[[int], None], steers: Callable[[], bool]
     ) -> None:
         """`printed` receives lines for the log, `end` the number of a signal that ends the app.
 
-        `steers` returns, in any thread, whether a person steers a robot from here.
+        `steers` may be called in any thread, and returns whether a person steers a robot from here.
         """
         self._steers = steers
         self._app = app
@@ -31,12 +31,12 @@ class Foreground:
         self._hang_watch: HangWatch | None = None
 
     def begin(self) -> None:
-        """Note that the app has drawn its first frame: it may be watched."""
+        """Start watching for hangs, since the app has drawn its first frame."""
         if self._hang_watch is not None:
             self._hang_watch.accompany(self._app)
 
     def run(self, close: Callable[[], None]) -> int:
-        """Show the app until it ends, then call `close` to end what it showed; returns the app's exit code."""
+        """Show the app until it ends, then call `close` to end the system; returns the app's exit code."""
         with (
             captured_descriptors(self._printed),
             ended_by_signals(self._end),

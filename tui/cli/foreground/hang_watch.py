@@ -1,9 +1,9 @@
 """Writes the stacks of all threads and tasks of a console to a file if its screen hangs, or on SIGUSR1.
 
-A hung screen cannot report anything itself, and afterwards nobody can tell what it was waiting for. One of our threads
-writes the stacks while it holds the interpreter lock, because walking the stacks of running threads can crash the
-process. For that reason no timer writes them without the lock, as it would when a stopped process continues. If no
-thread gets the lock, a signal that ends the process, such as SIGABRT, has them written.
+A hung screen cannot report anything itself, and afterwards nobody can tell what it was waiting for. The stacks are
+written by a thread that holds the interpreter lock, because walking the stacks of running threads can crash the
+process. So faulthandler's timer, which does not take the lock and would also expire when a stopped process continues,
+is not used. If no thread gets the lock, a signal that ends the process, such as SIGABRT, makes faulthandler write them.
 
 An app also hangs if its event loop runs, but the task that handles its messages waits for something that never comes,
 or a batch of updates stays open. In that case, its tasks are written.
@@ -32,7 +32,7 @@ HEARTBEAT_S = 1.0
 MAX_MISSED_HEARTBEATS = round(HANG_AFTER_S / HEARTBEAT_S)
 """Unanswered heartbeats after which an app counts as hung although its loop runs.
 
-Heartbeats rather than seconds: for a process that was stopped, or had lent its terminal, only the clock went on.
+Counted in heartbeats, not seconds: while a process is stopped, or has lent its terminal, only the clock goes on.
 """
 
 
@@ -42,7 +42,7 @@ class HangWatch:
     def __init__(
         self, path: Path, descriptor: int, report: Callable[[str], None], clock: Callable[[], float] = time.monotonic
     ) -> None:
-        """`descriptor` is that of the file at `path`; `report` is given a line when a hung thread goes on."""
+        """`descriptor` is that of the file at `path`; `report` receives a line when a hung thread continues."""
         self._path = path
         self._descriptor = descriptor
         self._report = report
@@ -58,9 +58,7 @@ class HangWatch:
             self.poll()
 
     def poll(self) -> None:
-        """Write the stacks, once, if the drawing thread has been silent for too long; again only after it has
-        reported.
-        """
+        """Write the stacks if the drawing thread has been silent for too long, once until it reports again."""
         heard = self._heard
         if heard is None:
             return
@@ -77,7 +75,7 @@ class HangWatch:
         self._heard, self._written = now, False
 
     def rest(self) -> None:
-        """Expect no reports for a while, since nothing is drawn."""
+        """Expect no heartbeats for a while, since nothing is drawn."""
         self._heard = None
 
     def end(self) -> None:
@@ -86,16 +84,16 @@ class HangWatch:
         self.rest()
 
     def follow(self) -> None:
-        """Report from the running event loop from now on."""
+        """Send heartbeats from the running event loop from now on."""
         self.heartbeat()
         asyncio.get_running_loop().call_later(HEARTBEAT_S, self.follow)
 
     def accompany(self, app: Any) -> None:
-        """Send heartbeats from now on in the running loop of an app (of Textual, which does not type its signals)."""
+        """Watch a Textual app, whose event loop is the running one, from now on."""
         self.follow()
         asyncio.get_running_loop().call_soon(self._listen, app)
 
-        def left(_: object) -> None:  # An editor, or the shell, has the terminal.
+        def left(_: object) -> None:  # an editor or the shell has the terminal
             self.rest()
 
         def back(_: object) -> None:
@@ -138,9 +136,9 @@ class HangWatch:
 
 @contextlib.contextmanager
 def hang_watch(folder: Path, state: Callable[[], str], report: Callable[[str], None]) -> Generator[HangWatch | None]:
-    """Write stacks into a folder when needed; `state` describes the screen in one line, in the main thread.
+    """Write stacks into a file in `folder` when the screen hangs; `state` describes the screen in one line.
 
-    Yields None if the file cannot be written.
+    `state` is called in the main thread. Yields None if the file cannot be written.
     """
     path = folder / FILE
     try:
@@ -152,7 +150,7 @@ def hang_watch(folder: Path, state: Callable[[], str], report: Callable[[str], N
         return
     watching = HangWatch(path, descriptor, report)
 
-    # In the drawing thread: otherwise the file was written before.
+    # Runs in the drawing thread; while that hangs, the watching thread has written the file already.
     def asked(number: int, frame: FrameType | None) -> None:
         faulthandler.dump_traceback(descriptor)
         watching.note(f"{state()}\n{waiting_tasks()}")
@@ -178,7 +176,7 @@ def hang_watch(folder: Path, state: Callable[[], str], report: Callable[[str], N
 def waiting_tasks() -> str:
     """The tasks of the running event loop, with the lines where they wait, outermost first.
 
-    Tasks that wait in the same place are grouped. Empty if no loop is running in this thread.
+    Tasks that wait at the same place are grouped. Empty if no loop is running in this thread.
     """
     try:
         tasks = asyncio.all_tasks()

@@ -1,4 +1,4 @@
-"""Hints that are shown once per shell."""
+"""Prints hints only once per shell."""
 
 from __future__ import annotations
 
@@ -16,18 +16,16 @@ FOLDER = "told"
 
 
 def report_once(text: str) -> None:
-    """Print a text on stderr; on a terminal only if it was not printed before in the same session.
+    """Print a text on stderr; on a terminal, only if it was not printed before in the same session.
 
-    If stderr is not a terminal, as in scripts and logs, the text is printed each time, and nothing is remembered.
+    If stderr is not a terminal, as in scripts and logs, the text is printed every time and no marker is saved.
     """
     if not stderr_is_terminal() or _is_new(text):
         print(text, file=sys.stderr)
 
 
 def _is_new(text: str) -> bool:
-    """Whether this terminal's shell has not shown the text yet; marks it as shown. True if the marker cannot be
-    saved.
-    """
+    """Mark a text as shown in this shell; returns whether it was not, or True if the marker cannot be saved."""
     try:
         shell = os.getsid(0)
         folder = runtime_folder(FOLDER)
@@ -50,7 +48,7 @@ def _forget_ended_shells(folder: str) -> None:
 
 
 def _start(pid: int) -> str:
-    """When a process started, which distinguishes it from an earlier one with the same id; "0" if unknown."""
+    """The start time of a process, which distinguishes it from an earlier one with the same id; "0" if unknown."""
     try:
         with open(f"/proc/{pid}/stat", "rb") as file:
             return file.read().rpartition(b")")[2].split()[19].decode()

@@ -1,1 +1,1 @@
-"""A run without a screen."""
+"""Runs the system without a screen."""

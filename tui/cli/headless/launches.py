@@ -21,7 +21,7 @@ SIMULATOR = (NAME, "simulator_node")
 
 
 class Launches:
-    """Each launch is a node process; logs go to stderr."""
+    """Starts and ends the launches, each in a node process; logs go to stderr."""
 
     def __init__(self, options: Options, clock: Any, before_end: Callable[[], None]) -> None:
         """`before_end` is called when a launch is about to end its nodes, while they still exist."""
@@ -37,7 +37,7 @@ class Launches:
         self._ending = False
         self._at_end: Callable[[], None] | None = None
         self.simulator_code: int | None = None
-        """The exit code of the simulator, if it ended early; no report can follow then."""
+        """The exit code of the simulator if it ended early, after which there can be no report."""
         self.died = ""
         """The first process that ended early with an error, and how; empty if none did."""
 
@@ -52,7 +52,7 @@ class Launches:
         return self._robot is not None or not self._options.launch
 
     def begin(self) -> None:
-        """Start what was requested."""
+        """Start the requested launch, and the simulator if it is wanted."""
         options = self._options
         arguments = dict(options.launch_arguments)
         if not options.launch:
@@ -63,16 +63,14 @@ class Launches:
         self._watching = robot_starter.begin(options, system, partial(NodeProcess, clock=self._clock))
 
     def on_end(self, call: Callable[[], None]) -> None:
-        """Call back when the launch ends before a robot has started, or when the simulator ends: no report can
-        follow.
-        """
+        """Call `call` when no report can follow: when the simulator or, without a robot, the launch has ended."""
         self._at_end = call
         if self.simulator_code is not None:
             call()
         self._launch.on_exit(lambda _: None if self._robot else call())
 
     def stop(self, timeout_s: float) -> None:
-        """End all of them, each within `timeout_s` seconds."""
+        """End all launches, each within `timeout_s` seconds."""
         self._ending = True
         for each in (self._watching, self._launch, self._robot):
             if each is not None:
@@ -100,7 +98,7 @@ class Launches:
             self._at_end()
 
     def _run(self, file: str, arguments: Mapping[str, str]) -> int:
-        """Run a launch file in its own node process."""
+        """Run a launch file; called in its node process."""
         from launch.actions import IncludeLaunchDescription, RegisterEventHandler
         from launch.event_handlers import OnProcessExit, OnProcessStart, OnShutdown
         from launch.launch_description_sources import AnyLaunchDescriptionSource

@@ -24,7 +24,7 @@ ANSWER_TIMEOUT_S = 5.0
 PROBE_PERIOD_S = 0.1
 """Seconds between two measurements of a timer's lateness."""
 STEPPED_PROBE_PERIOD_S = 1.0
-"""The same in a long stepped run, where load makes no timer late and each measurement costs a turn."""
+"""The same in a long stepped run, in which load delays no timer and each measurement costs a turn."""
 
 
 class Observer:
@@ -40,7 +40,7 @@ class Observer:
         self._waited_for = list(paths)
         self._topics: PlotWatch | None = None
         self._figures: dict[str, Any] = {}
-        # Counted by microseconds, so that a day takes no more memory than a minute.
+        # Latenesses are counted, rounded to microseconds, so that a day takes no more memory than a minute.
         self._late: Counter[float] = Counter()
         self._collisions = 0
         self._node: Node | None = None
@@ -50,7 +50,7 @@ class Observer:
         """Whether the simulator has answered."""
 
     def run(self) -> None:
-        """The main of the observer's node process."""
+        """The main function of the observer's node process."""
         rclpy.init()
         node = rclpy.create_node(
             "_observer", enable_rosout=False, start_parameter_services=False, use_global_arguments=False
@@ -77,9 +77,7 @@ class Observer:
             rclpy.try_shutdown()
 
     def ask(self) -> None:
-        """Request the report now instead of at the end, and wait at most `ANSWER_TIMEOUT_S`; may be called from any
-        thread.
-        """
+        """Request the report now, and wait at most `ANSWER_TIMEOUT_S` for it; may be called from any thread."""
         if self._node is not None:
             self._now.trigger()
             self.done.wait(ANSWER_TIMEOUT_S)
@@ -104,7 +102,7 @@ class Observer:
         if self._asked:
             return
         if not self._client.service_is_ready():
-            self._end.timer_period_ns = round(PROBE_PERIOD_S * 1e9)  # A simulator that is still starting, or none.
+            self._end.timer_period_ns = round(PROBE_PERIOD_S * 1e9)  # there is no simulator, or it is still starting
             return
         self._asked = True
         self._end.cancel()

@@ -1,4 +1,4 @@
-"""The node of a run that only lists parameters."""
+"""The node of a headless run that only lists parameters."""
 
 from __future__ import annotations
 

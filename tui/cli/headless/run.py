@@ -40,29 +40,29 @@ if TYPE_CHECKING:
     from bot_console.tui.cli.headless.launches import Launches
 
 Wait = Callable[[threading.Event, float], bool]
-"""Waits for an event, at most so many seconds; a stepped run uses its own clock."""
+"""Waits for an event for at most a number of seconds; a stepped run does so on its own clock."""
 
 DEFAULT_DURATION_S = 60.0
-"""Seconds of a run without a given duration."""
+"""The default duration of a run."""
 LAST_QUERY_TIMEOUT_S = 5.0
-"""Seconds that the last query may take."""
+"""Seconds that the query for the final report may take."""
 LAUNCH_END_TIMEOUT_S = 12.0
-"""Seconds that the end of a launch may take: launch sends SIGTERM after 5 and SIGKILL after 10, and ending it earlier
-would leave its processes behind.
+"""Seconds that the end of a launch may take: launch sends SIGTERM after 5 and SIGKILL after 10 seconds, and killing it
+earlier would leave its processes behind.
 """
 NODES_UP_AFTER_S = 0.1
-"""Seconds after which the nodes are up; garbage is collected from then on."""
+"""Seconds after which the nodes count as up; garbage is collected from then on."""
 START_TIMEOUT_S = 60.0
-"""Seconds that a simulator may take in total until it answers, on a busy machine."""
+"""Seconds that a simulator may take to start and answer on a busy machine."""
 
 
 def run(options: Options) -> int:
-    """Run the system for a while and print the report; 1 if there is nothing to report."""
+    """Run the system for a while and print the report; returns 1 if there is nothing to report."""
     options, problem = with_launch_file(options)
     if problem := unusable_domain() or no_robot_here() or problem:
         print(problem, file=sys.stderr)
         return 1
-    gc.disable()  # What is imported stays: traversing it again and again takes a tenth of the start.
+    gc.disable()  # Imported objects stay alive, and traversing them repeatedly would take a tenth of the start.
     install()
     choose(options.workspace)
     if not options.fast:
@@ -73,19 +73,19 @@ def run(options: Options) -> int:
 
 
 class Watcher(Protocol):
-    """A task beside the nodes of a run, in a process of its own."""
+    """A task that runs alongside the nodes of a run, in a node process of its own."""
 
     done: threading.Event
     """Set when the run may end."""
     complete: bool
-    """Whether it has done all that it was to do."""
+    """Whether it has done everything that it had to do."""
 
     def run(self) -> None:
-        """The main of the process."""
+        """The main function of the node process."""
         ...
 
     def ask(self) -> None:
-        """End soon, since the nodes are about to end; may be called from any thread."""
+        """Finish early, since the nodes are about to end; may be called from any thread."""
         ...
 
     def report(self) -> dict[str, Any]:
@@ -96,7 +96,7 @@ class Watcher(Protocol):
 def simulated(options: Options, observer: Watcher | None = None) -> tuple[dict[str, Any], Watcher, Launches]:
     """Run the system for a while; returns the observer's report, the observer, and the launches.
 
-    `install` must have been called.
+    `install` must have been called before.
     """
     duration = DEFAULT_DURATION_S if options.duration is None else options.duration
     began = time.perf_counter()
@@ -123,9 +123,9 @@ def simulated(options: Options, observer: Watcher | None = None) -> tuple[dict[s
 
 
 def _meet_others(options: Options) -> None:
-    """Join the domain, unless another robot is in it: both would obey each other's commands.
+    """Join the domain, unless another robot is in it, since both would obey each other's commands.
 
-    A program that cannot join it still meets what it launches.
+    A program that cannot join it still discovers the nodes that it launches.
     """
     problem = take_part()
     if problem:
@@ -162,11 +162,12 @@ def _time(options: Options) -> Generator[Any]:
     if not options.fast:
         yield MAIN.clock
         return
-    # Before the run, which seeds what exists; also, its locks are then the interpreter's, for which no draw waits.
+    # Before the run, which seeds the random generators that exist by then. Besides, numpy's locks are then the
+    # interpreter's own, so that no draw waits for a turn of the stepped run.
     from bot_console.runtime.process.stepping.one_cpu import import_numpy
 
     import_numpy()
-    os.environ.pop(STOP_FILE_VARIABLE, None)  # It belongs to the domain, which this run does not join.
+    os.environ.pop(STOP_FILE_VARIABLE, None)  # the file belongs to the domain, which this run does not join
     from bot_console.runtime.rmw.lockstep.coordination import coordinated
 
     seed = options.seed or 0
@@ -199,7 +200,7 @@ def _wait_for(observer: Watcher, launches: Launches, duration: float, wait: Wait
 
 @contextlib.contextmanager
 def _orderly_end() -> Generator[None]:
-    """Treat SIGTERM and SIGHUP as orderly ends too, unless they are ignored (`nohup`)."""
+    """Raise `KeyboardInterrupt` for SIGTERM and SIGHUP too, unless they are ignored (`nohup`)."""
 
     def interrupt(_signum: int, _frame: object) -> None:
         raise KeyboardInterrupt

@@ -1,3 +1,3 @@
-"""`bot-console lint`: finds parameters without description, range or unit, in source, parameter files and running
-nodes.
+"""`bot-console lint`: finds parameters without a description, range or unit, in source and parameter files and in
+running nodes.
 """

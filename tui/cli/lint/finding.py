@@ -1,4 +1,4 @@
-"""A finding of lint."""
+"""A finding of `lint`."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ class LintFinding:
     """A fault, its location, and the parameter or key concerned."""
 
     place: str
-    """A file, or a running node."""
+    """The file or the running node."""
     line: int
-    """0 if there is no line."""
+    """The line in the file; 0 if it concerns no particular line."""
     fault: str
     subject: str
     known: str = ""
-    """How to fix this finding, if more is known than for its kind."""
+    """How to fix this finding, if something better is known than the hint for its kind of fault."""
 
     @property
     def hint(self) -> str:

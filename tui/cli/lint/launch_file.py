@@ -13,9 +13,9 @@ MANIFEST = "package.xml"
 
 
 def dead_parameters(path: Path, declared: frozenset[str]) -> Iterator[LintFinding]:
-    """The names in literal `parameters=[{...}]` of `Node(...)` that no node of its package declares.
+    """The names in a literal `parameters=[{...}]` of `Node(...)` that no node of its package declares.
 
-    What nodes of other packages declare is not known here; raises `SyntaxError` for a text that is not Python.
+    Nodes of other packages are skipped, since their parameters are unknown. Raises `SyntaxError` for invalid Python.
     """
     package = _package_of(path)
     for call in ast.walk(ast.parse(path.read_text(encoding="utf-8"), str(path))) if package else ():
@@ -57,7 +57,7 @@ def _names(given: Mapping[str | None, ast.expr]) -> Iterator[tuple[str, int]]:
 
 
 def _flat(found: ast.Dict, above: str) -> Iterator[tuple[str, int]]:
-    """Parameter names, prefixed with the groups they are nested in, each with its line."""
+    """The parameter names, prefixed with the groups in which they are nested, each with its line."""
     for key, value in zip(found.keys, found.values, strict=True):
         if not isinstance(key, ast.Constant) or not isinstance(key.value, str):
             continue

@@ -1,4 +1,4 @@
-"""Checks that the packages which a launch file names exist."""
+"""Checks that the packages named by a launch file exist."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from bot_console.tui.cli.lint.launch_file import MANIFEST, folder_of_package, pa
 
 FINDING = frozenset({"FindPackageShare", "FindPackagePrefix", "get_package_share_directory", "get_package_share_path",
                      "get_package_prefix"})  # fmt: skip
-"""Functions and substitutions whose first argument is a package."""
+"""Functions and substitutions whose first argument is the name of a package."""
 NODES = frozenset({"Node", "LifecycleNode", "ComposableNode", "ComposableNodeContainer"})
 
 
 def unknown_packages(path: Path) -> Iterator[LintFinding]:
-    """The packages that are neither in the workspace nor installed; raises `SyntaxError` and `OSError`."""
+    """A finding for each package that is neither in the workspace nor installed; raises `SyntaxError`, `OSError`."""
     named = _in_python(path) if path.suffix == ".py" else _in_xml(path)
     neighbours = _neighbours(path)
     for name, line in dict.fromkeys(named):
@@ -30,7 +30,7 @@ def unknown_packages(path: Path) -> Iterator[LintFinding]:
 
 
 def _neighbours(path: Path) -> set[str]:
-    """The names of the package that contains a file, and of those beside it, which need not be in the workspace."""
+    """The names of the package that contains a file and of those beside it, which may be outside the workspace."""
     folder = folder_of_package(path)
     if folder is None:
         return set()

@@ -1,5 +1,5 @@
-"""Finds what works here, where packages are read from their sources, and not on ROS 2, where `colcon build` installs
-them.
+"""Finds faults of packages that work here, where they are read from their sources, but not on ROS 2, where `colcon
+build` installs them.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ TESTS = frozenset({"test", "tests", "__pycache__"})
 SECTIONS = (("develop", "script_dir"), ("install", "install_scripts"))
 MAX_NAMED_FILES = 3
 INSTALLED = ("launch/*launch.py", "launch/*launch.xml", "launch/*launch.yaml", "config/*.yaml", "params/*.yaml")
-"""Files that other programs look for in the share folder of a package."""
+"""Patterns of files that other programs look for in the share folder of a package."""
 
 
 class Obstacle(NamedTuple):
-    """Something that keeps a package from working on ROS 2; `line` 0 means the whole file."""
+    """A fault that keeps a package from working on ROS 2; `line` is 0 if it concerns the whole file."""
 
     file: Path
     line: int
@@ -37,7 +37,7 @@ class Obstacle(NamedTuple):
 
 
 def obstacles(package: Package) -> list[Obstacle]:
-    """Find them all, in the order of files; none for a package that cannot be read at all."""
+    """All obstacles of a package, in the order of files; empty if the package cannot be read at all."""
     found: list[Obstacle] = []
     if package.build_type == "ament_python" and not package.problem and (package.folder / "setup.py").is_file():
         found += _setup_cfg(package)
@@ -52,7 +52,7 @@ def obstacles(package: Package) -> list[Obstacle]:
 
 
 def shadowed(path: Path) -> Iterator[Obstacle]:
-    """The files beside a Python file that Python would import in place of a ROS package or of its own library."""
+    """Files beside a Python file that Python would import instead of a ROS package or a standard module."""
     try:
         tree = ast.parse(path.read_text(encoding="utf-8"))
     except (OSError, SyntaxError, ValueError, MemoryError, RecursionError):
@@ -79,12 +79,12 @@ def _beside(path: Path, name: str) -> Path | None:
 
 
 def known_names() -> Collection[str]:
-    """The names of ROS packages and of Python's library."""
+    """The names of the ROS packages and of the modules of Python's library."""
     return {*PACKAGES, *generated_packages(), *unverified_folders(), *sys.stdlib_module_names}
 
 
 def _setup_cfg(package: Package) -> Iterator[Obstacle]:
-    """Without these two lines, executables are installed where `ros2 run` does not look."""
+    """A missing or wrong line of `setup.cfg`, for which executables are installed where `ros2 run` does not look."""
     if not package.executables and not package.scripts:
         return
     path, right = package.folder / "setup.cfg", f"$base/lib/{package.name}"
@@ -97,7 +97,7 @@ def _setup_cfg(package: Package) -> Iterator[Obstacle]:
     try:
         parser.read(path, encoding="utf-8")
     except (configparser.Error, UnicodeDecodeError):
-        return  # reported as a mistake of the package
+        return  # reported already as a mistake of the package
     for section, option in SECTIONS:
         keys = [each for each in (option, option.replace("_", "-")) if parser.has_option(section, each)]
         value = parser.get(section, keys[0]).strip() if keys else ""
@@ -117,7 +117,7 @@ def _setup_name(package: Package) -> Iterator[Obstacle]:
 
 
 def _packages(package: Package) -> Iterator[Obstacle]:
-    """Python packages that are not installed, since `packages=` does not list them."""
+    """Python packages that are not installed because `packages=` does not list them."""
     setup = package.setup
     if setup is None or setup.packages is None:
         return
@@ -144,7 +144,7 @@ def _packages(package: Package) -> Iterator[Obstacle]:
 
 
 def _data_files(package: Package) -> Iterator[Obstacle]:
-    """Rows that install nothing, and files that are not there."""
+    """Rows of `data_files` that install nothing or name missing files."""
     path = package.folder / "setup.py"
     for row in package.setup.rows if package.setup is not None else ():
         missing = [each for each in row.files if not each.exists()]
@@ -159,7 +159,7 @@ def _data_files(package: Package) -> Iterator[Obstacle]:
 
 
 def _not_installed(package: Package) -> Iterator[Obstacle]:
-    """Launch and parameter files in their usual folders that no row installs."""
+    """Launch and parameter files in their usual folders that no row of `data_files` installs."""
     if package.setup is None or not package.setup.has_all_rows:
         return
     installed = {each.resolve() for _, sources in package.data_files for each in sources}
@@ -174,7 +174,7 @@ def _not_installed(package: Package) -> Iterator[Obstacle]:
 
 
 def _what_is_there(folder: Path, written: str) -> str:
-    """The files in a folder that a pattern names, which it was probably meant for."""
+    """The hint for a pattern that matches nothing: the files in the folder that it names, if there are any."""
     for name in ("launch", "config", "params", "rviz", "urdf", "worlds", "maps", "meshes"):
         there = sorted(each.name for each in (folder / name).glob("*") if each.is_file()) if name in written else []
         if there:
@@ -183,7 +183,7 @@ def _what_is_there(folder: Path, written: str) -> str:
 
 
 def _programs(package: Package) -> Iterator[Obstacle]:
-    """Files that are installed as programs, and cannot be started."""
+    """Files that are installed as programs, but cannot be started."""
     for path in package.scripts.values():
         try:
             begin = path.open("rb").read(4)

@@ -22,11 +22,11 @@ class Declared:
     nodes: set[str] = field(default_factory=set[str])
     parameters: set[str] = field(default_factory=set[str])
     whole: bool = True
-    """Whether all names could be read; a name that is computed at run time cannot."""
+    """Whether all parameter names are known; one that is computed at run time is not."""
 
 
 def lint(path: Path) -> tuple[list[LintFinding], Declared]:
-    """The faults of a file, and what it declares; raises `SyntaxError` if it is not valid Python."""
+    """The faults of a file, and the names that it declares; raises `SyntaxError` if it is not valid Python."""
     tree = ast.parse(path.read_text(encoding="utf-8"), str(path))
     found: list[LintFinding] = []
     declared = Declared()
@@ -51,9 +51,7 @@ def _last_name(of: ast.expr) -> str:
 
 
 def _learn(call: ast.Call, declared: Declared) -> None:
-    """Collect names of nodes (`super().__init__("name")`, `create_node("name")`, `Node(..., name="name")`) and
-    parameters.
-    """
+    """Collect the names of parameters and of nodes: `super().__init__("it")`, `create_node("it")`, `name="it"`."""
     name = _called(call)
     first = call.args[0] if call.args else None
     if name == "declare_parameter":
@@ -97,7 +95,7 @@ def _number(default: ast.expr | None) -> float | int | None:
 
 
 def _described(descriptor: ast.expr | None, tree: ast.AST) -> tuple[list[str], set[str], bool]:
-    """The texts of a descriptor, its kinds of ranges, and whether all of it could be determined."""
+    """The descriptions in a descriptor, its kinds of ranges, and whether both could be determined."""
     if descriptor is None:
         return [], set(), True
     if isinstance(descriptor, ast.Name):
@@ -111,7 +109,7 @@ def _described(descriptor: ast.expr | None, tree: ast.AST) -> tuple[list[str], s
             return [], set(), False
         descriptor = assigned[0]
     if not isinstance(descriptor, ast.Call) or _called(descriptor) != "ParameterDescriptor":
-        return [], set(), False  # A helper makes it, so that nothing can be determined here.
+        return [], set(), False  # made by a helper, so that nothing can be determined here
     given = {each.arg: each.value for each in descriptor.keywords}
     ranges = {"floating_point_range", "integer_range"} & set(given)
     text = given.get("description")
@@ -122,7 +120,7 @@ def _described(descriptor: ast.expr | None, tree: ast.AST) -> tuple[list[str], s
 
 
 def _of_class(node: ast.ClassDef, path: str) -> Iterator[LintFinding]:
-    """The rules for a node class: whether it validates parameters, and whether the validation can refuse."""
+    """The faults of a node class: it does not validate parameters, or its validation accepts everything."""
     calls = [each for each in ast.walk(node) if isinstance(each, ast.Call)]
     names = {_called(each) for each in calls}
     if "declare_parameter" in names and "add_on_set_parameters_callback" not in names:
@@ -146,7 +144,7 @@ def _called_name(of: ast.expr) -> str:
 
 
 def _can_refuse(callback: ast.FunctionDef) -> bool:
-    """Whether `successful` can be anything but True; a result made elsewhere counts as yes."""
+    """Whether `successful` can be anything but True; if the result is made elsewhere, it is assumed to."""
     return any(_may_refuse(each) for each in ast.walk(callback))
 
 

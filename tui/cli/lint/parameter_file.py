@@ -1,4 +1,4 @@
-"""Parameter files: what ROS would reject in them, and values that reach no parameter."""
+"""Checks parameter files for what ROS would reject, and for values that reach no parameter."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ _LINE = re.compile(r",?(?: Error)?(?: at| near)? line(?:_num)? (\d+)")
 
 
 def is_meant(path: Path) -> bool:
-    """Whether a YAML file is meant as a parameter file, well formed or not."""
+    """Whether a YAML file is meant as a parameter file, even if it is malformed."""
     try:
         return _MEANT.search(path.read_text(encoding="utf-8-sig", errors="replace")) is not None
     except OSError:
-        return True  # Reading it reports why it cannot be read.
+        return True  # reading it later reports why
 
 
 def refused(path: Path) -> Iterator[LintFinding]:
-    """Why a node does not start with this file, if so."""
+    """The finding that says why a node would not start with this file, if it would not."""
     try:
         read_parameter_file(str(path), ParameterOverrides())
     except ParameterYamlError as error:

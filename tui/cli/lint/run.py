@@ -27,11 +27,11 @@ INDEX = "course.md"
 """The file that makes a folder a course."""
 XML_LAUNCH = (".launch.xml", "_launch.xml")
 READ_TIMEOUT_S = 5.0
-"""Seconds within which the parameters of running nodes are read."""
+"""Seconds to read the parameters of running nodes."""
 
 
 def run(words: list[str]) -> int:
-    """Lint; 0 if nothing was found, 1 if something was, 2 for wrong usage."""
+    """Run the checks; 0 if nothing was found, 1 if something was, 2 for wrong usage."""
     parser = argparse.ArgumentParser(
         "bot-console lint",
         description="Find parameters without description, range, unit or validation, and values that reach none.",
@@ -58,7 +58,7 @@ def run(words: list[str]) -> int:
         return 2
     if given.json:
         fields = ("place", "line", "fault", "subject", "hint")
-        # `mend` is the name that `hint` had in earlier releases; it is written for one more release.
+        # `hint` was called `mend` in earlier releases; that name is written for one more release.
         rows = [{name: getattr(each, name) for name in fields} | {"mend": each.hint} for each in found]
         print(json.dumps(rows, indent=2))
     else:
@@ -87,7 +87,7 @@ def _of_files(what: str) -> tuple[str, list[LintFinding]]:
         return f"there is no file, folder or package '{what}' with Python or YAML files in it", []
     if files != [Path(what)]:
         return "", sorted([*lint_files(files), *_of_packages(files, Path(what))])
-    # What one file passes to nodes is compared with what its package declares.
+    # The parameters that a single file gives to nodes are compared with those that its package declares.
     package = folder_of_package(files[0])
     beside = [each for each in files_of(str(package)) if each.resolve() != files[0].resolve()] if package else []
     found = lint_files([*(each for each in beside if each.suffix == ".py"), *files], files[0])
@@ -102,13 +102,13 @@ def _of_packages(files: Iterable[Path], where: Path) -> Iterator[LintFinding]:
     folders |= {named} if (where / "package.xml").is_file() else set()
     for folder in folders:
         for each in obstacles(read_package(folder)):
-            # Relative to the folder as the user named it, like the paths of the other findings.
+            # Paths are relative to the folder as the user named it, like those of the other findings.
             file = where / each.file.relative_to(named) if named in each.file.parents else each.file
             yield LintFinding(str(file), each.line, "works here, but not on ROS 2", each.problem, each.fix)
 
 
 def files_of(what: str) -> list[Path]:
-    """The Python and YAML files that an argument stands for."""
+    """The Python, YAML and XML launch files that an argument stands for."""
     path = Path(what)
     if path.is_file():
         return [path]
@@ -123,14 +123,14 @@ def files_of(what: str) -> list[Path]:
         for each in path.rglob("*")
         if (each.suffix in (".py", ".yaml", ".yml") or each.name.endswith(XML_LAUNCH))
         and "test" not in each.parts
-        and not any(part.startswith(".") for part in each.relative_to(path).parts)  # such as an environment, `.venv`
+        and not any(part.startswith(".") for part in each.relative_to(path).parts)  # hidden folders such as `.venv`
     )
 
 
 def lint_files(files: Iterable[Path], named: Path | None = None) -> list[LintFinding]:
-    """The faults of files; parameter and launch files are compared with what the Python files declare.
+    """The faults of files; parameter and launch files are compared with the names that the Python files declare.
 
-    `named` is a file that the user has named: it is read as a parameter file, whatever its content.
+    `named` is a file that the user has named; it counts as a parameter file, whatever its content.
     """
     found: list[LintFinding] = []
     declared = Declared()
@@ -167,7 +167,7 @@ def lint_files(files: Iterable[Path], named: Path | None = None) -> list[LintFin
 
 
 def _unreadable(error: SyntaxError | UnicodeDecodeError | OSError) -> tuple[str, str, str]:
-    """Fault, subject and hint for a Python file that cannot be read."""
+    """The fault, subject and hint for a Python file that cannot be read."""
     if isinstance(error, SyntaxError):
         return "the file is not valid Python", error.msg, "correct it, then run lint again"
     if isinstance(error, UnicodeDecodeError):

@@ -1,4 +1,4 @@
-"""The `serve` command: its options, and the addresses that it prints."""
+"""The `serve` command and its options."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from bot_console.tui.cli.main import is_command
 from bot_console.tui.cli.numbers import integer, port
 
 EXPECTED = ("attach",)
-"""Commands whose console can be served; without one it is the console with a robot of its own."""
+"""Commands whose console can be served; without a command, it is the console with its own robot."""
 MAX_SESSIONS = 100
-"""Addresses that one server prints at most."""
+"""Maximum number of addresses that a server prints."""
 EPILOG = """\
 The address that is printed opens one console at a time, in one browser: its token is exchanged for a cookie. The
 console ends when its tab is closed. ! works in every console; --control allows the rest.
@@ -38,7 +38,7 @@ IN_THE_OPEN = (
 
 
 def run(words: Sequence[str]) -> int:
-    """Serve until Ctrl-C; 1 if an extra is missing or the port is taken."""
+    """Serve until Ctrl-C; returns 1 if an extra is missing or the port is taken."""
     parser = command_parser()
     given, rest = parser.parse_known_args(words)
     host = _address(parser, given.host)
@@ -59,7 +59,7 @@ def run(words: Sequence[str]) -> int:
 
 
 def command_parser() -> argparse.ArgumentParser:
-    """The options of `serve`; other words are those of the console."""
+    """The parser of the options of `serve`; other words are arguments of the console."""
     parser = argparse.ArgumentParser(
         "bot-console serve",
         usage="bot-console serve [--port N] [--host ADDRESS] [--sessions N] [--control] [attach] [OPTION ...]",
@@ -98,7 +98,7 @@ def _address(parser: argparse.ArgumentParser, text: str) -> str:
 
 
 def _console(parser: argparse.ArgumentParser, words: Sequence[str], *, control: bool) -> list[str]:
-    """The command of a console; exits with 2 for words that open none."""
+    """The command that opens a console with these arguments; exits with code 2 if they open none."""
     if words and is_command(words[0]) and words[0] not in EXPECTED:
         parser.error(f"'{words[0]}' opens no console; a command to serve: {', '.join(EXPECTED)}")
     opened = [*words] if control else [*words, "--read-only"]

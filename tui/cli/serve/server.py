@@ -1,4 +1,4 @@
-"""The web server: who may come in, and the files of the page. It reveals nothing to anybody without a cookie."""
+"""The web server: authentication, and the files of the page. It reveals nothing to anybody without a cookie."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from bot_console.tui.text.sanitize import sanitize
 PAGE = Path(__file__).resolve().parent / "page"
 FONT_SIZE_PX = 14
 LOOPBACK_NAMES = ("localhost", "127.0.0.1", "[::1]")
-"""The names of this machine behind which a tunnel may end, at any port."""
+"""The names under which a browser may reach this machine through a tunnel, at any port."""
 HEADERS = {
     "Cache-Control": "no-store",
     "Cross-Origin-Opener-Policy": "same-origin",
@@ -41,20 +41,20 @@ MAX_MESSAGE_BYTES = 1_000_000
 
 @dataclass
 class Admission:
-    """A place for one browser."""
+    """The admission of one browser."""
 
     token: str = field(default_factory=lambda: secrets.token_urlsafe(24))
-    """In the printed address; empty once it was exchanged."""
+    """The token in the printed address; empty once it was exchanged for the cookie."""
     cookie: str = field(default_factory=lambda: secrets.token_urlsafe(24))
     terminal: Terminal | None = None
-    """The console that is open."""
+    """The console that is open; None if none is."""
 
 
 class Server:
-    """Serves one console at a time to each browser that was let in."""
+    """Serves one console at a time to each admitted browser."""
 
     def __init__(self, console: Sequence[str], host: str, *, sessions: int = 1) -> None:
-        """`console` is the command of a console."""
+        """`console` is the command that starts a console."""
         self.host = host
         self._console = console
         self._name = f"[{host}]" if ":" in host else host
@@ -67,7 +67,7 @@ class Server:
         return [f"http://{self._name}:{port}/?token={each.token}" for each in self._admissions]
 
     def application(self) -> web.Application:
-        """The application that answers requests."""
+        """Create the application that answers requests."""
         app = web.Application(middlewares=[self._checked])
         app.router.add_get("/", self._page)
         app.router.add_get("/ws", self._socket)
@@ -79,7 +79,7 @@ class Server:
     async def _checked(
         self, request: web.Request, handler: Callable[[web.Request], Awaitable[web.StreamResponse]]
     ) -> web.StreamResponse:
-        """Refuse requests that a foreign page made, or that reached this address under a foreign name."""
+        """Refuse requests made by other pages, or for another host name (DNS rebinding)."""
         own = {self._name, *LOOPBACK_NAMES}
         host = request.headers.get("Host", "")
         origin = request.headers.get("Origin")
@@ -118,7 +118,7 @@ class Server:
         return web.Response(text=text.format(socket=socket, font_size=FONT_SIZE_PX), content_type="text/html")
 
     def _let_in(self, token: str, admission: Admission | None) -> web.StreamResponse:
-        """Exchange a token for a cookie, once, and lead to the address without it."""
+        """Exchange a token for a cookie, once, and redirect to the address without the token."""
         meant = next((each for each in self._admissions if each.token and _is_same(each.token, token)), None)
         if meant is None and admission is None:
             raise web.HTTPForbidden(text=USED)
@@ -148,7 +148,7 @@ class Server:
             socket = web.WebSocketResponse(max_msg_size=MAX_MESSAGE_BYTES)
             try:
                 await socket.prepare(request)
-            except ConnectionError:  # it has gone already
+            except ConnectionError:  # the browser has gone already
                 return web.Response()
             await admission.terminal.show(socket)
             return socket
@@ -161,7 +161,7 @@ class Server:
 
 
 def serve(server: Server, port: int) -> int:
-    """Print the addresses and serve until SIGINT, SIGTERM or SIGHUP; every console has then ended."""
+    """Print the addresses and serve until SIGINT, SIGTERM or SIGHUP; then end every console and return."""
     return asyncio.run(_serve(server, port))
 
 
@@ -185,7 +185,7 @@ async def _serve(server: Server, port: int) -> int:
 
 
 class _OneLine(logging.Formatter):
-    """The fault of a request in one line, without a traceback: anybody on this machine may send anything."""
+    """Formats an error on one line, without a traceback, since anybody on this machine may send invalid requests."""
 
     def format(self, record: logging.LogRecord) -> str:
         fault = record.exc_info[1] if record.exc_info else ""
@@ -202,7 +202,7 @@ def one_line_log() -> logging.Logger:
 
 
 def _is_same(secret: str, given: str) -> bool:
-    """Whether a secret was given, in a time that reveals nothing about it."""
+    """Compare with a secret in a time that does not depend on the secret."""
     return hmac.compare_digest(secret.encode(), given.encode("utf-8", "surrogatepass"))
 
 

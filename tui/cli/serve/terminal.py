@@ -1,4 +1,4 @@
-"""A console in a terminal of its own, which a browser shows: the terminal is closed when the browser is gone."""
+"""A console in a pseudo-terminal that a browser shows; the terminal is closed when the browser is gone."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ from bot_console.tui.cli.foreground.browser_watch import VARIABLE
 
 CHUNK_BYTES = 65_536
 MAX_UNREAD_BYTES = 1_000_000
-"""Input that a console has not read, after which its browser is cut off."""
+"""Bytes of input that the console has not read, beyond which the browser is disconnected."""
 END_TIMEOUT_S = 10.0
-"""Seconds for a console to stop its robot and end."""
+"""Seconds that a console may take to stop its robot and end."""
 MAX_CELLS = 1000
 OF_ANOTHER_TERMINAL = ("COLUMNS", "LINES", "STY", "TERM_PROGRAM", "TERM_PROGRAM_VERSION", "TMUX", "TMUX_PANE")
-"""Variables that describe the terminal in which the server was started."""
+"""Environment variables that describe the terminal in which the server was started."""
 
 
 class Terminal:
     """Starts the console at once; `show` connects a browser to it, `close` hangs up."""
 
     def __init__(self, command: Sequence[str], size: tuple[int, int]) -> None:
-        """`size` is columns, rows."""
+        """Start `command` in a terminal of `size` (columns, rows)."""
         self._master, slave = pty.openpty()
         self._set_size(*size)
         alive, self._alive = os.pipe()
@@ -68,7 +68,7 @@ class Terminal:
         transport, _ = await loop.connect_read_pipe(lambda: asyncio.StreamReaderProtocol(reader), output)
         try:
             while data := await reader.read(CHUNK_BYTES):
-                await socket.send_bytes(data)  # Waits for a slow browser, and the console in turn for its terminal.
+                await socket.send_bytes(data)  # waits for a slow browser, so that the console waits for its terminal
         except (OSError, ConnectionError):
             pass
         finally:
@@ -89,7 +89,7 @@ class Terminal:
             transport.abort()
 
     def _handle(self, text: str, transport: asyncio.WriteTransport) -> None:
-        """Act on a message of the page; others are ignored."""
+        """Act on a message of the page; invalid messages are ignored."""
         try:
             message: Any = json.loads(text)
         except (ValueError, RecursionError):
@@ -117,7 +117,7 @@ class Terminal:
         await asyncio.shield(self._closing)
 
     async def _close(self) -> None:
-        os.close(self._master)  # The kernel then sends SIGHUP to the console.
+        os.close(self._master)  # makes the kernel send SIGHUP to the console
         os.close(self._alive)
         loop = asyncio.get_running_loop()
         try:

@@ -1,4 +1,4 @@
-"""A console's tuner: a tuning job in a thread, with its runs in processes beside the running robot."""
+"""The tuner of a console: runs a tuning job in a thread, and its simulator runs in separate processes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from bot_console.tui.tuning.tunable import Setting
 
 
 class LocalTuner:
-    """Forks the runs on this machine. It works on one job at a time; a new one ends the one before."""
+    """Forks the runs on this machine. It works on one job at a time: starting another one stops the present one."""
 
     def __init__(self, folder: Path | None = None) -> None:
         self._folder = folder or state_folder() / "tune"
@@ -36,7 +36,7 @@ class LocalTuner:
         return specification.problem()
 
     def begin(self, specification: TuningSpecification) -> LocalTuning:
-        """Start, or resume with the runs in the journal."""
+        """Start a job, or resume it with the runs in the journal."""
         if self._tuning is not None:
             self._tuning.stop()
         if self._pool is None:
@@ -45,7 +45,7 @@ class LocalTuner:
         return self._tuning
 
     def close(self) -> None:
-        """End all runs, and wait for their end."""
+        """End all runs, and wait until they have ended."""
         if self._tuning is not None:
             self._tuning.stop()
         if self._pool is not None:
@@ -79,7 +79,7 @@ class LocalTuning:
             self._job.stop()
 
     def save(self, name: str, setting: Setting) -> Answer:
-        """Save the profile with a setting's values."""
+        """Save the tuned profile with the values of a setting."""
         result = next((each for each in self.progress.rows if each.setting == setting), None)
         if result is None:
             return Answer(False, "nothing is known about this setting yet")
@@ -99,7 +99,7 @@ class LocalTuning:
             self._job.stop()
         try:
             self._job.run()
-        except RuntimeError:  # The pool has been closed: the console is ending.
+        except RuntimeError:  # the pool has been closed, since the console is ending
             self._job.progress = replace(self._job.progress, ended=True, problem="stopped")
         finally:
             journal.close()

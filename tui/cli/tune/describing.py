@@ -1,4 +1,4 @@
-"""The result of a tuning, for people and for programs."""
+"""Describes the result of a tuning job, for people and for programs."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from bot_console.tui.tuning.tunable import Tunable
 
 
 def tunables_of(system: Mapping[str, Any]) -> list[Tunable]:
-    """The tunable parameters among those a probe has found: numbers and booleans that are not read-only."""
+    """The tunable parameters among those that a probe has found: numbers and booleans that are not read-only."""
     found: list[Tunable] = []
     for node, parameters in system.items():
         if not node.startswith("/"):
@@ -45,7 +45,7 @@ def result_line(specification: TuningSpecification, result: SettingResult) -> st
 
 
 def gain(before: SettingResult, after: SettingResult) -> str:
-    """How much better one result is than the other, as text."""
+    """The relative gain of one result over another, as text; empty if it cannot be computed."""
     if not (math.isfinite(before.score) and math.isfinite(after.score)):
         return ""
     share = (after.score - before.score) / abs(before.score) if before.score else math.inf
@@ -53,7 +53,7 @@ def gain(before: SettingResult, after: SettingResult) -> str:
 
 
 def result_of(specification: TuningSpecification, progress: Progress) -> dict[str, Any]:
-    """The result for programs; `text` holds it as lines for people."""
+    """The result as JSON data; its entry `text` has the lines for people."""
     rows, best = progress.rows, progress.best
     result: dict[str, Any] = {
         "profile": specification.profile,

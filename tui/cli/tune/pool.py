@@ -1,4 +1,4 @@
-"""Simulator runs in parallel, each in a process forked from a preloaded server."""
+"""Makes simulator runs in parallel, each in a process forked from a preloaded server."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ def processors() -> list[int]:
 
 
 class Pool:
-    """As many concurrent runs as there are CPUs; `close` ends them.
+    """Makes as many concurrent runs as there are CPUs; `close` ends them.
 
     Raises `OSError` if processes cannot be forked.
     """
 
     def __init__(self, maximum: int = 0) -> None:
-        """At most `maximum` runs at a time; 0 means one per CPU."""
+        """Make at most `maximum` runs at a time; 0 means one per CPU."""
         if not CAN_FORK:
             raise OSError("this system cannot fork processes, which concurrent runs need")
         places = processors()
@@ -52,11 +52,11 @@ class Pool:
 
     @property
     def server_pid(self) -> int:
-        """The process that forks the runs."""
+        """The id of the process that forks the runs."""
         return self._server.pid
 
     def begin(self, specification: TuningSpecification, trial: Trial) -> Future[Mapping[str, Any]]:
-        """Start a run as soon as a CPU is free; its report has `problem` if it failed."""
+        """Start a run as soon as a CPU is free; if it fails, its report has a key `problem`."""
         run = _Run(
             "run",
             specification.profile,
@@ -70,7 +70,7 @@ class Pool:
         return self._threads.submit(self._run, run)
 
     def probe(self, profile: str, arguments: Mapping[str, str], world: str = "") -> Future[Mapping[str, Any]]:
-        """The parameters, by node and name, of the system that a profile starts, in a world of its own or another."""
+        """The parameters, by node and name, of the system that a profile starts, in `world` or the profile's own."""
         words = [f"{name}:={value}" for name, value in arguments.items()]
         run = _Run("probe", profile, profile_yaml(profile), world, 1, PARAMETERS_ASKED_AFTER_S, words)
         return self._threads.submit(self._run, run)
@@ -92,7 +92,7 @@ class Pool:
 
 @dataclass(frozen=True)
 class _Run:
-    """The arguments of a worker."""
+    """A run, with the arguments of its worker."""
 
     kind: str
     profile: str
@@ -104,7 +104,7 @@ class _Run:
     paths: Sequence[str] = field(default=())
 
     def report(self, server: ForkServer, processor: int) -> Mapping[str, Any]:
-        """Run it in its own process and wait for its report."""
+        """Run it in a separate process, and wait for its report."""
         profile = self.profile if not is_file(self.profile) else "indoor"
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder, "tuned.yaml")
@@ -156,7 +156,7 @@ def is_file(profile: str) -> bool:
 
 
 def profile_yaml(profile: str) -> str:
-    """The parameter file of a profile; raises `OSError` if it does not exist."""
+    """The text of a profile's parameter file; raises `OSError` if it does not exist."""
     folder = Path(__file__).resolve().parents[3] / "profiles"
     path = expanded_path(profile) if is_file(profile) else folder / f"{profile}.yaml"
     return path.read_text(encoding="utf-8-sig")

@@ -1,4 +1,4 @@
-"""The `tune` command: its options, a line for each setting, the result, and saving it."""
+"""The `tune` command: its options, a line for each setting, and printing and saving the result."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from bot_console.tui.tuning.specification import TuningSpecification
 from bot_console.tui.tuning.tunable import Setting, find_tunables
 
 MAX_RUNS = 1_000_000
-"""More simulator runs than anybody waits for."""
+"""Maximum number of simulator runs; nobody waits for more."""
 EPILOG = """\
 predefined scores (higher is better):
 {ready}
@@ -43,7 +43,7 @@ exit codes: 0 done, 1 failed or stopped, 2 wrong usage
 
 
 def run(words: Sequence[str]) -> int:
-    """Tune; 0 if there is a result, 1 if there is none, 2 for wrong usage."""
+    """Run the command; 0 if there is a result, 1 if there is none, 2 for wrong usage."""
     parser = command_parser()
     given = parser.parse_args(words)
     arguments = dict(each.split(":=", 1) for each in given.parameters if ":=" in each)
@@ -114,7 +114,7 @@ def _tuned(specification: TuningSpecification, pool: Pool, given: argparse.Names
 
 
 def _event_reporter(specification: TuningSpecification) -> Callable[[Progress], None]:
-    """Returns a function that prints each setting once, and the progress, on stderr."""
+    """Return a function that prints each setting once, and the progress, on stderr."""
     reported: set[Setting] = set()
 
     def report(progress: Progress) -> None:

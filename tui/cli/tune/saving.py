@@ -12,13 +12,13 @@ from bot_console.tui.tuning.specification import TuningSpecification
 
 
 def save_profile(name: str, specification: TuningSpecification, best: SettingResult) -> str:
-    """Save the tuned profile with the best values; returns a message that says where; raises `NotSaved`."""
+    """Save the tuned profile with the best values, and return a message that says where; raises `NotSaved`."""
     if problem := profile_name_problem(name):
         raise NotSaved(problem)
     path = config_folder() / "profiles" / f"{name}.yaml"
     text = profile_yaml(specification.profile)
     if not is_file(specification.profile):
-        # The first comment is the title, and says what a profile is for.
+        # The first comment is the title, which says what a profile is for.
         title = f"# {specification.profile}, tuned for {specification.score.text}: score {best.score:.3f}\n"
         text = title + text
     save_file(path, patched(text, specification.values(best.setting)))

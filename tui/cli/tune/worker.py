@@ -50,29 +50,29 @@ def warm_up() -> None:
 
     warm_runtime()
     for name in MODULES:
-        with contextlib.suppress(ImportError):  # Missing if a workspace has a package of that name.
+        with contextlib.suppress(ImportError):  # a package of that name in the workspace may hide it
             importlib.import_module(name)
     gc.collect()
-    gc.freeze()  # Otherwise the runs would traverse all of it again and again, and copy its memory pages.
+    gc.freeze()  # otherwise the runs would traverse these objects repeatedly, and copy their memory pages
 
 
 def job(
     kind: str, profile: str, parameters: str, world: str, seed: int, duration: float, words: Sequence[str],
     paths: Sequence[str], processor: int,
 ) -> Callable[[], object]:  # fmt: skip
-    """The program of a process: `kind` is `run` or `probe`; prints a JSON object.
+    """Return the program of a run's process, which prints a JSON object; `kind` is `run` or `probe`.
 
     `parameters` is the path of a parameter file, `words` are launch arguments (`name:=value`), and `processor` is the
-    CPU to pin the process to if possible: otherwise concurrent runs end up on the same one.
+    CPU to which the process is pinned if possible, because concurrent runs might otherwise end up on the same one.
     """
 
     def program() -> None:
-        signal.signal(signal.SIGINT, lambda number, frame: os._exit(128 + number))  # Half a report would be useless.
+        signal.signal(signal.SIGINT, lambda number, frame: os._exit(128 + number))  # half a report would be useless
         if hasattr(os, "sched_setaffinity"):
             with contextlib.suppress(OSError):
                 os.sched_setaffinity(0, {processor})
         out = os.dup(1)
-        os.dup2(2, 1)  # Keeps the output of nodes out of the report.
+        os.dup2(2, 1)  # keeps the output of nodes out of the report
         report = _run(kind, profile, parameters, world, seed, duration, dict(_pair(each) for each in words), paths)
         with os.fdopen(out, "w") as file:
             json.dump(report, file)
@@ -91,7 +91,7 @@ def _run(
     from bot_console.tui.cli.headless.run import simulated
 
     install()
-    gc.disable()  # Until the nodes are up: what they make stays.
+    gc.disable()  # until the nodes are up, since the objects that they make stay alive
     options = Options(
         profile=profile,
         launch_arguments={**arguments, "config_file": parameters},
