@@ -1,4 +1,4 @@
-"""`bot-console up`, `down` and `status`: a robot system that outlives its terminal, reached with `attach`."""
+"""`bot-console up`, `down` and `status`: a robot system that outlives its terminal, and that `attach` shows."""
 
 from __future__ import annotations
 
@@ -46,25 +46,25 @@ from bot_console.tui.session.system_log import new_log
 from bot_console.tui.text.sanitize import sanitize
 
 SYSTEM_MODULE = "bot_console.tui.session.background_system"
-"""The program of a background system."""
+"""The module that runs as the program of a background system."""
 START_TIMEOUT_S = 60.0
-"""Seconds until its nodes must be visible, on a busy machine."""
+"""Seconds that its nodes may take to become visible on a busy machine."""
 END_TIMEOUT_S = 15.0
-"""Seconds to bring the robot to rest and end its nodes, before it is killed."""
+"""Seconds that the system may take to end after each signal; after the first, it is killed."""
 
 
 @dataclass(frozen=True)
 class Background:
-    """A system in the background: its process, its arguments, and its log file."""
+    """A system in the background: its process id, its arguments, and the path of its log."""
 
     pid: int
     words: tuple[str, ...]
     log: str
     way_in: int = 0
-    """The process of the router for other machines; 0 if there is none."""
+    """The process id of the router for other machines; 0 if there is none."""
 
     def runs(self) -> bool:
-        """Whether its pid still belongs to that program."""
+        """Whether its process id still belongs to the program of a background system."""
         return _is_program(self.pid, SYSTEM_MODULE.encode())
 
     def close_way_in(self) -> None:
@@ -73,7 +73,7 @@ class Background:
             os.kill(self.way_in, signal.SIGTERM)
 
     def reported(self) -> str:
-        """A description on one line."""
+        """Describe the system on one line."""
         return f"process {self.pid} ({' '.join(self.words) or 'indoor'}), log {self.log}"
 
 
@@ -122,8 +122,8 @@ def up(words: Sequence[str]) -> int:
             )  # fmt: skip
         if claim is not None:
             claim.hand_over()
-        # Its own file, kept and deleted with the log: the system's log rotates, and would leave the router with an old
-        # file.
+        # A separate file, kept and deleted with the log: the system's log rotates, after which the router would still
+        # write to the old file.
         router_log = log.with_name(f"{log.name}.router")
         started = Background(process.pid, tuple(words), str(log), _open_way_in(serving, router_log) if serving else 0)
         if problem := _kept(started):
@@ -166,7 +166,7 @@ def _await(process: subprocess.Popen[bytes], started: Background, *, launched: b
     print(f"running in ROS domain {domain()}: {started.reported()}")
     print("bot-console attach shows it, bot-console down ends it")
     if not launched and stop_file().exists():
-        _print_holders()  # Stops that nobody has released since an earlier start.
+        _print_holders()  # of stops that nobody has released since an earlier start
     if router_log and not _is_program(started.way_in, b"router"):
         print(f"the router for other machines did not start; the reason is at the end of {router_log}", file=sys.stderr)
         return 1
@@ -174,12 +174,12 @@ def _await(process: subprocess.Popen[bytes], started: Background, *, launched: b
 
 
 def _unreachable() -> str:
-    """Why nobody could see or stop a background system, in one line; empty if they can."""
+    """Why other programs could neither see nor stop a background system, on one line; empty if they can."""
     return "" if is_in_range() else f"{RANGE_VARIABLE} is OFF: a system in the background could not be seen or stopped"
 
 
 def _serving(words: Sequence[str]) -> tuple[list[str], list[str]]:
-    """The arguments for `bot-console router`, if other machines may connect, and the remaining ones."""
+    """Split off the arguments for `bot-console router` (empty if other machines may not connect) from the others."""
     parser = argparse.ArgumentParser("bot-console up", add_help=False)
     _add_serving(parser)
     given, rest = parser.parse_known_args(words)
@@ -220,7 +220,7 @@ def _print_help() -> int:
 
 
 def _open_way_in(words: Sequence[str], log: Path) -> int:
-    """Start the router process for other machines."""
+    """Start the router for other machines; returns its process id."""
     line = [*child_command("bot_console.tui"), "router", "--mesh", *words]
     with log.open("ab") as output:
         return subprocess.Popen(
@@ -229,7 +229,7 @@ def _open_way_in(words: Sequence[str], log: Path) -> int:
 
 
 def _is_program(pid: int, word: bytes) -> bool:
-    """Whether a process has that word in its command line, so that its pid was not reused."""
+    """Whether a process has that word in its command line, so that its id was not reused."""
     try:
         return word in Path(f"/proc/{pid}/cmdline").read_bytes()
     except OSError:
@@ -254,7 +254,7 @@ def down(words: Sequence[str]) -> int:
         _bring_to_rest()
     for number in (signal.SIGTERM, getattr(signal, "SIGKILL", signal.SIGTERM)):
         with contextlib.suppress(ProcessLookupError):
-            # First: a frozen process ignores SIGTERM, and delivers one that came before to any of its threads.
+            # SIGCONT first: a frozen process does not handle SIGTERM, and would later deliver it to any of its threads.
             os.kill(there.pid, getattr(signal, "SIGCONT", number))
             os.kill(there.pid, number)
         deadline = time.monotonic() + END_TIMEOUT_S
@@ -262,7 +262,7 @@ def down(words: Sequence[str]) -> int:
             time.sleep(0.05)
         if not there.runs():
             break
-    end_session(there.pid)  # Programs that it launched have outlived it only if it was killed.
+    end_session(there.pid)  # for launched programs, which have outlived it only if it was killed
     there.close_way_in()
     _forget()
     print(f"ended: {there.reported()}")
@@ -275,7 +275,7 @@ def _bring_to_rest() -> None:
 
 
 def status(words: Sequence[str]) -> int:
-    """Report the system in the background and the robot in the domain, or behind the router that the environment names.
+    """Print the system in the background and the robot in the domain, or behind the router that the environment names.
 
     Returns 1 if there is neither.
     """
@@ -290,9 +290,9 @@ def status(words: Sequence[str]) -> int:
         print(f"running in {where}: {there.reported()}")
     if robot:
         print(f"robot in {where}: {', '.join(robot)}")
-    # Robots in namespaces are none of those above.
+    # Robots in namespaces are not among those found above.
     is_held = (bool(robot or routers) or others_take_part()) and _print_holders()
-    stopped = [] if routers else frozen()  # a pid of another machine means nothing here
+    stopped = [] if routers else frozen()  # process ids of another machine mean nothing here
     for pid in stopped:
         print(f"process {pid} is stopped: it does nothing for the others; kill -CONT {pid} lets it continue")
     if not (there or robot or is_held or stopped):
@@ -302,7 +302,7 @@ def status(words: Sequence[str]) -> int:
 
 
 def _print_holders() -> bool:
-    """Print who holds the robots of the domain, or that it is not known; returns whether anything was printed."""
+    """Print who holds the robots of the domain, or that this is unknown; returns whether anything was printed."""
     found = holders()
     if found is None:
         print("whether somebody holds it is not known: its emergency stop did not answer")
@@ -322,17 +322,19 @@ def _file() -> Path:
 
 
 def _runs(pid: int) -> bool:
-    """Whether a system accepts consoles, which it does once its first process runs."""
+    """Whether a system accepts consoles, which it does once its first launched process runs."""
     return (_file().parent / f"{pid}{ADDRESS_SUFFIX}").exists()
 
 
 def _files() -> tuple[Path, Path]:
-    """Where the system is recorded: for every user folder, and where no cleaner of temporary files comes."""
+    """The two records of the system: one that does not depend on the user folder, and one that no cleaner of temporary
+    files deletes.
+    """
     return _file(), state_folder() / "systems" / f"domain-{domain()}.json"
 
 
 def _kept(started: Background) -> str:
-    """Record a system, so that it can be ended; returns why that fails, or an empty text."""
+    """Record a system, so that `down` can end it; returns why that failed, or an empty text."""
     problems: list[str] = []
     for each in _files():
         try:

@@ -33,12 +33,12 @@ def run(words: Sequence[str]) -> int:
     except (Missing, NoBag, NotSaved) as error:
         print(sanitize(str(error)), file=sys.stderr)
         return 1
-    except KeyboardInterrupt:  # Before there was a node that ends in order.
+    except KeyboardInterrupt:  # before there was a node that handles it
         return 130
 
 
 def _choose_rclpy(*, machine: bool) -> str:
-    """Import the machine's rclpy from now on, or ours; returns why the machine's cannot be imported."""
+    """Make `import rclpy` find the machine's rclpy or ours; returns why the machine's cannot be used, or empty."""
     if not machine:
         install()
         return ""
@@ -54,7 +54,7 @@ def _choose_rclpy(*, machine: bool) -> str:
 
 
 def parser() -> argparse.ArgumentParser:
-    """The arguments of all verbs."""
+    """Return the parser of all verbs."""
     made = argparse.ArgumentParser("bot-console bag", description="Record topics, and play recordings.")
     verbs = made.add_subparsers(required=True, metavar="VERB")
 

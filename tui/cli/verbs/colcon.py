@@ -1,4 +1,4 @@
-"""`colcon build`: nothing has to be built here; reports requests that have no effect, and broken packages."""
+"""`colcon build`: there is nothing to build here; reports unknown and broken packages."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ SELECTING = ("--packages-select", "--packages-up-to")
 
 
 def run(words: Sequence[str]) -> int:
-    """Answer `colcon WORDS`; exit code 1 if a package cannot be used as it is."""
+    """Answer `colcon WORDS`; returns 1 if a package cannot be used as it is."""
     install()
     *warnings, answer = answers(words)
     for each in warnings:
@@ -31,7 +31,7 @@ def run(words: Sequence[str]) -> int:
 
 
 def _report_setup_files() -> None:
-    """Write the file that is sourced after a build, and say what it is good for."""
+    """Write the file that people source after a build, and print what it is good for."""
     here = Path.cwd()
     try:
         files = write_setup_files(here, workspace())
@@ -43,7 +43,7 @@ def _report_setup_files() -> None:
 
 
 def answers(words: Sequence[str]) -> list[str]:
-    """The lines of the answer, starting with a warning for each package that is missing or invalid."""
+    """The lines of the answer: a warning for each unknown package, the faults of packages, and the summary."""
     warnings = [f"ignoring unknown package '{name}' in {option}" for option, name in _unknown(words)]
     broken = _broken(words)
     failed = [f"Failed   <<< {name}: {problem}" for name, problem in broken.items()]
@@ -53,9 +53,7 @@ def answers(words: Sequence[str]) -> list[str]:
 
 
 def _obstacles(words: Sequence[str]) -> Iterator[str]:
-    """The faults that a build on ROS 2 would stop at, though the packages work here; only the selected ones, if any
-    are.
-    """
+    """The faults with which packages work here but not on ROS 2; only of selected packages, if any are selected."""
     selected = {word for _, word in _selected(words)}
     for name, package in sorted(workspace().packages.items()):
         if name in selected or not selected:
@@ -63,7 +61,7 @@ def _obstacles(words: Sequence[str]) -> Iterator[str]:
 
 
 def _broken(words: Sequence[str]) -> dict[str, str]:
-    """Why packages of the workspace cannot be used, by name; only the selected ones, if any are."""
+    """Why packages of the workspace cannot be used, by name; only selected packages, if any are selected."""
     selected = {word for _, word in _selected(words)}
     found = ((name, package.problem) for name, package in sorted(workspace().packages.items()))
     return {name: problem for name, problem in found if problem and (name in selected or not selected)}

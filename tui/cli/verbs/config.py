@@ -16,7 +16,7 @@ from bot_console.tui.settings.settings import TEMPLATE, read_settings, settings_
 
 
 def run(words: Sequence[str]) -> int:
-    """Print the file and its path, or do what an option says; 1 if it has mistakes or cannot be opened."""
+    """Print the file and its path, or do what an option says; returns 1 if it has mistakes or cannot be opened."""
     parser = argparse.ArgumentParser(
         "bot-console config",
         description="Show or edit the settings: colours, glyphs, layout, keys. Without an option, they are printed.",

@@ -1,4 +1,4 @@
-"""`bot-console setup editor`: settings with which an editor finds `rclpy`, all messages and the own packages."""
+"""`bot-console setup editor`: writes settings with which editors find `rclpy`, all messages and the user's packages."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ PYRIGHT, VSCODE = "pyrightconfig.json", ".vscode/settings.json"
 
 
 def run(words: Sequence[str]) -> int:
-    """Write both files; 1, with the reason, if one of them cannot be used or written."""
+    """Write both files; if one of them cannot be used or written, print why and return 1."""
     parser = argparse.ArgumentParser(
         "bot-console setup editor",
         description=f"Write or complete {PYRIGHT} and {VSCODE} of a workspace, so that editors and pyright find "
@@ -51,7 +51,7 @@ def run(words: Sequence[str]) -> int:
 
 
 def _paths(folder: Path) -> tuple[list[str], Callable[[str], bool]]:
-    """The folders in which an editor has to search, and which entries are those of an earlier run."""
+    """The folders that an editor has to search, and a function that recognises entries of an earlier run."""
     install()
     choose([folder])
     ours = f"{root()}{os.sep}"
@@ -77,7 +77,7 @@ def _completed(folder: Path, name: str, key: str, paths: Sequence[str], is_old: 
 
 
 def _new_pyright(folder: Path, text: str) -> str:
-    """A new file hides the settings in `pyproject.toml`, unless it extends them."""
+    """The text of a new pyright file; it extends settings in `pyproject.toml`, which it would otherwise hide."""
     if "[tool.pyright" in _read(folder / "pyproject.toml"):
         return with_member(text, "extends", "pyproject.toml")
     return with_member(text, "typeCheckingMode", "basic")

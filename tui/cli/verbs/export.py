@@ -1,4 +1,4 @@
-"""`bot-console export DIR`: the robot's package, for a machine with ROS 2 and colcon."""
+"""`bot-console export DIR`: writes the robot's package for a machine with ROS 2 and colcon."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bot_console.tui.files.save_file import NotSaved, save_file, typed_path
 
 
 def run(words: list[str]) -> int:
-    """Write the package and print its path; asks before it writes over an existing folder."""
+    """Write the package and print its path; ask before writing into an existing folder."""
     parser = argparse.ArgumentParser("bot-console export", description="Write the robot's package for colcon.")
     parser.add_argument("folder", metavar="DIR", help="folder to create the package in, such as ~/ros2_ws/src")
     given = parser.parse_args(words)
@@ -41,7 +41,7 @@ def _differs(new: Path, old: Path) -> bool:
 
 
 def _agreed(place: Path, kept: list[Path]) -> bool:
-    """Ask whether to write into an existing folder; without a terminal the answer is no."""
+    """Ask whether to write into an existing folder; without a terminal, the answer is no."""
     if not sys.stdin.isatty():
         return False
     print(f"{place} exists already. Nothing in it is deleted.")
@@ -54,7 +54,7 @@ def _agreed(place: Path, kept: list[Path]) -> bool:
 
 
 def _free_name(path: Path) -> Path:
-    """An unused name for the old content: `x.py~`, `x.py~~` ..."""
+    """An unused path for the old content: `x.py~`, `x.py~~` ..."""
     while path.exists():
         path = path.with_name(path.name + "~")
     return path

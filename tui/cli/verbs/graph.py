@@ -1,4 +1,4 @@
-"""`bot-console graph`: writes the ROS graph to a file or as text, lists its findings, and compares it with a file."""
+"""`bot-console graph`: prints the ROS graph as YAML or text, lists its findings, or compares it with a file."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ A parameter file with rates for greenwave_monitor (topics./scan.expected_frequen
 
 
 def run(words: list[str]) -> int:
-    """Write, check or compare the graph of the domain; returns the exit code."""
+    """Print, check or compare the graph of the domain; returns the exit code."""
     given = _parser().parse_args(words)
     expected = None
     if given.check:
@@ -93,9 +93,9 @@ def _write_launch(console: RosConsole, given: argparse.Namespace) -> int:
 
 
 def lines_of(info: GraphInfo, hides: Iterable[str]) -> Iterator[str]:
-    """Each topic, service and action with its two sides, then the nodes that have none of them.
+    """A line for each topic, service and action with its two sides, then for each node that has none of them.
 
-    What `hides` names is left out, as in the graph pane, and so are private services that nobody calls.
+    Names that match `hides` are left out, as in the graph pane, and so are private services that nobody calls.
     """
     hides = tuple(hides)
     info = replace(info, nodes=tuple(each for each in info.nodes if not is_hidden(each.name, hides)))
@@ -110,7 +110,7 @@ def lines_of(info: GraphInfo, hides: Iterable[str]) -> Iterator[str]:
 
 
 def _compare(console: RosConsole, expected: Expected, given: argparse.Namespace) -> int:
-    """Wait until the graph matches, then measure rates; prints each difference."""
+    """Wait until the graph matches, then measure rates; print each difference and return the exit code."""
     deadline = time.monotonic() + given.wait
     found = differences(expected, console.snapshot().graph)
     while found and time.monotonic() < deadline:

@@ -1,4 +1,4 @@
-"""`bot-console reset`: resets parameters, robot and world to their start; the robot stays locked."""
+"""`bot-console reset`: resets parameters, robot and world to their initial state; the robot stays locked."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Values = dict[str, dict[str, Value]]
 
 
 def run(words: list[str]) -> int:
-    """Lock the robot, restore parameters, reset simulators; 0 if all of that succeeded."""
+    """Lock the robot, restore parameters, reset simulators; returns 0 if all of that succeeded."""
     parser = argparse.ArgumentParser(
         "bot-console reset",
         description="Reset what is running: the robot is locked, parameters get the values with which their "
@@ -63,9 +63,9 @@ def _reset(console: RosConsole, *, dry: bool) -> int:
 
 
 def _lock() -> bool:
-    """Lock the robot first, so that it does not act on values in transit; returns whether it is confirmed to stand.
+    """Lock the robot, so that it does not act on values in transit; returns whether that is confirmed or unnecessary.
 
-    It is the lock of `bot-console stop`, so that the same person's `release` releases the robot.
+    It is the same lock as that of `bot-console stop`, so that the same person's `bot-console release` releases it.
     """
     held, info = ask("stop", REASON)
     if not info.locks:

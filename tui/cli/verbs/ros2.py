@@ -1,4 +1,4 @@
-"""`ros2` verbs run from a shell, on the system in the domain."""
+"""Runs `ros2` verbs from a shell, on the system in the domain."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from bot_console.tui.session.embedded.reaching import reach_system, reach_when_a
 
 VERBS = ("action", "component", "interface", "lifecycle", "node", "param", "pkg", "service", "topic")
 ALONE = ("interface", "pkg")
-"""These answer from files, and query a running system only for what is in none."""
+"""Verbs that answer from files, and query a running system only for definitions that are in none."""
 
 
 def main(words: Sequence[str]) -> int:
-    """Run a `ros2` command line in this process, which does nothing else."""
+    """Run a `ros2` command line in this process, which must do nothing else."""
     import gc
 
     from bot_console.runtime.importer import install
 
-    gc.disable()  # What is imported stays: traversing it again and again takes a tenth of a short verb's time.
+    gc.disable()  # Imported objects stay alive; traversing them repeatedly takes a tenth of a short verb's time.
     install()
     from ros2cli.command_line import load
     from ros2cli.command_line import main as run
@@ -32,7 +32,7 @@ def main(words: Sequence[str]) -> int:
 
 
 def taking_part(words: Sequence[str]) -> int:
-    """Run a command line in the domain named by the environment; verbs that only read files do not join it."""
+    """Run a command line in the domain that the environment names; verbs that only read files do not join it."""
     problem = ""
     if words[0] in ALONE:
         reach_when_asked()

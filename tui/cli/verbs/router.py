@@ -1,4 +1,4 @@
-"""`bot-console router`: a Zenoh router, for a robot without one or as the entrance to this machine's programs."""
+"""`bot-console router`: runs a Zenoh router, for a robot without one or to reach this machine's programs."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ OPEN = (
 
 
 def run(words: Sequence[str]) -> int:
-    """Route messages until Ctrl-C, SIGTERM or SIGHUP; 1 if it cannot listen."""
+    """Route messages until Ctrl-C, SIGTERM or SIGHUP; returns 1 if it cannot listen."""
     parser = _parser()
     given = parser.parse_args(words)
     serving = serving_of(parser, given.listen or [HERE], given)
@@ -46,7 +46,7 @@ def run(words: Sequence[str]) -> int:
     for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(each, end)
     what = "the programs of this ROS domain are reached" if given.mesh else "a router for nodes of rmw_zenoh"
-    how = "; Ctrl-C ends it" if sys.stdin.isatty() else ""  # `up --serve` has no terminal.
+    how = "; Ctrl-C ends it" if sys.stdin.isatty() else ""  # `up --serve` has no terminal
     print(f"{what} at {', '.join(serving.endpoints)}{how}", flush=True)
     wait_interruptibly(over)
     session.close()
@@ -54,7 +54,7 @@ def run(words: Sequence[str]) -> int:
 
 
 def add_serving_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options for serving others over TLS; see `serving_of`."""
+    """Add the options for serving over TLS; see `serving_of`."""
     add = parser.add_argument
     add("--tls-certificate", default="", metavar="FILE", help="certificate to present")
     add("--tls-key", default="", metavar="FILE", help="its private key")
@@ -62,7 +62,7 @@ def add_serving_options(parser: argparse.ArgumentParser) -> None:
 
 
 def serving_of(parser: argparse.ArgumentParser, endpoints: Sequence[str], given: argparse.Namespace) -> Serving:
-    """The endpoints to listen on; exits with code 2 for invalid ones."""
+    """The endpoints to listen on, with TLS; exits with code 2 if they are invalid."""
     tls = Tls(given.tls_ca, given.tls_certificate, given.tls_key)
     if problem := tls.problem():
         parser.error(problem)
@@ -77,7 +77,7 @@ def serving_of(parser: argparse.ArgumentParser, endpoints: Sequence[str], given:
 
 
 def warning_of(serving: Serving) -> str:
-    """The risk of listening there; empty if only this machine can connect."""
+    """A warning about the risk of listening there; empty if only this machine can connect."""
     outside = [each for each in serving.endpoints if not place_of(each)[1].startswith(LOOPBACK)]
     if not outside:
         return ""

@@ -1,4 +1,4 @@
-"""`bot-console run`: a node as the main program of this process, or together with the console."""
+"""`bot-console run`: runs a node as the main program of this process, or together with the console."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def run(words: list[str]) -> int:
 
 
 def _prefixed(prefix: str, words: list[str]) -> int:
-    """Run an executable behind a command prefix, in its own process."""
+    """Run an executable behind a command prefix, in a separate process."""
     report_left_router()
     problem = no_node_here() or take_part()
     if problem:

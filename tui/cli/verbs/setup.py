@@ -21,14 +21,14 @@ _SHELL_FOLDER = Path(__file__).resolve().parents[1] / "shell"
 
 _FILES = {"bash": "~/.bashrc", "zsh": "~/.zshrc", "fish": "~/.config/fish/config.fish"}
 _COMPLETION = {"bash": "bot-console.bash", "zsh": "_bot-console", "fish": "bot-console.fish"}
-"""Files in `shell`, which a wheel also installs for the shells."""
+"""Completion files in `shell`; a wheel also installs them where shells look for them."""
 _PATHS = {"bash": ("lists.sh", "paths.sh"), "zsh": ("lists.sh", "paths.sh"), "fish": ("paths.fish",)}
-"""Files in `shell` that change the variables; the words in capitals between `@` are places of this installation."""
+"""Files in `shell` that set the variables; words like `@SHIMS@` are replaced by paths of this installation."""
 _UNDO = {"bash": ("lists.sh", "undo.sh"), "zsh": ("lists.sh", "undo.sh"), "fish": ("undo.fish",)}
 
 
 def run(words: Sequence[str]) -> int:
-    """Print the code for the named shell, or set up an environment; returns 2 for wrong usage."""
+    """Print the code for the named shell, or set up an environment or an editor; returns the exit code."""
     if words[:1] == ["venv"]:
         from bot_console.tui.cli.verbs import setup_venv
 
@@ -55,7 +55,7 @@ def run(words: Sequence[str]) -> int:
 
 
 def _print(text: str) -> None:
-    """Print code with the bytes of its paths, which need not be UTF-8."""
+    """Print code with the original bytes of its paths, which need not be UTF-8."""
     sys.stdout.flush()
     sys.stdout.buffer.write(os.fsencode(text))
     sys.stdout.buffer.flush()
@@ -68,7 +68,7 @@ def code(shell: str) -> str:
 
 
 def evaluation(shell: str) -> str:
-    """Return the line that evaluates the code in a shell; its path is absolute, so that it works in any shell."""
+    """Return the line that evaluates the code in a shell; it names the program by its absolute path."""
     chosen = os.environ.get(VARIABLE, "")
     program = shlex.quote(command()) + (f" {OPTION} {chosen}" if chosen else "")
     return f"{program} setup fish | source" if shell == "fish" else f'eval "$({program} setup {shell})"'
@@ -91,7 +91,7 @@ def _filled(*names: str) -> str:
 
 
 def _report_python(*, always: bool) -> None:
-    """Say which rclpy `python3` will import in that shell, if it is not bot-console's, or in any case."""
+    """Print which rclpy `python3` will import in that shell, if it is not bot-console's or with `always`."""
     path = os.pathsep.join(filter(None, (os.environ.get("PYTHONPATH", ""), str(kept_shim_folder()))))
     python = python_of_shell({**os.environ, "PYTHONPATH": path})
     if python is not None and (always or python.real or not python.fits):

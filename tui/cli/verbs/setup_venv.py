@@ -1,4 +1,4 @@
-"""`bot-console setup venv`: one file that lets a virtual environment import rclpy in every shell."""
+"""`bot-console setup venv`: writes one file that lets a virtual environment import rclpy in every shell."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ _TEXT = """\
 import os, sys; os.path.exists({decides!a}) and ({folder!a} in sys.path or sys.path.append({folder!a}), \
 __import__("bot_console_shims").watch())
 """
-"""The interpreter runs the line, which adds the folder to its path, and does nothing without it. The name of the folder
-may contain anything, a newline or bytes that are not UTF-8 as well.
+"""The interpreter runs the line, which adds the folder to its path, and does nothing if the folder is missing. The name
+of the folder may contain anything, even a newline or bytes that are not UTF-8.
 """
 ANSWER_TIMEOUT_S = 30.0
 
 
 class _RefusedError(Exception):
-    """The environment is not changed; the message says why."""
+    """The environment cannot be changed; the message says why."""
 
 
 def run(words: Sequence[str]) -> int:
-    """Write the file into an environment, or remove it; returns 1 if that is refused or fails."""
+    """Write the file into an environment, or remove it; returns 1 if that fails."""
     given = _parser().parse_args(words)
     try:
         if given.remove:
@@ -63,7 +63,7 @@ def _add(place: Path) -> str:
 
 
 def content(shims: Path) -> str:
-    """Return the content of the file, for this folder of shims."""
+    """Return the content of the file for this folder of shims."""
     return _TEXT.format(folder=str(shims), decides=str(shims / BESIDE[0]))
 
 
@@ -76,7 +76,7 @@ def _remove(folder: Path) -> str:
 
 
 def _site_packages(place: Path) -> tuple[Path, Path]:
-    """Return the interpreter of an environment, and the folder of its packages; raises `_RefusedError`."""
+    """Return the interpreter of an environment and the folder of its packages; raises `_RefusedError`."""
     if not (place / "pyvenv.cfg").is_file():
         raise _RefusedError(f"{place} is not a virtual environment: name one, or activate it")
     python = place / "bin" / "python3"
@@ -85,7 +85,7 @@ def _site_packages(place: Path) -> tuple[Path, Path]:
 
 
 def _answer(python: Path, *words: str) -> dict[str, str]:
-    """Return what a program of the environment prints, without the variables of this shell."""
+    """Run a program of the environment without this shell's Python variables; returns the JSON that it prints."""
     env = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", "PYTHONHOME")}
     try:
         done = subprocess.run(

@@ -1,4 +1,4 @@
-"""`install/setup.bash` of a workspace, which tutorials source after `colcon build`."""
+"""Writes `install/setup.bash` of a workspace, which tutorials source after `colcon build`."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ case ":${{{variable}}}:" in *:{folder}:*) ;; *) export {variable}={folder}"${{{v
 
 
 def write_setup_files(folder: Path, workspace: Workspace) -> Sequence[Path]:
-    """Write `install/setup.bash` and `.zsh` if a folder has packages; returns those that exist for it.
+    """Write `install/setup.bash` and `.zsh` if a folder has packages; returns the paths of both.
 
-    Does not overwrite a file of another colcon. Raises `OSError`.
+    A file that another colcon has written is kept. Raises `OSError`.
     """
     install = folder / "install"
     mine = (each for each in workspace.packages.values() if not (is_own(each) or is_demo(each)))

@@ -1,4 +1,4 @@
-"""`bot-console stop` and `bot-console release`: the robot's emergency stop, without a screen."""
+"""`bot-console stop` and `bot-console release`: use the robot's emergency stop without a screen."""
 
 from __future__ import annotations
 
@@ -20,25 +20,25 @@ if TYPE_CHECKING:
 
 DONE = {"stop": "stopped", "release": "released"}
 HOLDER_TIMEOUT_S = 3.0
-"""Seconds to find out who holds a robot, and to stop one that is ended in any case."""
+"""Seconds to find out who holds a robot, and to stop a robot that is about to be ended anyway."""
 MAX_ROBOT_POLLS = 30
-"""Number of polls for a robot, every 0.1 s; not a time, since a busy machine may leave room for few polls."""
+"""Number of polls for a robot, every 0.1 s; not a time limit, within which a busy machine might make only few polls."""
 ANSWER_TIMEOUT_S = 15.0
-"""Seconds from the start in which a robot that was found may answer; the request is repeated until then."""
+"""Seconds from the start within which a robot that was found may answer; the request is repeated until then."""
 
 
 def stop(words: list[str]) -> int:
-    """Lock every robot that is found; 0 when acknowledged, 1 if none has."""
+    """Lock every robot that is found; returns 0 if all have acknowledged it, else 1."""
     return run("stop", words)
 
 
 def release(words: list[str]) -> int:
-    """Release every robot that is found; 0 when acknowledged, 1 if none has."""
+    """Release every robot that is found; returns 0 if all are released, else 1."""
     return run("release", words)
 
 
 def run(verb: str, words: list[str]) -> int:
-    """Lock or release every robot that is found; 0 when acknowledged, 1 if none has."""
+    """Run `bot-console VERB`, where `verb` is `stop` or `release`; returns the exit code."""
     what = f"{verb.capitalize()} the robot, and wait for its acknowledgement."
     parser = argparse.ArgumentParser(f"bot-console {verb}", description=what)
     if verb == "stop":
@@ -67,15 +67,13 @@ def ask(
 ) -> tuple[bool, StopInfo]:
     """Ask every robot that is found to lock or release; with `everybody`, a release covers the stops of others too.
 
-    A stop that is not `kept` ends with the robot's nodes.
-
-    Returns whether all of them did, and what is known of them. A robot that was found may answer within `answers_s`
-    from the start.
+    A stop that is not `kept` ends with the robot's nodes. Returns whether all robots did so, and their state. A robot
+    that was found may answer within `answers_s` from the start.
     """
     install()
     from bot_console.tui.console.robot.stop_link import user
 
-    # One key for everything that this person types, so that one command takes back what another has stopped.
+    # The same key for all commands of this person, so that one command releases what another has stopped.
     who, key = f"bot-console {verb} of {user()}", f"bot-console stop of {user()}"
     with ReachedStop("_bot_console_stop", who, key) as reached:
         link = reached.link
@@ -95,7 +93,7 @@ def ask(
 
 
 def holders(to_find: float = 1.0, to_hear: float = HOLDER_TIMEOUT_S) -> list[str] | None:
-    """Who holds the robots that are found, each with a reason; None if one that can be held did not answer.
+    """Who holds the robots that are found, each with a reason; None if a robot with a lock did not answer.
 
     `to_find` and `to_hear` are the seconds to find a robot, and to receive the state of one that was found.
     """
@@ -111,7 +109,7 @@ def holders(to_find: float = 1.0, to_hear: float = HOLDER_TIMEOUT_S) -> list[str
 
 
 def _last_message(info: StopInfo) -> list[str]:
-    """Who holds the robot and why; all locks of a robot may say the same."""
+    """Who holds the robot and why, each reason once, with all its holders."""
     holders: dict[str, list[str]] = {}
     for each in with_gone(info.stops):
         holders.setdefault(each.reason, []).append(each.who)

@@ -14,7 +14,7 @@ NO_PYTEST = "bot-console test runs pytest, which is not installed: pip install '
 
 
 def launch_test(words: list[str]) -> int:
-    """Run the tests of a launch description without pytest."""
+    """Run the tests of a launch description, without pytest."""
     install()
     from launch_testing.launch_test import main
 
