@@ -104,7 +104,7 @@ def finish(line: list[str], env: Mapping[str, str], cwd: Path) -> subprocess.Com
 @pytest.mark.parametrize(
     "way", ["run", *(pytest.param(each, marks=pytest.mark.slow) for each in ("launch", "python3", "script"))]
 )
-def test_children_meet_their_parent(way: str, home: Path) -> None:
+def test_child_processes_discover_their_parent(way: str, home: Path) -> None:
     file, launch, script = home / "parent.py", home / "children.launch.py", home / "launching.py"
     file.write_text(PARENT)
     launch.write_text(LAUNCH.format(file=str(file)))

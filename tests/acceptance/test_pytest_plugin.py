@@ -104,7 +104,7 @@ def start(words: tuple[str, ...], folder: Path, env: Mapping[str, str]) -> subpr
     [pytest.param(PLUGIN, 0, marks=pytest.mark.slow), pytest.param((), 1, marks=pytest.mark.soak)],
     ids=["with", "without"],
 )
-def test_two_test_processes_meet_only_without_plugin(
+def test_two_test_processes_discover_each_other_only_without_the_plugin(
     plugin: tuple[str, ...], code: int, home: Path, tmp_path: Path
 ) -> None:
     (tmp_path / "test_meets.py").write_text(MEETS)

@@ -33,7 +33,7 @@ def clean(**given):
     return given
 
 
-def test_only_what_the_wheels_added_is_removed():
+def test_only_variables_that_the_wheels_added_are_removed():
     guard, lib = {"_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1"}, f"{sys.prefix}/lib"
     assert clean(**guard, LD_LIBRARY_PATH=f"/a:{lib}:/x/ros_rcutils.libs:/b", HOME="/h") == {
         "LD_LIBRARY_PATH": "/a:/b",
@@ -51,7 +51,7 @@ def test_only_what_the_wheels_added_is_removed():
         pytest.param(["bot_console.runtime.programs.run"], "node.py", NODE, id="launched", marks=pytest.mark.slow),
     ],
 )
-def test_programs_of_other_environments_do_not_inherit_it(tmp_path, words, name, text):
+def test_programs_of_other_environments_do_not_inherit_the_added_variables(tmp_path, words, name, text):
     (tmp_path / name).write_text(text)
     (tmp_path / "hook").mkdir()
     (tmp_path / "hook" / "sitecustomize.py").write_text(HOOK)

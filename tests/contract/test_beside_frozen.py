@@ -44,7 +44,7 @@ def test_a_reliable_publisher_does_not_block_and_active_subscribers_get_everythi
     here.until(lambda: here.result(asked.call_async(Trigger.Request())).message == str(SCANS))
 
 
-def test_graph_queries_and_new_entities_do_not_wait_for_it(here):
+def test_graph_queries_and_new_entities_do_not_wait_for_the_frozen_process(here):
     assert took(here.node.get_node_names) < 1.0
     assert "peer" in here.node.get_node_names()
     assert took(lambda: here.node.create_publisher(String, "/new", 10)) < 1.0

@@ -74,7 +74,7 @@ def test_logs_are_filtered(rig: Rig, which: LogFilter, left: tuple[Severity, ...
     assert [each and each.severity for each in found] == list(left)
 
 
-def test_logs_are_read_from_a_number_on_and_the_newest_if_limited(rig: Rig) -> None:
+def test_logs_are_read_from_a_given_number_on_and_a_limit_keeps_the_newest(rig: Rig) -> None:
     numbers = publish_all(rig)
     assert seqs(rig, after=numbers[2]) == numbers[2:]
     assert seqs(rig, limit=1) == numbers[-1:]

@@ -123,7 +123,7 @@ def test_verb_works_without_an_installed_ros2(peer: None, line: str, printed: st
     until(is_printed, repr(printed))
 
 
-def test_lines_that_go_on_print_until_they_are_stopped(peer: None) -> None:
+def test_continuous_lines_print_until_they_are_stopped(peer: None) -> None:
     stream = MachineCommandLine().stream("topic echo /chatter")
     assert stream is not None
     until(lambda: "data: hello" in stream.lines(), "a message")

@@ -64,7 +64,9 @@ def test_an_accepted_value_is_shown_and_recorded_in_the_journal(rig: Rig, name: 
         ("/nobody", "speed", 1.0, "node"),
     ],
 )
-def test_a_refusal_says_who_and_why_and_changes_nothing(rig: Rig, node: str, name: str, value: Any, who: str) -> None:
+def test_a_refusal_names_the_node_and_the_reason_and_changes_nothing(
+    rig: Rig, node: str, name: str, value: Any, who: str
+) -> None:
     before = rig.console.snapshot().parameters[ROBOT]
     (outcome,) = setting(rig, {name: value}, node)
     assert (outcome.node, outcome.name, outcome.value, outcome.accepted) == (node, name, value, False)
@@ -291,7 +293,7 @@ def test_one_undo_reverts_a_profile_and_its_name_on_all_nodes(rig: Rig) -> None:
     named("careful", 0)
 
 
-def test_an_undo_refused_by_one_node_is_reported_and_keeps_the_closer_profile(rig: Rig) -> None:
+def test_an_undo_refused_by_one_node_is_reported_and_the_profile_stays_active(rig: Rig) -> None:
     rig.console.profiles.apply("careful").result(TIMEOUT_S)
     shown(rig, "speed", 0.5)
     rig.forbid_speed()

@@ -65,7 +65,7 @@ def output(shell: dict[str, str], *line: str) -> str:
     return done.stdout
 
 
-def test_python_uses_the_real_one_and_run_the_embedded_one(shell: dict[str, str], talker: str) -> None:
+def test_python_uses_the_real_rclpy_and_run_uses_the_embedded_one(shell: dict[str, str], talker: str) -> None:
     assert Path(talker).is_relative_to(sys.prefix) and "bot_console" not in talker
     assert Path(output(shell, "bot-console", "run", "-c", SHOW).strip()).match("runtime/rclpy/__init__.py")
 
@@ -77,7 +77,7 @@ def test_doctor_reports_who_uses_which(shell: dict[str, str], talker: str) -> No
     assert f"({folder}): `bot-console attach --ros`" in findings["ros"]
 
 
-def test_attached_to_the_machine_nodes_of_the_real_one_are_seen(shell: dict[str, str], talker: str) -> None:
+def test_console_attached_to_the_machine_shows_nodes_of_the_real_rclpy(shell: dict[str, str], talker: str) -> None:
     """`doctor --ros` sees what `attach --ros` shows: both import the rclpy of the machine."""
     findings = {
         each["about"]: each["text"] for each in json.loads(output(shell, "bot-console", "doctor", "--ros", "--json"))

@@ -22,7 +22,7 @@ def checked(folder: Path, steps: str, *starts: str) -> tuple[int, list[dict[str,
     return done.returncode, json.loads(done.stdout)["steps"]
 
 
-def test_steps_are_carried_out_on_what_is_started_alike_each_time(tmp_path: Path) -> None:
+def test_steps_run_on_the_started_programs_with_the_same_result_each_time(tmp_path: Path) -> None:
     steps = (
         "expect-refused /robot_navigator max_speed 10.0\n"
         "set /robot_navigator max_speed 2.0\n"
@@ -37,7 +37,7 @@ def test_steps_are_carried_out_on_what_is_started_alike_each_time(tmp_path: Path
     assert checked(tmp_path, steps, SIMULATOR, NAVIGATOR) == first
 
 
-def test_step_before_which_all_nodes_have_ended_is_not_reached(tmp_path: Path) -> None:
+def test_step_after_the_end_of_all_nodes_is_reported_as_not_reached(tmp_path: Path) -> None:
     _, found = checked(tmp_path, "expect-node /robot_navigator\n", f"{NAVIGATOR} --ros-args -p max_speed:=1")
     assert [each["why"] for each in found] == ["not reached: robot_node-1 ended with exit code 1"]
 
@@ -52,6 +52,6 @@ def test_step_before_which_all_nodes_have_ended_is_not_reached(tmp_path: Path) -
         ("launch bot_console_robot nowhere.launch.py", "nowhere.launch.py"),
     ],
 )
-def test_what_cannot_be_started_is_refused_with_its_form(line: str, why: str) -> None:
+def test_invalid_start_line_is_refused_with_the_accepted_form(line: str, why: str) -> None:
     with pytest.raises(StartError, match=why):
         read_start(line)

@@ -120,7 +120,7 @@ def test_wrong_variant_fails_only_in_rows_that_depend_on_it(
 @needs_course
 @needs_namespaces
 @pytest.mark.slow
-def test_default_that_is_wrong_fails_its_row_alone(tmp_path: Path) -> None:
+def test_wrong_default_fails_only_its_own_row(tmp_path: Path) -> None:
     folder = workspace(tmp_path)
     change(folder, NODE, r"'max_speed', 1\.0", "'max_speed', 1.5")
     found = failed(folder, {FILES, DEFAULTS, SPEED})
@@ -192,7 +192,7 @@ def test_nothing_that_a_graded_program_starts_outlives_its_row(escape: Escape) -
 
 
 @needs_namespaces
-def test_children_share_the_limit_of_memory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_child_processes_share_the_memory_limit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sandbox, "MAX_MEMORY_BYTES", 150_000_000)
     monkeypatch.setattr(sandbox, "MEMORY_POLL_S", 0.02)
     box = make_sandbox(_empty(tmp_path), _new(tmp_path), allow_network=False)
@@ -202,7 +202,7 @@ def test_children_share_the_limit_of_memory(tmp_path: Path, monkeypatch: pytest.
 
 
 @needs_namespaces
-def test_run_that_does_not_end_is_ended(tmp_path: Path) -> None:
+def test_run_that_exceeds_its_time_limit_is_ended(tmp_path: Path) -> None:
     box = make_sandbox(_empty(tmp_path), _new(tmp_path), allow_network=False)
     assert box.run("trap '' TERM INT; sleep 1000", 0.3).why == "it took longer than 0.3 s"
 
@@ -232,7 +232,7 @@ def _new(tmp_path: Path, name: str = "box") -> Path:
         "drive 5 s {package} robot_system.launch.py > 0.1 m",
     ],
 )
-def test_package_of_the_same_name_that_is_installed_is_not_graded(row: str, tmp_path: Path) -> None:
+def test_installed_package_of_the_same_name_is_not_graded(row: str, tmp_path: Path) -> None:
     course = course_of(tmp_path / "course", row)
     course.defaults["package"] = "intelligent_robot"
     (result,) = grade(course, _empty(tmp_path))
@@ -240,12 +240,12 @@ def test_package_of_the_same_name_that_is_installed_is_not_graded(row: str, tmp_
 
 
 @needs_namespaces
-def test_states_of_files_are_graded_without_starting_anything(tmp_path: Path) -> None:
+def test_file_conditions_are_graded_without_starting_anything(tmp_path: Path) -> None:
     result = graded(tmp_path, "", "expect-entry-point other")
     assert result.why == "src/mine/setup.py has no line for other in console_scripts"
 
 
-def test_report_of_junit_has_a_case_per_row(tmp_path: Path) -> None:
+def test_junit_report_has_a_case_per_row(tmp_path: Path) -> None:
     course = course_of(tmp_path / "c", "expect-file a.txt")
     (row,) = course.rows()
     suite = ElementTree.fromstring(as_junit(course, [RowResult(row, "not \x1b there"), RowResult(row, "")]))
@@ -255,7 +255,7 @@ def test_report_of_junit_has_a_case_per_row(tmp_path: Path) -> None:
     assert failures[1] is None
 
 
-def test_row_for_extra_points_is_counted_apart_and_fails_nothing(tmp_path: Path) -> None:
+def test_extra_points_are_counted_separately_and_fail_nothing(tmp_path: Path) -> None:
     course = course_of(tmp_path / "c", "expect-file a.txt")
     (row,) = course.rows()
     extra = read_grade_row("+2 More", ["expect-file b.txt"], 1)
@@ -268,7 +268,7 @@ def test_row_for_extra_points_is_counted_apart_and_fails_nothing(tmp_path: Path)
 
 
 @needs_namespaces
-def test_command_prints_json_and_ends_with_1_when_a_row_fails(tmp_path: Path) -> None:
+def test_command_prints_json_and_exits_with_1_when_a_row_fails(tmp_path: Path) -> None:
     course_of(tmp_path / "course", "expect-file a.txt")
     words = [
         sys.executable,

@@ -131,7 +131,9 @@ def test_robot_of_fifty_nodes_and_a_hundred_topics_is_shown(robot: subprocess.Po
 
 
 @pytest.mark.slow
-def test_console_asks_which_system_if_one_of_ours_runs_too(robot: subprocess.Popen[bytes], tmp_path: Path) -> None:
+def test_console_asks_which_system_to_attach_to_if_an_embedded_one_runs_too(
+    robot: subprocess.Popen[bytes], tmp_path: Path
+) -> None:
     line = [sys.executable, *CONSOLE, "attach"]
     seen = ""
     for _ in range(100):  # Until the robot has a socket in the domain.

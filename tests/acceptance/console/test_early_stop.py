@@ -100,7 +100,7 @@ def console(tmp_path: Path) -> Iterator[Console]:
     "before",
     [pytest.param(each, marks=OFTEN.get(each, pytest.mark.soak)) for each in BEFORE],
 )
-def test_robot_is_held_once_while_the_screen_hangs_and_its_turn_keeps_it(console: Console, before: str) -> None:
+def test_robot_is_held_while_the_screen_hangs_and_the_handled_key_keeps_the_stop(console: Console, before: str) -> None:
     console.terminal.type(BEFORE[before])
     for width in range(100, 130):
         fcntl.ioctl(console.terminal.master, termios.TIOCSWINSZ, struct.pack("HHHH", 40, width, 0, 0))

@@ -90,7 +90,7 @@ def key(far: FarRig) -> Iterator[threading.Event]:
 
 
 @pytest.mark.parametrize("seconds", [2, pytest.param(30, marks=pytest.mark.soak)])
-def test_cut_link_is_reported_and_its_return_brings_no_motion_back(
+def test_cut_link_is_reported_and_the_robot_does_not_move_when_it_returns(
     far: FarRig, key: threading.Event, seconds: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("rigs.TIMEOUT_S", seconds + 20.0)

@@ -761,13 +761,13 @@ def begin(at: Student, number: int) -> None:
 
 @pytest.mark.soak
 @pytest.mark.timeout(600)
-def test_first_chapter(student: Callable[[Path], Student]) -> None:
+def test_first_chapter_can_be_completed(student: Callable[[Path], Student]) -> None:
     chapter_1(student(WEEK6))
 
 
 @pytest.mark.soak
 @pytest.mark.timeout(3600)
-def test_whole_course(student: Callable[..., Student]) -> None:
+def test_whole_course_can_be_completed(student: Callable[..., Student]) -> None:
     at = student(WEEK6, Path(KEPT) / str(FIRST) if FIRST > 1 else None)
     if FIRST > 1:
         begin(at, FIRST)

@@ -62,7 +62,7 @@ def test_runs_are_deterministic(runs, name):
     assert len(set(figures(runs, name, "digest"))) == len(runs[name])
 
 
-def test_environment_guide_has_these_figures(runs):
+def test_environment_guide_states_the_measured_figures(runs):
     """Within what another processor's floating point may change in a chaotic run."""
     row = r"^\| (\w+) \| (\d) \| ([\d.]+) \| ([\d.]+) \| (\d+) \| (\d+) \|$"
     rows = re.findall(row, GUIDE.read_text(encoding="utf-8"), re.MULTILINE)

@@ -101,7 +101,7 @@ def generate_launch_description():
 """
 
 
-def test_launch_that_ends_itself_is_reported_until_then(tmp_path):
+def test_launch_that_ends_by_itself_is_reported_up_to_its_end(tmp_path):
     text = ENDING.format(file=str(ROOT / "launch" / "simulator.launch.py"), seconds=3.0)
     (tmp_path / "ending.launch.py").write_text(text)
     report = headless(tmp_path, "--duration", "1000", "--launch", "ending.launch.py")

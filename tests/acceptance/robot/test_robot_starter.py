@@ -53,7 +53,7 @@ def run(folder, *words, seconds="6"):
 
 
 @pytest.mark.slow
-def test_nodes_that_need_a_robot_drive_ours_reproducibly(tmp_path):
+def test_nodes_that_need_a_robot_drive_the_simulated_one_reproducibly(tmp_path):
     write(tmp_path, "driver", "watcher")
     words = ("--duration", "8", "--seed", "3", "--world", "warehouse", "--launch", "mine.launch.py")
     first, second = (headless(tmp_path, *words) for _ in range(2))
@@ -99,7 +99,7 @@ WAITS = "waiting at most 30 s for what the launch file starts later, before a si
     ],
     ids=["timer", "timer of a function", "timer of a timer"],
 )
-def test_launch_that_brings_a_robot_later_gets_no_second_one(tmp_path, bringing):
+def test_launch_that_starts_a_robot_later_gets_no_second_one(tmp_path, bringing):
     write(tmp_path, "driver", bringing)
     log = headless(tmp_path, "--duration", "9", "--launch", "mine.launch.py")["log"]
     assert BESIDE not in log
@@ -107,7 +107,7 @@ def test_launch_that_brings_a_robot_later_gets_no_second_one(tmp_path, bringing)
 
 
 @pytest.mark.soak
-def test_delayed_start_without_robot_delays_ours_only_until_then(tmp_path):
+def test_delayed_start_without_a_robot_delays_the_simulated_robot_only_until_then(tmp_path):
     write(tmp_path, "driver", later(4.0, "Node(executable='blind.py')"), later(900.0, "Shutdown()"))
     report = headless(tmp_path, "--duration", "10", "--launch", "mine.launch.py")
     assert report["log"].count(WAITS) == report["log"].count(BESIDE) == 1
@@ -149,7 +149,7 @@ def test_simulator_option_starts_one(tmp_path):
     assert report["duration"] == 2.0
 
 
-def test_launch_that_brings_a_robot_gets_no_second_one(tmp_path):
+def test_launch_that_starts_a_robot_gets_no_second_one(tmp_path):
     write(tmp_path, "driver", BRINGING)
     assert BESIDE not in headless(tmp_path, "--duration", "4", "--launch", "mine.launch.py")["log"]
 

@@ -48,7 +48,7 @@ def workspace(tmp_path):
     return tmp_path
 
 
-def test_our_robot_drives(workspace):
+def test_built_in_robot_drives(workspace):
     report = headless(workspace, "--duration", "10")
     assert report["distance"] > 1.0
     assert "theirs" not in report["log"]
@@ -77,7 +77,7 @@ def test_users_executable_runs_beside_our_simulator(name, workspace):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_named_package_is_the_workspaces(name, workspace):
+def test_named_package_is_taken_from_the_workspace(name, workspace):
     done = typed("run", name, "safety_node", cwd=workspace)
     assert done.returncode == 1
     assert "which has: robot_node" in done.stderr

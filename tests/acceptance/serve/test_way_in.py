@@ -124,7 +124,7 @@ def test_token_and_cookie_of_any_characters_are_refused() -> None:
     run(work)
 
 
-def test_request_that_is_none_takes_one_line_of_the_terminal(capsys: pytest.CaptureFixture[str]) -> None:
+def test_malformed_request_prints_one_line_in_the_terminal(capsys: pytest.CaptureFixture[str]) -> None:
     async def work() -> None:
         runner = web.AppRunner(Server(["true"], "127.0.0.1").application(), logger=one_line_log())
         await runner.setup()
@@ -142,7 +142,7 @@ def test_request_that_is_none_takes_one_line_of_the_terminal(capsys: pytest.Capt
     assert len(lines) == 1 and lines[0].startswith("bot-console serve: ") and "\x1b" not in lines[0]
 
 
-def test_page_that_has_gone_before_its_socket_is_open_is_no_error(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_page_that_closes_before_its_socket_opens_is_not_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
     async def gone(*_: object) -> None:
         raise ConnectionResetError
 
@@ -204,7 +204,7 @@ def test_console_has_a_terminal_and_ends_with_its_tab(monkeypatch: pytest.Monkey
     run(work)
 
 
-def test_console_hears_that_its_page_is_alive() -> None:
+def test_signs_of_life_of_a_page_reach_its_console() -> None:
     async def work() -> None:
         async with served(console=WATCHING) as (_, [address], port), a_browser() as session:
             here = f"http://127.0.0.1:{port}"
@@ -216,7 +216,7 @@ def test_console_hears_that_its_page_is_alive() -> None:
     run(work)
 
 
-def test_each_address_has_a_session_of_its_own() -> None:
+def test_each_address_has_its_own_session() -> None:
     async def work() -> None:
         async with served(2) as (_, addresses, port), a_browser() as first, a_browser() as second:
             here = f"http://127.0.0.1:{port}"

@@ -67,7 +67,7 @@ def test_a_question_is_answered_by_mouse(answer: str, set_: bool) -> None:
     run(live(), play, (200, 40))
 
 
-def test_clicks_that_are_on_their_way_when_a_box_closes_do_nothing() -> None:
+def test_clicks_already_queued_when_a_box_closes_do_nothing() -> None:
     async def play(session: Session) -> None:
         await session.press("V", "question_mark")
         box = session.app.screen
@@ -83,7 +83,7 @@ def test_clicks_that_are_on_their_way_when_a_box_closes_do_nothing() -> None:
 @pytest.mark.parametrize(
     "keys", [pytest.param((), id="panes"), pytest.param(("question_mark",), id="box", marks=pytest.mark.slow)]
 )
-def test_button_that_goes_down_where_a_notification_was_removed_ends_nothing(keys: tuple[str, ...]) -> None:
+def test_mouse_press_where_a_notification_was_just_removed_does_not_end_the_console(keys: tuple[str, ...]) -> None:
     async def play(session: Session) -> None:
         await session.press(*keys)
         session.app.notify("gone soon")

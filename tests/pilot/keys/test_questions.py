@@ -67,7 +67,7 @@ def test_value_is_set_on_the_edited_parameter_after_the_cursor_moved() -> None:
     run(live(), play)
 
 
-def test_key_bar_names_the_keys_of_what_has_the_focus() -> None:
+def test_key_bar_names_the_keys_of_the_focused_widget() -> None:
     async def play(session: Session) -> None:
         await edit(session, "max_speed")
         assert "esc Cancel" in session.lines()[-1] and "e Edit" not in session.lines()[-1]
@@ -222,7 +222,7 @@ def test_finished_key_does_not_hold_up_the_next(typed: tuple[str, ...]) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("away", [((40, 10),), ((40, 10), (80, 24), (20, 5))], ids=["once", "twice"])
-def test_prompt_has_the_keys_again_when_the_terminal_is_large_again(away: tuple[tuple[int, int], ...]) -> None:
+def test_prompt_regains_the_focus_when_the_terminal_is_large_again(away: tuple[tuple[int, int], ...]) -> None:
     async def play(session: Session) -> None:
         await edit(session, "max_speed")
         await session.type("2")
@@ -238,7 +238,7 @@ def test_prompt_has_the_keys_again_when_the_terminal_is_large_again(away: tuple[
 
 
 @pytest.mark.slow
-def test_prompt_of_a_pane_that_had_no_room_has_the_keys_when_the_pane_is_chosen() -> None:
+def test_prompt_of_a_pane_without_room_gets_the_focus_when_the_pane_is_chosen() -> None:
     async def play(session: Session) -> None:
         await session.press("z", "2", "0")
         await edit(session, "max_speed")
@@ -258,7 +258,7 @@ def test_prompt_of_a_pane_that_had_no_room_has_the_keys_when_the_pane_is_chosen(
     "opens",
     [pytest.param(("1", "e"), id="prompt"), pytest.param((":",), id="command line", marks=pytest.mark.slow)],
 )
-def test_all_stop_acts_where_a_text_field_is_hidden_and_the_field_has_the_keys_afterwards(
+def test_all_stop_works_while_a_text_field_is_hidden_and_the_field_regains_the_focus(
     opens: tuple[str, ...],
 ) -> None:
     async def play(session: Session) -> None:
@@ -279,7 +279,7 @@ def test_all_stop_acts_where_a_text_field_is_hidden_and_the_field_has_the_keys_a
 
 @pytest.mark.slow
 @pytest.mark.parametrize("opens", ["ctrl+p", "question_mark"])
-def test_pane_has_the_keys_after_a_box_that_was_open_while_the_terminal_was_too_small(opens: str) -> None:
+def test_pane_regains_the_focus_after_a_box_that_was_open_while_the_terminal_was_too_small(opens: str) -> None:
     async def play(session: Session) -> None:
         await session.press("8", opens)
         for size in ((20, 5), (80, 24)):

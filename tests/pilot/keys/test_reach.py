@@ -248,7 +248,7 @@ def test_in_a_text_field_the_all_stop_and_digits_are_text() -> None:
     run(live(), play)
 
 
-def test_key_bar_names_help_and_stop_at_the_least_width() -> None:
+def test_key_bar_names_help_and_stop_at_the_minimum_width() -> None:
     for id, visit in visits().items():
         assert "? Help" in visit.key_bar and "! Stop" in visit.key_bar, id
 

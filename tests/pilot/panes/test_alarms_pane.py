@@ -177,7 +177,7 @@ def test_suggestions_are_not_cut_where_they_differ_in_a_small_terminal() -> None
     run(fleet(), play)
 
 
-def test_nothing_that_is_suggested_is_received_while_the_pane_is_hidden() -> None:
+def test_suggested_topics_are_not_received_while_the_pane_is_hidden() -> None:
     system = live()
     system[0].series["rate(/scan)"] = ([1.0], [9.8])
 

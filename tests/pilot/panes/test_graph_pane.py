@@ -38,7 +38,7 @@ def colours(view: DiagramView, item: str) -> set[object]:
     return {each.style.color for each in line if each.style and item.rpartition("/")[2] in each.text}
 
 
-def test_arrow_keys_follow_the_arrows_and_enter_reports_all() -> None:
+def test_arrow_keys_follow_the_arrows_and_enter_shows_the_details() -> None:
     async def play(session: Session) -> None:
         await draw_topics(session)
         await session.press("o")
@@ -96,7 +96,7 @@ def test_a_filter_keeps_what_matches_and_its_neighbours() -> None:
 
 
 @pytest.mark.slow
-def test_debug_topics_are_hidden_until_asked_for_and_dead_ends_can_go() -> None:
+def test_debug_topics_are_hidden_until_requested_and_dead_ends_can_be_hidden() -> None:
     async def play(session: Session) -> None:
         await draw_topics(session)
         assert "topic:/rosout" not in items(session)
@@ -148,7 +148,7 @@ def test_a_new_node_appears_and_the_selection_stays() -> None:
 
 
 @pytest.mark.slow
-def test_what_changed_while_the_pane_was_hidden_is_drawn_as_it_fits_the_pane() -> None:
+def test_changes_made_while_the_pane_was_hidden_are_drawn_to_fit_the_pane() -> None:
     """A hidden widget has no size; what is drawn before it has one again must not be chosen for a pane of one cell."""
     longer = "/cell_3/perception/front"
     first = NodeInfo(
@@ -175,7 +175,7 @@ def test_what_changed_while_the_pane_was_hidden_is_drawn_as_it_fits_the_pane() -
     run(live(), play, (120, 40))
 
 
-def test_it_is_exported_as_mermaid(tmp_path: Path) -> None:
+def test_the_graph_is_exported_as_mermaid(tmp_path: Path) -> None:
     target = tmp_path / "g.mmd"
 
     async def play(session: Session) -> None:
@@ -189,7 +189,7 @@ def test_it_is_exported_as_mermaid(tmp_path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_a_large_graph_is_laid_out_beside_the_event_loop() -> None:
+def test_a_large_graph_is_laid_out_in_a_worker() -> None:
     nodes = tuple(
         NodeInfo(f"/n{at}", (Endpoint(f"/t{at}", ("a/msg/B",)),), (Endpoint(f"/t{at - 1}", ("a/msg/B",)),))
         for at in range(100)
@@ -226,7 +226,7 @@ def fleet(count: int) -> GraphInfo:
     return GraphInfo(tuple(nodes), incompatible=incompatible)
 
 
-def test_qos_that_does_not_match_is_drawn_as_a_fault_and_reported_in_words() -> None:
+def test_incompatible_qos_is_drawn_as_a_fault_and_explained() -> None:
     async def play(session: Session) -> None:
         session.console.change(graph=fleet(1))
         await session.press("3")
@@ -261,7 +261,7 @@ def test_namespaces_fold_into_boxes_and_unfold() -> None:
     run(live(), play, (120, 40))
 
 
-def test_many_nodes_are_folded_by_themselves() -> None:
+def test_many_nodes_are_folded_automatically() -> None:
     async def play(session: Session) -> None:
         session.console.change(graph=fleet(20))
         await session.press("3")
@@ -271,7 +271,7 @@ def test_many_nodes_are_folded_by_themselves() -> None:
 
 
 @pytest.mark.slow
-def test_of_a_large_namespace_the_namespaces_in_it_are_drawn_first() -> None:
+def test_unfolding_a_large_namespace_shows_its_namespaces_first() -> None:
     names = [f"/fleet/robot_{at % 10}/{part}_{at}" for at in range(100) for part in ("nav", "lidar")]
     nodes = tuple(NodeInfo(each) for each in names)
 
@@ -330,7 +330,7 @@ def test_services_and_actions_are_drawn_on_request() -> None:
     run(live(), play, (120, 40))
 
 
-def test_rates_stand_on_the_lines_where_there_is_room_while_the_pane_is_seen() -> None:
+def test_rates_are_shown_on_the_lines_where_there_is_room_while_the_pane_is_visible() -> None:
     async def play(session: Session) -> None:
         pane = session.pane(GraphPane)
         pane.clock = Clock()
@@ -366,7 +366,7 @@ def test_rates_are_measured_on_request_where_there_is_no_room_for_them() -> None
     run(live(), play)
 
 
-def test_pane_of_a_parameter_in_the_details_of_a_node_is_opened() -> None:
+def test_choosing_a_parameter_in_the_details_of_a_node_opens_its_pane() -> None:
     async def play(session: Session) -> None:
         await session.press("3")
         picture(session).choose("/robot_navigator")
@@ -379,7 +379,7 @@ def test_pane_of_a_parameter_in_the_details_of_a_node_is_opened() -> None:
 
 
 @pytest.mark.slow
-def test_details_are_something_to_go_to() -> None:
+def test_choosing_an_item_in_the_details_goes_to_it() -> None:
     async def play(session: Session) -> None:
         await session.press("3")
         picture(session).choose("/robot_navigator")
@@ -437,7 +437,7 @@ def test_frames_of_tf2_are_received_only_while_they_are_shown() -> None:
 
 
 @pytest.mark.slow
-def test_frames_of_tf2_in_the_place_of_the_picture() -> None:
+def test_frames_of_tf2_replace_the_picture() -> None:
     system = live()
     console = system[0]
     heard = 1000.0

@@ -43,7 +43,7 @@ def test_changes_are_listed_newest_first_with_source_and_reason() -> None:
     run(live(), play, (100, 30))
 
 
-def test_effect_of_a_change_on_the_speed_stands_behind_it_also_when_the_pane_was_hidden() -> None:
+def test_effect_of_a_change_on_the_speed_is_shown_even_if_the_pane_was_hidden() -> None:
     async def play(session: Session) -> None:
         clock = session.pane(HistoryPane).clock = Clock()
 

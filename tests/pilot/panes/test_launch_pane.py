@@ -187,7 +187,7 @@ def test_a_launch_file_is_picked_and_its_arguments_are_filled_in() -> None:
     run(live(), play)
 
 
-def test_a_launch_file_for_what_runs_is_written(tmp_path) -> None:
+def test_a_launch_file_for_the_running_nodes_is_written(tmp_path) -> None:
     async def play(session: Session) -> None:
         await session.press("8", "S", "ctrl+u")
         await session.paste(str(tmp_path / "again.launch.py"))
@@ -424,7 +424,7 @@ def test_warnings_and_output_of_the_process_at_the_cursor_are_shown() -> None:
 
 
 @pytest.mark.slow
-def test_line_after_a_silence_is_shown_at_once_and_more_of_them_every_two_seconds() -> None:
+def test_line_after_a_silence_is_shown_at_once_and_further_lines_every_two_seconds() -> None:
     async def play(session: Session) -> None:
         pane, clock = session.pane(LaunchPane), Clock()
         pane.clock = clock
@@ -453,7 +453,7 @@ def test_line_after_a_silence_is_shown_at_once_and_more_of_them_every_two_second
 
 
 @pytest.mark.slow
-def test_names_of_nodes_stand_in_a_column_and_a_problem_beside_them_where_there_is_room() -> None:
+def test_node_names_are_in_a_column_with_a_problem_beside_them_where_there_is_room() -> None:
     def rows(session: Session) -> list[str]:
         return [line for line in session.lines() if any(f" {glyph} " in line for glyph in "●✗")][:6]
 

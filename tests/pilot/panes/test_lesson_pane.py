@@ -189,7 +189,7 @@ def test_each_press_of_y_copies_the_next_listing(tmp_path: Path) -> None:
     run(tmp_path, play, (120, 40), chapter)
 
 
-def test_robot_counts_as_driven_once_a_key_moves_it_and_not_when_it_is_armed(tmp_path: Path) -> None:
+def test_steering_counts_once_a_key_moves_the_robot_and_not_when_it_is_armed(tmp_path: Path) -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter", "0")
         await look(session)

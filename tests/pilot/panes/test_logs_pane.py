@@ -140,7 +140,7 @@ def test_rules_hide_and_highlight_lines() -> None:
 
 
 @pytest.mark.slow
-def test_a_search_hides_nothing_and_goes_around() -> None:
+def test_a_search_hides_nothing_and_wraps_around() -> None:
     async def play(session: Session) -> None:
         pane = session.pane(LogsPane)
         for number in range(3):

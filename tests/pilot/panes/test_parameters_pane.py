@@ -41,7 +41,7 @@ def asked(session: Session) -> list[tuple[str, dict[str, object]]]:
 
 
 @pytest.mark.parametrize(("length", "is_noted"), [(20, True), pytest.param(42, False, marks=pytest.mark.slow)])
-def test_note_of_a_value_that_cannot_be_set_is_whole_or_left_out(length: int, is_noted: bool) -> None:
+def test_note_on_a_value_that_cannot_be_set_is_shown_in_full_or_left_out(length: int, is_noted: bool) -> None:
     async def play(session: Session) -> None:
         console = session.console
         tree = console.current.parameters["/simulator"]
@@ -186,7 +186,7 @@ def test_steps_after_a_refused_one_are_dropped(monkeypatch: pytest.MonkeyPatch) 
 
 
 @pytest.mark.slow
-def test_escape_from_a_filter_keeps_what_is_marked() -> None:
+def test_escape_clears_the_filter_and_keeps_marked_values() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         await go_to(session, "max_speed")
@@ -425,7 +425,7 @@ def test_saved_value_loses_its_mark_immediately() -> None:
     run(live(), play)
 
 
-def test_only_a_person_moves_the_cursor_away_from_what_matters_most() -> None:
+def test_only_a_person_moves_the_cursor_away_from_the_most_important_parameter() -> None:
     async def play(session: Session) -> None:
         shown = rows(session)
         every, best = session.console.current.parameters, shown.current

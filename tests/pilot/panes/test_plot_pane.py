@@ -89,7 +89,7 @@ def test_a_parameter_is_plotted_from_the_parameter_pane() -> None:
     run(live(), play)
 
 
-def test_a_topic_of_which_only_stamps_can_be_plotted_hints_at_parameters() -> None:
+def test_a_topic_with_only_stamps_to_plot_gives_a_hint_about_parameters() -> None:
     async def play(session: Session) -> None:
         await session.press("4")
         stamp = "/parameter_events/stamp.nanosec"

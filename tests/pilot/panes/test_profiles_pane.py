@@ -84,7 +84,7 @@ def test_description_is_shown_in_full_at_80_columns_and_after_resizing() -> None
     run(system, play)
 
 
-def test_refusal_or_loss_of_safety_asks_and_no_applies_nothing() -> None:
+def test_profile_with_a_refusal_or_loss_of_safety_asks_and_no_applies_nothing() -> None:
     async def play(session: Session) -> None:
         await session.press("7", "down", "a")
         assert isinstance(session.app.screen, ConfirmScreen)

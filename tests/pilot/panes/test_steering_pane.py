@@ -141,7 +141,7 @@ def test_the_rate_of_the_commands_is_typed() -> None:
     run(live(), play, (100, 30))
 
 
-def test_topic_and_rate_given_as_parameters_are_taken_once_somebody_subscribes() -> None:
+def test_topic_and_rate_given_as_parameters_are_used_once_somebody_subscribes() -> None:
     async def play(session: Session) -> None:
         chosen: list[str] = []
         session.console.drive.choose = chosen.append
@@ -417,7 +417,7 @@ def test_arming_without_a_robot_is_refused_with_a_reason() -> None:
     run(empty(), play, (100, 30))
 
 
-def test_topics_that_take_commands_are_counted_and_not_robots() -> None:
+def test_pane_counts_command_topics_and_not_robots() -> None:
     async def play(session: Session) -> None:
         await session.press("6")
         drive = session.console.current.drive

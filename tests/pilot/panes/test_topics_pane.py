@@ -198,7 +198,7 @@ def test_namespaces_of_a_fleet_start_folded_and_unfold_one_by_one() -> None:
     run(fleet(), play, SIZE)
 
 
-def test_fault_in_a_folded_namespace_is_marked_at_it() -> None:
+def test_fault_in_a_folded_namespace_is_marked_on_its_row() -> None:
     topics = tuple(Endpoint(f"/arm/t{number}", ("std_msgs/msg/Float64",)) for number in range(50))
     extra = Endpoint("/clock", ("std_msgs/msg/Float64",))
 
@@ -446,7 +446,7 @@ def test_key_bar_has_no_key_for_a_call_that_cannot_be_made() -> None:
     run(live(), play, (140, 40))
 
 
-def test_open_topic_is_heard_with_the_qos_that_is_chosen() -> None:
+def test_open_topic_is_subscribed_to_with_the_chosen_qos() -> None:
     async def play(session: Session) -> None:
         pane = await opened(session)
         pane.go_to(ODOM_TOPIC)
@@ -457,7 +457,7 @@ def test_open_topic_is_heard_with_the_qos_that_is_chosen() -> None:
 
 
 @pytest.mark.slow
-def test_qos_of_the_open_topic_is_asked_for_in_several_fields_at_once() -> None:
+def test_form_for_the_qos_of_the_open_topic_has_all_fields_and_explains_errors() -> None:
     async def play(session: Session) -> None:
         await session.press("9")
         pane = session.pane(TopicsPane)

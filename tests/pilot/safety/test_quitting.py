@@ -123,7 +123,7 @@ def test_values_that_are_saved_undone_or_in_a_profile_count_as_kept() -> None:
     run(live(), play)
 
 
-def test_no_keeps_stops_from_before_and_during_the_question() -> None:
+def test_answering_no_keeps_stops_from_before_and_during_the_question() -> None:
     async def play(session: Session) -> None:
         await edited(session)
         await session.press("exclamation_mark", "q", "n")
@@ -140,7 +140,7 @@ def test_no_keeps_stops_from_before_and_during_the_question() -> None:
     run(live(), play)
 
 
-def test_stop_key_during_the_question_makes_a_stop_of_the_persons_own() -> None:
+def test_stop_key_during_the_question_adds_the_persons_own_stop() -> None:
     """The stop of the question ends with the robot's nodes; what a person has requested does not."""
 
     async def play(session: Session) -> None:
@@ -153,7 +153,7 @@ def test_stop_key_during_the_question_makes_a_stop_of_the_persons_own() -> None:
     run(live(), play)
 
 
-def test_no_does_not_release_the_stop_of_another_console() -> None:
+def test_answering_no_does_not_release_the_stop_of_another_console() -> None:
     ben = RobotStop("b", "ben", "my foot")
 
     async def play(session: Session) -> None:

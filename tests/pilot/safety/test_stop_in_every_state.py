@@ -83,7 +83,7 @@ def test_stop_key_locks_the_robot_in_every_state(state: str, base: Base, monkeyp
         console.close()
 
 
-def test_second_press_withdraws_no_stop_that_waits_for_the_connection(base: Base) -> None:
+def test_second_press_does_not_withdraw_a_stop_that_waits_for_the_connection(base: Base) -> None:
     console = RosConsole()
 
     def play(app: BotConsoleApp) -> None:

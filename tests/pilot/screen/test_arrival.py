@@ -63,7 +63,7 @@ def arrive(typed: str, play: Callable[[Session], Awaitable[None]], panes: int = 
     asyncio.run(main())
 
 
-def test_the_keys_of_the_first_frame_are_those_of_the_pane_that_is_coming() -> None:
+def test_first_frame_shows_the_keys_of_the_pane_that_opens_first() -> None:
     async def main() -> None:
         lines: list[str] = []
 
@@ -82,7 +82,7 @@ def test_the_keys_of_the_first_frame_are_those_of_the_pane_that_is_coming() -> N
     asyncio.run(main())
 
 
-def test_in_the_end_all_looks_as_if_it_had_been_there_at_once() -> None:
+def test_panes_made_one_by_one_look_in_the_end_like_panes_made_at_once() -> None:
     seen: list[str] = []
 
     async def poll(session: Session) -> None:
@@ -97,7 +97,7 @@ def test_in_the_end_all_looks_as_if_it_had_been_there_at_once() -> None:
     assert seen[:2] == seen[2:]
 
 
-def test_the_first_frame_has_the_places_of_the_panes_the_tabs_and_the_keys(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_first_frame_has_tabs_keys_and_the_positions_of_the_panes(monkeypatch: pytest.MonkeyPatch) -> None:
     async def never(arrival: Arrival) -> None:
         return
 
@@ -118,7 +118,7 @@ def test_the_first_frame_has_the_places_of_the_panes_the_tabs_and_the_keys(monke
     asyncio.run(main())
 
 
-def test_keys_typed_before_the_panes_are_there_act_on_them_in_turn() -> None:
+def test_keys_typed_before_the_panes_exist_act_on_them_in_order() -> None:
     async def play(session: Session) -> None:
         field = session.pane(CommandField)
         assert session.app.current_pane is not None and session.app.current_pane.id == "logs"
@@ -129,7 +129,7 @@ def test_keys_typed_before_the_panes_are_there_act_on_them_in_turn() -> None:
 
 
 @pytest.mark.slow
-def test_keys_for_a_pane_wait_until_it_is_there() -> None:
+def test_keys_for_a_pane_wait_until_it_exists() -> None:
     async def play(session: Session) -> None:
         assert session.pane(PlotPane).display
         assert isinstance(session.app.screen, PickerScreen)
@@ -172,7 +172,7 @@ def test_a_stop_typed_first_waits_for_no_pane(monkeypatch: pytest.MonkeyPatch) -
         ),
     ],
 )
-def test_a_key_waits_for_no_pane_but_those_that_it_is_for(
+def test_a_key_waits_only_for_the_panes_that_it_is_for(
     key: str, action: str, hidden: int | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     there: list[int] = []
@@ -212,7 +212,7 @@ def eager(monkeypatch: pytest.MonkeyPatch, asked: Callable[[], bool]) -> list[in
     return came
 
 
-def test_panes_that_nobody_sees_come_when_no_key_is_pressed(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_hidden_panes_are_made_while_no_key_is_pressed(monkeypatch: pytest.MonkeyPatch) -> None:
     pressed = iter([True] * 5)
     came = eager(monkeypatch, lambda: next(pressed, False))
 
@@ -223,7 +223,7 @@ def test_panes_that_nobody_sees_come_when_no_key_is_pressed(monkeypatch: pytest.
 
 
 @pytest.mark.slow
-def test_they_come_though_keys_are_pressed_all_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_hidden_panes_are_made_even_if_keys_are_pressed_all_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(arrival, "MAX_HIDDEN_PANE_PAUSE_S", 0.1)
     eager(monkeypatch, lambda: True)
 
@@ -233,7 +233,7 @@ def test_they_come_though_keys_are_pressed_all_the_time(monkeypatch: pytest.Monk
     arrive("?", play)
 
 
-def test_a_pane_that_a_key_is_for_comes_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_pane_that_a_key_is_for_is_made_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(arrival, "MAX_HIDDEN_PANE_PAUSE_S", float("inf"))
     came = eager(monkeypatch, lambda: True)
 
@@ -247,7 +247,7 @@ def app_of(node: Widget | BotConsoleApp) -> BotConsoleApp:
     return node if isinstance(node, BotConsoleApp) else cast(BotConsoleApp, node.app)
 
 
-def test_a_pane_that_cannot_be_made_takes_no_other_with_it(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_pane_that_cannot_be_made_does_not_affect_others(monkeypatch: pytest.MonkeyPatch) -> None:
     load = PaneEntry.load
 
     def fails(entry: PaneEntry) -> object:

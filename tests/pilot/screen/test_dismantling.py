@@ -15,7 +15,7 @@ from textual.events import Callback
 from textual.widget import Widget
 
 
-def test_panes_follow_the_time_until_their_parts_go(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_panes_follow_the_time_cursor_until_their_parts_are_removed(monkeypatch: pytest.MonkeyPatch) -> None:
     ends: list[Widget] = []
     calls: list[str] = []
 

@@ -87,7 +87,7 @@ def test_a_text_field_is_never_covered() -> None:
     run(live(), play, (80, 24))
 
 
-def test_only_the_newest_is_shown_and_reports_how_many_there_are_beside_it() -> None:
+def test_only_the_newest_notification_is_shown_with_the_number_of_others() -> None:
     async def play(session: Session) -> None:
         for word in ("first", "second", "third"):
             session.app.notify(f"the {word} one")
@@ -102,7 +102,7 @@ def test_only_the_newest_is_shown_and_reports_how_many_there_are_beside_it() -> 
     run(live(), play, (80, 24))
 
 
-def test_notification_stands_at_the_foot_unless_that_covers_the_line_in_use() -> None:
+def test_notification_is_at_the_bottom_unless_that_covers_the_line_in_use() -> None:
     assert lines_below(None, 24) == lines_below(3, 24) == 2
     assert lines_below(20, 24) == 4 and lines_below(23, 24) == 2
     assert lines_below(None, 24, 4) == 4 and lines_below(20, 24, 4) == 4 and lines_below(19, 24, 4) == 5

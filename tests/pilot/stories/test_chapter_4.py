@@ -143,7 +143,7 @@ def test_step_2_a_sine_wave_is_plotted(page: Terminals, robot: Program, publishe
 
 
 @pytest.mark.slow
-def test_the_page_s_lines_of_rqt_plot_wait_for_what_nobody_publishes(page: Terminals) -> None:
+def test_rqt_plot_lines_of_the_page_wait_for_unpublished_topics(page: Terminals) -> None:
     async def play(screen: Screen) -> None:
         await screen.line("ros2 run rqt_plot rqt_plot /robot/speed /robot/distance")
         await screen.shows("waits for /robot/speed")
@@ -270,7 +270,7 @@ def test_step_5_a_dashboard_is_built_saved_and_loaded(page: Terminals, robot: Pr
 
 
 @pytest.mark.slow
-def test_the_workflow_shows_all_of_it_side_by_side(page: Terminals, robot: Program, publisher: Program) -> None:
+def test_workflow_shows_all_panes_side_by_side(page: Terminals, robot: Program, publisher: Program) -> None:
     async def play(screen: Screen) -> None:
         await build_dashboard(screen)
         await screen.press("escape")
@@ -320,7 +320,7 @@ def test_each_plug_in_of_the_menu_is_a_pane_and_messages_are_published(page: Ter
 
 
 @pytest.mark.slow
-def test_types_and_limits_are_found_out(page: Terminals) -> None:
+def test_types_and_limits_are_shown(page: Terminals) -> None:
     robot = page.start("ros2 run bot_console_robot robot_node")  # the page's declares no range (N15)
 
     async def play(screen: Screen) -> None:
@@ -340,7 +340,7 @@ def test_types_and_limits_are_found_out(page: Terminals) -> None:
 
 
 @pytest.mark.slow
-def test_a_plug_in_of_ones_own_starts_and_stops_the_robot(page: Terminals) -> None:
+def test_own_plug_in_starts_and_stops_the_robot(page: Terminals) -> None:
     shutil.copytree(EXAMPLE, page.workspace / "src" / "my_robot_control", dirs_exist_ok=True)
     discover.use(discover.Workspace([page.workspace / "src"]))
     driver = page.start("ros2 run intelligent_robot robot_node")

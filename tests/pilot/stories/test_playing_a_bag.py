@@ -157,7 +157,7 @@ def test_a_domain_that_cannot_be_joined_is_reported(bag: Bag) -> None:
     run(bag, play, join=lambda: "no such domain")
 
 
-def test_it_plays_at_once_when_asked_to(bag: Bag) -> None:
+def test_bag_plays_at_once_on_request(bag: Bag) -> None:
     async def play(app: BagApp, pilot: Any, published: Published) -> None:
         assert published.next() == 0
         assert "▶ playing" in shown(app)

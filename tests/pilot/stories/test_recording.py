@@ -29,7 +29,9 @@ def test_same_key_starts_and_stops_recording(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("key", ["R", pytest.param("Z", marks=pytest.mark.slow)])
-def test_bag_does_not_offer_to_replace_what_exists(key: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_recording_does_not_offer_to_replace_an_existing_folder(
+    key: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.chdir(tmp_path)
 
     async def play(session: Session) -> None:

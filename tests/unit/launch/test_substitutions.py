@@ -205,19 +205,19 @@ def test_if_else_needs_at_least_one_value() -> None:
         IfElseSubstitution("true")
 
 
-def test_folder_of_the_log_can_be_extended() -> None:
+def test_log_folder_can_be_extended_with_a_slash() -> None:
     context = LaunchContext()
     assert (LaunchLogDir() / "x" / "y").perform(context) == f"{LaunchLogDir().perform(context)}/x/y"
 
 
-def test_path_stands_in_the_place_of_a_text(tmp_path: Path) -> None:
+def test_path_is_accepted_in_place_of_a_text(tmp_path: Path) -> None:
     context = LaunchContext()
     assert PathJoinSubstitution([tmp_path, "x"]).perform(context) == f"{tmp_path}/x"
     assert perform_substitutions(context, normalize_to_list_of_substitutions([tmp_path, "!"])) == f"{tmp_path}!"
 
 
 @pytest.mark.parametrize("kind", [FindPackageShare, FindPackagePrefix])
-def test_folder_of_a_package_can_be_extended(kind: Any) -> None:
+def test_package_folder_can_be_extended_with_a_slash(kind: Any) -> None:
     context = LaunchContext()
     found = kind("bot_console_robot")
     assert (found / "x").perform(context) == f"{found.perform(context)}/x"

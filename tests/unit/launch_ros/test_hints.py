@@ -134,6 +134,8 @@ def test_processes_of_a_launch_report_mistakes_with_their_lines(
         assert found[name] == expected, name
 
 
-def test_without_a_reader_they_print_the_words_of_ros_alone(launched: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_a_reader_processes_print_only_the_messages_of_ros(
+    launched: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.delenv(SHOW, raising=False)
     assert not any(launched().values())

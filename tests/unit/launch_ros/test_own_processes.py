@@ -89,12 +89,12 @@ print(is_chosen(shared_bus))
 """
 
 
-def test_program_that_can_meet_its_launch_has_its_own_process(run: Launch, script: Any, meets: None) -> None:
+def test_program_that_can_reach_its_launch_is_a_separate_process(run: Launch, script: Any, meets: None) -> None:
     node = Node(executable=script(WHERE), output="screen")
     assert lines_of(run([node]).text) == ["own"]
 
 
-def test_program_without_discovery_has_its_own_process_and_meets_nobody(
+def test_program_without_discovery_is_a_separate_process_and_finds_nobody(
     run: Launch, script: Any, meets: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF")
@@ -107,7 +107,7 @@ def test_program_joins_the_domain_that_its_launch_has_joined(run: Launch, script
 
 
 @pytest.mark.parametrize("joined", [True, False])
-def test_programs_of_an_isolated_system_have_processes_that_meet_in_a_folder_of_its_own(
+def test_programs_of_an_isolated_system_are_processes_that_meet_in_a_separate_folder(
     run: Launch, script: Any, socket_folder: str, joined: bool
 ) -> None:
     if joined:
@@ -164,7 +164,7 @@ def test_crash_without_listener_is_printed(run: Launch, script: Any) -> None:
 
 
 @pytest.mark.parametrize("wanted", ["thread", "box"])
-def test_isolation_other_than_process_is_rejected_with_what_holds(run: Launch, script: Any, wanted: str) -> None:
+def test_isolation_other_than_process_is_rejected_with_the_reason(run: Launch, script: Any, wanted: str) -> None:
     outcome = run([Node(executable=script(""))], {"isolation": wanted})
     expected = f"must be 'process', not '{wanted}': programs of yours always run in processes of their own"
     assert expected in outcome.text

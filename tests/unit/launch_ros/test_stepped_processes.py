@@ -317,7 +317,7 @@ def test_nodes_of_three_processes_meet_the_same_way_in_each_run(step: Any, nodes
         ("import os, signal; os.kill(os.getpid(), signal.SIGKILL)", -9),
     ],
 )
-def test_end_of_a_program_is_that_of_a_process(step: Any, nodes: Any, code: str, exit_code: int) -> None:
+def test_program_ends_as_a_process_does(step: Any, nodes: Any, code: str, exit_code: int) -> None:
     others = "import time\nfor each in range(4):\n    time.sleep(1)\nprint('went on')"
     done = step(*nodes(f"import time\ntime.sleep(2)\n{code}", others))
     assert done.exit_codes == [exit_code, 0] and "went on" in done.lines and done.deterministic

@@ -187,11 +187,13 @@ NOT_INHERITING: dict[str, Any] = {
 
 
 @pytest.mark.parametrize("how", NOT_INHERITING)
-def test_arguments_that_are_meant_are_not_reported(run: Launch, children: Any, how: str) -> None:
+def test_intended_arguments_are_not_reported(run: Launch, children: Any, how: str) -> None:
     assert not [each for each in warnings(run(NOT_INHERITING[how](*children))) if "inherits" in each]
 
 
-def test_argument_of_the_including_file_is_meant_for_the_included_one(run_file: Launch, children: Any) -> None:
+def test_argument_of_the_including_file_counts_as_intended_for_the_included_one(
+    run_file: Launch, children: Any
+) -> None:
     outer = f"""
     from launch import LaunchDescription
     from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription

@@ -4,7 +4,7 @@ from bot_console_robot.safety.latch import HAND_BACK, STEER, Latch, Request
 from bot_console_robot.safety.operator_silence import SILENCE_TIMEOUT_NS
 
 
-def test_silence_of_a_console_with_the_steering_locks() -> None:
+def test_silence_of_a_steering_console_locks_the_robot() -> None:
     latch = Latch()
     steer = Request(STEER, "anna", key="a")
     assert latch.request(steer, 0) and latch.steered_by == "anna"
@@ -14,7 +14,7 @@ def test_silence_of_a_console_with_the_steering_locks() -> None:
     assert latch.lock.held and latch.lock.holder == "anna" and not latch.steered_by
 
 
-def test_two_locks_make_the_same_stop_of_one_silence_and_another_of_the_next() -> None:
+def test_two_locks_make_the_same_stop_for_one_silence_and_another_for_the_next() -> None:
     here, there = Latch(), Latch()
     steer = Request(STEER, "anna", key="a", id="s1")
     for latch in (here, there):

@@ -72,7 +72,7 @@ def test_timer_is_due_at_the_next_pose_or_scan(robot: Robot) -> None:
     assert robot.poses == [5, 10]
 
 
-def test_rates_set_when_the_timer_is_due(robot: Robot) -> None:
+def test_rates_determine_when_the_timer_is_due(robot: Robot) -> None:
     robot.node.set_parameters([Parameter("odom_rate", value=33.0), Parameter("scan_rate", value=1.0)])
     robot.at(10)._tick()
     assert robot.next_tick == 30

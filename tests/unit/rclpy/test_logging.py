@@ -287,7 +287,7 @@ def test_remap_rule_with_invalid_name_is_warned_about_before_the_error(
 
 
 @pytest.mark.parametrize("name", [None, 5, "loud", ""])
-def test_what_names_no_severity_is_refused(name: Any) -> None:
+def test_unknown_severity_name_is_refused(name: Any) -> None:
     with pytest.raises(RuntimeError, match="Failed to get severity name"):
         logging.get_logging_severity_from_string(name)
 

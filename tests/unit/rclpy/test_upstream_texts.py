@@ -150,7 +150,7 @@ def test_callback_after_jumps_that_is_not_callable_counts_as_none() -> None:
 
 
 @pytest.mark.parametrize("threshold", [None, 5, "x", Duration(seconds=1)])
-def test_what_is_no_threshold_of_jumps_is_refused_at_once(threshold: Any) -> None:
+def test_invalid_jump_threshold_is_refused_at_once(threshold: Any) -> None:
     with pytest.raises(AttributeError, match="has no attribute 'min_forward'"):
         ROSClock().create_jump_callback(threshold, pre_callback=lambda: None)
 

@@ -17,7 +17,7 @@ CLIENTS = [
 
 
 @given(st.lists(st.tuples(st.booleans(), st.sampled_from(CLIENTS))))
-def test_tables_equal_a_list_of_all_endpoints(changes):
+def test_tables_agree_with_a_plain_list_of_endpoints(changes):
     tables, there = GraphTables(threading.RLock()), {}
     for comes, each in changes:
         if comes:

@@ -27,7 +27,7 @@ def heard() -> Iterator[list[Any]]:
     bus_of(0).overhear(None)
 
 
-def test_monitor_hears_unsubscribed_messages_and_is_not_counted(node: Any, heard: list[Any]) -> None:
+def test_monitor_receives_unsubscribed_messages_and_is_not_counted(node: Any, heard: list[Any]) -> None:
     publisher = node.create_publisher(String, "/words", 10)
     publisher.publish(String(data="to nobody"))
     assert [(number, each.data) for number, each in heard] == [(1, "to nobody")]

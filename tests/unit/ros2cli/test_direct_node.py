@@ -149,7 +149,7 @@ class Graph:
         ("", ("node base", "", "", "node other"), 2),
     ],
 )
-def test_graph_of_another_rclpy_is_given_time_for_what_a_verb_is_about(
+def test_graph_of_another_rclpy_gets_time_to_find_what_a_verb_names(
     monkeypatch: pytest.MonkeyPatch, about: str, parts: tuple[str, ...], seconds: int
 ) -> None:
     graph: Any = Graph(*parts)

@@ -39,7 +39,7 @@ def documented(tree: ast.Module) -> dict[str, str]:
     return {each.name: text for each in nodes if (text := ast.get_docstring(each))}
 
 
-def test_comments_belong_to_the_fields_above_beside_and_below_which_they_stand() -> None:
+def test_comments_above_beside_and_below_a_field_belong_to_it() -> None:
     [found] = comments(TEXT)
     assert found.whole == "A reading.\n\nindented"
     assert found.members["header"] == "the sensor"
@@ -66,7 +66,7 @@ def test_field_shows_its_comment_and_the_range_of_its_values() -> None:
     assert shown["note"] == "says '''that''' and \\n\n\nstring, at most 10 characters, default 'a # b'"
 
 
-def test_fields_named_like_types_do_not_stand_for_them() -> None:
+def test_fields_named_like_types_do_not_shadow_them() -> None:
     found = ast.unparse(module(TEXT))
     assert "def matrix(self) -> _NDArray[_numpy.float64]" in found
     assert "def int(self) -> _b.list[_b.bytes]" in found and "def property(self) -> _b.str" in found

@@ -19,7 +19,7 @@ def test_an_ending_says_when_and_how() -> None:
 
 
 @pytest.mark.parametrize("state", [ProcessState.RUNNING, ProcessState.STARTING, ProcessState.MISSING])
-def test_what_runs_or_never_ran_has_not_ended(state: ProcessState) -> None:
+def test_running_or_never_started_process_has_not_ended(state: ProcessState) -> None:
     assert ending_text(replace(ENDED, state=state), NOW) == "" == ending_text(replace(ENDED, ended=0), NOW)
 
 

@@ -124,7 +124,7 @@ def test_holding_is_reported_afterwards(tmp_path: os.PathLike[str]) -> None:
 
 
 @needs_a_file_in_memory
-def test_other_processes_can_see_it_meanwhile(tmp_path: os.PathLike[str]) -> None:
+def test_other_processes_can_see_the_holder_meanwhile(tmp_path: os.PathLike[str]) -> None:
     with begin(str(tmp_path), 100_000) as process:
         try:
             assert process.stdout is not None

@@ -138,11 +138,11 @@ def test_history_is_completed_by_other_watches_if_all_links_answered():
 
 
 @pytest.mark.parametrize("mesh", [Mesh(A, answers=False), Mesh(A, B), Mesh(A, direct=False)])
-def test_all_is_requested_if_that_is_uncertain(mesh):
+def test_whole_graph_is_requested_if_the_history_may_be_incomplete(mesh):
     assert taken_in(mesh, ["known"]) == [("asked", True)]
 
 
-def test_all_is_requested_if_other_watches_have_ended():
+def test_whole_graph_is_requested_if_other_watches_have_ended():
     assert taken_in(Mesh(A), None) == [("asked", True)]
 
 

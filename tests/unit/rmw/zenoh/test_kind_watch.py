@@ -63,7 +63,7 @@ def hears(heard: Heard) -> TokenCallback:
     return lambda key, came: heard.append((key, came))
 
 
-def test_listener_hears_existing_new_and_leaving_tokens_of_its_topic_only(watch, report):
+def test_listener_receives_existing_new_and_leaving_tokens_of_its_topic_only(watch, report):
     there, later, other = token("/a/b"), token("/a/b", 2), token("/a")
     report(there, True)
     report(other, True)
@@ -76,7 +76,7 @@ def test_listener_hears_existing_new_and_leaving_tokens_of_its_topic_only(watch,
     assert watch.known() == [later]
 
 
-def test_ended_listener_hears_nothing_and_new_one_hears_what_exists(watch, report):
+def test_ended_listener_receives_nothing_and_new_one_receives_existing_tokens(watch, report):
     heard: Heard = []
     first = watch.watch("/t", hears([]))
     report(token("/t"), True)
@@ -99,7 +99,7 @@ def test_tokens_that_left_or_are_unwatched_are_not_kept(watch, report):
     assert not watch._rows
 
 
-def test_few_topics_are_watched_singly_and_more_by_kind(session, monkeypatch):
+def test_few_topics_are_watched_individually_and_more_by_kind(session, monkeypatch):
     monkeypatch.setattr(watching, "SINGLE", 2)
     watches = Watches(cast("Any", session))
     heard: list[Token] = []
@@ -126,7 +126,7 @@ def test_few_topics_are_watched_singly_and_more_by_kind(session, monkeypatch):
     assert tokens_of(0, "MP", "/t4") in session.watches  # there is capacity for one more
 
 
-def test_all_listeners_in_a_mesh_hear_existing_new_and_leaving_tokens(socket_folder, monkeypatch):
+def test_all_listeners_in_a_mesh_receive_existing_new_and_leaving_tokens(socket_folder, monkeypatch):
     monkeypatch.setattr(watching, "SINGLE", 1)
     holder, watcher = open_session(0), open_session(0)
     topics = [f"/t{each}" for each in range(4)]

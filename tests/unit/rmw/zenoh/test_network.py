@@ -307,7 +307,7 @@ def test_link_that_always_answers_late_is_slow_but_not_silent(link):
     assert link.silent == 0.0
 
 
-def test_questions_asked_before_a_silence_ended_are_not_believed(link):
+def test_delays_of_queries_sent_before_a_silence_ended_are_ignored(link):
     link.pass_time(1.0, 0.25)
     link.pass_time(9.0, None)
     link.pass_time(STEP, 0.0)  # all open questions end at once, as when the link is dropped

@@ -115,7 +115,7 @@ def test_nodes_of_one_program_match_by_the_same_rules(console):
     until(lambda: heard, console)
 
 
-def test_a_log_longer_ago_than_its_lifespan_is_received(real, console):
+def test_log_lines_older_than_their_lifespan_are_received(real, console):
     base = real("MP", "/rosout", cache=1000)
     assert base.token.qos.lifespan.nanoseconds == 10_000_000_000
     minute_ago = time.time_ns() - 60_000_000_000

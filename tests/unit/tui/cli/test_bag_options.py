@@ -50,7 +50,7 @@ def parsed(line: str) -> argparse.Namespace:
         "record -a --compression-mode message --compression-threads-priority 3 --compression-queue-size 5",
     ],
 )
-def test_the_options_of_record_are_taken(line: str) -> None:
+def test_options_of_record_are_accepted(line: str) -> None:
     assert wrong_record(parsed(line)) == ""
 
 
@@ -76,7 +76,7 @@ def test_the_options_of_record_are_taken(line: str) -> None:
         "burst bag -n 5 --start-offset 2 --topics /a -m /a:=/b",
     ],
 )
-def test_the_options_of_play_are_taken(line: str) -> None:
+def test_options_of_play_are_accepted(line: str) -> None:
     assert wrong_play(parsed(line)) == ""
 
 

@@ -25,7 +25,7 @@ def test_silence_ends_only_a_console_that_steers(steers: bool, silence_s: float,
 
 
 @pytest.mark.parametrize("silence", [True, False], ids=["silent while steering", "server gone"])
-def test_console_is_hung_up_on(monkeypatch: pytest.MonkeyPatch, silence: bool) -> None:
+def test_silent_or_closed_browser_ends_the_console_with_sighup(monkeypatch: pytest.MonkeyPatch, silence: bool) -> None:
     hung_up = threading.Event()
     monkeypatch.setattr(module, "MAX_SILENCE_S", 0.0)
     monkeypatch.setattr(

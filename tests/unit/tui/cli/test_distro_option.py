@@ -30,14 +30,14 @@ def undecided(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
         ("warehouse --distro kilted", "warehouse"),
     ],
 )
-def test_option_is_taken_off_the_words(line: str, rest: str) -> None:
+def test_option_is_removed_from_the_arguments(line: str, rest: str) -> None:
     assert without_distro(line.split(), {"run", "ros2"}.__contains__) == rest.split()
     assert (os.environ["BOT_CONSOLE_DISTRO"], os.environ["ROS_DISTRO"]) == ("kilted", "kilted")
     assert distribution() is TABLE["kilted"]
 
 
 @pytest.mark.parametrize("line", ["run node.py --distro kilted", "ros2 run a b --distro=x", "warehouse"])
-def test_words_behind_a_command_are_left_alone(line: str) -> None:
+def test_arguments_after_a_command_are_left_alone(line: str) -> None:
     assert without_distro(line.split(), {"run", "ros2"}.__contains__) == line.split()
     assert distribution() is DEFAULT
 
@@ -60,6 +60,6 @@ def test_unknown_distribution_of_the_environment_is_refused(
         distribution()
 
 
-def test_each_difference_is_in_the_table_and_is_one() -> None:
+def test_each_row_of_the_table_differs_between_distributions() -> None:
     jazzy, kilted = TABLE["jazzy"], TABLE["kilted"]
     assert [name for name in Distribution._fields if getattr(jazzy, name) == getattr(kilted, name)] == []

@@ -88,7 +88,7 @@ def test_end_of_a_hang_is_reported(kept: tuple[HangWatch, Clock, list[str], Path
     assert "hung for 15 s" in path.read_text()
 
 
-def test_rest_is_not_a_hang(kept: tuple[HangWatch, Clock, list[str], Path]) -> None:
+def test_idle_console_is_not_a_hang(kept: tuple[HangWatch, Clock, list[str], Path]) -> None:
     watch, clock, reported, _ = kept
     watch.heartbeat()
     watch.rest()

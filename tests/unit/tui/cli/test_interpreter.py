@@ -30,7 +30,7 @@ def test_garbage_is_not_collected_until_start_is_complete() -> None:
         gc.unfreeze()
 
 
-def test_early_end_does_not_traverse_what_was_made() -> None:
+def test_early_exit_hides_created_objects_from_the_collector() -> None:
     class There:
         pass
 

@@ -12,7 +12,7 @@ from bot_console.tui.learn.command_log import open_log, read_log
 from processes.typed import typed
 
 
-def test_list_shows_steps_and_what_the_next_one_misses(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_list_shows_steps_and_what_the_next_one_still_needs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["--list", "--workspace", str(tmp_path)]) == 0
     printed = capsys.readouterr().out
     assert "○ A node with a parameter" in printed
@@ -46,7 +46,9 @@ def test_lint_names_the_line_of_a_mistake(tmp_path: Path, capsys: pytest.Capture
         (["--workspace", "nowhere"], 1, "there is no folder nowhere: make it (`mkdir -p nowhere/src`)"),
     ],
 )
-def test_what_is_not_there_is_named(words: list[str], code: int, text: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_missing_course_or_workspace_is_named(
+    words: list[str], code: int, text: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     assert run(words) == code
     assert text in capsys.readouterr().err
 

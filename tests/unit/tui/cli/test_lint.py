@@ -188,7 +188,7 @@ def test_our_own_robot_has_no_fault() -> None:
         ("Node(package='no_such_thing_at_all', executable='x')", ""),
     ],
 )
-def test_unknown_packages_of_launch_files_are_found(
+def test_unknown_packages_of_launch_files_are_reported(
     tmp_path: Path, written: str, meant: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "all.launch.py").write_text(f"def generate_launch_description():\n    return [{written}]\n")
@@ -198,7 +198,7 @@ def test_unknown_packages_of_launch_files_are_found(
     assert not meant or f"did you mean '{meant}'?" in line
 
 
-def test_packages_that_exist_are_not_found(tmp_path: Path) -> None:
+def test_existing_packages_of_launch_files_are_not_reported(tmp_path: Path) -> None:
     for name in ("one", "two"):
         (tmp_path / name).mkdir()
         (tmp_path / name / "package.xml").write_text(f"<package><name>{name}</name></package>")
@@ -208,7 +208,7 @@ def test_packages_that_exist_are_not_found(tmp_path: Path) -> None:
     assert [each.text() for each in lint_files([tmp_path / "one" / "all.launch.py"])] == []
 
 
-def test_unknown_packages_of_xml_are_found(tmp_path: Path) -> None:
+def test_unknown_packages_of_xml_launch_files_are_reported(tmp_path: Path) -> None:
     (tmp_path / "all.launch.xml").write_text(
         '<launch>\n  <node pkg="turtlesim" exec="a"/>\n  <node pkg="turtelsim" exec="a"/>\n'
         '  <node pkg="$(var which)" exec="a"/>\n</launch>'
@@ -217,7 +217,9 @@ def test_unknown_packages_of_xml_are_found(tmp_path: Path) -> None:
     assert (only.line, only.subject) == (3, "turtelsim") and "turtlesim" in only.hint
 
 
-def test_what_would_not_work_on_ros_is_found_in_packages(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_mistakes_that_would_only_fail_on_ros_are_found_in_packages(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     (tmp_path / "p").mkdir()
     (tmp_path / "package.xml").write_text(
         "<package><name>p</name><export><build_type>ament_python</build_type></export></package>"

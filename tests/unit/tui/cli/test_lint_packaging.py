@@ -179,7 +179,7 @@ def test_programs_of_cmake_are_checked_too(folder: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["std_msgs.py", "std_msgs/__init__.py", "rclpy.py"])
-def test_files_that_hide_what_is_imported_are_named(folder: Path, name: str) -> None:
+def test_files_that_shadow_imported_packages_are_named(folder: Path, name: str) -> None:
     (folder / "p" / name).parent.mkdir(exist_ok=True)
     (folder / "p" / name).write_text("")
     edit(folder, "packages=[package_name]", "packages=['p', 'p.std_msgs']")
@@ -188,7 +188,7 @@ def test_files_that_hide_what_is_imported_are_named(folder: Path, name: str) -> 
     assert only.startswith("p/talk.py:") and f"{what} beside it is imported" in only and f"rename {what}" in only
 
 
-def test_a_file_beside_that_nobody_imports_is_fine(tmp_path: Path) -> None:
+def test_shadowing_file_that_nobody_imports_is_not_reported(tmp_path: Path) -> None:
     (tmp_path / "queue.py").write_text("")
     (tmp_path / "node.py").write_text("import rclpy\nfrom . import queue\n")
     assert list(shadowed(tmp_path / "node.py")) == []

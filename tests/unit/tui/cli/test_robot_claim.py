@@ -159,7 +159,7 @@ def test_headless_runs_in_isolation_beside_a_console_that_is_starting_a_robot(tm
     first.release()
 
 
-def test_headless_robot_that_cannot_join_the_domain_meets_what_it_launches(monkeypatch, capsys):
+def test_headless_robot_that_cannot_join_the_domain_reaches_its_launched_programs(monkeypatch, capsys):
     apart = []
     monkeypatch.setattr(headless, "take_part", lambda: "the folder belongs to another user")
     monkeypatch.setattr(headless, "isolate_from_domain", lambda: apart.append(1))

@@ -65,7 +65,7 @@ def test_press_locks_and_is_shown_as_the_stop_of_this_console(rig: Rig) -> None:
     assert [each.here for each in info.stops] == [True]
 
 
-def test_stop_for_a_press_is_one_of_the_consoles_own_once_it_is_kept_and_each_new_stop_has_another_id(rig: Rig) -> None:
+def test_early_stop_becomes_the_consoles_own_once_kept_and_each_new_stop_has_another_id(rig: Rig) -> None:
     rig.link.hold_early("1")
     assert rig.settle().own_stops == frozenset()
     rig.link.settle_early("1", keep=True)

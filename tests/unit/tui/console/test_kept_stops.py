@@ -229,7 +229,7 @@ def test_a_release_is_repeated_as_long_as_the_locks_report(
     assert all(lock.lock.held for lock in rig.locks.values())
 
 
-def test_robot_is_held_again_where_a_release_that_was_given_up_arrives_late(
+def test_robot_is_held_again_if_an_abandoned_release_arrives_late(
     rig: StopRig, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     now = [0.0]

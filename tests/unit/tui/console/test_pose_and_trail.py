@@ -124,7 +124,7 @@ def stamped(second: float, x: float) -> Odometry:
     [(0.0, 1), (9.0, 3), (9.6, 3), (30.0, 3)],
     ids=["reset", "a second back, no more", "late message", "forward"],
 )
-def test_trail_and_scan_of_before_a_jump_back_in_time_are_forgotten(later: float, kept: int) -> None:
+def test_trail_and_scan_from_before_a_jump_back_in_time_are_forgotten(later: float, kept: int) -> None:
     context = Context()
     context.init([], domain_id=unused_domain())
     node = Node("console", context=context)

@@ -21,7 +21,7 @@ STRANGE = ["1e999", "-1e999", "NaN", "1" + "0" * 400, "-1", "[]", "{}", "null", 
 
 
 @pytest.mark.parametrize("value", STRANGE, ids=lambda each: each[:8])
-def test_system_in_the_background_is_none_or_does_not_run(tmp_path: Path, value: str) -> None:
+def test_damaged_record_of_a_background_system_is_ignored_or_not_running(tmp_path: Path, value: str) -> None:
     file = tmp_path / "background.json"
     for pid, words in ((value, '["indoor"]'), ("1", f"[{value}]"), ("1", value)):
         file.write_text(f'{{"pid": {pid}, "words": {words}, "log": "/tmp/a.log"}}')
@@ -29,7 +29,7 @@ def test_system_in_the_background_is_none_or_does_not_run(tmp_path: Path, value:
         assert found is None or (not found.runs() and found.reported())
 
 
-def test_process_that_no_system_can_have_does_not_run() -> None:
+def test_impossible_process_id_does_not_count_as_running() -> None:
     assert not any(Background(pid, (), "").runs() for pid in (-1, 0, 10**20))
 
 
@@ -53,7 +53,7 @@ def test_progress_that_cannot_be_read_is_reported_and_kept(tmp_path: Path, value
 
 
 @pytest.mark.parametrize("value", STRANGE, ids=lambda each: each[:8])
-def test_reports_before_a_strange_line_are_resumed(tmp_path: Path, value: str) -> None:
+def test_reports_before_an_invalid_line_are_resumed(tmp_path: Path, value: str) -> None:
     (tmp_path / "a.jsonl").write_text(f'{{"trial": "t", "report": {{}}}}\n{{"trial": {value}, "report": {value}}}\n')
     journal = TuningJournal(tmp_path, cast(Any, SimpleNamespace(digest="a")), resume=True)
     journal.close()
@@ -61,7 +61,7 @@ def test_reports_before_a_strange_line_are_resumed(tmp_path: Path, value: str) -
 
 
 @pytest.mark.parametrize("value", [each for each in STRANGE if each not in ("NaN", "-1")], ids=lambda each: each[:8])
-def test_curves_with_a_strange_window_are_read_or_refused(
+def test_curves_with_an_invalid_window_are_read_or_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, value: str
 ) -> None:
     monkeypatch.setenv(OVERRIDE, str(tmp_path))
@@ -75,6 +75,6 @@ def test_curves_with_a_strange_window_are_read_or_refused(
 
 
 @pytest.mark.parametrize("value", [10**5000, -1, None, [], {}, 1e308, True], ids=lambda each: type(each).__name__)
-def test_view_with_strange_values_has_the_defaults(value: object) -> None:
+def test_view_with_invalid_values_gets_the_defaults(value: object) -> None:
     assert view_state_of({"folds": [value], "mode": value, "rates": "x"}) == view_state_of({"folds": []})
     assert left_of({"filter": value, "closed": [value], "at": [value] * 3}) == left_of({})

@@ -166,6 +166,6 @@ def test_rqt_perspective_yields_its_panes() -> None:
         perspective_tree("plugin__rqt_x__X__1", RQT_PANES)
 
 
-def test_splits_hold_together() -> None:
+def test_split_needs_two_parts() -> None:
     with pytest.raises(ValueError, match="two parts"):
         Split("beside", ("a",), (1,))

@@ -227,7 +227,7 @@ def test_steps_may_be_done_in_any_order(tmp_path: Path) -> None:
     assert (held.view().title, held.view().done) == ("A", 1)
 
 
-def test_course_is_resumed_at_a_step_that_is_open(tmp_path: Path) -> None:
+def test_course_is_resumed_at_an_open_step(tmp_path: Path) -> None:
     held = lesson(tmp_path, TWO)
     held.go(1)
     held.observe(snapshot(), [change("speed", 2.0)], OnScreen())
@@ -269,7 +269,7 @@ def test_robot_has_to_drive_after_the_other_deeds_of_the_step(tmp_path: Path) ->
     assert drive(3.0, 3.5) == ["A"]
 
 
-def test_robot_that_is_put_elsewhere_has_not_driven(tmp_path: Path) -> None:
+def test_teleported_robot_does_not_count_as_driven(tmp_path: Path) -> None:
     held = lesson(tmp_path, "## A\n```step\nsaw-move 1\n```\n")
     for x in (0.0, 5.0, -5.0):
         assert held.observe(snapshot(world=WorldInfo(pose=Pose(x, 0.0, 0.0))), [], OnScreen()) == []
@@ -319,13 +319,13 @@ def test_command_that_ends_by_itself_counts_when_it_has_ended(tmp_path: Path) ->
     assert [each.works for each in read_log(str(path))] == [True]
 
 
-def test_value_that_a_restarted_node_has_was_set_by_nobody(tmp_path: Path) -> None:
+def test_value_of_a_restarted_node_does_not_count_as_set(tmp_path: Path) -> None:
     held = lesson(tmp_path, "## A\n```step\nsaw-set speed\n```\n")
     assert held.observe(snapshot(), [replace(change("speed", 2.0), by=RESTARTED)], OnScreen()) == []
     assert held.observe(snapshot(), [change("speed", 2.0)], OnScreen()) == ["A"]
 
 
-def test_node_that_does_not_answer_has_refused_nothing(tmp_path: Path) -> None:
+def test_missing_answer_does_not_count_as_a_refusal(tmp_path: Path) -> None:
     held = lesson(tmp_path, "## A\n```step\nsaw-refused speed\n```\n")
     silent = replace(change("speed", 2.0, accepted=False), answered=False)
     assert held.observe(snapshot(), [silent], OnScreen()) == []
@@ -348,7 +348,7 @@ def test_error_output_of_param_commands_is_recorded(
     ]
 
 
-def test_own_names_of_the_student_are_followed(tmp_path: Path) -> None:
+def test_students_own_names_are_recognised(tmp_path: Path) -> None:
     text = "## A\n```console\nros2 param list /{node}\n```\n```step\nsaw-node * with speed as node\n```\n"
     held = lesson(tmp_path, text)
     held.observe(snapshot(parameter("/my_own", "speed", 1.0)), [], OnScreen())
@@ -430,7 +430,7 @@ def test_course_has_unique_steps_that_ask_for_something() -> None:
     assert all(each.conditions for each in WEEK6.steps())
 
 
-def test_a_verb_of_ros2_that_was_interrupted_has_not_failed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_interrupted_ros2_verb_does_not_count_as_failed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from ros2cli import command_line
 
     log = tmp_path / "commands.jsonl"

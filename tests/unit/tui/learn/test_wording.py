@@ -61,7 +61,7 @@ def test_anything_between_words_of_a_command_is_one_ellipsis() -> None:
 @pytest.mark.parametrize(
     "condition", [each for step in read_course(COURSES / "week6").steps() for each in step.conditions]
 )
-def test_course_shows_no_verbs_and_no_patterns_but_of_file_names(condition: Condition, tmp_path: Path) -> None:
+def test_course_shows_no_condition_verbs_and_only_file_name_patterns(condition: Condition, tmp_path: Path) -> None:
     waits = missing(condition, Deeds(), WorkspaceFiles(tmp_path), {})
     for text in (waits, held_text(condition.verb, condition.words)):
         assert not any(verb in text for verb in VERBS)

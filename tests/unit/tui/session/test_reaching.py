@@ -85,7 +85,7 @@ def test_programs_that_a_console_in_the_domain_starts_stay_there(started: list[t
     assert any(ROBOT in each for each in started[0][1].args[1]), "the log of the console says so"
 
 
-def test_children_inherit_several_endpoints_and_certificates_but_settings_of_the_user_come_first(
+def test_children_inherit_several_endpoints_and_certificates_but_the_users_settings_take_precedence(
     tmp_path: Path,
 ) -> None:
     ca = tmp_path / "a;b=c.pem"

@@ -24,7 +24,7 @@ ACTING = ("Cc", "Cf", "Cs")
 
 @pytest.mark.parametrize("plain", [False, True])
 @pytest.mark.parametrize("text", HOSTILE)
-def test_nothing_that_acts_on_a_terminal_is_left_of_a_text(text: str, plain: bool) -> None:
+def test_control_sequences_are_removed_from_texts(text: str, plain: bool) -> None:
     for given_text in (text, f"before {text} behind"):
         cells = cells_of([Segment(given_text)], ColorSystem.TRUECOLOR, plain)
         assert not [each for each in "".join(cells.characters) if unicodedata.category(each) in ACTING]
@@ -41,7 +41,7 @@ def test_only_escape_sequences_of_the_console_are_written(text: str) -> None:
 
 
 @pytest.mark.parametrize("mark", "↶↷✗→▲")
-def test_signs_of_the_console_do_not_cause_the_rest_of_a_line_to_be_written_again(mark: str) -> None:
+def test_symbols_of_the_console_do_not_cause_the_rest_of_a_line_to_be_written_again(mark: str) -> None:
     screen = ShownScreen()
     screen.forget(80, 1)
     for text in (f"{mark}0.1  indoor", f"{mark}0.2  indoor"):
@@ -69,7 +69,7 @@ def test_change_after_a_character_of_uncertain_width_writes_all_that_follows() -
     assert "? and what follows" in written and "12:00" not in written
 
 
-def test_what_a_character_of_uncertain_width_has_moved_is_written_again_when_it_goes() -> None:
+def test_text_after_a_character_of_uncertain_width_is_written_again_when_it_disappears() -> None:
     assert "warning" in rewritten(Text("⚠ warning"), Text("- warning"))
 
 

@@ -77,7 +77,7 @@ def both(compositor: Any, *regions: Region) -> tuple[Any, Any]:
     "seed",
     [pytest.param(0, marks=pytest.mark.slow), *(pytest.param(each, marks=pytest.mark.soak) for each in range(1, 4))],
 )
-def test_changed_parts_are_composed_as_textual_does_it(seed: int) -> None:
+def test_changed_parts_are_composed_as_in_textual(seed: int) -> None:
     async def main() -> None:
         draw = random.Random(seed)
         app = Panes()
@@ -96,7 +96,7 @@ def test_changed_parts_are_composed_as_textual_does_it(seed: int) -> None:
     asyncio.run(main())
 
 
-def test_only_lines_that_are_drawn_are_asked_for() -> None:
+def test_only_lines_that_are_drawn_are_rendered() -> None:
     async def main() -> None:
         app = Panes()
         async with app.run_test(size=(WIDTH, HEIGHT)) as pilot:
@@ -117,7 +117,7 @@ def test_only_lines_that_are_drawn_are_asked_for() -> None:
     asyncio.run(main())
 
 
-def test_nothing_changed_is_nothing_to_draw() -> None:
+def test_nothing_is_drawn_if_nothing_changed() -> None:
     async def main() -> None:
         app = Panes()
         async with app.run_test(size=(WIDTH, HEIGHT)) as pilot:

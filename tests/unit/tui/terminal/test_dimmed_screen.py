@@ -80,9 +80,7 @@ def links(update: Any) -> bool:
 
 @pytest.mark.parametrize("names", slow_after(2, [[""], ["", "clear"], ["opaque"], ["clear"], ["", ""], ["opaque", ""]]))
 @pytest.mark.parametrize("colours", [True, False])
-def test_what_is_below_is_dimmed_as_textual_does_it(
-    names: list[str], colours: bool, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_screen_below_is_dimmed_as_in_textual(names: list[str], colours: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     if not colours:
         monkeypatch.setenv("NO_COLOR", "1")
 
@@ -112,7 +110,7 @@ def test_what_is_below_is_dimmed_as_textual_does_it(
     asyncio.run(main())
 
 
-def test_only_lines_that_are_drawn_are_asked_for() -> None:
+def test_only_lines_that_are_drawn_are_rendered() -> None:
     async def main() -> None:
         app = Panes()
         async with app.run_test(size=SIZE) as pilot:
@@ -131,7 +129,7 @@ def test_only_lines_that_are_drawn_are_asked_for() -> None:
     asyncio.run(main())
 
 
-def test_screen_that_is_left_twice_takes_no_other_screen_with_it() -> None:
+def test_dismissing_a_screen_twice_closes_no_other_screen() -> None:
     async def main() -> None:
         app = Panes()
         async with app.run_test(size=SIZE) as pilot:
@@ -151,7 +149,7 @@ def test_screen_that_is_left_twice_takes_no_other_screen_with_it() -> None:
     asyncio.run(main())
 
 
-def test_screen_that_is_over_while_another_is_in_front_is_left_afterwards() -> None:
+def test_screen_dismissed_behind_another_closes_once_that_one_has_closed() -> None:
     async def main() -> None:
         app = Panes()
         async with app.run_test(size=SIZE) as pilot:

@@ -23,7 +23,7 @@ class Failing(GuardedApp):
         return f"ended: {error}"
 
 
-def test_last_words_go_to_the_terminal_although_output_is_captured(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_final_message_goes_to_the_terminal_although_output_is_captured(monkeypatch: pytest.MonkeyPatch) -> None:
     terminal, log = io.StringIO(), io.StringIO()
     monkeypatch.setattr(sys, "__stderr__", terminal)
     monkeypatch.setattr(sys, "stderr", log)

@@ -112,7 +112,7 @@ def test_a_stalled_terminal_gets_ever_fewer_frames(gate: AnswerGate, clock: Cloc
     assert gate.wait() == pytest.approx(FRAME_TIMEOUT_S), "it answers again"
 
 
-def test_merged_frames_are_news_only_while_they_are_many_and_recent(gate: AnswerGate, clock: Clock) -> None:
+def test_merged_frames_are_reported_only_while_they_are_many_and_recent(gate: AnswerGate, clock: Clock) -> None:
     draw(gate)
     gate.answered()
     gate.merged()
@@ -128,7 +128,7 @@ def test_merged_frames_are_news_only_while_they_are_many_and_recent(gate: Answer
     assert gate.held_back == 0
 
 
-def test_only_a_terminal_that_answers_owes_something(gate: AnswerGate) -> None:
+def test_only_a_terminal_that_has_answered_before_has_pending_answers(gate: AnswerGate) -> None:
     draw(gate)
     assert not gate.owed, "perhaps it never answers"
     gate.answered()

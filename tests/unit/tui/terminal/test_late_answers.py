@@ -44,7 +44,7 @@ def terminal() -> Iterator[tuple[int, int]]:
     os.close(near)
 
 
-def test_owed_answers_are_read_before_the_terminal_is_left(terminal: tuple[int, int]) -> None:
+def test_pending_answers_are_read_before_the_terminal_is_left(terminal: tuple[int, int]) -> None:
     far, near = terminal
     driver = Driver(near, far, OWED + OWED + STATUS)
     driver.stop_application_mode()
@@ -52,7 +52,7 @@ def test_owed_answers_are_read_before_the_terminal_is_left(terminal: tuple[int, 
     assert not select.select([near], [], [], 0)[0]
 
 
-def test_terminal_that_owes_nothing_is_not_asked(terminal: tuple[int, int]) -> None:
+def test_terminal_without_pending_answers_is_not_queried(terminal: tuple[int, int]) -> None:
     far, near = terminal
     driver = Driver(near, far, b"")
     driver.stop_application_mode = lambda: driver.done.append("left")

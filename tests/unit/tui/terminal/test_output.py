@@ -125,7 +125,7 @@ def test_two_spans_of_one_line_are_both_drawn() -> None:
     run(script)
 
 
-def test_only_the_asked_part_of_a_widget_need_be_sent() -> None:
+def test_only_the_requested_part_of_a_widget_need_be_sent() -> None:
     async def script(app: Panes, pilot: Pilot[None]) -> None:
         app.query_one("#left").refresh(Region(0, 1, 2, 1))
         before = len(app.frames)
@@ -239,7 +239,7 @@ def test_what_changes_just_before_a_held_frame_is_drawn_is_not_lost(over: bool) 
     "seed",
     [0, pytest.param(1, marks=pytest.mark.slow), *(pytest.param(each, marks=pytest.mark.soak) for each in range(2, 6))],
 )
-def test_whatever_happens_while_frames_are_held_and_drawn(seed: int) -> None:
+def test_random_changes_while_frames_are_held_end_in_the_drawn_screen(seed: int) -> None:
     draw = random.Random(seed)
 
     async def change(app: Panes) -> None:

@@ -33,7 +33,7 @@ class Plain(StyledOnceApp):
         yield Parts()
 
 
-def test_a_part_is_styled_when_it_is_asked_for_and_follows_the_rules_from_then_on() -> None:
+def test_component_style_is_computed_on_demand_and_then_follows_the_rules() -> None:
     async def main() -> None:
         app = Plain()
         async with app.run_test() as pilot:
@@ -54,7 +54,7 @@ def test_a_part_is_styled_when_it_is_asked_for_and_follows_the_rules_from_then_o
     asyncio.run(main())
 
 
-def test_what_is_kept_of_a_part_follows_the_rules_and_its_own_style_is_asked_for_once_for_all_lines() -> None:
+def test_cached_component_style_follows_the_rules_and_is_computed_once_for_all_lines() -> None:
     async def main() -> None:
         app = Plain()
         async with app.run_test() as pilot:

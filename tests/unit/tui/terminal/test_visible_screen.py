@@ -86,7 +86,7 @@ async def come(app: Panes, pilot: Pilot[None]) -> None:
 
 
 @pytest.mark.parametrize("change", [grow, come])
-def test_what_happens_unseen_is_neither_laid_out_nor_drawn(change: Play) -> None:
+def test_hidden_changes_are_neither_laid_out_nor_drawn(change: Play) -> None:
     assert played(change)[:2] == (0, 0)
     if change is grow:
         assert played(change, Screen)[0] > 0, "which Textual does"
@@ -133,5 +133,5 @@ async def come_and_show(app: Panes, pilot: Pilot[None]) -> None:
     "change",
     [grow_and_show, hide_the_other, *slow_after(0, [show_and_hide, hide_all, grow_before_the_hidden, come_and_show])],
 )
-def test_what_is_seen_in_the_end_is_what_textual_shows(change: Play) -> None:
+def test_final_screen_equals_that_of_textual(change: Play) -> None:
     assert played(change)[2] == played(change, Screen)[2]

@@ -52,7 +52,7 @@ def test_another_seed_tries_other_settings() -> None:
     assert searched("random", (X, Y), 10, 1, hill) != searched("random", (X, Y), 10, 2, hill)
 
 
-def test_the_adaptive_search_comes_nearer_than_chance_does() -> None:
+def test_adaptive_search_comes_closer_than_random_search() -> None:
     def best(search: str) -> list[float]:
         return [max(each.score for each in searched(search, (X, Y), 30, seed, hill)) for seed in range(9)]
 

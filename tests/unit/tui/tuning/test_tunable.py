@@ -25,12 +25,12 @@ def test_a_value_stays_within_the_range(share: float, low: float, span: float) -
 
 
 @given(st.floats(0, 1))
-def test_a_share_leads_to_a_value_and_back_within_the_resolution(share: float) -> None:
+def test_share_converts_to_a_value_and_back_within_the_resolution(share: float) -> None:
     assert SPEED.share(SPEED.at(share)) == pytest.approx(share, abs=0.002)
 
 
 @pytest.mark.parametrize("tunable", [SPEED, LEVEL, SAFE])
-def test_what_is_beyond_the_range_counts_as_its_end(tunable: Tunable) -> None:
+def test_value_beyond_the_range_counts_as_its_end(tunable: Tunable) -> None:
     assert (tunable.share(tunable.low - 1), tunable.share(tunable.high + 1)) == (0.0, 1.0)
     assert (tunable.at(-1.0), tunable.at(2.0)) == (tunable.low, tunable.high)
 

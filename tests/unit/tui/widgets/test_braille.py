@@ -33,7 +33,7 @@ def pieces_by_cell(layers, styles, across):
 
 
 @pytest.mark.parametrize("seed", range(30))
-def test_canvases_are_what_they_are_dot_by_dot_and_cell_by_cell(seed):
+def test_canvases_equal_a_reference_drawn_dot_by_dot_and_cell_by_cell(seed):
     draw = np.random.default_rng(seed)
     width, height = int(draw.integers(1, 30)), int(draw.integers(1, 9))
     layers, styles = [], ["one", "two", "three"][: int(draw.integers(1, 4))]
@@ -48,5 +48,5 @@ def test_canvases_are_what_they_are_dot_by_dot_and_cell_by_cell(seed):
     assert layered(layers, styles, width, height) == pieces_by_cell(layers, styles, width)
 
 
-def test_no_canvas_is_a_blank_picture():
+def test_no_layers_give_a_blank_picture():
     assert layered([], [], 3, 2) == [[("   ", "")], [("   ", "")]]

@@ -35,7 +35,7 @@ def test_a_chain_is_a_straight_line() -> None:
     """)
 
 
-def test_it_can_run_down() -> None:
+def test_a_chain_can_run_downwards() -> None:
     lines = draw(graph("talker>/chatter", "/chatter>listener"), DOWN).text().split("\n")
     assert [line.strip() for line in lines] == [
         "╭────────╮", "│ talker │", "╰────────╯", "│", "▼", "/chatter", "│", "▼",
@@ -49,7 +49,7 @@ def test_a_topic_with_two_listeners_branches() -> None:
     assert any(junction in text for junction in "┤┬┴├")
 
 
-def test_the_way_back_of_a_loop_runs_below() -> None:
+def test_the_backward_line_of_a_loop_runs_below() -> None:
     text = draw(graph("simulator>/scan", "/scan>safety", "safety>/cmd_vel", "/cmd_vel>simulator"), RIGHT).text()
     lines = text.split("\n")
     assert lines[-1].strip().startswith("╰") and lines[-1].strip().endswith("╯")

@@ -69,7 +69,7 @@ def test_a_chain_runs_to_the_right_where_there_is_room() -> None:
     """)
 
 
-def test_what_leads_back_runs_on_the_right() -> None:
+def test_backward_lines_run_on_the_right() -> None:
     found = chart("simulator>safety: scan odom", "safety>simulator: cmd_vel")
     drawing = draw_chart(found, 60, 20)
     readable(found, drawing)
@@ -138,7 +138,7 @@ def test_no_later_line_runs_through_an_arrow_head() -> None:
     readable(found, drawn(found, planned(found, Style(rightward=9, slack=10), 80)))
 
 
-def test_without_frames_what_leads_back_from_several_boxes_has_a_row_of_its_own() -> None:
+def test_without_frames_backward_lines_from_several_boxes_have_a_separate_row() -> None:
     found = chart("a|b>c: x", "a|b>d: x", "c>a|b: x", "c>d: x", "d>a|b: x")
     readable(found, drawn(found, planned(found, Style(slack=4, framed=False), 80)))
 

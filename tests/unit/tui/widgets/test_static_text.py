@@ -35,7 +35,7 @@ def drawn(widget: StaticText) -> list[int]:
     return sorted({y for region in widget._repaint_regions for y in region.line_range})
 
 
-def test_only_lines_that_are_others_are_drawn() -> None:
+def test_only_changed_lines_are_drawn() -> None:
     async def main() -> None:
         app = PrintedText()
         async with app.run_test(size=(20, 8)) as pilot:

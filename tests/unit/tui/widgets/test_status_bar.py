@@ -27,7 +27,7 @@ def test_only_errors_that_were_not_acknowledged_are_counted() -> None:
     assert "error" not in status_text(snapshot, acknowledged=3)
 
 
-def test_a_stop_where_no_robot_is_reports_that_nothing_is_there_to_stop() -> None:
+def test_a_stop_without_a_robot_reports_that_there_is_nothing_to_stop() -> None:
     nobody = DriveInfo(stopped=True, stopped_here=True)
     assert "STOP REACHES NOBODY: no robot listens for commands" in status_text(ConsoleSnapshot(drive=nobody))
     for robot in (DriveInfo(stopped=True, topic="/cmd_vel"), DriveInfo(stopped=True, lockable=True)):

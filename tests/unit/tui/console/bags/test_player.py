@@ -173,7 +173,7 @@ def test_the_time_is_published_before_messages(bag: Bag) -> None:
     assert [published.messages.get_nowait()[0] for _ in range(COUNT)] == ["/number"] * COUNT
 
 
-def test_several_bags_are_played_in_one_order(bag: Bag, tmp_path: Path) -> None:
+def test_several_bags_are_merged_by_time(bag: Bag, tmp_path: Path) -> None:
     writer = BagWriter(tmp_path / "other")
     writer.topic("/other", Int32, [])
     writer.write("/other", serialize_message(Int32(data=77)), BEGIN + 3 * SECOND + 1, 0)

@@ -63,7 +63,7 @@ def test_program_that_a_shell_started_has_its_own_command(tmp_path: Path) -> Non
     assert [each.group[1] for each in machine.found()] == ["my_node.py", "bot-console run a b"]
 
 
-def test_what_a_known_launch_host_or_this_console_started_is_not_found_again(tmp_path: Path) -> None:
+def test_processes_of_a_known_launch_host_or_of_this_console_are_not_listed_again(tmp_path: Path) -> None:
     machine = Machine(tmp_path)
     machine.runs(301, FORKS, "/opt/talker", nodes=("/talker",))
     machine.runs(os.getpid(), SHELL, "bot-console")
@@ -88,7 +88,7 @@ def test_nodes_of_a_launched_program_are_known_even_if_it_started_them_through_a
     assert machine.found(LaunchInfo(processes=(ended, named)))[0].nodes == ("/mine",)
 
 
-def test_it_is_the_same_object_until_something_changes(tmp_path: Path) -> None:
+def test_launch_info_is_the_same_object_until_something_changes(tmp_path: Path) -> None:
     machine = Machine(tmp_path)
     launch = LaunchInfo()
     assert machine.search.beside(launch) is launch

@@ -83,7 +83,7 @@ def test_a_failed_start_is_answered_with_the_reason():
     assert (answer.result().ok, answer.result().text) == (False, "node-1: no such file")
 
 
-def test_over_reported_before_the_exit_leaves_the_process_running():
+def test_end_of_the_action_before_the_exit_leaves_the_process_running():
     process = running()
     assert process.over() is Order.NOTHING
     assert process.info.state is ProcessState.RUNNING

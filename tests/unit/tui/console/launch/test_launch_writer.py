@@ -123,7 +123,7 @@ def launched(node: str, *command: str) -> LaunchInfo:
     return LaunchInfo(processes=(ProcessInfo("k", "p-1", ProcessState.RUNNING, nodes=(node,), program=program),))
 
 
-def test_what_is_unknown_is_marked(tmp_path: Path) -> None:
+def test_unknown_values_are_marked(tmp_path: Path) -> None:
     managed = Endpoint("/known/get_state", ("lifecycle_msgs/srv/GetState",))
     nodes = (node("/known", managed), node("/ns/ghost"), node("/_hidden"), node("/launch_ros_7"))
     found = write_launch(
@@ -159,7 +159,7 @@ def test_the_nodes_of_a_program_are_known_by_its_process_and_those_of_a_containe
     assert "launch_params_" not in text and 'cmd=["sleep", "9"]' in text and "gone" not in text
 
 
-def test_names_are_no_code(tmp_path: Path) -> None:
+def test_names_cannot_inject_code(tmp_path: Path) -> None:
     evil = 'x"\nimport os\n#'
     info = GraphInfo((node(f"/{evil}"), node("/known")))
     write_launch(tmp_path / "a", RunningSystem(info, launched("/known", "/bin/x", f'"),\n{evil}')))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from bot_console.tui.console.launch.ros_arguments import RosArguments, read_ros_arguments
 
 
-def test_words_are_sorted_by_what_they_are_for() -> None:
+def test_arguments_are_sorted_by_purpose() -> None:
     words = "--fast --ros-args -r __node:=bob -r __ns:=/ns -r a:=b -p x:=1 --params-file f.yaml --log-level warn -- -v"
     assert read_ros_arguments(words.split()) == RosArguments(
         ("--fast", "-v"),

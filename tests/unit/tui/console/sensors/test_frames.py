@@ -126,7 +126,7 @@ def test_findings_are_described_in_text() -> None:
     assert list(findings(Frames(frames[3:4]), 10.0)) == []
 
 
-def test_frames_of_before_a_jump_back_in_time_are_forgotten() -> None:
+def test_frames_from_before_a_jump_back_in_time_are_forgotten() -> None:
     bench = Bench()
     bench.watch.poll(True, GRAPH)
     bench.reported("base", "laser", fixed=True, at=50.0)

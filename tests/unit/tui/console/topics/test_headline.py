@@ -55,7 +55,7 @@ def test_odometry_says_where_the_robot_is_and_how_it_moves() -> None:
     assert headline(message, "nav_msgs/msg/Odometry") == "x -3.20 m  y 1.00 m  0.60 m/s  -0.20 rad/s"
 
 
-def test_line_is_no_longer_than_a_column_can_be() -> None:
+def test_summary_fits_the_widest_column() -> None:
     assert len(headline(String(data="x" * 10_000), "std_msgs/msg/String")) == MAX_CHARACTERS
 
 

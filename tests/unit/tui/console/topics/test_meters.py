@@ -100,7 +100,7 @@ def test_messages_that_waited_count_when_they_were_received(time: Time) -> None:
     assert found.age == pytest.approx(0.05)
 
 
-def test_a_middleware_without_time_of_reception_has_the_time_of_taking(time: Time) -> None:
+def test_without_a_reception_time_the_time_of_taking_counts(time: Time) -> None:
     meter = Meter(True, time.time_ns)
     for _ in range(5):
         time.now += 0.1

@@ -110,7 +110,7 @@ def test_the_newest_message_is_shown_as_lines(console: RosConsole) -> None:
     until(lambda: "no topic /nowhere" in console.topics.heard().problem, "the problem")
 
 
-def test_a_topic_is_heard_with_the_qos_that_is_asked_for(console: RosConsole, robot: Robot) -> None:
+def test_a_topic_is_subscribed_to_with_the_requested_qos(console: RosConsole, robot: Robot) -> None:
     def reliabilities() -> set[ReliabilityPolicy]:
         return {each.qos_profile.reliability for each in robot.node.get_subscriptions_info_by_topic("/odom")}
 

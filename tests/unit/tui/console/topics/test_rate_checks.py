@@ -52,7 +52,7 @@ def test_a_topic_without_messages_is_late_only_after_a_while() -> None:
     assert [each.measured for each in rig.after(10)] == ["nothing", "nothing"]
 
 
-def test_whether_a_provisional_rate_is_late_is_not_known() -> None:
+def test_a_provisional_rate_is_neither_late_nor_on_time() -> None:
     rig = Rig()
     rig.checks.expect({"/scan": ExpectedTopic(rate=1.0)})
     rig.topics.figures = {"/scan": Measure(rate=12.0, age=0.0, provisional=True)}

@@ -21,14 +21,14 @@ def test_step_of_the_speed_is_reported_with_the_time_that_it_took() -> None:
     assert effects.of(7) == effects.of(8) == "speed 0.5 → 1.0 m/s in 0.8 s" and effects.of(6) == ""
 
 
-def test_speed_that_stays_is_no_effect() -> None:
+def test_constant_speed_is_not_an_effect() -> None:
     effects = Effects()
     drive(effects, 0.0, 2.0, lambda at: 0.5 + 0.02 * math.sin(9 * at))
     effects.changed([1], 2.0)
     assert not drive(effects, 2.0, 2 * WATCH_S, lambda at: 0.5 + 0.02 * math.sin(9 * at)) and effects.of(1) == ""
 
 
-def test_next_change_ends_what_came_after_the_one_before() -> None:
+def test_next_change_ends_the_effect_of_the_previous_one() -> None:
     effects = Effects()
     drive(effects, 0.0, 1.0, lambda _: 0.5)
     effects.changed([1], 1.0)

@@ -24,7 +24,7 @@ def test_changes_of_one_operation_are_one_row() -> None:
     assert sizes(change(1, "a", 1.0), change(2, "b", 1.1), change(3, "c", 1.2)) == [3]
 
 
-def test_other_operations_times_and_runs_are_rows_of_their_own() -> None:
+def test_other_operations_times_and_runs_are_separate_rows() -> None:
     assert sizes(change(1, "a", 1.0), change(2, "b", 1.1, by="indoor")) == [1, 1]
     assert sizes(change(1, "a", 1.0), change(2, "b", 9.0)) == [1, 1]
     assert sizes(replace(change(-1, "a", 1.0), run=5), change(0, "b", 1.1)) == [1, 1]
@@ -49,7 +49,7 @@ def test_open_set_lists_its_changes_and_counts_the_unsafe_ones() -> None:
     assert len(grown) == 4, "it stays open while changes are added"
 
 
-def test_line_of_time_marks_changes_refusals_and_the_row_at_the_cursor() -> None:
+def test_timeline_marks_changes_refusals_and_the_row_at_the_cursor() -> None:
     refused = replace(change(2, "b", 5.0, ChangeSource.EDIT, ""), accepted=False)
     rows = [change(3, "c", 11.0, ChangeSource.EDIT, ""), refused, change(1, "a", 1.0, ChangeSource.EDIT, "")]
     text = "".join(piece for piece, _ in time_strip(rows, rows[0], 41))

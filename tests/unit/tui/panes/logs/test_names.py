@@ -28,7 +28,7 @@ def test_name_of_a_node_that_has_left_is_remembered() -> None:
     assert names.of("arm.left.zoo") == "/arm/left/zoo"
 
 
-def test_a_long_name_keeps_its_end_behind_an_ellipsis() -> None:
+def test_a_long_name_is_cut_at_the_start() -> None:
     record = LogRecord(0, 0, Severity.INFO, "x", "hello")
     assert "…_of_names/talker1 hello" in line_text(record, "/a_long_namespace_of_names/talker1", 60)
     assert "/talker            hello" in line_text(record, "/talker", 60)

@@ -33,7 +33,7 @@ def row(comparison: Comparison, name: str) -> ComparedValue:
     return next(each for each in comparison.rows if each.name == name)
 
 
-def test_columns_are_what_runs_and_each_other_profile() -> None:
+def test_columns_are_the_running_values_and_each_other_profile() -> None:
     assert compare().titles == ("● indoor", "competition", "slow")
     changed = replace(snapshot(), profile_changes=2)
     found = compared(changed, [profile("indoor"), profile("slow")], None, lambda name: SLOW, 100)

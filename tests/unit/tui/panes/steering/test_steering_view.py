@@ -30,7 +30,7 @@ def planed(asked: tuple[float, float] | None, robot: tuple[float, float] | None)
 
 
 @pytest.mark.parametrize("velocity", [(1.0, 2.0), (-1.0, -2.0), (0.0, 0.0), (0.4, -2.0)])
-def test_mark_is_where_the_mouse_asks_for_its_velocity(velocity: tuple[float, float]) -> None:
+def test_mark_is_where_the_mouse_would_request_its_velocity(velocity: tuple[float, float]) -> None:
     drawn = planed(velocity, None)
     assert velocity_at(drawn, *place(drawn, ASKED), (1.0, 2.0)) == pytest.approx(velocity)
 
@@ -42,7 +42,7 @@ def test_robot_beyond_the_limits_is_at_the_edge_and_beside_the_plane_is_no_veloc
     assert velocity_at(drawn, 0, 3, (1.0, 2.0)) is None and velocity_at(drawn[1:], 9, 3, (1.0, 2.0)) is None
 
 
-def test_robot_that_does_what_is_asked_is_one_mark() -> None:
+def test_robot_at_the_requested_velocity_is_one_mark() -> None:
     drawn = "\n".join(planed((0.5, 0.0), (0.5, 0.0)))
     assert BOTH in drawn and ASKED not in drawn and ROBOT not in drawn
 
@@ -62,7 +62,7 @@ def test_unconfirmed_stop_of_a_robot_without_a_lock_fits_80_columns() -> None:
     assert len(line) <= INNER[0]
 
 
-def test_disarmed_plane_shows_what_the_robots_program_asks() -> None:
+def test_disarmed_plane_shows_the_velocity_requested_by_the_robots_program() -> None:
     ahead = replace(driving(), asked=(1.0, 0.0), actual=None)
     state = Steering(greatest=(1.0, 1.0))
     column, row = place(texts(state, ahead)[6:], ASKED)

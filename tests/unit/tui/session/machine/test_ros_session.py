@@ -12,7 +12,7 @@ from bot_console.tui.console.model import Severity
 from bot_console.tui.session.machine import ros
 
 
-def test_first_line_of_the_log_says_where_ros_2_searches(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_first_line_of_the_log_names_the_search_range_of_ros_2(monkeypatch: pytest.MonkeyPatch) -> None:
     lines: list[tuple[Severity, str]] = []
 
     class Screen:
