@@ -10,7 +10,7 @@ from bot_console.tui.console.plot.port import Plots, Samples
 from bot_console.tui.panes.alarms.condition import Condition, read
 
 MAX_SAMPLES = 50
-"""Samples of one path that are looked at in one turn; of more the newest count."""
+"""Maximum number of samples of one path that are processed per poll; older ones are skipped."""
 
 
 @dataclass(frozen=True)
@@ -23,12 +23,12 @@ class AlarmText:
 
     @property
     def data(self) -> dict[str, object]:
-        """As plain data, for a file."""
+        """The alarm as plain data, for a file."""
         return {"name": self.name, "condition": self.condition, **({"bell": True} if self.bell else {})}
 
 
 def texts_of(data: object) -> list[AlarmText]:
-    """The alarms of a file, without invalid entries and conditions."""
+    """The alarms in a file's data, without invalid entries and conditions."""
     found: list[AlarmText] = []
     for each in cast("list[object]", data) if isinstance(data, list) else []:
         given = cast("Mapping[str, Any]", each) if isinstance(each, Mapping) else dict[str, Any]()
@@ -44,22 +44,22 @@ def texts_of(data: object) -> list[AlarmText]:
 
 @dataclass
 class Alarm:
-    """The state of a condition as samples arrive."""
+    """An alarm: tracks whether its condition holds as samples arrive."""
 
     text: AlarmText
     condition: Condition
     holds: bool | None = None
-    """None: not known, since a value is missing or cannot be worked out."""
+    """Whether the condition holds; None while a value is missing or the condition cannot be evaluated."""
     since: float = 0.0
-    """When it came to be so, in s of the axis of all series."""
+    """When `holds` last changed, in s on the time axis of all series."""
     times: int = 0
-    """How often it has begun to hold."""
+    """How often the condition has become true."""
     values: dict[str, float] = field(default_factory=dict[str, float])
     problem: str = ""
     untold: list[float] = field(default_factory=list[float])
-    """The values at which it has begun to hold, of the times that nobody was told of."""
+    """The values at which the condition became true since the last notice."""
     reported: float = float("-inf")
-    """When somebody was told last, in s of the pane's clock."""
+    """The time of the last notice, in s of the pane's clock."""
     _cursors: dict[str, int] = field(default_factory=dict[str, int])
 
     @classmethod

@@ -1,8 +1,8 @@
 """Conditions over topics and parameters, such as `/battery/percentage < 0.2 and /odom/twist.twist.linear.x > 1`. Pure.
 
 condition  = comparison {and|or comparison}, `and` before `or`
-comparison = expression with < <= > >= == != between two or more of them
-expression = what `tui.text.expression` takes, over paths; `true` and `false` are 1 and 0
+comparison = two or more expressions with < <= > >= == != between them
+expression = an expression of `tui.text.expression` over paths; `true` and `false` are 1 and 0
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ AND, OR, EITHER = re.compile(r"and\b"), re.compile(r"or\b"), re.compile(r"(?:and
 
 @dataclass(frozen=True)
 class Comparison:
-    """Expressions with comparisons between them, all of which must hold."""
+    """Two or more expressions with comparison operators between them, all of which must hold."""
 
     sides: tuple[Tree, ...]
     operators: tuple[str, ...]
@@ -57,7 +57,7 @@ class Condition:
         return any(all(each.holds(known) for each in every) for every in self.alternatives)
 
     def compared(self, values: Mapping[str, float]) -> float | None:
-        """What the first comparison compares, such as the least range of a scan; None while it is not known."""
+        """The left side of the first comparison, such as the minimum range of a scan; None while it is unknown."""
         try:
             return float(value_of(self.alternatives[0][0].sides[0], {**WORDS, **values}))
         except ValueError:
@@ -118,7 +118,7 @@ class _ConditionReader(Reader):
 
 
 def _check(side: Tree, paths: tuple[str, ...]) -> None:
-    """Find errors in an expression before there are values, as the grammar does not depend on them."""
+    """Evaluate an expression with made-up values, to find the errors that do not depend on the values."""
     if any(isinstance(each, Span) for each in walk(side)):
         raise ValueError("a length of time stands in curves of the plot only; an alarm is judged at each message")
     for value in (1.0, 0.5):

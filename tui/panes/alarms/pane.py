@@ -26,14 +26,14 @@ from textual.app import ComposeResult
 REQUESTER, SUGGESTING = "alarms", "alarms suggested"
 STATE_NAME = "alarms"
 SAMPLE_POLL_S, LIST_POLL_S, MISSING_PATH_POLL_S = 0.2, 1.0, 1.0
-"""Seconds between two checks of the samples, of the list, and of paths that are not there yet."""
+"""Seconds between two polls of the samples, two updates of the list, and two tries to watch a missing path."""
 NOTICE_S = 8.0
-"""Seconds that a notice stands; the times that an alarm begins to hold meanwhile are told with its next one."""
+"""Seconds for which a notice is shown; an alarm that becomes active again meanwhile is counted in its next notice."""
 MAX_ALARMS = 100
-"""Alarms that there can be."""
+"""Maximum number of alarms."""
 EXAMPLE = "/battery/percentage < 0.2"
 NAMED = re.compile(r"([^/<>=()]+?):\s+(.+)")
-"""A name, a colon and blanks, a condition."""
+"""A name, a colon, blanks and a condition."""
 
 UNNAMED: Mapping[str, str] = {"alarms.edit": "", "alarms.delete": "", "alarms.bell": ""}
 SUGGESTED_KEYS: Mapping[str, str] = {**UNNAMED, "alarms.edit": "Watch"}
@@ -61,20 +61,20 @@ class AlarmsPane(ListPane):
     BINDINGS = keymap.bindings("alarms")
 
     clock: Callable[[], float] = staticmethod(time.monotonic)
-    """Seconds of a steady clock; tests give one that they step."""
+    """A monotonic clock (s); tests replace it with one that they step."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
         self._alarms: list[Alarm] = []
         self._holding: list[str] = []
-        """The names of those that hold, as they were told last."""
+        """The names of the active alarms that `AlarmsHold` reported last."""
         self._waiting: dict[str, str] = {}
-        """Paths that cannot be watched now, and why."""
+        """Paths that cannot be watched yet, and why."""
         self._checks: Sequence[RateCheck] = ()
         """The topics whose rates are expected."""
         self._polled = self._drawn = self._asked = float("-inf")
         self._suggested: list[Alarm] = []
-        """The suggestions that are shown while there is no alarm and the pane is visible; only then is it watched."""
+        """The suggestions, shown while there is no alarm; their paths are watched only while the pane is visible."""
 
     def compose(self) -> ComposeResult:
         """The alarms, details of the one at the cursor, and a prompt."""
@@ -95,14 +95,14 @@ class AlarmsPane(ListPane):
 
     @property
     def key_words(self) -> Mapping[str, str]:
-        """No key for what the row at the cursor does not allow; Enter watches a suggestion."""
+        """Hide the keys that do not apply to the row at the cursor; on a suggestion, Enter is labelled Watch."""
         row = self._list.current if self.has_parts else None
         if row is not None and row.suggested:
             return SUGGESTED_KEYS
         return {} if row is not None and not row.expected else UNNAMED
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Redraw the list when expected rates or suggestions are others; all else in it changes with time."""
+        """Redraw the list if the expected rates or suggestions have changed, otherwise once per `LIST_POLL_S`."""
         before = self._checks, self._suggested
         self._checks = snapshot.rate_checks
         self._suggest(() if self._alarms or self._checks else templates(snapshot.graph.topics))
@@ -111,7 +111,7 @@ class AlarmsPane(ListPane):
             self._arrange()
 
     def _suggest(self, texts: Sequence[AlarmText]) -> None:
-        """Suggest these alarms, and receive what they need and no more."""
+        """Suggest these alarms, and watch exactly the paths that they need."""
         before = {each.text: each for each in self._suggested}
         if list(before) == list(texts):
             return
@@ -237,7 +237,8 @@ class AlarmsPane(ListPane):
             self._ask("alarm", f"{alarm.text.name}: {alarm.text.condition}", alarm)
 
     def _ask(self, label: str, text: str, old: Alarm | None) -> None:
-        suggestions = self.console.plots.plottable()  # these leave the old text unselected: usually its end is edited
+        # A prompt with suggestions does not select the old text: usually its end is edited.
+        suggestions = self.console.plots.plottable()
         check, then = partial(self._wrong, old), partial(self._take, old)
         self.ask(Line(label, then, text=text, check=check, suggestions=suggestions))
 
@@ -288,7 +289,7 @@ class AlarmsPane(ListPane):
             self._keep()
 
     def action_bell(self) -> None:
-        """Switch the terminal's bell of the alarm at the cursor on or off."""
+        """Turn the terminal bell on or off for the alarm at the cursor."""
         alarm = self._current
         if alarm is not None:
             alarm.text = AlarmText(alarm.text.name, alarm.text.condition, not alarm.text.bell)

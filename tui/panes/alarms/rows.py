@@ -17,7 +17,7 @@ from textual.message import Message
 
 STATES = {True: ("✗", "active", "error"), False: ("○", "quiet", "good"), None: ("?", "unknown", "warn")}
 MAX_NAME_CELLS, STATE_CELLS, AGE_CELLS = 24, 11, 8
-"""Cells of the name at most, of the state, and of how long it is so."""
+"""Maximum cells of the name, and cells of the state and of the time since it changed."""
 
 NO_VALUE = "no value yet"
 SUGGESTED_VALUE = 6 + len(NO_VALUE)
@@ -26,14 +26,14 @@ SUGGESTED_VALUE = 6 + len(NO_VALUE)
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """An alarm as shown."""
+    """An alarm, an expected rate or a suggested alarm as shown."""
 
     name: str
     condition: str
     bell: bool
     holds: bool | None
     age: int
-    """Whole seconds for which it is so."""
+    """Whole seconds since `holds` last changed."""
     times: int
     value: str
     expected: bool = False
@@ -43,7 +43,7 @@ class Row:
 
 
 def row_of_suggestion(alarm: Alarm) -> Row:
-    """The row of an alarm that is suggested, with what its condition compares now."""
+    """The row of a suggested alarm, with the value that its condition compares now."""
     text = alarm.text
     value = alarm.condition.compared(alarm.values)
     shown = NO_VALUE if value is None else f"now {value:.3g}"
@@ -51,7 +51,7 @@ def row_of_suggestion(alarm: Alarm) -> Row:
 
 
 def row_of(alarm: Alarm, now: float) -> Row:
-    """The row of an alarm at a time (s) of the axis of all series."""
+    """The row of an alarm at a time (s) on the time axis of all series."""
     values = ", ".join(f"{alarm.values[each]:.4g}" for each in alarm.paths if each in alarm.values)
     age = max(0, int(now - alarm.since)) if alarm.holds is not None else 0
     text = alarm.text
@@ -71,7 +71,7 @@ class AlarmRows(ItemList[Row]):
         """The selected row was clicked."""
 
     def key(self, item: Row) -> object:
-        """The alarm's name, which may also be that of an expected topic."""
+        """The name, and whether the row is an expected rate: an alarm may have the name of an expected topic."""
         return item.name, item.expected
 
     def matches(self, index: int, query: Query) -> bool:

@@ -1,4 +1,4 @@
-"""Alarms that are suggested while there are none: conditions over the topics that are there. Pure."""
+"""The alarms that are suggested while there are none: conditions over the existing topics. Pure."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ _BOOL: Mapping[str, str] = {"collision": "{topic}/data == true"}
 
 
 def templates(topics: Iterable[Endpoint]) -> tuple[AlarmText, ...]:
-    """Suggestions for these topics; several topics of a type follow in the order of their names.
+    """Suggested alarms for these topics, topics in the fewest namespaces first, then in order of name.
 
-    In each namespace, of all topics of a type only the one with the shortest name is suggested: the others are mostly
-    made from it, such as `/scan_filtered` from `/scan`, and whatever is suggested is received.
+    In each namespace, only the topic with the shortest name is used of each type: the others are mostly derived from
+    it, such as `/scan_filtered` from `/scan`, and every suggestion costs a subscription.
     """
     chosen: dict[tuple[str, str], str] = {}
     for topic in sorted(topics, key=lambda each: (len(each.name), each.name)):
@@ -45,7 +45,7 @@ def templates(topics: Iterable[Endpoint]) -> tuple[AlarmText, ...]:
 
 
 def _conditions(topic: str, kind: str) -> Mapping[str, str]:
-    """The conditions that are suggested for a topic, by their names."""
+    """The conditions suggested for a topic, by name."""
     if kind == "std_msgs/msg/Bool":
         return _BOOL if _COLLISION.search(topic) else {}
     return _BY_TYPE.get(kind, {})

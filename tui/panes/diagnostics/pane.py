@@ -1,4 +1,4 @@
-"""The diagnostics pane: the status of every part of the robot, the worst of it propagated upwards."""
+"""The diagnostics pane: the status of every part of the robot, as a tree whose parents show the worst level below."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from textual.containers import Container
 POLL_S = 0.5
 """Seconds between two refreshes."""
 MIN_SIDE_BY_SIDE_CELLS = 110
-"""Cells from which the list and what is at the cursor stand side by side."""
+"""Minimum width (cells) at which the list and the details are shown side by side."""
 EMPTY = Placeholder(
     "What nodes report about themselves: no node publishes diagnostics (diagnostic_msgs/msg/DiagnosticArray) yet.",
     (("3", "Nodes and topics that are there"), ("8", "Start nodes"), ("?", "Help")),
@@ -50,7 +50,7 @@ class DiagnosticsPane(ListPane):
     BINDINGS = keymap.bindings("diagnostics")
 
     clock: Callable[[], float] = staticmethod(time.monotonic)
-    """Seconds of the steady clock by which statuses were heard; tests give one that they step."""
+    """The monotonic clock (s) with which arriving statuses are stamped; tests replace it with one that they step."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
@@ -60,7 +60,7 @@ class DiagnosticsPane(ListPane):
         self._folded: frozenset[str] = frozenset()
         self._polled = 0.0
         self._due = 0.0
-        """When something here is a second older, and perhaps stale, with nothing new having come."""
+        """When the next status grows a second older, and perhaps stale, so that the list changes without new data."""
 
     def compose(self) -> ComposeResult:
         """The tree, details of the row at the cursor, and a prompt."""
@@ -74,7 +74,7 @@ class DiagnosticsPane(ListPane):
         return self.query_one(StatusRows)
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Update the reason why there may be no diagnostics."""
+        """Update at once if the reason why there may be no diagnostics has changed, otherwise once per `POLL_S`."""
         if snapshot.problem != self._problem:
             self._problem = snapshot.problem
             self._due = 0.0
@@ -98,7 +98,7 @@ class DiagnosticsPane(ListPane):
             self._arrange()
 
     def _arrange(self) -> None:
-        """Show what passes the filter."""
+        """Show the statuses that pass the filter."""
         every = self._info.statuses
         passing = [each for each in every if not self._query.terms or matches(each, self._query)]
         now = self.clock()
@@ -147,7 +147,7 @@ class DiagnosticsPane(ListPane):
         self.set_filter("")
 
     def action_bad_only(self) -> None:
-        """Show only what is not OK, or everything."""
+        """Switch between showing only what is not OK and everything."""
         self._bad_only = not self._bad_only
         self._arrange()
 

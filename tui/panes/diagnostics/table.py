@@ -19,11 +19,11 @@ LEVEL_STYLES = {
     Level.ERROR: ("✗", "error"),
     Level.STALE: ("◌", "warn"),
 }
-"""Sign and style of each level; the word stands beside it, so that nothing is told by colour alone."""
+"""Sign and style of each level; its name is written beside it, so that colour alone never carries the meaning."""
 LEVEL_CELLS, AGE_CELLS = 7, 6
-"""Cells of level and age."""
+"""Cells of the level and of the age."""
 MAX_NAME_CELLS = 40
-"""Cells that a name takes at most."""
+"""Maximum cells of a name."""
 
 
 class StatusRows(ItemList[Row]):

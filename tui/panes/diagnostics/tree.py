@@ -20,11 +20,11 @@ class Row:
     status: Status | None = field(default=None, compare=False)
     message: str = ""
     age: int = 0
-    """Whole seconds since it, or the one below it that is silent longest, was heard."""
+    """Whole seconds since its status arrived; without one, since the oldest status below it arrived."""
     count: int = 0
-    """How many stand below it."""
+    """Number of statuses below it."""
     bad: int = 0
-    """How many of those are not OK."""
+    """Number of statuses below it that are not OK."""
     folded: bool = False
 
 
@@ -46,7 +46,7 @@ def matches(status: Status, query: Query) -> bool:
 
 
 def rows(statuses: Sequence[Status], now: float, folded: Collection[str] = (), *, bad_only: bool = False) -> list[Row]:
-    """The tree at a time (s of the steady clock), sorted by name; with `bad_only` without what is OK."""
+    """The tree at a time (s of the monotonic clock), sorted by name; `bad_only` leaves out statuses that are OK."""
     top = _Part("")
     for status in statuses:
         if bad_only and status.now(now) is Level.OK:

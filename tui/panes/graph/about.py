@@ -1,4 +1,4 @@
-"""A node, a topic, a service or an action, described in a line. Pure."""
+"""One-line descriptions of nodes, topics, services and actions. Pure."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bot_console.tui.text.sanitize import counted, sanitize
 
 
 def summary(info: GraphInfo, item: str, hides_name: Callable[[str], bool]) -> str:
-    """One line on a node or a topic; of the topics of a node, those whose names are hidden are counted apart."""
+    """Describe an item in one line; of a node's topics, those that `hides_name` hides are counted separately."""
     if not item:
         return ""
     if item.startswith(SPACE):
@@ -44,7 +44,7 @@ def _number(ends: Sequence[Endpoint], hides_name: Callable[[str], bool]) -> str:
 
 
 def server_types(info: GraphInfo, item: str) -> list[str]:
-    """The types of a service or action, and its servers."""
+    """The types of a service or action, followed by a text that names its servers."""
     kind, _, name = item.partition(":")
     found: dict[str, None] = {}
     servers: list[str] = []
@@ -57,7 +57,7 @@ def server_types(info: GraphInfo, item: str) -> list[str]:
 
 
 def warning(publishers: list[str], subscribers: list[str]) -> str:
-    """The unusual thing about a topic with these endpoints; empty if there is none."""
+    """A remark on a topic that lacks publishers or subscribers; otherwise empty."""
     if not publishers:
         return " - nobody publishes it: is the name right?"
     return " - no subscriber" if not subscribers else ""
@@ -83,5 +83,5 @@ def types_of(info: GraphInfo, topic: str) -> tuple[str, ...]:
 
 
 def node_of(info: GraphInfo, name: str) -> NodeInfo | None:
-    """The node with that name."""
+    """The node with this name, or None."""
     return next((each for each in info.nodes if each.name == name), None)

@@ -1,4 +1,4 @@
-"""Nodes and topics as a flow chart: what leads from one box to another is one line with words on it. Pure."""
+"""Nodes and topics as a flow chart: everything from one box to another is drawn as one labelled line. Pure."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from bot_console.tui.text.sanitize import counted, cut_name, sanitize
 from bot_console.tui.widgets.diagram.flow_chart.model import Chart, ChartBox, ChartLink
 
 LINE = "line:"
-"""Begins the id of a line between two boxes."""
+"""Prefix of the id of a line between two boxes."""
 KINDS = {TOPIC: "", SERVICE: "srv ", ACTION: "act "}
 MAX_LENGTH = 40
 """Maximum characters of a name."""
 RATE_CELLS = 6
-"""Cells kept for a rate, so that the drawing stays as it is while the rate changes."""
+"""Cells reserved for a rate, so that the drawing does not move when the rate changes."""
 LOOP = "↺"
 
 Pair = tuple[str, str]
-"""A box that sends and one that receives."""
+"""A sending box and a receiving box."""
 
 
 @dataclass(frozen=True)
@@ -32,13 +32,13 @@ class Bundles:
     chart: Chart = field(default_factory=Chart)
     links: Mapping[str, tuple[str, ...]] = field(default_factory=dict[str, tuple[str, ...]])
     looped: frozenset[str] = frozenset()
-    """The topics that lead from a node to itself."""
+    """The topics, services and actions that lead from a node to itself."""
     faults: frozenset[Pair] = frozenset()
-    """Edges of the drawing on which something does not arrive."""
+    """Edges of the drawing on which messages do not arrive."""
 
     @property
     def drawn(self) -> set[str]:
-        """Everything that stands on a line or in a box."""
+        """Every topic, service and action that is drawn on a line or in a box."""
         return {each for line in self.links.values() for each in line} | self.looped
 
 
@@ -50,10 +50,10 @@ def bundled(
     rates: Mapping[str, str],
     states: Mapping[str, str],
 ) -> Bundles:
-    """The chart of boxes and of edges between boxes and links (topics, services, actions).
+    """Make a chart of nodes and folded namespaces from their edges to and from links (topics, services, actions).
 
     `members` is the number of nodes in each folded namespace, `faults` are triples of publisher, topic and subscriber
-    between which nothing arrives, `rates` are texts by topic, and `states` those of lifecycle nodes.
+    between which no messages arrive, `rates` are texts by topic, and `states` the states of lifecycle nodes by name.
     """
     boxes = sorted(nodes)
     between = _between(edges)
@@ -90,7 +90,7 @@ def bundled(
 
 
 def _between(edges: Iterable[Pair]) -> dict[Pair, set[str]]:
-    """The links from one box to another; what stays within a folded namespace is left out."""
+    """The links from one box to another, without those that stay within a folded namespace."""
     sources: dict[str, set[str]] = {}
     targets: dict[str, set[str]] = {}
     for a, b in edges:
@@ -113,7 +113,7 @@ def _loop(group: tuple[str, ...], words: Mapping[Pair, tuple[str, ...]]) -> str:
 
 
 def _alike(boxes: list[str], words: Mapping[Pair, tuple[str, ...]]) -> list[tuple[str, ...]]:
-    """Boxes that exchange the same words with the same boxes; each of the others is a group of its own."""
+    """Group boxes that have the same labels to and from the same boxes; any other box is a group by itself."""
     ends: dict[str, set[tuple[str, str, tuple[str, ...]]]] = {}
     for (a, b), found in words.items():
         ends.setdefault(a, set()).add(("to", "" if a == b else b, found))
@@ -126,7 +126,7 @@ def _alike(boxes: list[str], words: Mapping[Pair, tuple[str, ...]]) -> list[tupl
 
 
 class _Names:
-    """Short names: the last part, unless two short names would be the same."""
+    """Shortens names to their last part, unless two of them would become the same."""
 
     def __init__(
         self, boxes: Iterable[str], links: Iterable[str], members: Mapping[str, int], states: Mapping[str, str]
@@ -139,7 +139,7 @@ class _Names:
     def box(self, box: str) -> str:
         name = box.removeprefix(SPACE)
         space = box.startswith(SPACE)
-        # Beside folded namespaces, a node says which one it is in.
+        # If namespaces are folded, the full name shows which namespace a node is in.
         unique = self._boxes[_last(name)] == 1 and (space or not self._members)
         text = cut_name(sanitize(_last(name) if unique else name), MAX_LENGTH)
         if space:
@@ -149,7 +149,7 @@ class _Names:
     def words(
         self, pair: Pair, links: Iterable[str], faulty: Collection[str], rates: Mapping[str, str] = MappingProxyType({})
     ) -> tuple[str, ...]:
-        """The links of a pair in words: what fails first, a namespace with several as one word."""
+        """The labels of a pair's links, faulty ones first; several links in one namespace share a label."""
         spaces: dict[tuple[str, str], list[str]] = {}
         for link in sorted(links):
             kind, _, name = link.partition(":")
@@ -181,7 +181,7 @@ class _Names:
 
 
 def state_mark(state: str) -> str:
-    """The mark behind the name of a lifecycle node."""
+    """The state of a lifecycle node as it is appended to the node's name; empty if there is none."""
     return f" ({sanitize(state)})" if state else ""
 
 

@@ -1,4 +1,4 @@
-"""Everything known about an item of the graph; each line leads to something. Pure."""
+"""Everything known about an item of the graph, as options, most of which lead to another item or pane. Pure."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.prompt.question import Option
 
 ITEM, DETAIL, PANE, TYPE = "item ", "detail ", "pane ", "type "
-"""How the values of options begin: an item to select, one whose details to list, a pane with a name in it, a type."""
+"""Prefixes of option values: an item to select, an item whose details to list, a pane and a name in it, a type."""
 NODE_ENDS = (
     ("publishes", TOPIC, "publishers"),
     ("subscribes to", TOPIC, "subscriptions"),
@@ -24,7 +24,7 @@ NODE_ENDS = (
 
 
 def details(snapshot: ConsoleSnapshot, item: str) -> list[Option]:
-    """The lines of an item: a node's ends, parameters and process; a link's types and nodes."""
+    """The options of an item: a node's endpoints, parameters and process, or a link's types and nodes."""
     if item.startswith(TOPIC):
         return list(_topic(snapshot.graph, item.removeprefix(TOPIC)))
     if item.startswith((SERVICE, ACTION)):
@@ -79,7 +79,7 @@ def _topic(info: GraphInfo, name: str) -> Iterator[Option]:
 
 
 def line_options(info: GraphInfo, links: Iterable[str]) -> list[Option]:
-    """Everything that a line stands for, with types and ends."""
+    """The links that a line represents, with their types and nodes."""
     found: list[Option] = []
     for link in links:
         kind, _, name = link.partition(":")

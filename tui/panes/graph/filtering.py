@@ -1,4 +1,4 @@
-"""The filter of the graph: which nodes and topics are drawn, and how a word of it may go on. Pure."""
+"""The filter of the graph: which nodes and topics are drawn, and how a filter word is completed. Pure."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ Term = NodeTerm | TextTerm
 
 
 def filtered(ids: set[str], edges: Sequence[tuple[str, str]], query: Query, *, both_ends: bool) -> set[str]:
-    """The items that pass, with what is linked to them; an excluding word excludes nodes and topics of that name.
+    """The items that pass, with the items linked to them; an excluding word removes the nodes and topics it matches.
 
-    Each word has to hold for a part of a connection: `navigator scan` are the topics with `scan` of the navigator. With
-    `both_ends`, a connection is a topic with a publisher and a subscriber, else a topic with one of them.
+    Each word has to match a part of a connection: `navigator scan` finds the navigator's topics with `scan` in their
+    names. With `both_ends`, a connection is a topic with a publisher and a subscriber, otherwise with one of them.
     """
     if not query.terms:
         return ids
@@ -34,7 +34,7 @@ def filtered(ids: set[str], edges: Sequence[tuple[str, str]], query: Query, *, b
 
 
 def _triples(edges: Iterable[tuple[str, str]]) -> Iterable[tuple[str, ...]]:
-    """Each topic with each pair of its publishers and subscribers, or with those that it has."""
+    """Each topic with each pair of a publisher and a subscriber; if it lacks either, with each node that it has."""
     sources: dict[str, list[str]] = {}
     targets: dict[str, list[str]] = {}
     for a, b in edges:
@@ -56,7 +56,7 @@ def matches(item: str, query: Query) -> bool:
 
 
 def holds(term: Term, item: str) -> bool:
-    """Whether a word stands in the name of an item."""
+    """Whether a filter word matches the name of an item."""
     if is_link(item):
         return isinstance(term, TextTerm) and Query.found(term, item.partition(":")[2], "")
     name = item.removeprefix(SPACE)

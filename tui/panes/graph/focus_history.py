@@ -1,4 +1,4 @@
-"""The focused item of the graph, with a history to go back and forth in. Pure."""
+"""The focused item of the graph, with a history that can be walked back and forth. Pure."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class FocusHistory:
     _ahead: list[Focus] = field(default_factory=lambda: [])
 
     def go(self, item: str) -> None:
-        """Focus on an item; the same one again widens it by a hop."""
+        """Focus on an item; focusing on the same one again widens the focus by a hop."""
         wider = self.now.hops + 1 if item == self.now.item else 1
         self._behind.append(self.now)
         self._ahead.clear()

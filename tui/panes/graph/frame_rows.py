@@ -1,4 +1,4 @@
-"""The list of frames as it is drawn: the tree, and how often, when and by whom each frame was published."""
+"""The rows of the list of frames: the tree, and how often, when and by whom each frame is published."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from rich.segment import Segment
 
 RATE_CELLS, AGE_CELLS = 9, 7
 MAX_NAME_CELLS = 44
-"""Cells that a name takes at most."""
+"""Maximum cells of a name."""
 
 
 class FrameRows(ItemList[FrameRow]):
     """One frame per row."""
 
     def key(self, item: FrameRow) -> object:
-        """The frame's name, as its place in the tree may change."""
+        """The frame's name: its place in the tree may change."""
         return item.name
 
     def row(self, index: int, width: int) -> list[Segment]:
