@@ -37,7 +37,7 @@ class BagPlayback:
 
     @property
     def state(self) -> PlaybackState:
-        """The player's state, or before it first publishes the settings for it."""
+        """The state of the player; before it first publishes, the settings for it."""
         player, problem = self._player, self._waiting.problem
         if player is None or problem:
             return self._waiting
