@@ -56,13 +56,13 @@ def control_bag(suffix: str) -> Callable[[str], None]:
     def run(text: str) -> None:
         from bot_console.tui.console.bags.definitions import class_of
         from bot_console.tui.console.bags.playing.control_topics import controls, left_out_warning
-        from bot_console.tui.console.bags.playing.player import Player, Playing
+        from bot_console.tui.console.bags.playing.player import PlaybackOptions, Player
         from bot_console.tui.console.bags.reader import Bag
 
         path = FOLDER / f"control{suffix}"
         path.write_bytes(text.encode("latin-1", "replace"))
         bag = Bag(path)
-        player = Player(node(), bag, Playing(), class_of)
+        player = Player(node(), bag, PlaybackOptions(), class_of)
         played = {each for each in bag.topics if each not in player.left_out and each not in player.unknown}
         for each in player._publishers.values():
             node().destroy_publisher(each)
@@ -99,7 +99,7 @@ def control_seeds(storage: str) -> Callable[[], Sequence[str]]:
     """Bags of a stop, its release and the states of the locks, beside commands and a topic that is played."""
 
     def seeds() -> Sequence[str]:
-        from bot_console.tui.console.bags.writer import BagWriter, Writing
+        from bot_console.tui.console.bags.writer import BagWriter, WritingOptions
         from bot_console_robot.safety.latch import RELEASE, STOP, Latch, Request
         from bot_console_robot.safety.stop_messages import State, request_message, state_message
         from geometry_msgs.msg import Twist
@@ -123,7 +123,7 @@ def control_seeds(storage: str) -> Callable[[], Sequence[str]]:
             ("/chatter", String(data="a")),
         ]
         folder = FOLDER / f"control-seed-{storage}"
-        writer = BagWriter(folder, Writing(storage=storage))
+        writer = BagWriter(folder, WritingOptions(storage=storage))
         for number, (topic, message) in enumerate(recorded):
             writer.topic(topic, type(message), [{"depth": 10, "durability": "transient_local"}])
             writer.write(topic, serialize_message(message), 10**9 + number, 10**9 + number)

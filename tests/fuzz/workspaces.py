@@ -75,11 +75,11 @@ def convert_options(text: str) -> None:
 @cache
 def _bag() -> Path:
     """A bag with one message."""
-    from bot_console.tui.console.bags.writer import BagWriter, Writing
+    from bot_console.tui.console.bags.writer import BagWriter, WritingOptions
     from rclpy.serialization import serialize_message
     from std_msgs.msg import String
 
-    writer = BagWriter(FOLDER / "one-message", Writing(storage="mcap"))
+    writer = BagWriter(FOLDER / "one-message", WritingOptions(storage="mcap"))
     writer.topic("/chatter", String, [{"depth": 10}])
     writer.write("/chatter", serialize_message(String(data="a")), 10**9, 10**9)
     writer.close()

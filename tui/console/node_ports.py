@@ -9,7 +9,7 @@ from dataclasses import fields, replace
 from typing import TYPE_CHECKING
 
 from bot_console.tui.console.bags.node_bags import NodeBags
-from bot_console.tui.console.bags.port import GenericTypes, Keeper
+from bot_console.tui.console.bags.port import GenericTypes, SnapshotKeeper
 from bot_console.tui.console.command_gate import READ_ONLY, Gate
 from bot_console.tui.console.graph.node_graph import NodeGraph
 from bot_console.tui.console.launch.elsewhere import Elsewhere
@@ -43,7 +43,7 @@ class NodePorts:
         *,
         launch_info: Callable[[], LaunchInfo],
         link: Callable[[], LinkInfo],
-        buffer: Keeper | None,
+        buffer: SnapshotKeeper | None,
         types: TypeSource | None,
         generic: GenericTypes | None,
         processes: Callable[[], Mapping[int, Sequence[str]]],

@@ -13,7 +13,7 @@ from collections.abc import Callable, Container, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from bot_console.tui.console.bags.port import GenericTypes, Keeper
+from bot_console.tui.console.bags.port import GenericTypes, SnapshotKeeper
 from bot_console.tui.console.command_gate import CLOSED
 from bot_console.tui.console.launch.elsewhere import Elsewhere
 from bot_console.tui.console.model import Capabilities, LaunchInfo, LinkInfo, Severity
@@ -54,7 +54,7 @@ class RosConsole(NodePorts):
         link: Callable[[], LinkInfo] = lambda: NO_LINK,
         foreign: bool = False,
         fetch: Callable[[str], Path] | None = None,
-        buffer: Keeper | None = None,
+        buffer: SnapshotKeeper | None = None,
         halted: HaltedNodes | None = None,
         types: TypeSource | None = None,
         generic: GenericTypes | None = None,

@@ -9,7 +9,7 @@ from pathlib import Path
 from bot_console.tui.arrangement.arrival import System
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.tune.background_tuner import LocalTuner
-from bot_console.tui.console.bags.port import Keeper
+from bot_console.tui.console.bags.port import SnapshotKeeper
 from bot_console.tui.console.launch.elsewhere import Elsewhere
 from bot_console.tui.console.model import LaunchInfo, Severity
 from bot_console.tui.console.ros_console import RosConsole
@@ -52,7 +52,7 @@ class Connected:
         options: Options,
         message: Sequence[tuple[Severity, str]] = (),
         system: Callable[[RosConsole], ClosableLauncher] = embedded,
-        buffer: Keeper | None = None,
+        buffer: SnapshotKeeper | None = None,
     ) -> None:
         """`message` contains early lines for the log; `system` makes the launcher, in this process by default.
 

@@ -13,9 +13,9 @@ import yaml
 from bot_console.tui.cli.bags.play import report_repaired
 from bot_console.tui.cli.bags.record_arguments import wanted_topics
 from bot_console.tui.console.bags.definitions import class_of, definition
+from bot_console.tui.console.bags.merged_bags import MergedBags
 from bot_console.tui.console.bags.reader import Bag
-from bot_console.tui.console.bags.together import BagsTogether
-from bot_console.tui.console.bags.writer import BagWriter, Writing
+from bot_console.tui.console.bags.writer import BagWriter, WritingOptions
 from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.text.yaml_faults import UNREADABLE
 
@@ -76,11 +76,11 @@ def _write(bags: list[Any], output: Mapping[str, Any]) -> None:
             sanitize(f"{output['uri']}: ignored, since nothing here depends on it: {', '.join(unknown)}"),
             file=sys.stderr,
         )
-    bag = BagsTogether(bags)
+    bag = MergedBags(bags)
     wanted = wanted_topics(_filters(output), lambda _: True, lambda _: True)
     writer = BagWriter(
         Path(str(output["uri"])),
-        Writing(
+        WritingOptions(
             str(output.get("storage_id") or "mcap"), str(output.get("storage_preset_profile") or "none"),
             str(output.get("compression_mode") or "none").lower(), _read(output, "max_bagfile_size", int, 0),
             _read(output, "max_bagfile_duration", float, 0.0), _read(output, "custom_data", dict, {}),

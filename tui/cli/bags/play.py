@@ -102,10 +102,10 @@ def progress_line(player: Player) -> str:
 
 def _prepare(given: argparse.Namespace) -> tuple[Node, Player] | int:
     """Create a node and a player; if that fails, print why and return the exit code."""
-    from bot_console.tui.console.bags.playing.player import Player, Playing
+    from bot_console.tui.console.bags.merged_bags import MergedBags
+    from bot_console.tui.console.bags.playing.player import PlaybackOptions, Player
     from bot_console.tui.console.bags.qos import read_overrides
     from bot_console.tui.console.bags.reader import Bag
-    from bot_console.tui.console.bags.together import BagsTogether
     from rclpy.logging import LoggingSeverity
 
     if wrong := wrong_play(given):
@@ -125,9 +125,9 @@ def _prepare(given: argparse.Namespace) -> tuple[Node, Player] | int:
     if node is None:
         return 1
     node.get_logger().set_level(LoggingSeverity[given.log_level.upper()])
-    bag = BagsTogether(bags)
+    bag = MergedBags(bags)
     named, chosen = chosen_topics(given)
-    how = Playing(
+    how = PlaybackOptions(
         rate=given.rate,
         offset=given.start_offset,
         end=end_of(given, bag.span[0]),

@@ -67,10 +67,10 @@ def record(given: argparse.Namespace) -> int:
 
 
 def _writing(given: argparse.Namespace) -> Any:
-    from bot_console.tui.console.bags.writer import Writing
+    from bot_console.tui.console.bags.writer import WritingOptions
 
     custom = dict(each.split("=", 1) for each in given.custom_data)
-    return Writing(
+    return WritingOptions(
         given.storage, given.storage_preset_profile, given.compression_mode, given.max_bag_size,
         given.max_bag_duration, custom,
     )  # fmt: skip

@@ -14,7 +14,7 @@ from bot_console.tui.cli.bags.common import generic_types, join_domain, named_fo
 from bot_console.tui.cli.bags.play_arguments import ON_MACHINE, add_burst_arguments, add_play_arguments
 from bot_console.tui.cli.bags.record_arguments import add_record_arguments
 from bot_console.tui.console.bags.damage import NoBag
-from bot_console.tui.console.bags.missing_packages import Missing
+from bot_console.tui.console.bags.missing_packages import MissingPackageError
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.session.machine.console_needs import provide_missing
@@ -30,7 +30,7 @@ def run(words: Sequence[str]) -> int:
         return 1
     try:
         return given.run(given)
-    except (Missing, NoBag, NotSaved) as error:
+    except (MissingPackageError, NoBag, NotSaved) as error:
         print(sanitize(str(error)), file=sys.stderr)
         return 1
     except KeyboardInterrupt:  # before there was a node that handles it

@@ -54,9 +54,9 @@ class Contents:
                 raise
             self.damage = str(error)
         for name in self.of_type(LOG):
-            self._each(name, self._log)
+            self._for_each(name, self._log)
         for name in self.of_type(EVENTS):
-            self._each(name, self._parameters)
+            self._for_each(name, self._parameters)
         self._find_world()
 
     def _read(self, bag: Bag) -> None:
@@ -108,7 +108,7 @@ class Contents:
         """The size in bytes of a topic's messages."""
         return sum(len(data) for _, data in self._messages[topic])
 
-    def _each(self, topic: str, take: Callable[[int, Any], None]) -> None:
+    def _for_each(self, topic: str, take: Callable[[int, Any], None]) -> None:
         for stamp, message in self.messages(topic):
             take(stamp, message)
 

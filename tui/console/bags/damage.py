@@ -63,7 +63,7 @@ def repair(path: Path, shown: Path) -> str:
             return ""
         beside = path.with_suffix(".repairing")
         try:
-            behind, cut = _write_whole(file, size, beside)
+            behind, cut = _copy_readable(file, size, beside)
             lost = size - behind
             done = f"{shown.name} had no end, as a killed recorder leaves it, and was given one"
             if lost > MAX_CUT_BYTES or not cut:
@@ -77,7 +77,7 @@ def repair(path: Path, shown: Path) -> str:
     return done
 
 
-def _write_whole(source: BinaryIO, size: int, beside: Path) -> tuple[int, bool]:
+def _copy_readable(source: BinaryIO, size: int, beside: Path) -> tuple[int, bool]:
     """Copy the readable records to the file `beside`.
 
     Returns the position in the source after the last of them, and whether the rest is merely truncated rather than
@@ -96,7 +96,7 @@ def _write_whole(source: BinaryIO, size: int, beside: Path) -> tuple[int, bool]:
         channels: dict[int, int] = {}
         schemas: dict[int, int] = {0: 0}
         try:
-            for opcode, content, behind in _readable(source, size):  # noqa: B007 -- the last one is returned
+            for opcode, content, behind in _readable_records(source, size):  # noqa: B007 -- the last one is returned
                 tables.add(opcode, content)
                 if opcode != Opcode.MESSAGE:
                     continue
@@ -120,7 +120,7 @@ def _write_whole(source: BinaryIO, size: int, beside: Path) -> tuple[int, bool]:
     return behind, cut
 
 
-def _readable(source: BinaryIO, size: int) -> Iterator[tuple[int, bytes, int]]:
+def _readable_records(source: BinaryIO, size: int) -> Iterator[tuple[int, bytes, int]]:
     """The records of a file and its chunks: opcode, content, and the position in the file after the record or chunk."""
     from bot_console.tui.console.bags.mcap_records import MAGIC, chunk_records, places
     from mcap.opcode import Opcode

@@ -21,7 +21,7 @@ def definition(kind: Any) -> str:
     if getattr(kind, "get_fields_and_field_types", None) is None:
         return ""
     parts = [f"{_fields(kind)}"]
-    parts += [f"{BORDER}\nMSG: {name}\n{_fields(each)}" for name, each in _needed(kind, {})]
+    parts += [f"{BORDER}\nMSG: {name}\n{_fields(each)}" for name, each in _used_types(kind, {})]
     return "\n".join(parts)
 
 
@@ -41,13 +41,13 @@ def interface_type_name(kind: Any) -> str:
     return f"{package}/{rest.split('.')[0]}/{kind.__name__}"
 
 
-def _needed(kind: Any, found: dict[str, Any]) -> Iterator[tuple[str, Any]]:
+def _used_types(kind: Any, found: dict[str, Any]) -> Iterator[tuple[str, Any]]:
     for text in kind.get_fields_and_field_types().values():
-        name = _element(text)
+        name = _element_type(text)
         if "/" in name and name not in found:
             found[name] = _class(name, kind)
             yield name, found[name]
-            yield from _needed(found[name], found)
+            yield from _used_types(found[name], found)
 
 
 def _class(name: str, user: Any) -> Any:
@@ -60,25 +60,25 @@ def _class(name: str, user: Any) -> Any:
 
 
 def _fields(kind: Any) -> str:
-    lines = (f"{_written(text)} {name}" for name, text in kind.get_fields_and_field_types().items())
+    lines = (f"{_ros2msg_type(text)} {name}" for name, text in kind.get_fields_and_field_types().items())
     return "\n".join(lines) + "\n"
 
 
-def _element(text: str) -> str:
+def _element_type(text: str) -> str:
     """The type of a field, or of its elements if it is an array or a sequence."""
     inside = re.fullmatch(r"sequence<(.*?)(?:, \d+)?>", text)
     return re.sub(r"\[\d+\]$", "", inside[1] if inside else text)
 
 
-def _written(text: str) -> str:
+def _ros2msg_type(text: str) -> str:
     """A field type in message definition syntax: `sequence<double, 3>` becomes `float64[<=3]`."""
     if sequence := re.fullmatch(r"sequence<(.*?)(?:, (\d+))?>", text):
-        return f"{_simple(sequence[1])}[{f'<={sequence[2]}' if sequence[2] else ''}]"
+        return f"{_primitive_type(sequence[1])}[{f'<={sequence[2]}' if sequence[2] else ''}]"
     if array := re.fullmatch(r"(.*)\[(\d+)\]", text):
-        return f"{_simple(array[1])}[{array[2]}]"
-    return _simple(text)
+        return f"{_primitive_type(array[1])}[{array[2]}]"
+    return _primitive_type(text)
 
 
-def _simple(text: str) -> str:
+def _primitive_type(text: str) -> str:
     bounded = re.fullmatch(r"(w?string)<(\d+)>", text)
     return f"{bounded[1]}<={bounded[2]}" if bounded else NAMES.get(text, text)

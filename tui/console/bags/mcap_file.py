@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
 from bot_console.tui.console.bags import mcap_records as records
-from bot_console.tui.console.bags.mcap_records import MAGIC, Packed, Place, Tables
+from bot_console.tui.console.bags.mcap_records import MAGIC, Place, StoredMessage, Tables
 from bot_console.tui.console.bags.metadata import Topic, qos_profiles
 from mcap.opcode import Opcode
 
@@ -70,7 +70,9 @@ class McapFile:
         names = {id: each.topic for id, each in self._tables.channels.items()}
         wanted = {id for id, name in names.items() if topics is None or name in topics}
         with self._path.open("rb") as chunks, self._path.open("rb") as loose:
-            found = heapq.merge(self._chunked(chunks, begin, wanted), self._loose(loose), key=_received)
+            found = heapq.merge(
+                self._chunk_messages(chunks, begin, wanted), self._unchunked_messages(loose), key=_received
+            )
             for each in found:
                 if each.channel not in names:
                     raise ValueError(f"a message belongs to the unknown channel {each.channel}")
@@ -115,7 +117,7 @@ class McapFile:
             elif each.opcode == Opcode.MESSAGE:
                 head = Place(each.opcode, each.begin, records.MESSAGE.size).content(file)
                 found = records.message(head)
-                self._seen(found)
+                self._count(found)
                 self._times.append(found.received)
                 self._begins.append(each.begin)
                 self._lengths.append(each.length)
@@ -128,7 +130,7 @@ class McapFile:
         for opcode, content in records.chunk_records(place.content(file)):
             if opcode == Opcode.MESSAGE:
                 found = records.message(content)
-                self._seen(found)
+                self._count(found)
                 times.append(found.received)
                 channels.add(found.channel)
             else:
@@ -136,14 +138,14 @@ class McapFile:
         if times:
             self._chunks.append(Chunk(min(times), max(times), place, channels))
 
-    def _seen(self, found: Packed) -> None:
+    def _count(self, found: StoredMessage) -> None:
         self.counts[found.channel] += 1
         self.begin = min(self.begin or found.received, found.received)
         self.end = max(self.end, found.received)
 
-    def _chunked(self, file: BinaryIO, begin: int, wanted: Collection[int]) -> Iterator[Packed]:
+    def _chunk_messages(self, file: BinaryIO, begin: int, wanted: Collection[int]) -> Iterator[StoredMessage]:
         """The messages inside chunks, in order. Overlapping chunks are held in memory as long as necessary."""
-        waiting: list[tuple[int, int, Packed]] = []
+        waiting: list[tuple[int, int, StoredMessage]] = []
         number = 0
         for chunk in sorted(self._chunks, key=lambda each: each.begin):
             if chunk.end < begin or (chunk.channels and not any(each in wanted for each in chunk.channels)):
@@ -158,11 +160,11 @@ class McapFile:
         while waiting:
             yield heapq.heappop(waiting)[2]
 
-    def _loose(self, file: BinaryIO) -> Iterator[Packed]:
+    def _unchunked_messages(self, file: BinaryIO) -> Iterator[StoredMessage]:
         """The messages outside chunks, in order."""
         for at in sorted(range(len(self._times)), key=self._times.__getitem__):
             yield records.message(Place(Opcode.MESSAGE, self._begins[at], self._lengths[at]).content(file))
 
 
-def _received(each: Packed) -> int:
+def _received(each: StoredMessage) -> int:
     return each.received

@@ -35,7 +35,7 @@ class Place(NamedTuple):
         return file.read(self.length)
 
 
-class Packed(NamedTuple):
+class StoredMessage(NamedTuple):
     """A serialized message as stored in the file; times are in ns since the epoch."""
 
     channel: int
@@ -75,10 +75,10 @@ def chunk_records(content: bytes) -> Iterator[tuple[int, bytes]]:
         at += length
 
 
-def message(content: bytes) -> Packed:
+def message(content: bytes) -> StoredMessage:
     """Parse a message record."""
     channel, sequence, received, sent = MESSAGE.unpack_from(content)
-    return Packed(channel, received, content[MESSAGE.size :], sent, sequence)
+    return StoredMessage(channel, received, content[MESSAGE.size :], sent, sequence)
 
 
 class Tables:

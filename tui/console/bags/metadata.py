@@ -15,7 +15,7 @@ VERSION = 9
 FILE = "metadata.yaml"
 
 
-class _Plain(yaml.SafeDumper):
+class _DumperWithoutAliases(yaml.SafeDumper):
     """Dumps YAML without aliases, which rosbag2's reader does not understand: equal objects are written out again."""
 
     def ignore_aliases(self, data: Any) -> bool:
@@ -35,7 +35,7 @@ def qos_profiles(text: str) -> list[dict[str, Any]]:
 
 def metadata_yaml(data: object) -> str:
     """Dump block-style YAML that keeps the order of keys."""
-    return yaml.dump(data, Dumper=_Plain, sort_keys=False)
+    return yaml.dump(data, Dumper=_DumperWithoutAliases, sort_keys=False)
 
 
 @dataclass
@@ -65,7 +65,7 @@ class FilePart:
     end: int = 0
     count: int = 0
 
-    def seen(self, stamp: int) -> None:
+    def include(self, stamp: int) -> None:
         """Extend the times to include a message's time."""
         self.begin = min(self.begin or stamp, stamp)
         self.end = max(self.end, stamp)

@@ -7,7 +7,7 @@ from concurrent.futures import Future
 from typing import TYPE_CHECKING
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.bags.port import GenericTypes, Keeper, RecordingInfo
+from bot_console.tui.console.bags.port import GenericTypes, RecordingInfo, SnapshotKeeper
 from bot_console.tui.console.command_gate import Gate, done
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ NOTHING_RECORDED = RecordingInfo()
 class NodeBags:
     """Records all topics. Recording changes nothing in the system, so a read-only console can record too."""
 
-    def __init__(self, gate: Gate, buffer: Keeper | None = None, generic: GenericTypes | None = None) -> None:
+    def __init__(self, gate: Gate, buffer: SnapshotKeeper | None = None, generic: GenericTypes | None = None) -> None:
         """`buffer` keeps the last minutes, if they are kept; `generic` gives classes for types without a definition."""
         self._gate = gate
         self._buffer = buffer

@@ -21,7 +21,7 @@ class RecordingInfo:
     """Topics that cannot be recorded because their types are not available here."""
 
 
-class Keeper(Protocol):
+class SnapshotKeeper(Protocol):
     """Keeps the last minutes of a system's messages in memory, in this process or in another one."""
 
     kept_s: float

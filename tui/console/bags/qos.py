@@ -23,7 +23,7 @@ DEPTH = re.compile(r"[0-9]{1,9}")
 DURATIONS = frozenset(["deadline", "lifespan", "liveliness_lease_duration"])
 
 
-def noted(profiles: Iterable[QoSProfile]) -> list[dict[str, Any]]:
+def offered_entries(profiles: Iterable[QoSProfile]) -> list[dict[str, Any]]:
     """Convert the profiles of publishers to entries of `offered_qos_profiles`."""
     return [
         {
@@ -41,7 +41,7 @@ def noted(profiles: Iterable[QoSProfile]) -> list[dict[str, Any]]:
     ]
 
 
-def offered(entries: Iterable[Mapping[str, Any]]) -> QoSProfile:
+def compatible_profile(entries: Iterable[Mapping[str, Any]]) -> QoSProfile:
     """A profile compatible with every subscription that matched the recorded publishers.
 
     It is reliable or transient local if any of the publishers was.

@@ -47,19 +47,19 @@ class Bag:
     def __init__(self, path: Path, *, listed: bool = True) -> None:
         """Open the files that the metadata lists or, without `listed`, all bag files in the folder.
 
-        Raises `NoBag`, and `Missing` without `mcap`.
+        Raises `NoBag`, and `MissingPackageError` without `mcap`.
         """
         check()
         self.path = path
-        about = _about(path)
+        about = _read_metadata(path)
         self.files = _files(path, about if listed else {})
         self.repaired: list[str] = []
         """The repairs made to files that were unfinished."""
         self._unpacked: Path | None = None
-        self._opened = [(each, self._open(each, self._plain(each))) for each in self.files]
+        self._opened = [(each, self._open(each, self._unpacked_path(each))) for each in self.files]
         self.metadata = Metadata([], storage=self.storage, compression=_compression(about), custom=_custom(about))
         for file, contents in self._opened:
-            self._note(file, contents)
+            self._add_to_metadata(file, contents)
         if self.repaired and path.is_dir() and self._unpacked is None:
             self.metadata.save(path)
 
@@ -86,7 +86,7 @@ class Bag:
         """The name of the ROS 2 storage plug-in for these files."""
         return "sqlite3" if isinstance(self._opened[0][1], SqliteFile) else "mcap"
 
-    def _plain(self, path: Path) -> Path:
+    def _unpacked_path(self, path: Path) -> Path:
         """The file itself or, if it is compressed as a whole, its unpacked copy."""
         with reading_errors(path), path.open("rb") as file:
             if not file.read(len(ZSTD)).startswith(ZSTD):
@@ -111,7 +111,7 @@ class Bag:
                 self.repaired.append(done)
             return McapFile(plain)
 
-    def _note(self, file: Path, contents: McapFile | SqliteFile) -> None:
+    def _add_to_metadata(self, file: Path, contents: McapFile | SqliteFile) -> None:
         """Add the contents of a file to the metadata."""
         part = FilePart(file.name)
         for topic in contents.topics():
@@ -121,7 +121,7 @@ class Bag:
         for stamp in (contents.begin, contents.end) if part.count else ():
             if not 0 <= stamp <= LATEST_NS:
                 raise NoBag(f"{file} is damaged: a message is dated {stamp} ns since 1970")
-            part.seen(stamp)
+            part.include(stamp)
         self.metadata.files.append(part)
 
 
@@ -144,7 +144,7 @@ def _files(path: Path, about: Mapping[str, Any]) -> list[Path]:
     return found
 
 
-def _about(path: Path) -> Mapping[str, Any]:
+def _read_metadata(path: Path) -> Mapping[str, Any]:
     """The metadata of a folder; empty if it is missing or unreadable."""
     with suppress(OSError, *UNREADABLE):
         loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, Protocol
 
 from bot_console.tui.console.bags.port import GenericTypes
-from bot_console.tui.console.bags.qos import noted
+from bot_console.tui.console.bags.qos import offered_entries
 from bot_console.tui.console.bags.sim_time import SimTime
 from bot_console.tui.console.offered_qos import OfferedSubscription
 from rclpy.node import Node
@@ -144,9 +144,9 @@ class Recorder:
             return
         offers = self._node.get_publishers_info_by_topic(name)
         type_hash = _hash(offers)
-        qos = noted(each.qos_profile for each in offers)
+        qos = offered_entries(each.qos_profile for each in offers)
         try:
-            kind = self._found(types[0], type_hash)
+            kind = self._class(types[0], type_hash)
             self._sink.topic(name, kind, qos, type_hash)
         except UNAVAILABLE as error:
             why = f"its type {types[0]} is not available here ({error})"
@@ -158,10 +158,10 @@ class Recorder:
             self.generic[name] = why
         self.unknown.pop(name, None)
         self.subscribed[name] = OfferedSubscription(
-            self._node, kind, name, _nobody, BEST, eager=False, once_weak=True, raw=True
+            self._node, kind, name, _unused_callback, BEST, eager=False, once_weak=True, raw=True
         )
 
-    def _found(self, type_name: str, type_hash: str) -> Any:
+    def _class(self, type_name: str, type_hash: str) -> Any:
         """The class of a type; raises `UNAVAILABLE` if there is none with this type hash."""
         kind = self._find(type_name)
         here = self._generic.type_hash(kind) if self._generic is not None and type_hash else ""
@@ -200,7 +200,7 @@ def _received(entry: tuple[int, str, bytes, int]) -> int:
     return entry[0]
 
 
-def _nobody(data: bytes) -> None:
+def _unused_callback(data: bytes) -> None:
     """The callback of subscriptions whose messages are taken directly; it is never called."""
 
 

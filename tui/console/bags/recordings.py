@@ -11,8 +11,8 @@ from typing import Any
 
 import rclpy
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.bags.missing_packages import Missing
-from bot_console.tui.console.bags.port import GenericTypes, Keeper, RecordingInfo
+from bot_console.tui.console.bags.missing_packages import MissingPackageError
+from bot_console.tui.console.bags.port import GenericTypes, RecordingInfo, SnapshotKeeper
 from bot_console.tui.console.bags.recorder import CLOCK, PACE_S, Recorder, remarks
 from bot_console.tui.console.bags.recording_sinks import BagSink
 from bot_console.tui.console.bags.writer import BagWriter
@@ -33,7 +33,7 @@ CLOSE_TIMEOUT_S = 3.0
 class Recordings:
     """Records all topics; its methods may be called from any thread."""
 
-    def __init__(self, buffer: Keeper | None = None, generic: GenericTypes | None = None) -> None:
+    def __init__(self, buffer: SnapshotKeeper | None = None, generic: GenericTypes | None = None) -> None:
         """`buffer` keeps the last minutes, if they are kept; `generic` gives classes for types without a definition.
 
         The node is created when recording first starts.
@@ -72,7 +72,7 @@ class Recordings:
                 return Answer(False, f"{self._sink.writer.folder} is already being recorded")
             try:
                 self._sink.begin(BagWriter(typed_path(folder)), time.time_ns())
-            except (Missing, NotSaved, OSError) as error:
+            except (MissingPackageError, NotSaved, OSError) as error:
                 return Answer(False, f"not recorded: {error}")
             return Answer(True, f"recording all topics into {folder}")
 
@@ -117,12 +117,12 @@ class Recordings:
         future: Future[Answer] = Future()
         self._orders.put((work, future))
         if self._closing.is_set():
-            self._obey()
+            self._run_orders()
         else:
-            self._run()
+            self._start_thread()
         return future
 
-    def _run(self) -> None:
+    def _start_thread(self) -> None:
         with self._lock:
             if self._thread is None:
                 self._thread = threading.Thread(target=self._serve, name="bot-console-recorder", daemon=True)
@@ -146,7 +146,7 @@ class Recordings:
                         generic=self._generic,
                         definition_timeout_s=DEFINITION_TIMEOUT_S,
                     )
-                self._obey()
+                self._run_orders()
             if self._recorder is not None:
                 self._recorder.close()
             self._sink.end()
@@ -156,17 +156,17 @@ class Recordings:
             self._recorder = None
             node.destroy_node()
             context.try_shutdown()
-            self._ended()
+            self._thread_ended()
 
-    def _ended(self) -> None:
+    def _thread_ended(self) -> None:
         with self._lock:
             self._thread = None
         if self._closing.is_set():
-            self._obey()
+            self._run_orders()
         elif not self._orders.empty():
-            self._run()
+            self._start_thread()
 
-    def _obey(self) -> None:
+    def _run_orders(self) -> None:
         while True:
             try:
                 work, future = self._orders.get_nowait()

@@ -10,8 +10,8 @@ from concurrent.futures import Future
 from typing import Any, Protocol
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.bags.missing_packages import Missing
-from bot_console.tui.console.bags.qos import noted
+from bot_console.tui.console.bags.missing_packages import MissingPackageError
+from bot_console.tui.console.bags.qos import offered_entries
 from bot_console.tui.console.bags.recorder import CLOCK, in_order
 from bot_console.tui.console.bags.recording_sinks import RingSink
 from bot_console.tui.console.bags.snapshot_ring import Ring
@@ -26,7 +26,7 @@ MAX_WAITING_MESSAGES = 50_000
 """Messages that may arrive between two rounds; beyond that, the oldest are dropped."""
 
 
-class Carried(Protocol):
+class MessageEndpoint(Protocol):
     """The endpoint through which a message passed."""
 
     topic: str
@@ -47,7 +47,7 @@ class SnapshotBuffer:
         self._serialize = serialize
         self._hash_of = hash_of
         self._sink = RingSink(Ring(size.seconds, size.bytes))
-        self._waiting: deque[tuple[Carried, bytes, int, int, Any]] = deque(maxlen=MAX_WAITING_MESSAGES)
+        self._waiting: deque[tuple[MessageEndpoint, bytes, int, int, Any]] = deque(maxlen=MAX_WAITING_MESSAGES)
         self._numbers: dict[bytes, int] = {}
         self._known: set[str] = set()
         self._last = 0
@@ -55,7 +55,7 @@ class SnapshotBuffer:
         self._closing = threading.Event()
         threading.Thread(target=self._serve, name="snapshot-buffer", daemon=True).start()
 
-    def hear(self, by: Carried, source: bytes, number: int, sent: int, message: Any) -> None:
+    def hear(self, by: MessageEndpoint, source: bytes, number: int, sent: int, message: Any) -> None:
         """Keep a message. `by` is its endpoint, `source` the publisher's gid, `number` its sequence number, `sent` in
         ns.
 
@@ -80,7 +80,7 @@ class SnapshotBuffer:
                 count = self._sink.pour(writer)
                 span = self._sink.ring.span
             writer.close()
-        except (Missing, NotSaved, OSError) as error:
+        except (MissingPackageError, NotSaved, OSError) as error:
             return Answer(False, f"not saved: {error}")
         return Answer(True, f"the last {span:.0f} s, {count} messages, in {folder}")
 
@@ -101,7 +101,7 @@ class SnapshotBuffer:
             self._numbers[source] = number
             if by.topic not in self._known:
                 self._known.add(by.topic)
-                self._sink.topic(by.topic, by.message_class, noted([by.qos]), self._hash_of(by.message_class))
+                self._sink.topic(by.topic, by.message_class, offered_entries([by.qos]), self._hash_of(by.message_class))
             found.append((sent, by.topic, message if isinstance(message, bytes) else self._serialize(message)))
         for received, topic, data, sent in in_order(found, time.time_ns(), self._last):
             self._last = received

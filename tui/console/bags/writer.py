@@ -21,7 +21,7 @@ OVERHEAD_BYTES = 40
 
 
 @dataclass(frozen=True)
-class Writing:
+class WritingOptions:
     """The options for writing a bag."""
 
     storage: str = "mcap"
@@ -39,12 +39,12 @@ class Writing:
 
 
 class BagWriter:
-    """A new bag folder. Raises `Missing` without `mcap`, and `NotSaved` if the folder exists or cannot be created."""
+    """A new bag folder. Raises `MissingPackageError`, and `NotSaved` if the folder exists or cannot be created."""
 
-    def __init__(self, folder: Path, how: Writing | None = None) -> None:
+    def __init__(self, folder: Path, how: WritingOptions | None = None) -> None:
         check()
         self.folder = folder
-        self.how = how or Writing()
+        self.how = how or WritingOptions()
         self.metadata = Metadata([], storage=self.how.storage, custom=dict(self.how.custom))
         self._definitions: dict[str, str] = {}
         self._compress: Any = None
@@ -86,7 +86,7 @@ class BagWriter:
         self._bytes += len(data) + OVERHEAD_BYTES
         self.metadata.topics[topic].count += 1
         part.count += 1
-        part.seen(received)
+        part.include(received)
         if time.monotonic() - self._flushed > FLUSH_S:
             self.flush()
 

@@ -14,14 +14,14 @@ from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels
 NONE_OFFERED = "offers no logger service; create it with enable_logger_service=True"
 
 
-class Names(Iterable[str], Container[str], Protocol):
+class LoggerNames(Iterable[str], Container[str], Protocol):
     """Names of loggers."""
 
 
 class LoggerLevels:
     """Queries the nodes' logger services; its coroutines run in the console's executor."""
 
-    def __init__(self, calls: Calls, heard: Names) -> None:
+    def __init__(self, calls: Calls, heard: LoggerNames) -> None:
         """`heard` contains the loggers that have logged, since ROS cannot list the loggers of a node."""
         self._calls = calls
         self._heard = heard

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 NO_RECORDS = LogState()
 
 
-def _lose(stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
+def _discard(stamp: int, severity: int, name: str, text: str, site: tuple[str, str, int]) -> None:
     """Discard a record that arrives before there is a log."""
 
 
@@ -66,7 +66,7 @@ class NodeLogs:
     def __init__(self, gate: Gate) -> None:
         self._gate = gate
         self._store: LogStore | None = None
-        self.add: Add = _lose
+        self.add: Add = _discard
         """Adds a record, in any thread; records added before `begin` are lost."""
         self._views: LogViews | None = None
 
@@ -153,15 +153,15 @@ def _ends_on_purpose(processes: Iterable[ProcessInfo], arrived: int, logger: str
 
     Lines that arrive after the process has started again do not count.
     """
-    return any(_was_ending(each, arrived) and _is_of(each, logger) for each in processes)
+    return any(_was_being_ended(each, arrived) and _belongs_to(each, logger) for each in processes)
 
 
-def _was_ending(process: ProcessInfo, arrived: int) -> bool:
+def _was_being_ended(process: ProcessInfo, arrived: int) -> bool:
     again = process.started if process.started > process.end_requested else None
     return 0 < process.end_requested <= arrived and (again is None or arrived < again)
 
 
-def _is_of(process: ProcessInfo, logger: str) -> bool:
+def _belongs_to(process: ProcessInfo, logger: str) -> bool:
     """Whether a logger is launch's logger for the process, that of one of its nodes, or a child of that."""
     names = map(logger_of, process.nodes)
     return logger == process.label or any(f"{logger}.".startswith(f"{each}.") for each in names)

@@ -59,7 +59,7 @@ class Numbers:
         return Numbers([each[np.searchsorted(each, first) :] for each in self._parts])
 
 
-class Folded:
+class FoldedNumbers:
     """Ascending numbers in which each run of equal records is one entry, represented by its newest record."""
 
     def __init__(self, every: Numbers | None = None, begins: Numbers | None = None, ends: tuple[int, int] = (0, 0)):
@@ -76,9 +76,9 @@ class Folded:
         """The newest number of a run; raises `IndexError` beyond the ends."""
         if not 0 <= index < len(self):
             raise IndexError(index)
-        return self._every[self._behind(index) - 1]
+        return self._every[self._end_of_run(index) - 1]
 
-    def _behind(self, index: int) -> int:
+    def _end_of_run(self, index: int) -> int:
         """The position, among all records, after the last one of a run."""
         return self._every.place(self._begins[index + 1]) if index + 1 < len(self) else len(self._every)
 
@@ -89,9 +89,11 @@ class Folded:
 
     def count(self, index: int) -> int:
         """The number of records in a run; raises `IndexError` beyond the ends."""
-        return self._behind(index) - self._every.place(self._begins[index])
+        return self._end_of_run(index) - self._every.place(self._begins[index])
 
-    def joined(self, older: Block | None = None, newer: Block | None = None, keys: Block | None = None) -> Folded:
+    def joined(
+        self, older: Block | None = None, newer: Block | None = None, keys: Block | None = None
+    ) -> FoldedNumbers:
         """A copy with older numbers prepended or newer ones appended; equal records have equal `keys`."""
         block = older if older is not None else newer
         if block is None or keys is None or not len(block):
@@ -99,20 +101,20 @@ class Folded:
         begins = block[np.concatenate(([True], keys[1:] != keys[:-1]))]
         first, last = int(keys[0]), int(keys[-1])
         if not len(self):
-            return Folded(Numbers([block]), Numbers([begins]), (first, last))
+            return FoldedNumbers(Numbers([block]), Numbers([begins]), (first, last))
         if older is not None:
             rest = self._begins.since(self._begins[0] + 1) if last == self._ends[0] else self._begins
-            return Folded(self._every.joined(older=block), rest.joined(older=begins), (first, self._ends[1]))
+            return FoldedNumbers(self._every.joined(older=block), rest.joined(older=begins), (first, self._ends[1]))
         if first == self._ends[1]:
             begins = begins[1:]
-        return Folded(self._every.joined(newer=block), self._begins.joined(newer=begins), (self._ends[0], last))
+        return FoldedNumbers(self._every.joined(newer=block), self._begins.joined(newer=begins), (self._ends[0], last))
 
-    def since(self, first: int) -> Folded:
+    def since(self, first: int) -> FoldedNumbers:
         """The entries from a number on; a run that contains it loses its earlier records."""
         every = self._every.since(first)
         begins = self._begins.since(first)
         if every is self._every or not len(every):
-            return self if every is self._every else Folded()
+            return self if every is self._every else FoldedNumbers()
         if not len(begins) or begins[0] != every[0]:
             begins = begins.joined(older=np.array([every[0]], np.int64))
-        return Folded(every, begins, self._ends)
+        return FoldedNumbers(every, begins, self._ends)

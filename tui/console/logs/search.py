@@ -25,26 +25,26 @@ class LogSearch:
     """A prepared filter; raises `ValueError` if it does not parse."""
 
     def __init__(self, store: LogStore, which: LogFilter) -> None:
-        self._words = _Words(store, which.words, which.minimum)
-        self._hidden = [_Words(store, each) for each in which.hidden]
-        self._only = [_Words(store, each) for each in which.only]
+        self._words = _WordMatcher(store, which.words, which.minimum)
+        self._hidden = [_WordMatcher(store, each) for each in which.hidden]
+        self._only = [_WordMatcher(store, each) for each in which.only]
 
     def passing(self, segment: LogSegment, begin: int, end: int) -> Rows:
         """The ascending numbers of the matching records, among those with indices `begin` to `end` - 1 in a segment."""
-        mask = self._words.holding(segment, begin, end)
+        mask = self._words.matches(segment, begin, end)
         for each in self._hidden:
             if not mask.any():
                 break
-            mask &= ~each.holding(segment, begin, end)
+            mask &= ~each.matches(segment, begin, end)
         if self._only and mask.any():
             wanted = np.zeros(end - begin, np.bool_)
             for each in self._only:
-                wanted |= each.holding(segment, begin, end)
+                wanted |= each.matches(segment, begin, end)
             mask &= wanted
         return np.flatnonzero(mask) + (begin + segment.first)
 
 
-class _Words:
+class _WordMatcher:
     """The words of one filter, prepared for searching a store, and a minimum severity."""
 
     def __init__(self, store: LogStore, words: str, minimum: Severity = Severity.UNSET) -> None:
@@ -64,7 +64,7 @@ class _Words:
             (each, _TestResults(store.names, each.name.stands_in) if each.name else None) for each in query.texts
         ]
 
-    def holding(self, segment: LogSegment, begin: int, end: int) -> Mask:
+    def matches(self, segment: LogSegment, begin: int, end: int) -> Mask:
         """Whether each of the records with indices `begin` to `end` - 1 in a segment matches."""
         severity = segment.severity[begin:end]
         mask = self._levels[severity] if self._least is None else severity >= self._least

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from bot_console.tui.console.logs.port import LogFindings, LogView
-from bot_console.tui.console.logs.repeat_folding import Block, Folded, Numbers
+from bot_console.tui.console.logs.repeat_folding import Block, FoldedNumbers, Numbers
 from bot_console.tui.console.logs.search import LogSearch
 from bot_console.tui.console.logs.store import LogSegment, LogStore
 from bot_console.tui.console.model import LogFilter
@@ -27,7 +27,7 @@ BUDGET_S = 5.0
 class SearchResult(LogFindings):
     """Findings to which older and newer numbers can be added."""
 
-    numbers: Numbers | Folded
+    numbers: Numbers | FoldedNumbers
 
 
 class SearchedView:
@@ -40,7 +40,7 @@ class SearchedView:
         self._spent = 0.0
         self._search: LogSearch | None = None
         self._folds = which.folded
-        self._found: SearchResult = SearchResult(Folded() if which.folded else Numbers(), end, end)
+        self._found: SearchResult = SearchResult(FoldedNumbers() if which.folded else Numbers(), end, end)
         try:
             self._search = LogSearch(store, which)
         except ValueError as error:
@@ -62,7 +62,9 @@ class SearchedView:
             found = self._found = replace(found, numbers=found.numbers.since(first), begin=max(first, found.begin),
                                           end=max(first, found.end))  # fmt: skip
         started = time.thread_time()
-        new = self._newer(self._search, found) or (None if found.complete else self._older(self._search, found))
+        new = self._search_newer(self._search, found) or (
+            None if found.complete else self._search_older(self._search, found)
+        )
         if new is None:
             return False
         self._found = new
@@ -73,7 +75,7 @@ class SearchedView:
                 self._found = replace(new, complete=True, problem=f"this filter is too costly: {polled}")
         return True
 
-    def _newer(self, search: LogSearch, found: SearchResult) -> SearchResult | None:
+    def _search_newer(self, search: LogSearch, found: SearchResult) -> SearchResult | None:
         for segment in self._store.segments:
             count = segment.count
             if segment.first <= found.end < segment.first + count:
@@ -82,7 +84,7 @@ class SearchedView:
                 return replace(found, numbers=joined, end=segment.first + count)
         return None
 
-    def _older(self, search: LogSearch, found: SearchResult) -> SearchResult:
+    def _search_older(self, search: LogSearch, found: SearchResult) -> SearchResult:
         for segment in reversed(self._store.segments):
             if segment.first < found.begin:
                 last = min(found.begin - segment.first, segment.count)

@@ -12,7 +12,7 @@ from functools import partial
 from typing import Any
 
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.bags.port import Keeper
+from bot_console.tui.console.bags.port import SnapshotKeeper
 from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.model import LaunchInfo
 from bot_console.tui.session.launch_host.channel import Channel, Message
@@ -50,7 +50,7 @@ class LaunchHost:
         self,
         make: Callable[[Add, Printed], ClosableLauncher],
         also: Printed | None = None,
-        buffer: Keeper | None = None,
+        buffer: SnapshotKeeper | None = None,
     ) -> None:
         """`make` receives the functions for log records and for printed lines; `also` receives printed lines as well.
 

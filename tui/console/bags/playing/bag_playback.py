@@ -10,7 +10,7 @@ from bot_console.tui.console.bags.damage import NoBag
 from bot_console.tui.console.bags.definitions import class_of
 from bot_console.tui.console.bags.playing.control_topics import left_out_warning
 from bot_console.tui.console.bags.playing.playback import PlaybackState
-from bot_console.tui.console.bags.playing.player import MAX_RATE, MIN_RATE, Player, Playing
+from bot_console.tui.console.bags.playing.player import MAX_RATE, MIN_RATE, PlaybackOptions, Player
 from bot_console.tui.console.bags.port import GenericTypes
 from bot_console.tui.console.bags.reader import Bag
 
@@ -95,7 +95,7 @@ class BagPlayback:
         if isinstance(node, str):
             self._wait(problem=node)
             return ""
-        how = Playing(rate=self._waiting.rate, loop=self._waiting.loop, paused=True, stays=True)
+        how = PlaybackOptions(rate=self._waiting.rate, loop=self._waiting.loop, paused=True, stays=True)
         player = Player(node, self._bag, how, class_of, self._generic)
         player.seek(self._waiting.position)
         self._player = player

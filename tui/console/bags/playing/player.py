@@ -14,7 +14,7 @@ from bot_console.tui.console.bags.playing.control_topics import controls
 from bot_console.tui.console.bags.playing.discovery import await_subscriptions
 from bot_console.tui.console.bags.playing.playback import PlaybackState
 from bot_console.tui.console.bags.port import GenericTypes
-from bot_console.tui.console.bags.qos import offered
+from bot_console.tui.console.bags.qos import compatible_profile
 from bot_console.tui.console.bags.reader import Entry
 from rclpy.duration import Duration
 from rclpy.exceptions import InvalidTopicNameException
@@ -28,7 +28,7 @@ STOP_POLL_S = 0.1
 MIN_RATE, MAX_RATE = 0.01, 1e9
 
 
-class Recorded(Protocol):
+class PlayableBag(Protocol):
     """One bag, or several bags that are played together."""
 
     @property
@@ -47,7 +47,7 @@ class Recorded(Protocol):
 
 
 @dataclass(frozen=True)
-class Playing:
+class PlaybackOptions:
     """The options for playing a bag."""
 
     rate: float = 1.0
@@ -78,7 +78,12 @@ class Player:
     """Publishes the messages of a bag through a node. Its methods may be called from any thread."""
 
     def __init__(
-        self, node: Node, bag: Recorded, how: Playing, find: Callable[[str], Any], generic: GenericTypes | None = None
+        self,
+        node: Node,
+        bag: PlayableBag,
+        how: PlaybackOptions,
+        find: Callable[[str], Any],
+        generic: GenericTypes | None = None,
     ) -> None:
         """`find` returns the class of a type name. Messages of other types are published as they were recorded, if
         `generic` has a class for them; otherwise their topics are listed in `unknown` and left out.
@@ -212,7 +217,7 @@ class Player:
                 self.unknown[name] = f"its type {topic.type} is not available here ({error})"
                 continue
             try:
-                profile = how.qos.get(name) or offered(topic.qos)
+                profile = how.qos.get(name) or compatible_profile(topic.qos)
                 self._publishers[name] = self._node.create_publisher(kind, target, profile)
             except InvalidTopicNameException:  # recorded by other tools, or damaged
                 self.unknown[name] = f"'{target}' is not a valid topic name; remapped to one, it is played"

@@ -18,8 +18,8 @@ from bot_console.tui.console.bags.contents import Contents
 from bot_console.tui.console.bags.damage import NoBag
 from bot_console.tui.console.bags.definitions import definition, interface_type_name
 from bot_console.tui.console.bags.opened_bag import OpenedBag
-from bot_console.tui.console.bags.playing.player import Player, Playing
-from bot_console.tui.console.bags.qos import noted, offered
+from bot_console.tui.console.bags.playing.player import PlaybackOptions, Player
+from bot_console.tui.console.bags.qos import compatible_profile, offered_entries
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.bags.recorder import Recorder, in_order
 from bot_console.tui.console.bags.snapshot_ring import MESSAGE_OVERHEAD_BYTES, Ring
@@ -64,7 +64,7 @@ def test_rosbags_library_reads_a_written_bag(tmp_path: Path) -> None:
     writer = BagWriter(tmp_path / "bag")
     scan = LaserScan(ranges=[1.0, 2.5], angle_min=-0.5)
     scan.header.frame_id = "laser"
-    qos = noted([QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)])
+    qos = offered_entries([QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)])
     for name, kind, message in (
         ("/scan", LaserScan, scan),
         ("/twist", Twist, Twist()),
@@ -261,7 +261,7 @@ def test_recorded_messages_can_be_played(tmp_path: Path, node: rclpy.node.Node) 
     assert bag.metadata.topics["/words"].qos[0]["durability"] == "transient_local"
     heard: list[str] = []
     node.create_subscription(String, "/again", lambda message: heard.append(message.data), 10)
-    player = Player(node, bag, Playing(rate=1e6, remaps={"/words": "/again"}), get_message)
+    player = Player(node, bag, PlaybackOptions(rate=1e6, remaps={"/words": "/again"}), get_message)
     player.run(threading.Event())
     for _ in range(10):
         rclpy.spin_once(node, timeout_sec=0.05)
@@ -280,7 +280,7 @@ def test_a_topic_of_an_unknown_type_is_reported(tmp_path: Path, node: rclpy.node
     folder = words(tmp_path / "bag", "a")
     bag = Bag(folder)
     bag.metadata.topics["/words"].type = "nobody_msgs/msg/Such"
-    player = Player(node, bag, Playing(), get_message)
+    player = Player(node, bag, PlaybackOptions(), get_message)
     player.run(threading.Event())
     assert "nobody_msgs/msg/Such" in player.unknown["/words"] and player.published == 0
 
@@ -288,14 +288,14 @@ def test_a_topic_of_an_unknown_type_is_reported(tmp_path: Path, node: rclpy.node
 def test_a_topic_whose_name_is_not_valid_is_reported(tmp_path: Path, node: rclpy.node.Node) -> None:
     bag = Bag(words(tmp_path / "bag", "a"))
     bag.metadata.topics["/wo~ds"] = bag.metadata.topics.pop("/words")
-    player = Player(node, bag, Playing(), get_message)
+    player = Player(node, bag, PlaybackOptions(), get_message)
     player.run(threading.Event())
     assert "'/wo~ds' is not a valid topic name" in player.unknown["/wo~ds"] and player.published == 0
 
 
 @pytest.mark.parametrize(("depth", "taken"), [(7, 7), ("²", 10), (10**40, 10), (-1, 10), (None, 10), ([], 10)])
 def test_a_recorded_depth_that_no_middleware_holds_is_left_out(depth: object, taken: int) -> None:
-    assert offered([{"depth": depth}]).depth == taken
+    assert compatible_profile([{"depth": depth}]).depth == taken
 
 
 def test_a_ring_keeps_the_last_seconds_within_its_byte_limit(tmp_path: Path) -> None:
@@ -320,11 +320,11 @@ def test_a_ring_keeps_the_last_seconds_within_its_byte_limit(tmp_path: Path) -> 
 
 def test_offered_qos_profiles_are_restored_from_a_bag() -> None:
     weak = QoSProfile(depth=7, reliability=ReliabilityPolicy.BEST_EFFORT)
-    again = offered(noted([weak]))
+    again = compatible_profile(offered_entries([weak]))
     assert again.reliability == ReliabilityPolicy.BEST_EFFORT and again.depth == 7
-    both = offered(noted([weak, QoSProfile(depth=2, durability=DurabilityPolicy.TRANSIENT_LOCAL)]))
+    both = compatible_profile(offered_entries([weak, QoSProfile(depth=2, durability=DurabilityPolicy.TRANSIENT_LOCAL)]))
     assert both.reliability == ReliabilityPolicy.RELIABLE and both.durability == DurabilityPolicy.TRANSIENT_LOCAL
-    assert offered([{"depth": "many", "history": 3}]).depth == 10
+    assert compatible_profile([{"depth": "many", "history": 3}]).depth == 10
 
 
 def test_the_definition_of_action_feedback_includes_nested_types() -> None:

@@ -12,7 +12,7 @@ from bot_console.tui.cli.bags import common
 from bot_console.tui.cli.verbs import bag as verb
 from bot_console.tui.console.bags.playing import discovery
 from bot_console.tui.console.bags.playing.control_topics import controls
-from bot_console.tui.console.bags.playing.player import Player, Playing
+from bot_console.tui.console.bags.playing.player import PlaybackOptions, Player
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console_robot.safety.latch import Request
@@ -58,7 +58,7 @@ def recorded(tmp_path: Path) -> Bag:
     return Bag(tmp_path / "bag")
 
 
-def played(node: rclpy.node.Node, bag: Bag, how: Playing) -> tuple[set[str], list[str]]:
+def played(node: rclpy.node.Node, bag: Bag, how: PlaybackOptions) -> tuple[set[str], list[str]]:
     """The topics on which a bag was played, and those that were left out."""
     player = Player(node, bag, how, get_message)
     published = {name for name, _ in node.get_publisher_names_and_types_by_node("player", "/")}
@@ -67,19 +67,19 @@ def played(node: rclpy.node.Node, bag: Bag, how: Playing) -> tuple[set[str], lis
 
 
 def test_recorded_commands_and_releases_are_not_played(node: rclpy.node.Node, recorded: Bag) -> None:
-    published, left_out = played(node, recorded, Playing(rate=1e6))
+    published, left_out = played(node, recorded, PlaybackOptions(rate=1e6))
     assert published == {"/words", "/telemetry/stops"}
     assert left_out == ["/goal_pose", "/odd_name", "/robot2/emergency_stop/base", REQUEST]
 
 
 def test_named_topics_are_played(node: rclpy.node.Node, recorded: Bag) -> None:
-    published, left_out = played(node, recorded, Playing(rate=1e6, topics=[REQUEST, "odd_name"]))
+    published, left_out = played(node, recorded, PlaybackOptions(rate=1e6, topics=[REQUEST, "odd_name"]))
     assert (published, left_out) == ({REQUEST, "/odd_name"}, [])
 
 
 def test_a_topic_remapped_to_a_control_topic_is_left_out(node: rclpy.node.Node, recorded: Bag) -> None:
     remaps = {"/words": "/emergency_stop/request", REQUEST: "/then"}
-    published, left_out = played(node, recorded, Playing(rate=1e6, remaps=remaps))
+    published, left_out = played(node, recorded, PlaybackOptions(rate=1e6, remaps=remaps))
     assert published == {"/telemetry/stops"}
     assert "/words" in left_out and REQUEST in left_out
 

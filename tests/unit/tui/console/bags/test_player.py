@@ -12,10 +12,10 @@ from typing import Any
 import pytest
 from bot_console.tui.cli.bags.play import press, progress_line
 from bot_console.tui.console.bags.definitions import class_of
-from bot_console.tui.console.bags.playing.player import MAX_RATE, Player, Playing
+from bot_console.tui.console.bags.merged_bags import MergedBags
+from bot_console.tui.console.bags.playing.player import MAX_RATE, PlaybackOptions, Player
 from bot_console.tui.console.bags.qos import read_overrides
 from bot_console.tui.console.bags.reader import Bag
-from bot_console.tui.console.bags.together import BagsTogether
 from bot_console.tui.console.bags.writer import BagWriter
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.serialization import deserialize_message, serialize_message
@@ -66,7 +66,7 @@ def bag(tmp_path: Path) -> Bag:
 def playing(bag: Any, **how: Any) -> Iterator[tuple[Player, Published, Callable[[], None]]]:
     """A player that runs; the third value waits for its end."""
     published, stopped = Published(), threading.Event()
-    player = Player(published, bag, Playing(**how), class_of)  # type: ignore[arg-type] -- it only publishes
+    player = Player(published, bag, PlaybackOptions(**how), class_of)  # type: ignore[arg-type] -- it only publishes
     thread = threading.Thread(target=player.run, args=[stopped], daemon=True)
     thread.start()
 
@@ -114,7 +114,7 @@ def test_seeking_continues_elsewhere_in_both_directions(bag: Bag) -> None:
 
 def test_a_player_that_was_moved_before_it_runs_begins_there_at_once(bag: Bag) -> None:
     published, stopped = Published(), threading.Event()
-    player = Player(published, bag, Playing(paused=True, rate=0.01), class_of)  # type: ignore[arg-type] -- it only publishes
+    player = Player(published, bag, PlaybackOptions(paused=True, rate=0.01), class_of)  # type: ignore[arg-type] -- it only publishes
     player.seek(BEGIN + 7 * SECOND)
     player.paused = False
     assert player.position == BEGIN + 7 * SECOND, "no time passes before it runs"
@@ -178,7 +178,7 @@ def test_several_bags_are_merged_by_time(bag: Bag, tmp_path: Path) -> None:
     writer.topic("/other", Int32, [])
     writer.write("/other", serialize_message(Int32(data=77)), BEGIN + 3 * SECOND + 1, 0)
     writer.close()
-    with playing(BagsTogether([bag, Bag(tmp_path / "other")]), rate=FAST) as (_, published, ended):
+    with playing(MergedBags([bag, Bag(tmp_path / "other")]), rate=FAST) as (_, published, ended):
         ended()
     assert [published.next() for _ in range(COUNT + 1)] == [0, 1, 2, 3, 77, 4, 5, 6, 7, 8, 9]
 

@@ -21,11 +21,11 @@ from bot_console.runtime.rmw.zenoh.settings import Serving
 from bot_console.tui.cli.verbs.bag import run as bag_verb
 from bot_console.tui.console.bags import recordings
 from bot_console.tui.console.bags.definitions import class_of
-from bot_console.tui.console.bags.playing.player import Player, Playing
+from bot_console.tui.console.bags.playing.player import PlaybackOptions, Player
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.bags.recorder import Recorder
 from bot_console.tui.console.bags.recordings import Recordings
-from bot_console.tui.console.bags.writer import BagWriter, Writing
+from bot_console.tui.console.bags.writer import BagWriter, WritingOptions
 from bot_console.tui.session.embedded.connecting import connect
 from bot_console.tui.session.embedded.hooks import DomainTypes
 from mcap.reader import make_reader
@@ -95,7 +95,7 @@ def sent(payloads: Iterable[bytes]) -> list[bytes]:
 
 def recorded(folder: Path, node: Any, talker: CapturedNode, storage: str = "mcap") -> tuple[Bag, Recorder]:
     """Record what a node sends."""
-    writer = NotingWriter(folder, Writing(storage))
+    writer = NotingWriter(folder, WritingOptions(storage))
     made = Recorder(
         *(node, writer, lambda name, _: name == TOPIC, class_of),
         poll_s=0.0,
@@ -132,7 +132,7 @@ def test_messages_of_a_type_without_a_definition_are_recorded_and_played_as_they
     assert made.unknown == {} and f"its type {SUCH} is not available here" in made.generic[TOPIC]
 
     listener = captured("MS")
-    player = Player(node, bag, Playing(rate=1e9, remaps={TOPIC: AGAIN}), class_of, DomainTypes())
+    player = Player(node, bag, PlaybackOptions(rate=1e9, remaps={TOPIC: AGAIN}), class_of, DomainTypes())
     assert player.unknown == {}
     until(player._publishers[TOPIC].get_subscription_count, "the listener")
     player.run(threading.Event())

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from bot_console.tui.cli.verbs import bag as verb
 from bot_console.tui.console.bags.reader import Bag
-from bot_console.tui.console.bags.writer import BagWriter, Writing
+from bot_console.tui.console.bags.writer import BagWriter, WritingOptions
 from rclpy.serialization import deserialize_message, serialize_message
 from std_msgs.msg import Int32, String
 
@@ -19,7 +19,7 @@ COUNT = 20
 
 def written(folder: Path, **how: Any) -> Path:
     """A bag with a number each second, and a word at its start."""
-    writer = BagWriter(folder, Writing(**how))
+    writer = BagWriter(folder, WritingOptions(**how))
     writer.topic("/number", Int32, [])
     writer.topic("/word", String, [])
     writer.write("/word", serialize_message(String(data="hello")), SECOND, 0)
@@ -136,7 +136,7 @@ def test_info_lists_services_and_names(tmp_path: Path, capsys: pytest.CaptureFix
     from bot_console.tui.console.bags.metadata import Topic
 
     folder = tmp_path / "bag"
-    writer = BagWriter(folder, Writing(custom={"who": "me"}))
+    writer = BagWriter(folder, WritingOptions(custom={"who": "me"}))
     writer.topic("/word", String, [])
     writer.add(Topic("/add/_service_event", "example_interfaces/srv/AddTwoInts_Event"), "")
     for code in (0, 1, 2, 3, 3):

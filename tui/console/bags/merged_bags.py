@@ -9,7 +9,7 @@ from bot_console.tui.console.bags.metadata import Topic
 from bot_console.tui.console.bags.reader import Bag, Entry
 
 
-class BagsTogether:
+class MergedBags:
     """The messages of several bags in order; for a topic in more than one, the type and QoS in the first one count."""
 
     def __init__(self, bags: Sequence[Bag]) -> None:
