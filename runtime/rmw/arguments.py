@@ -1,6 +1,6 @@
-"""Parse the ROS part of a command line: `--ros-args ... [--]`. Grammar and messages are rcl's.
+"""Parse the ROS part of a command line: `--ros-args ... [--]`. The grammar and the error messages are rcl's.
 
-Arguments outside that part belong to the program; a remap rule among them is obeyed, and recorded as deprecated.
+Arguments outside that part belong to the program; a remap rule among them is applied and recorded as deprecated.
 """
 
 from __future__ import annotations

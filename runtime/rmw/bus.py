@@ -33,7 +33,7 @@ class PublisherEndpoint(Publisher, Protocol):
     """Sends messages."""
 
     on_publish: Notify | None
-    """Called for each message, if somebody is watching."""
+    """Called for each published message while somebody observes them; otherwise None."""
 
     @property
     def endpoint(self) -> Endpoint:
@@ -45,14 +45,14 @@ class PublisherEndpoint(Publisher, Protocol):
         ...
 
     def publish_own(self, message: Payload) -> bool:
-        """Publish a well-formed message that nobody else holds; it need not be copied.
+        """Publish a well-formed message that nobody else holds, so it need not be copied.
 
         Returns False if the publisher is closed: then nobody receives the message.
         """
         ...
 
     def skip(self) -> None:
-        """Count a message that was not created because nobody wants it."""
+        """Count a message that was not created because nobody would receive it."""
         ...
 
     def publish_raw(self, data: bytes) -> None:
@@ -104,7 +104,7 @@ class Bus(Protocol):
         ...
 
     def disown(self, thing: ServiceEndpoint | ClientEndpoint) -> None:
-        """Keep a service server or client when its node leaves."""
+        """Keep a service server or client in the graph when its node leaves."""
         ...
 
     def remove(self, thing: Thing) -> None:
@@ -124,9 +124,9 @@ class Bus(Protocol):
         ...
 
     def watch_servers(self, client: ClientEndpoint) -> Callable[[], bool]:
-        """Return a function that says whether the present servers of a client have certainly ended.
+        """Return a function that tells whether all servers that a client has now are known to have ended.
 
-        A lost link does not prove that; nothing is known if no server is present now.
+        A lost link does not prove that; if there is no server now, the function returns False.
         """
         ...
 
@@ -135,28 +135,28 @@ class Bus(Protocol):
         ...
 
     def on_graph_change(self, callback: GraphChanged) -> Callable[[], None]:
-        """Call back on each change of the graph; returns a function that ends this."""
+        """Call `callback` on each change of the graph; returns a function that removes the callback."""
         ...
 
     def stopped(self) -> Mapping[int, Sequence[str]]:
-        """The frozen processes, by pid, with their nodes, as far as known."""
+        """The frozen processes by pid, each with its nodes' names as far as known."""
         ...
 
     def processes(self) -> Mapping[int, Sequence[str]]:
-        """The other processes of this machine in the domain, by pid, with their nodes, as far as known."""
+        """The other processes of this machine in the domain by pid, each with its nodes' names as far as known."""
         ...
 
     def debugged(self) -> Mapping[str, str]:
-        """The nodes whose processes are stopped in a debugger, with the line, as far as known.
+        """The nodes whose processes are stopped in a debugger, each with the current line, as far as known.
 
         The line is `/path/file.py:12, in function`, or empty if it is unknown.
         """
         ...
 
     def overhear(self, hear: Hear | None) -> None:
-        """Pass on each message that this process publishes or receives; None ends that.
+        """Pass each message that this process publishes or receives to `hear`; None removes the observer.
 
-        The observer is no subscription: it is not visible to publishers or in the graph, and nothing is sent for it.
+        The observer is not a subscription: publishers and the graph do not show it, and nothing is sent on its behalf.
         """
         ...
 

@@ -48,7 +48,7 @@ class ContentFilterError(ValueError):
 
 
 class FilteredQueue(deque[Any]):
-    """The queue of a subscription with a filter: what the filter does not accept takes no place in it."""
+    """The queue of a subscription with a content filter: messages that the filter rejects take up no room in it."""
 
     def __init__(self, entries: Iterable[Any], maxlen: int | None, accepts: Accepts, message_class: object) -> None:
         self._accepts = accepts
@@ -58,14 +58,14 @@ class FilteredQueue(deque[Any]):
             self.append(entry)
 
     def append(self, entry: Any, /) -> None:
-        """Add an entry if its message is accepted; one that cannot be read was reported, and is left out."""
+        """Add an entry if its message is accepted; an unreadable message has already been reported, and is left out."""
         message = entry[0]
         if isinstance(message, Held):
             message = message.peek()
         elif isinstance(message, bytes):
             try:
                 message = deserialize(message, self._class)
-            except CdrError:  # the reader of the bytes finds out, as without a filter
+            except CdrError:  # as without a filter, the error is left to whoever deserializes the message
                 super().append(entry)
                 return
         if message is not None and self._accepts(message):
@@ -73,7 +73,7 @@ class FilteredQueue(deque[Any]):
 
 
 def compiled(expression: str, parameters: Sequence[str], message_class: object) -> Accepts:
-    """The predicate for messages of a class; raises `ContentFilterError`. An empty expression accepts all."""
+    """Return the predicate for messages of a class; raises `ContentFilterError`. An empty expression accepts all."""
     if not expression:
         return lambda message: True
     try:
@@ -83,7 +83,7 @@ def compiled(expression: str, parameters: Sequence[str], message_class: object) 
 
 
 class _Parser:
-    """A recursive descent over the tokens of one expression."""
+    """A recursive-descent parser for the tokens of one expression."""
 
     def __init__(self, expression: str, parameters: Sequence[str], message_class: object) -> None:
         self._class = message_class
@@ -174,7 +174,7 @@ class _Parser:
         return text
 
     def _value(self, kind: str, text: str) -> Any:
-        """A number, a text, TRUE, FALSE or a parameter."""
+        """Parse a number, a text, TRUE, FALSE or a parameter."""
         if kind == "parameter":
             if int(text) >= len(self._parameters):
                 raise ContentFilterError(f"there is no parameter %{text}")
@@ -209,7 +209,7 @@ def _tokens(text: str) -> list[tuple[str, str]]:
 
 
 def _field(name: str, message_class: Any) -> tuple[Read, bool]:
-    """A reader of a field such as `linear.x` or `ranges[3]`, and whether the field is a text."""
+    """Return a reader of a field such as `linear.x` or `ranges[3]`, and whether the field is a string."""
     steps: list[tuple[str, int | None]] = []
     message = message_class()
     kind = ""
@@ -229,7 +229,7 @@ def _field(name: str, message_class: Any) -> tuple[Read, bool]:
 
 
 def _element(kind: str) -> tuple[str, bool]:
-    """The type of a field, or of its elements, and whether it is a list of them."""
+    """Return the type of a field, or of its elements if it is a sequence, and whether it is one."""
     if kind.startswith("sequence<"):
         return kind[9:-1].partition(",")[0], True
     name, bracket, _ = kind.partition("[")

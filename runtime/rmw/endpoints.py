@@ -30,7 +30,7 @@ OnEvent = Callable[[Event, Any], None]
 
 Payload = Any
 """A message, request or response: an instance of the class of its topic or service, or the bytes that the sender had
-serialized. Only those who made the topic know the class; `_copy_()` copies and checks an instance.
+serialized. Only the code that created the endpoint knows the class; `_copy_()` copies and checks an instance.
 """
 
 Hear = Callable[["Endpoint", bytes, int, int, Payload], None]
@@ -41,7 +41,7 @@ if it was serialized. The message must not be changed; one from another process 
 
 
 class Tap:
-    """Holds the observer of all messages, shared by the endpoints of a bus."""
+    """Holds the observer of all messages, which the endpoints of a bus share."""
 
     __slots__ = ("hear",)
 
@@ -60,7 +60,7 @@ class Held:
         raise NotImplementedError
 
     def peek(self) -> Payload | None:
-        """Return the message to be read, not changed; None if it cannot be read, which has then been reported."""
+        """Return the message for reading only; None if it cannot be read, which has then been reported."""
         raise NotImplementedError
 
 
@@ -82,12 +82,12 @@ class Shared(Held):
         if self._left == 1:
             return self._message
         copy = self._message._copy_()
-        # Two threads may both decrement from the same count: then there is one copy too many, never one too few.
+        # Two threads may decrement the same count at once: that makes one copy too many, never one too few.
         self._left -= 1
         return copy
 
     def peek(self) -> Payload:
-        """Return the message to be read, not changed."""
+        """Return the message for reading only."""
         return self._message
 
 
@@ -115,7 +115,7 @@ def queue_for(qos: Profile) -> deque[Arrival]:
 
 
 def no_event(kind: Event, what: Any) -> None:
-    """Ignore an event: the default handler."""
+    """Ignore an event; the default handler."""
 
 
 class NodeId(NamedTuple):
@@ -142,15 +142,16 @@ Arrival = tuple[Payload, int, int, int, "int | None"]
 Response = tuple[int, Payload]
 """An entry of a client's queue: the sequence number of the request, and its response."""
 Request = tuple["ClientEndpoint", int, Payload]
-"""An entry of a service's queue: who asks, the sequence number, and the request."""
+"""An entry of a service's queue: the client, the sequence number, and the request."""
 
-# No dataclasses: their import and what they generate take a tenth of a short program's time.
+# No dataclasses: importing the module and generating their methods would take a tenth of a short program's time.
 
 
 class Endpoint:
     """A publisher or subscription in the graph. `topic` is fully qualified, `gid` has 16 bytes.
 
-    An endpoint of another process may have no class here; its type is then known only by name and hash (`RIHS01_...`).
+    The message class of another process's endpoint may be missing here; then only the type's name and hash are known
+    (`RIHS01_...`).
     """
 
     def __init__(
@@ -202,7 +203,9 @@ class _ServiceEnd:
 
 
 class ServiceEndpoint(_ServiceEnd):
-    """Answers requests: `queue` holds (client, sequence number, request). `type_hash` is set for another process's."""
+    """Answers requests: `queue` holds (client, sequence number, request). `type_hash` is set if the server is in
+    another process.
+    """
 
     def __init__(
         self,

@@ -1,4 +1,4 @@
-"""The graph indexed by node, topic and service, updated incrementally: a query costs as much as its answer holds.
+"""The graph indexed by node, topic and service, updated incrementally: the cost of a query grows only with its answer.
 
 Rebuilding it at each change would be quadratic: while hundreds of nodes start, queries and changes alternate.
 """
@@ -22,7 +22,7 @@ class Entities(Generic[T]):
     """All publishers, subscriptions, servers or clients. Thread-safe."""
 
     def __init__(self, what: str, lock: threading.RLock) -> None:
-        """`what` names the field that holds an entity's topic or service."""
+        """`what` is the name of the field that holds an entity's topic or service."""
         self._what = what
         self._lock = lock
         # By name and by node, in order of arrival.
@@ -77,8 +77,8 @@ class GraphTables:
         """`lock` is the bus's own reentrant lock.
 
         The garbage collector may end a node at any point, including while a table is being changed or read: with
-        separate locks, a table would be in deadlock with itself, or with a thread that holds the bus's lock and waits
-        for the table's.
+        separate locks, a table could deadlock with itself, or with a thread that holds the bus's lock and waits for the
+        table's.
         """
         self._lock = lock
         self._nodes: dict[NodeId, None] = {}
@@ -124,7 +124,9 @@ def collect(pairs: Iterable[tuple[str, str]]) -> NamesAndTypes:
 
 
 def _put(table: dict[K, dict[E, None]], key: K, entry: E) -> None:
-    """Add an entry to its row. The row is put back last, in case the same thread has meanwhile removed it."""
+    """Add an entry to its row. The row is put back last, in case the same thread (in the garbage collector) has removed
+    it meanwhile.
+    """
     row = table.get(key, {})
     row[entry] = None
     table[key] = row

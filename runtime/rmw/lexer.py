@@ -77,13 +77,13 @@ class Lexer:
         return first, self._at(end)[0]
 
     def accept(self) -> str:
-        """Take the next lexeme, whatever it is, and return its text."""
+        """Consume the next lexeme, whatever it is, and return its text."""
         start = self.index
         self.index = self._at(start)[1]
         return self.text[start : self.index]
 
     def expect(self, kind: Lexeme) -> str:
-        """Take a lexeme of this kind and return its text; raises `GrammarError` if the next one is of another kind."""
+        """Consume a lexeme of this kind and return its text; raises `GrammarError` if the next one is another."""
         got = self.peek()
         if got == kind:
             return self.accept()
@@ -92,7 +92,7 @@ class Lexer:
         raise GrammarError(f"Expected lexeme type {kind:d}, got {got:d} at index {self.index}")
 
     def match_token(self) -> str:
-        """Take a token on the left side of a rule; raises `GrammarError`."""
+        """Consume a token on the left side of a rule; raises `GrammarError`."""
         kind = self.peek()
         if kind == Lexeme.TOKEN:
             return self.accept()
@@ -101,7 +101,7 @@ class Lexer:
         raise GrammarError("Expecting token or wildcard")
 
     def node_prefix(self) -> str | None:
-        """Take a `node:` prefix, if there is one, and return the node's name, else None."""
+        """Consume a `node:` prefix, if there is one, and return the node's name, else None."""
         if self.peek_two() != (Lexeme.TOKEN, Lexeme.COLON):
             return None
         name = self.accept()

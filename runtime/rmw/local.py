@@ -33,7 +33,7 @@ class LocalBus:
 
     def __init__(self, rules: QosRules = DDS) -> None:
         self.rules = rules
-        # Callbacks about matches may create or remove endpoints.
+        # Reentrant, because callbacks about matches may create or remove endpoints.
         self._lock = threading.RLock()
         self._numbers = itertools.count(1)
         self._nodes: dict[NodeId, list[Thing]] = {}
@@ -52,11 +52,11 @@ class LocalBus:
             return sum(each.published for publishers in self._publishers.values() for each in publishers)
 
     def processes(self) -> Mapping[int, Sequence[str]]:
-        """No other processes are in this domain."""
+        """Return nothing: this bus knows no other processes."""
         return {}
 
     def overhear(self, hear: Hear | None) -> None:
-        """Pass on each published message, without a subscription; None ends that."""
+        """Pass each published message to `hear`, without a subscription; None removes the observer."""
         self.tap.hear = hear
 
     def add_node(self, name: str, namespace: str, enclave: str) -> NodeId:
@@ -116,7 +116,7 @@ class LocalBus:
         if publisher.endpoint.type_name != subscription.endpoint.type_name:
             return False
         if hasattr(publisher.endpoint.message_class, "_given_digest") and not subscription.raw:
-            return False  # it has bytes only, of a type that this subscription has learned since
+            return False  # it has bytes only, of a type whose class this subscription has learned since
         policy = self.rules.incompatible_policy(publisher.endpoint.qos, subscription.endpoint.qos)
         if policy:
             publisher.on_event("incompatible", policy)
@@ -153,7 +153,7 @@ class LocalBus:
         return True
 
     def disown(self, thing: ServiceEndpoint | ClientEndpoint) -> None:
-        """Keep a service server or client when its node leaves."""
+        """Keep a service server or client in the graph when its node leaves."""
         with self._lock:
             things = self._nodes.get(thing.node, [])
             if thing in things:
@@ -176,7 +176,7 @@ class LocalBus:
         elif isinstance(thing, ClientEndpoint):
             _drop(self._clients, thing.name, thing)
             self._tables.clients.remove(thing)
-        # Empty if its node left first.
+        # Empty if the node left first.
         things = self._nodes.get(_owner(thing))
         if things and thing in things:
             things.remove(thing)
@@ -217,7 +217,7 @@ class LocalBus:
         return any(each.type_name == client.type_name for each in tuple(self._services.get(client.name, ())))
 
     def watch_servers(self, client: ClientEndpoint) -> Callable[[], bool]:
-        """A function that says whether the present servers of a client have ended."""
+        """Return a function that tells whether all servers that a client has now have ended."""
         present = self.has_server(client)
         return lambda: present and not self.has_server(client)
 
@@ -226,7 +226,7 @@ class LocalBus:
         return (self._tables,)
 
     def on_graph_change(self, callback: GraphChanged) -> Callable[[], None]:
-        """Call back on each change of the graph; returns a function that ends this."""
+        """Call `callback` on each change of the graph; returns a function that removes the callback."""
         with self._lock:
             self._watchers.append(callback)
 
@@ -238,16 +238,16 @@ class LocalBus:
         return end
 
     def stopped(self) -> Mapping[int, Sequence[str]]:
-        """Nothing: a frozen process cannot ask."""
+        """Return nothing: the only process here is this one, and it is running."""
         return {}
 
     def debugged(self) -> Mapping[str, str]:
-        """Nothing: no other process is known."""
+        """Return nothing: this bus knows no other processes."""
         return {}
 
     def changed(self, owner: Owner) -> None:
         """Notify the graph's watchers of the node whose entries have changed."""
-        # Without the lock: watchers query the bus for what has changed.
+        # Called without the lock, as watchers query the bus about the change.
         for watcher in tuple(self._watchers):
             watcher(owner)
 

@@ -1,4 +1,4 @@
-"""A publisher of this process: each message is copied or serialized once, and put into each subscription's queue."""
+"""A publisher of this process: each message is copied or serialized once, then put into each subscription's queue."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class LocalPublisher:
     def __init__(
         self, endpoint: Endpoint, on_event: OnEvent, lock: threading.RLock, tap: Tap, lifespan: int | None
     ) -> None:
-        """`lifespan`: how long its messages are valid, in ns; None for ever."""
+        """`lifespan` is how long its messages stay valid, in ns; None for ever."""
         self.endpoint = endpoint
         self._tap = tap
         self._lock = lock
@@ -64,7 +64,7 @@ class LocalPublisher:
         """Number of matched subscriptions in other processes."""
         self.open = True
         self._number = 0
-        # Looked up once: a publisher keeps the process, and so the clock, that it was created in.
+        # Looked up once: a publisher keeps the process in which it was created, and so that process's clock.
         self._now = current().clock.system_ns
         self._lifespan = lifespan
         keeps = endpoint.qos.durability.name in LATCHING
@@ -81,9 +81,9 @@ class LocalPublisher:
         self._aim = targets, _codec().serialize if in_bytes else None
 
     def publish(self, message: Payload) -> None:
-        """Send the message's present content; refuses one that cannot be sent even if nobody listens.
+        """Send the message's current content; refuses one that cannot be sent even if there is no subscription.
 
-        If all receivers want bytes, as other processes do, it is only serialized; otherwise it is copied.
+        If all receivers want bytes, as other processes do, the message is only serialized; otherwise it is copied.
         """
         if self.open:
             targets, write = self._aim
@@ -102,7 +102,7 @@ class LocalPublisher:
         return self.open
 
     def skip(self) -> None:
-        """Count a message that was not created because nobody wants it; it still asserts liveliness."""
+        """Count a message that was not created because nobody would receive it; it still asserts liveliness."""
         if self.open:
             if self.lease is not None or self.on_publish is not None:
                 self.assert_liveliness()
@@ -120,11 +120,11 @@ class LocalPublisher:
         takers = len(targets)
         if history is not None:
             history.append((message, stamp, number))
-            takers += 1  # the kept one is never taken
+            takers += 1  # the kept message is never taken
         if hear is not None:
             takers += 1
         expires = stamp + self._lifespan if self._lifespan else None
-        # The last taker gets the message itself, the others a copy made on taking it, if they ever do.
+        # The last taker gets the message itself; the others get copies, which are made only if they take it.
         given = Shared(message, takers) if takers > 1 else message
         for target in targets:
             if target.raw and data is None:
@@ -155,7 +155,7 @@ class LocalPublisher:
         return bool(self.targets) or self._tap.hear is not None
 
     def send_elsewhere(self, remote_publisher: SubscriptionEndpoint | None) -> None:
-        """Set the target that takes each message, serialized, for other processes; None if nobody wants it there."""
+        """Set the target that receives each message, serialized, for other processes; None if none subscribes."""
         with self._lock:
             if remote_publisher is self._remote_publisher or not self.open:
                 return
@@ -169,9 +169,9 @@ class LocalPublisher:
         return self._number
 
     def late(self, target: SubscriptionEndpoint) -> None:
-        """Send the kept messages to a late subscription."""
+        """Send the kept messages to a subscription that has just been added."""
         now = self._now()
-        for message, stamp, number in tuple(self.history or ()):  # copied, as another thread may publish meanwhile
+        for message, stamp, number in tuple(self.history or ()):  # a copy, as another thread may publish meanwhile
             expires = stamp + self._lifespan if self._lifespan else None
             if expires is None or now <= expires:
                 given = _codec().serialize(message) if target.raw else message._copy_()
@@ -182,7 +182,7 @@ class LocalPublisher:
 
 @cache
 def _codec() -> Any:
-    """Return the codec, imported only once bytes are needed."""
+    """Return the codec, imported only when bytes are needed."""
     from bot_console.runtime.rosidl import cdr
 
     return cdr

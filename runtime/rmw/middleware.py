@@ -9,14 +9,14 @@ from bot_console.runtime.rmw.local import local_bus
 from bot_console.runtime.rmw.qos_matching import DDS, QosRules
 
 BusOf = Callable[[int], Bus]
-"""Returns the bus of a ROS domain; always the same one for a domain."""
+"""Returns the bus of a ROS domain, the same one for every call."""
 
 _bus_of: BusOf = local_bus
 _rules: QosRules = DDS
 
 
 def choose_middleware(bus_of: BusOf, rules: QosRules = DDS) -> None:
-    """Make contexts initialised from now on use another middleware; only for the program's composition root."""
+    """Make contexts that are initialised from now on use another middleware; only for a program's composition root."""
     global _bus_of, _rules
     _bus_of, _rules = bus_of, rules
 

@@ -1,6 +1,6 @@
 """Validation and expansion of node, namespace, topic and service names.
 
-Each check returns None for a valid name, else the message of rcl or rmw and the index of the offending character.
+Each check returns None for a valid name, otherwise rcl's or rmw's message and the index of the invalid character.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ MAX_NODE_NAME = 255
 MAX_TOPIC_NAME = 247
 MAX_NAMESPACE = 245
 MAX_ENCLAVE = 255
-"""Lengths in characters."""
+"""Maximum lengths in characters."""
 
 Problem = tuple[str, int]
 
@@ -43,7 +43,7 @@ def validate_namespace(namespace: str) -> Problem | None:
 
 
 def validate_enclave(enclave: str) -> Problem | None:
-    """Check the path of an enclave, which is a longer kind of namespace."""
+    """Check the path of an enclave, which follows the rules of a namespace but may be longer."""
     return _validate_path(enclave, "context name", MAX_ENCLAVE, "RCL_ENCLAVE_NAME_MAX_NAME_LENGTH")
 
 
@@ -60,7 +60,7 @@ def _validate_path(path: str, what: str, maximum: int, constant: str) -> Problem
 
 
 def validate_full_topic_name(name: str) -> Problem | None:
-    """Check a topic or service name after expansion."""
+    """Check a fully expanded topic or service name."""
     if not name:
         return "topic name must not be empty", 0
     problem = _validate_full(name, "topic name")
@@ -90,12 +90,12 @@ def _validate_full(name: str, what: str) -> Problem | None:
 
 
 def _last_byte(name: str) -> int:
-    """Return the index of the last byte: rcl counts bytes, not characters."""
+    """Return the index of the name's last byte: rcl counts bytes, not characters."""
     return len(name.encode("utf-8", "surrogateescape")) - 1
 
 
 def validate_topic_name(name: str) -> Problem | None:
-    """Check a topic or service name as typed: relative, private or absolute, with substitutions."""
+    """Check a topic or service name before expansion: relative, private or absolute, with substitutions."""
     if _PLAIN.match(name):
         return None
     if not name:
@@ -107,7 +107,7 @@ def validate_topic_name(name: str) -> Problem | None:
     problem = _validate_characters(name)
     if problem:
         return problem
-    if name[0] == "~" and name[1:2] != "/" and len(name) > 2:  # rcl does not check the last character: `~a` passes
+    if name[0] == "~" and name[1:2] != "/" and len(name) > 2:  # rcl does not check the last character, so `~a` passes
         return "topic name must not have a tilde '~' that is not followed by a forward slash '/'", 1
     digit = _DIGIT_TOKEN.search(name)
     if digit:
@@ -121,7 +121,7 @@ def _validate_characters(name: str) -> Problem | None:
         if not _TYPED_CHARACTERS.match(character) and opened < 0:
             words = "topic name must not contain characters other than alphanumerics, '_', '~', '{', or '}'"
             return words, index
-        if character == "~" and index:  # within braces, too
+        if character == "~" and index:  # also within braces
             return "topic name must not have tilde '~' unless it is the first character", index
         if opened >= 0 and character != "}":
             problem = _validate_substitution(name, opened, index)
@@ -152,7 +152,7 @@ def full_name(namespace: str, name: str) -> str:
 
 
 def expand(name: str, node: str, namespace: str) -> str:
-    """Expand a valid name as typed; raises `ValueError` with rcl's wording for an unknown substitution."""
+    """Expand a valid topic or service name; raises `ValueError` with rcl's wording for an unknown substitution."""
     if name[0] == "/" and "{" not in name:
         return name
     prefix = namespace.rstrip("/")
@@ -190,7 +190,7 @@ def result_of(problem: str) -> int:
 
 
 def in_words_for_node_names(namespace_problem: str) -> str:
-    """Return rmw's message for an invalid namespace of a new node: it looks up the code among those for node names."""
+    """Return rmw's message for an invalid namespace of a new node, which rmw looks up among those for node names."""
     number = next(place for place, word in enumerate(_NAMESPACE_PROBLEMS) if word in namespace_problem)
     known = number < len(_NODE_NAME_PROBLEMS)
     return _NODE_NAME_PROBLEMS[number] if known else "unknown result code for rmw_validate_node_name"

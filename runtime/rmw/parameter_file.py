@@ -30,7 +30,7 @@ def read_parameter_file(path: str, overrides: ParameterOverrides) -> None:
     try:
         with open(path, "rb") as file:
             content = file.read()
-    except (OSError, ValueError) as error:  # ValueError: an impossible file name
+    except (OSError, ValueError) as error:  # ValueError is raised for an impossible file name
         if isinstance(error, IsADirectoryError):
             raise ParameterYamlError("Error parsing a event near line 0") from None
         why = getattr(error, "strerror", None) or error
@@ -61,7 +61,7 @@ def read_parameter_file(path: str, overrides: ParameterOverrides) -> None:
 
 
 def _not_yaml(path: str, content: bytes, error: Exception) -> str:
-    """Say where and why a text is not YAML; names a tab as the cause, which the YAML library does not."""
+    """Say where and why a text is not YAML; names a tab as the cause, which the YAML library's message does not."""
     mark = getattr(error, "problem_mark", None)
     if mark is None:
         return ""
@@ -85,7 +85,9 @@ def _misspelt(path: str, content: bytes, error: Exception) -> str:
 
 
 def _unspaced(path: str, lines: list[str]) -> str:
-    """The nearest line up to where parsing stopped that lacks the blank after its colon; empty if there is none."""
+    """Return a hint, with its place, at the last line up to the error that lacks the space after a colon; empty if none
+    does.
+    """
     for number in range(len(lines), max(0, len(lines) - 3), -1):
         if text := hints.unspaced_colon(lines[number - 1]):
             return f"{path}:{number}: {text}"
@@ -173,7 +175,7 @@ class _Reader:
         if node is None or (self._new_map and self._index >= len(node.names)):
             raise ParameterYamlError(f"Internal error creating param namespace at line {self.line}")
         if self._new_map:
-            # A map under a parameter's name makes that name a prefix of the names in the map.
+            # A map under a parameter's name turns that name into a prefix of the names in the map.
             self._parameter_levels.replace(node.names[self._index])
             self._new_map = False
         above = self._parameter_levels.path
@@ -217,17 +219,17 @@ class _Reader:
 
 
 Find = Callable[[str], str]
-"""Returns a hint where a file of that path is; empty if unknown."""
+"""Returns a hint about where a parameter file with that path may be; empty if it knows none."""
 
 _finders: list[Find] = []
 
 
 def find_with(find: Find) -> None:
-    """Register a function that knows places; does nothing if it is already registered."""
+    """Register a function that gives such hints; does nothing if it is already registered."""
     if find not in _finders:
         _finders.append(find)
 
 
 def hint_for(path: str) -> str:
-    """Return a hint where a missing parameter file is; empty if unknown."""
+    """Return a hint about where a missing parameter file may be; empty if there is none."""
     return next((hint for find in _finders if (hint := find(path))), "")

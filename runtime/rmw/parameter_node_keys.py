@@ -19,14 +19,14 @@ def key_matches(key: str, fully_qualified_name: str) -> bool:
     key = key if key.startswith("/") else f"/{key}"
     if "*" not in key:
         return key == fully_qualified_name
-    # As in rcl, one replacement handles both wildcards: `/*` becomes a group that matches one name, and the second star
-    # of `/**` stays behind as a quantifier of that group, which then matches any number of names, including none.
+    # As in rcl, one replacement handles both wildcards: `/*` becomes a group that matches one name, and the remaining
+    # star of `/**` becomes the quantifier of that group, which then matches any number of names, including none.
     pattern = key.replace("/*", r"(/\w+)")
     return re.fullmatch(pattern, fully_qualified_name) is not None
 
 
 def check_node_key(key: str) -> None:
-    """Raise `ParameterYamlError` for a key that cannot be a node's name, wildcards aside."""
+    """Raise `ParameterYamlError` for a key that, apart from wildcards, cannot be a node's name."""
     namespace, slash, node = key.rpartition("/")
     if slash:
         namespace = f"{namespace}/"

@@ -1,4 +1,4 @@
-"""Parameter overrides given to a node, by node key and name, with one value per type until one is chosen."""
+"""Parameter overrides given to a node, by node key and name, with one value per type until one of them is chosen."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def chosen(slots: Slots) -> Any:
 
 
 class ParameterYamlError(ValueError):
-    """A parameter file or value is refused; the message has rcl's wording. `hint` adds how to fix it."""
+    """A parameter file or value is invalid; the message has rcl's wording. `hint` adds how to fix it."""
 
     def __init__(self, text: str, hint: str = "") -> None:
         super().__init__(text)
@@ -33,7 +33,7 @@ class ParameterYamlError(ValueError):
 
 
 class NodeOverrides:
-    """The parameters under one node key. Names may repeat; the later value counts."""
+    """The parameters under one node key. Names may repeat; the last value counts."""
 
     def __init__(self) -> None:
         self.names: list[str] = []
@@ -60,7 +60,7 @@ class NodeOverrides:
 
 
 class ParameterOverrides:
-    """Overrides by node key; keys keep the order of their first appearance."""
+    """Parameter overrides by node key, in the order in which the keys first appear."""
 
     def __init__(self) -> None:
         self.nodes: dict[str, NodeOverrides] = {}
@@ -68,7 +68,7 @@ class ParameterOverrides:
         """The source of the values being added: the path of a file, or `COMMAND_LINE`."""
 
     def node(self, key: str) -> NodeOverrides:
-        """Return the parameters under a node key, which is added if missing."""
+        """Return the parameters under a node key, adding the key if it is missing."""
         node = self.nodes.setdefault(key, NodeOverrides())
         node.source = self.source
         return node

@@ -1,4 +1,4 @@
-"""In which line of which file a parameter was given a value: a parameter file, or a launch file through one."""
+"""Find the file and line that gave a parameter its value, in a parameter file or in the launch file that wrote it."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from bot_console.runtime.rmw.parameter_overrides import COMMAND_LINE
 
 KEYWORD = "ros__parameters"
 FROM_LAUNCH = "# from "
-"""How a parameter file begins that launch has written for the values of a launch file; the action's place follows."""
+"""The first words of a parameter file that launch writes for values of a launch file; the action's place follows."""
 
 
 def place_of(source: str, node: str, name: str) -> str:
-    """The `file:line` that gives a node (full name) a parameter; the file alone, or empty, if no more is known.
+    """Return the `file:line` where a node (full name) gets a parameter; the file alone, or empty, if that is all known.
 
     `source` is the path of a parameter file, or `COMMAND_LINE`.
     """
@@ -35,7 +35,7 @@ def place_of(source: str, node: str, name: str) -> str:
 
 
 def place_of_key(path: str, key: str) -> str:
-    """The `file:line` of a node's key in a parameter file; the file alone if it is not found."""
+    """Return the `file:line` of a node's key in a parameter file; the file alone if it is not found."""
     try:
         with open(path, encoding="utf-8") as file:
             found = dict(node_keys(file.read()))
@@ -45,19 +45,19 @@ def place_of_key(path: str, key: str) -> str:
 
 
 def line_of_name(text: str, node: str, name: str) -> int:
-    """The line of a parameter file's text that gives a node a parameter; 0 if none does."""
+    """Return the line in a parameter file's text where a node gets a parameter; 0 if there is none."""
     lines = [line for key, found, line in _names(text) if found == name and key_matches(key, node)]
     return lines[-1] if lines else 0
 
 
 def node_keys(text: str) -> Iterator[tuple[str, int]]:
-    """The node keys of a parameter file's text, each with its line; none for a text that is not YAML."""
+    """Yield the node keys of a parameter file's text, each with its line; none for a text that is not YAML."""
     for key, line, _ in _sections(_composed(text), "", 0):
         yield key, line
 
 
 def _names(text: str) -> Iterator[tuple[str, str, int]]:
-    """Node key, parameter name and line of each value."""
+    """Yield the node key, parameter name and line of each value."""
     for key, _, values in _sections(_composed(text), "", 0):
         yield from ((key, *each) for each in _flat(values, ""))
 
@@ -69,7 +69,7 @@ def _flat(mapping: object, prefix: str) -> Iterator[tuple[str, int]]:
 
 
 def _sections(mapping: object, key: str, line: int) -> Iterator[tuple[str, int, Any]]:
-    """The sections below the keyword, each with its node's key and the line of that."""
+    """Yield the sections below the keyword `ros__parameters`, each with its node's key and the line of that key."""
     for name, value in _pairs(mapping):
         if name.value == KEYWORD:
             yield key, line, value
@@ -78,14 +78,14 @@ def _sections(mapping: object, key: str, line: int) -> Iterator[tuple[str, int, 
 
 
 def _pairs(node: Any) -> Iterator[tuple[Any, Any]]:
-    """Keys and values of a mapping of the tree; nothing for any other node."""
+    """Yield the keys and values of a mapping node; nothing for any other node."""
     if node is not None and node.id == "mapping":
         yield from node.value
 
 
 @lru_cache(maxsize=8)
 def _composed(text: str) -> Any:
-    """The tree of a text; None if it is not YAML."""
+    """Parse a text into a tree of YAML nodes; None if it is not YAML."""
     import yaml
 
     untyped: Any = yaml  # the stubs leave `compose` untyped
@@ -96,7 +96,7 @@ def _composed(text: str) -> Any:
 
 
 def _in_launch_file(origin: str, name: str) -> str:
-    """The line that names a parameter: the first one from the action's own on, else the first one of the file."""
+    """Return the line that names a parameter: the first one from the action on, otherwise the first in the file."""
     path, _, start = origin.rpartition(":")
     if not start.isdigit():
         return origin

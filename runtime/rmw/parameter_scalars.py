@@ -28,7 +28,7 @@ _WORD = re.compile(_BLANKS + r"([+-]?)(inf|infinity|nan(?:\([0-9A-Za-z_]*\))?)\Z
 
 
 def scalar_value(text: str) -> Scalar:
-    """Return the value of an unquoted scalar: bool, int (64 bits), float or, if nothing else fits, the text itself."""
+    """Return the value of an unquoted scalar: bool, int (64 bits), float or otherwise the text itself."""
     if text in _TRUE:
         return True
     if text in _FALSE:
@@ -41,7 +41,7 @@ def scalar_value(text: str) -> Scalar:
 
 
 MAX_DIGITS = 19
-"""Decimal digits of the largest integer; Python refuses to convert more than 4,300."""
+"""Number of decimal digits of the largest integer; Python refuses to convert more than 4,300."""
 
 
 def _base(digits: str) -> int:
@@ -98,6 +98,6 @@ def _lost_digits(text: str, value: float) -> bool:
 
 
 def _shortened(text: str) -> str:
-    """Return the same number, or another just as small, with an exponent that `Fraction` can handle quickly."""
+    """Return the same number, or another one that is just as small, in a form that `Fraction` can handle quickly."""
     mantissa, _, exponent = text.lower().partition("e")
     return f"{mantissa}e{max(int(exponent), -1100 - len(mantissa))}" if exponent else mantissa

@@ -21,7 +21,7 @@ class ParameterType(NamedTuple):
 
     @property
     def field(self) -> str:
-        """The field of `rcl_interfaces/msg/ParameterValue` that holds such a value."""
+        """The field of `rcl_interfaces/msg/ParameterValue` that holds a value of this type."""
         return f"{self.name.lower()}_value"
 
 
@@ -44,6 +44,6 @@ BY_CLASS = {each.python: each for each in SCALARS}
 
 
 def word_of(value: object) -> str:
-    """Return the word for a scalar's type; for any other value the name of its class."""
+    """Return rcl's word for a scalar's type; for any other value, the name of its class."""
     found = BY_CLASS.get(type(value))
     return type(value).__name__ if found is None else found.word

@@ -21,7 +21,7 @@ def yaml_events(source: str | bytes) -> Iterator[Any]:
     untyped: Any = yaml  # the stubs leave `parse` untyped
     try:
         yield from untyped.parse(source, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    except ValueError as error:  # an incomplete character, as an argument from a terminal may hold
+    except ValueError as error:  # an incomplete character, as in an argument typed in a terminal
         raise yaml.YAMLError(str(error)) from None
 
 
@@ -33,7 +33,7 @@ class ValueWriter:
         self._kind: str | None = None
 
     def start_list(self) -> None:
-        """Begin a list: its first element determines its type."""
+        """Begin a list, whose first element determines its type."""
         self.in_list = True
         self._kind = None
 
@@ -50,7 +50,7 @@ class ValueWriter:
         self.put(event.value if quoted or event.tag == _STRING_TAG else scalar_value(event.value), slots, line)
 
     def put(self, value: Scalar, slots: Slots, line: int) -> None:
-        """Write a value from the given line of the source."""
+        """Write a value that is on the given line of the source."""
         kind = word_of(value)
         if not self.in_list:
             slots[kind, False] = value

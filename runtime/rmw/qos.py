@@ -1,4 +1,4 @@
-"""QoS as the middleware sees it: a protocol implemented by `rclpy.qos.QoSProfile` and by received profiles."""
+"""QoS as the middleware sees it: a protocol that `rclpy.qos.QoSProfile` and received profiles implement."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ class Policy(Protocol):
 
     @property
     def name(self) -> str:
-        """For example `RELIABLE`."""
+        """The policy's name, such as `RELIABLE`."""
         ...
 
 
@@ -63,5 +63,5 @@ class Profile(Protocol):
 
     @property
     def liveliness_lease_duration(self) -> Period:
-        """After how long without an assertion a publisher counts as dead."""
+        """How long after its last assertion a publisher counts as dead."""
         ...

@@ -1,4 +1,4 @@
-"""How a middleware treats QoS: whether a publisher's satisfies a subscription's, and whether messages expire."""
+"""How a middleware treats QoS: whether a publisher's profile suits a subscription's, and whether messages expire."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ LATCHING = ("TRANSIENT_LOCAL", "BEST_AVAILABLE")
 
 
 def incompatible_policy(offered: Profile, requested: Profile) -> str:
-    """Return the name of the incompatible policy, of several the last in rmw's order; empty if the profiles match."""
+    """Return the name of the incompatible policy, or the last one in rmw's order of several; empty if the profiles
+    match.
+    """
     worst = ""
     if requested.reliability.name == "RELIABLE" and offered.reliability.name == "BEST_EFFORT":
         worst = "RELIABILITY"
@@ -31,7 +33,7 @@ def incompatible_policy(offered: Profile, requested: Profile) -> str:
 
 
 def _every_policy_fits(offered: Profile, requested: Profile) -> str:
-    """No policy keeps rmw_zenoh's publishers and subscriptions apart: what is offered is delivered."""
+    """Return an empty text: no policy is incompatible in rmw_zenoh, which delivers whatever a publisher offers."""
     return ""
 
 
@@ -39,9 +41,9 @@ class QosRules(NamedTuple):
     """How a middleware treats QoS policies."""
 
     identifier: str
-    """The name of the middleware, as rclpy gives it."""
+    """The name of the middleware that rclpy returns."""
     incompatible_policy: Callable[[Profile, Profile], str]
-    """Returns the policy that keeps a publisher (first) and a subscription apart; empty if they match."""
+    """Returns the policy that makes a publisher (first) and a subscription incompatible; empty if they match."""
     enforces_lifespan: bool
     """Whether messages older than their publisher's lifespan are dropped on receipt."""
 
@@ -54,7 +56,7 @@ class QosRules(NamedTuple):
 DDS = QosRules("rmw_bot_console", incompatible_policy, True)
 """The rules of the embedded domain, which are those of the DDS middlewares."""
 RMW_ZENOH = QosRules("rmw_zenoh_cpp", _every_policy_fits, False)
-"""The rules of nodes behind a Zenoh router: no two profiles are incompatible, and nothing expires on its way."""
+"""The rules of nodes behind a Zenoh router: no two profiles are incompatible, and no message expires in transit."""
 
 
 def _shorter(requested: int, offered: int) -> bool:

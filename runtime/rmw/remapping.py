@@ -114,12 +114,12 @@ def _replacement_token(lexer: Lexer) -> None:
 
 
 def remap_node_name(rules: Iterable[RemapRule], name: str) -> str | None:
-    """Return a node's new name by the first matching rule, or None."""
+    """Return the name that the first matching rule gives a node, or None."""
     return _first(rules, Kind.NODE_NAME, name)
 
 
 def remap_namespace(rules: Iterable[RemapRule], name: str) -> str | None:
-    """Return the new namespace of the node of that name by the first matching rule, or None."""
+    """Return the namespace that the first matching rule gives a node, or None."""
     return _first(rules, Kind.NAMESPACE, name)
 
 
@@ -128,12 +128,12 @@ def _first(rules: Iterable[RemapRule], kind: Kind, name: str) -> str | None:
 
 
 def remap_topic(rules: Iterable[RemapRule], node: str, namespace: str, full: str) -> str:
-    """Return a topic's full name after the first rule that matches its full name."""
+    """Return a topic's full name, replaced if a rule matches it; the first match counts."""
     return _remap(rules, Kind.TOPIC, node, namespace, full)
 
 
 def remap_service(rules: Iterable[RemapRule], node: str, namespace: str, full: str) -> str:
-    """Return a service's full name after the first rule that matches its full name."""
+    """Return a service's full name, replaced if a rule matches it; the first match counts."""
     return _remap(rules, Kind.SERVICE, node, namespace, full)
 
 

@@ -11,7 +11,7 @@ other processes. The operations of a process:
     ("query", number, key, payload, attachment), ("reply", process, number, payload, attachment)
     ("published", count)                                how many messages it has published, for the report
 
-What is delivered to it:
+What the switchboard delivers to it:
 
     ("token", key, exists), ("sample", key, payload, attachment), ("kept", key, subscription, payload, attachment),
     ("query", process, number, key, payload, attachment), ("reply", number, payload, attachment)

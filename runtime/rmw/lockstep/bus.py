@@ -24,7 +24,7 @@ class LockstepBuses:
         return self._buses[domain]
 
     def news(self) -> list[Operation]:
-        """Return what the switchboard has to know at the end of a turn: how many messages have been published."""
+        """Return what the switchboard must be told at the end of a turn: how many messages have been published."""
         published = sum(each.published_here() for each in self._buses.values())
         if published == self._reported:
             return []
@@ -42,5 +42,5 @@ class _LockstepBus(ZenohBus):
         return super().published()
 
     def published(self) -> int:
-        """Number of messages published by the current publishers, in the coordinator those of all processes."""
+        """Number of messages published by the current publishers; in the coordinator, by those of all processes."""
         return self.published_here() + self._link.published_elsewhere()

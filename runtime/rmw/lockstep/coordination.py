@@ -15,9 +15,9 @@ from bot_console.runtime.rmw.middleware import choose_middleware, chosen_middlew
 
 @contextmanager
 def coordinated(clock: SteppedTime, seed: int) -> Generator[None]:
-    """Within the block, users' programs of launches in this run are processes of their own that keep its time.
+    """Within the block, launches in this run start users' programs as separate processes that follow its clock.
 
-    Contexts initialised in the block can reach them.
+    Contexts initialised in the block can communicate with those processes.
     """
     switchboard = Switchboard()
 

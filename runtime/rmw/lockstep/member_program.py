@@ -1,4 +1,4 @@
-"""The first steps of a process forked for a stepped run: it joins the run, and its middleware is that of the run."""
+"""The start of a process forked for a stepped run: it joins the run and uses the run's middleware."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from bot_console.runtime.rmw.middleware import choose_middleware
 
 
 def member_program(process: int, function: str, arguments: Sequence[object], channel: int) -> Callable[[], object]:
-    """Join the run as process number `process` and return what it runs: the program that a function returns.
+    """Join the run as process number `process`, and return the program to run, which the named function returns.
 
     `channel` is the descriptor of the connection to the coordinator.
     """

@@ -1,4 +1,4 @@
-"""A process's session in a stepped run: what it declares and sends goes through the coordinator's switchboard."""
+"""A process's session in a stepped run: its declarations and messages go through the coordinator's switchboard."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Send = Callable[[Operation], None]
 
 
 class LinkError(Exception):
-    """Never raised: this link has no errors."""
+    """Stands in for Zenoh's error class; never raised, as this link cannot fail."""
 
 
 class Link:
@@ -44,7 +44,7 @@ class Link:
         self.watches: dict[int, tuple[re.Pattern[str], TokenWatch]] = {}
 
     def take(self, operation: Operation) -> None:
-        """Take in what the switchboard delivers."""
+        """Handle an operation that the switchboard delivers."""
         kind, *rest = operation
         if kind == "sample":
             key, payload, attachment = rest
@@ -67,7 +67,7 @@ class Link:
                 self.waiting[number](payload, attachment)
 
     def see(self, key: str, exists: bool) -> None:
-        """Take in that a token of some process appears or disappears."""
+        """Handle the appearance or disappearance of another process's token."""
         if exists:
             self.tokens[key] = None
         else:
@@ -90,22 +90,22 @@ class LockstepSession(Session):
 
     @staticmethod
     def errors() -> type[Exception]:
-        """Return an error that is never raised."""
+        """Return an error class that is never raised."""
         return LinkError
 
     def _shut(self) -> None:
-        """Do nothing: the process leaves the switchboard when it ends."""
+        """Do nothing: the switchboard removes the process when it ends."""
 
     def declare_publisher(
         self, key: str, *, reliable: bool = True, cache: int = 0, blocking: bool = False
     ) -> Publisher:
-        """Declare a publisher; the switchboard keeps up to `cache` of its last samples for late subscribers."""
+        """Declare a publisher; the switchboard keeps up to `cache` of its latest samples for late subscribers."""
         return self._declare(Publisher(self, lambda link: _Publisher(link, key, cache)))
 
     def declare_subscriber(
         self, key: str, received: Received, *, reliable: bool = True, history: int | None = None
     ) -> Declaration:
-        """Declare a subscriber; it gets up to `history` of the last samples that are kept."""
+        """Declare a subscriber; it gets up to `history` of the latest samples that publishers have kept."""
 
         def declare(link: Link) -> _Entry:
             entry = _Entry(link, link.subscriptions, "subscribe", key, received)
@@ -120,7 +120,7 @@ class LockstepSession(Session):
         return self._declare(Declaration(self, lambda link: _Entry(link, link.served, "serve", key, asked)))
 
     def declare_querier(self, key: str, timeout: float) -> Querier:
-        """Declare a querier of a key's queryables in other processes; a request waits for its answer without end."""
+        """Declare a querier of a key's queryables in other processes; a request waits for its answer indefinitely."""
 
         def ask(
             querier: _Querier, payload: bytes, attachment: bytes, replied: Received, done: Callable[[], None] | None
@@ -148,17 +148,17 @@ class LockstepSession(Session):
         return [each for each in self._link.tokens if pattern.fullmatch(each)], True
 
     def linked(self) -> set[str]:
-        """Return no ids: the coordinator reports truly who is there."""
+        """Return no ids: the coordinator's report of who is there needs no confirmation by links."""
         return set()
 
     def is_really_gone(self, zid: str, pid: int | None) -> bool:
-        """Return True: no link is lost but by the end of its process."""
+        """Return True: a link is lost only when its process ends."""
         return True
 
 
 @lru_cache(1024)
 def _pattern(key: str) -> re.Pattern[str]:
-    """Return a regular expression for a key with wildcards: `*` is one part, `/**` at the end any number of them."""
+    """Return a regular expression for a key with wildcards: `*` matches one part, `/**` at the end any number."""
     head, any_rest, _ = key.partition("/**")
     parts = ("[^/]*" if each == "*" else re.escape(each).replace(r"\*", "[^/]*") for each in head.split("/"))
     return re.compile("/".join(parts) + ("(?:/.*)?" if any_rest else ""))
@@ -205,7 +205,7 @@ class _Publisher:
 
 
 class _Entry:
-    """One of this process's callbacks for a key; the switchboard knows only whether there are any."""
+    """A callback of this process for a key; the switchboard knows only whether a key has any."""
 
     def __init__(self, link: Link, entries: dict[str, dict[int, Any]], kind: str, key: str, callback: object) -> None:
         self.number = next(link.numbers)
@@ -247,7 +247,7 @@ class _Watch:
 
 
 class _Question:
-    """A request of another process, in the role of Zenoh's query."""
+    """A request from another process; plays the role of Zenoh's query."""
 
     def __init__(self, send: Send, process: int, number: int) -> None:
         self._answer = partial(self._reply, send, process, number)
@@ -266,4 +266,4 @@ class _Question:
         send(("reply", process, number, payload, attachment))
 
     def drop(self) -> None:
-        """Do nothing: the asker waits on, or has gone."""
+        """Do nothing: the client keeps waiting, or has gone."""

@@ -28,11 +28,11 @@ class Peer:
         self.published = 0
 
     def handle(self, operation: Operation) -> None:
-        """Carry out an operation of the process."""
+        """Carry out an operation that the process has sent."""
         self._switchboard.handle(self, operation)
 
     def leave(self) -> None:
-        """The process has ended: what it had in the graph is gone."""
+        """Remove what the process had in the graph, as it has ended."""
         self._switchboard.remove(self)
 
 
@@ -56,7 +56,7 @@ class Switchboard:
         }
 
     def add(self, deliver: Deliver) -> Peer:
-        """Add a process; `deliver(operation)` gets what is for it, from now on and what the graph has now."""
+        """Add a process; `deliver(operation)` is called with its operations, first with those of the existing graph."""
         peer = Peer(self, next(self._numbers), deliver)
         for other in self._peers.values():
             for key in other.tokens:
@@ -76,7 +76,7 @@ class Switchboard:
         self._handlers[operation[0]](peer, *operation[1:])
 
     def published(self) -> int:
-        """Return how many messages the processes have published, as far as they report it."""
+        """Return how many messages the processes have reported as published."""
         return sum(each.published for each in self._peers.values())
 
     def _published(self, peer: Peer, count: int) -> None:

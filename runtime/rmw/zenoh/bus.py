@@ -123,7 +123,7 @@ class ZenohBus:
         if shown:
             remote_subscription = RemoteSubscription(self._session, subscription, key, self._own, self._local.tap)
             watched: tuple[Kind, str, Listener] = ("MP", endpoint.topic, self._reporting(remote_subscription.saw))
-            self._watches.listen(*watched)  # the publishers are known before the first message comes
+            self._watches.listen(*watched)  # the publishers must be known before the first message arrives
             remote_subscription.open()
             self._keep(
                 endpoint.node, subscription, Bridge(remote_subscription, self._session.declare_token(shown), watched)
@@ -169,13 +169,13 @@ class ZenohBus:
             bridged = self._nodes.get(node)
             if bridged is not None:
                 bridged.bridges[thing] = bridge
-        if bridged is None:  # the node has left in the meantime
+        if bridged is None:  # the node has left meanwhile
             self._take_down(bridge)
         elif bridge.watched and not isinstance(bridge.way, RemoteSubscription):
             self._watches.listen(*bridge.watched)
 
     def _reporting(self, saw: Listener) -> Listener:
-        """Wrap a listener so that the graph's watchers are notified of each change, too."""
+        """Wrap a listener so that each change also notifies the graph's watchers."""
 
         def report(token: Token, came: bool) -> None:
             saw(token, came)
@@ -192,7 +192,7 @@ class ZenohBus:
             self._own.discard(bridge.way.gid)
 
     def disown(self, thing: ServiceEndpoint | ClientEndpoint) -> None:
-        """Keep a service server or client when its node leaves."""
+        """Keep a service server or client in the graph when its node leaves."""
         self._local.disown(thing)
         with self._lock:
             bridged = self._nodes.get(thing.node)
@@ -236,14 +236,14 @@ class ZenohBus:
         return self._local.has_server(client) or (isinstance(asking, Asking) and asking.has_server)
 
     def watch_servers(self, client: ClientEndpoint) -> Callable[[], bool]:
-        """A function that says whether the present servers of a client have ended for certain."""
+        """Return a function that tells whether all servers that a client has now are known to have ended."""
         asking = self._bridge(client)
         if isinstance(asking, Asking) and asking.has_server:
             return asking.watch_servers()
         return self._local.watch_servers(client)
 
     def _graph(self) -> WholeGraph:
-        """The graph of the other processes, watched from the first query on."""
+        """Return the graph of the other processes; the first call starts watching it."""
         with self._whole_lock:
             if self._whole is None:
                 self._whole = WholeGraph(self._session, self._local.changed, self._watches.known)
@@ -254,7 +254,7 @@ class ZenohBus:
         return (*self._local.tables(), self._graph().tables)
 
     def stopped(self) -> Mapping[int, Sequence[str]]:
-        """The frozen processes of the mesh, by pid, with their nodes; Zenoh itself considers them alive for long."""
+        """The frozen processes of the mesh by pid, with their nodes; Zenoh takes a long time to notice them."""
         return self._nodes_of(self._session.stopped())
 
     def processes(self) -> Mapping[int, Sequence[str]]:
@@ -268,7 +268,7 @@ class ZenohBus:
         return {pid: nodes.get(session, ()) for session, pid in pids.items()}
 
     def debugged(self) -> Mapping[str, str]:
-        """The nodes of the mesh's processes that are stopped in a debugger, with the line."""
+        """The nodes of the mesh's processes that are stopped in a debugger, each with the current line."""
         lines = self._session.debugged()
         if not lines:
             return {}
@@ -276,11 +276,11 @@ class ZenohBus:
         return {node: lines[session] for session, names in nodes.items() for node in names}
 
     def on_graph_change(self, callback: GraphChanged) -> Callable[[], None]:
-        """Call back on each graph change that this process observes; returns a function that ends this."""
+        """Call `callback` on each graph change that this process sees; returns a function that removes the callback."""
         return self._local.on_graph_change(callback)
 
     def overhear(self, hear: Hear | None) -> None:
-        """Pass on what this process publishes and what its subscriptions receive; None ends that."""
+        """Pass what this process publishes and its subscriptions receive to `hear`; None removes the observer."""
         self._local.overhear(hear)
 
     def published(self) -> int:
@@ -293,7 +293,7 @@ class ZenohBus:
         self._session.close()
 
     def _send_again(self) -> None:
-        """After a reopen, publish again what latching publishers keep, and send the requests that were held back."""
+        """After a reopening, publish again what latching publishers keep, and send the requests that were held back."""
         with self._lock:
             ways = [bridge.way for each in self._nodes.values() for bridge in each.bridges.values()]
         for way in ways:

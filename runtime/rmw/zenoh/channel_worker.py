@@ -22,7 +22,7 @@ MAX_POLL_S = 0.05
 
 
 class Channel(Protocol):
-    """The part of a Zenoh channel that is used here."""
+    """The part of a Zenoh channel's interface that is used here."""
 
     def try_recv(self) -> Any:
         """Return the next sample, or None if none is available now. Raises once the channel is closed."""

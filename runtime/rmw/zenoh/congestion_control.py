@@ -1,5 +1,6 @@
-"""Priorities on a link: what is sent first, what waits, and what is dropped when a link is full or slow; all figures
-are measured.
+"""Priorities on a link: what is sent first, what waits, and what is dropped when a link is full or slow.
+
+All figures are measured.
 """
 
 from __future__ import annotations
@@ -7,11 +8,11 @@ from __future__ import annotations
 from bot_console.runtime.rmw.endpoints import Profile, depth
 
 REQUEST_PRIORITY = "INTERACTIVE_HIGH"
-"""Zenoh's name of the priority of requests: they overtake messages."""
+"""Zenoh's name for the priority of requests: they overtake messages."""
 MESSAGE_PRIORITY = "DATA"
-"""That of messages which are dropped when a link stays full."""
+"""The priority of messages that are dropped when a link stays full."""
 BLOCKING_PRIORITY = "DATA_LOW"
-"""That of messages which must not be dropped, a lower one: otherwise publishers that drop would wait behind them."""
+"""The lower priority of messages that must not be dropped: otherwise publishers that drop would wait behind them."""
 
 WAIT_BEFORE_DROP_US = 50_000
 """How long a publisher waits for a full link before it drops a message, in us.
@@ -27,27 +28,27 @@ Only the thread that sends those messages waits. The link to a process that was 
 """
 
 ROOM_OF_A_LINK = 16
-"""How many batches (64 kB each, allocated when needed) a link queues for messages of one priority: a burst to a reader
-that is briefly without a processor is kept.
+"""How many batches (64 kB each, allocated when needed) a link queues for messages of one priority: enough to keep a
+burst for a reader that briefly gets no processor time.
 """
 
 ROOM_FOR_DECLARATIONS = 16
-"""That for declarations, all of which a new link carries first: enough for 200 nodes."""
+"""The same limit for declarations, all of which a new link carries first: enough for 200 nodes."""
 
 NARROW = {"so_sndbuf": 16_384}
-"""Send buffer of a socket to another machine (bytes; Linux doubles it).
+"""Socket option that limits the send buffer to another machine (bytes; Linux doubles it).
 
-By default it takes 650 kB from a robot that publishes more than the link carries: at 40 kB/s all messages were 16 s
-old, and no answer came through.
+By default the buffer takes 650 kB from a robot that publishes more than the link carries: at 40 kB/s all messages were
+16 s old, and no answer got through.
 """
 SMALL_BATCH = 8192
 """Batch size to another machine in bytes, small so that an answer need not wait behind 64 kB of data."""
 ROOM_OF_A_NETWORK = 2
-"""How many of those batches a link queues for messages of one priority."""
+"""How many batches of that size a link to another machine queues for messages of one priority."""
 
 DEEP_QUEUE = 1000
-"""Depth from which a reliable publisher counts as one that keeps everything: ROS 2 would keep so many messages for a
-reader that is late, and a link has room for 1 MB.
+"""Depth from which a reliable publisher is treated like one with KEEP_ALL: ROS 2 would keep that many messages for a
+reader that is late, whereas a link has room for 1 MB.
 """
 
 BLOCKING_TOPICS = frozenset({"/rosout"})
@@ -61,7 +62,7 @@ def must_not_drop(topic: str, qos: Profile) -> bool:
 
 
 def queue_settings(room: int) -> dict[str, object]:
-    """Zenoh's settings (`transport/link/tx/queue`) of a link that queues so many batches for messages of a priority."""
+    """Return Zenoh's settings (`transport/link/tx/queue`) for a link that queues `room` batches per priority."""
     return {
         "size": {"control": ROOM_FOR_DECLARATIONS, "data": room, "data_low": room},
         "congestion_control": {

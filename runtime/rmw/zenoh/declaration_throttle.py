@@ -1,4 +1,4 @@
-"""Throttles a process that declares many entities at once, as every process of the domain must take in each."""
+"""Throttles a process that declares many entities at once, as every process of the domain must handle each of them."""
 
 from __future__ import annotations
 
@@ -6,19 +6,17 @@ import time
 from collections.abc import Callable
 
 AT_ONCE = 1000
-"""Declarations made without a pause: about fifty nodes."""
+"""Number of declarations made without a pause: about fifty nodes."""
 DECLARATIONS_PER_PAUSE = 20
-"""Declarations between two pauses."""
+"""Number of declarations between two pauses."""
 PAUSE_S = 0.005
-"""Length of a pause, in seconds: as long as the declarations between two take, which leaves half of a processor to
-others.
-"""
+"""Length of a pause, in seconds: as long as the declarations in between, which leaves half a processor to others."""
 QUIET_S = 0.1
-"""Seconds without a declaration after which `AT_ONCE` may be made without a pause again."""
+"""Time without declarations, in seconds, after which `AT_ONCE` of them may again be made without a pause."""
 
 
 class Pace:
-    """Counts declarations and pauses now and then when there are very many."""
+    """Counts declarations, and pauses regularly once there are very many."""
 
     def __init__(
         self, clock: Callable[[], float] = time.monotonic, sleep: Callable[[float], None] = time.sleep

@@ -1,6 +1,6 @@
 """A session's declarations, which survive its reopening and do nothing while no session is open.
 
-A session is reopened underneath nodes that are unaware of it (`MeshSession.rejoin`), so nothing here raises only
+A session may be reopened (`MeshSession.rejoin`) without its nodes being aware of it, so nothing here raises merely
 because no session is open at the moment.
 """
 
@@ -25,7 +25,7 @@ Declare = Callable[[Any], Any]
 
 
 class DeclarationOwner(Protocol):
-    """The interface of a session that a declaration needs."""
+    """What a declaration needs of its session."""
 
     settled: threading.Event
 
@@ -39,10 +39,10 @@ class DeclarationOwner(Protocol):
 
 
 UNDECLARE_TIMEOUT_S = 1.0
-"""How long undeclaring waits for an entity that is in use, in seconds; then it is left to the end of the session."""
+"""How long undeclaring waits for an entity in use, in seconds; after that, the end of the session undeclares it."""
 
 TAKEN = "Already mutably borrowed"
-"""The error text of Zenoh's binding when another thread is undeclaring the entity being used."""
+"""The error message of Zenoh's binding when another thread is undeclaring the entity being used."""
 
 
 class Declaration:
@@ -65,14 +65,14 @@ class Declaration:
             try:
                 self.inner.undeclare()
                 return
-            except RuntimeError:  # "Already borrowed", by Zenoh's binding
+            except RuntimeError:  # Zenoh's binding says "Already borrowed"
                 time.sleep(0.0005)
 
     def begin_again(self) -> None:
-        """The links were cut and are being made again."""
+        """Prepare for new links: the old ones were cut."""
 
     def settle(self) -> None:
-        """The new links are up."""
+        """Finish, as the new links are up."""
 
 
 class Publisher(Declaration):
@@ -98,9 +98,7 @@ class Publisher(Declaration):
         return True
 
     def put_surely(self, payload: bytes, attachment: bytes) -> bool:
-        """Send one sample, waiting for the links of a session that is being reopened; to be called in a separate
-        thread.
-        """
+        """Send one sample; waits for the links of a session that is being reopened, so call it in a separate thread."""
         settled = self._session.settled
         while True:
             if not settled.is_set():
@@ -134,14 +132,14 @@ class Querier(Declaration):
 
 
 class TokenWatch(Declaration):
-    """Watches tokens and reports once that each appears or disappears.
+    """Watches tokens and reports each one once when it appears and once when it disappears.
 
-    Zenoh does not report which tokens disappear with the links of a session that is closed. The tokens that have not
-    appeared again once the new links are up are reported as gone.
+    When a session is closed, Zenoh does not report the tokens that disappear with its links. Therefore the tokens that
+    have not appeared again once the new links are up are reported as gone.
     """
 
     taking: ChannelWorker | None = None
-    """The thread that takes the samples, if they are taken apart from Zenoh's threads."""
+    """The thread that takes the samples, if Zenoh's own threads do not."""
 
     def __init__(self, session: DeclarationOwner, declare: Declare, seen: TokenCallback) -> None:
         super().__init__(session, declare)
@@ -153,7 +151,7 @@ class TokenWatch(Declaration):
         self._not_again: set[str] = set()
 
     def saw(self, key: str, came: bool) -> None:
-        """A token appeared or disappeared. Reported with the lock held, to keep the order of the two."""
+        """Report that a token appeared or disappeared, with the lock held to keep the order of reports."""
         with self._lock:
             self._not_again.discard(key)
             if came:
@@ -166,13 +164,11 @@ class TokenWatch(Declaration):
             self._seen(key, came)
 
     def begin_question(self) -> None:
-        """A query for the existing tokens starts: from now on, record the tokens that go, as no reply may bring them
-        back.
-        """
+        """Begin a query for the existing tokens: record those that disappear from now on; no reply may restore them."""
         self._is_asked = True
 
     def found(self, keys: Iterable[str]) -> None:
-        """Take in a reply: the tokens that existed, except those that have gone since."""
+        """Handle a reply: report its tokens as existing, except those that have disappeared since the query."""
         for key in keys:
             with self._lock:
                 if key not in self._gone:
@@ -181,18 +177,18 @@ class TokenWatch(Declaration):
                     self._seen(key, True)
 
     def end_question(self) -> None:
-        """All replies have arrived."""
+        """End the query: all replies have arrived."""
         with self._lock:
             self._is_asked = False
             self._gone.clear()
 
     def begin_again(self) -> None:
-        """The links were cut: each token has to appear again."""
+        """Expect each token to appear again, as the links were cut."""
         with self._lock:
             self._not_again = set(self._there)
 
     def settle(self) -> None:
-        """The new links are up: the tokens that have not appeared again are gone."""
+        """Report the tokens that have not appeared again as gone, as the new links are up."""
         with self._lock:
             for key in tuple(self._not_again):
                 self.saw(key, False)

@@ -1,4 +1,4 @@
-"""The part of the graph this process watches: other processes' tokens under a key, as they appear and disappear."""
+"""The part of the graph that this process watches: tokens of other processes under a key, as they come and go."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ Listener = Callable[[Token, bool], None]
 """Called with a token that appeared (True) or disappeared; it may only append to a queue and wake a thread."""
 
 SINGLE = 48
-"""How many topics or services of each kind are watched singly, notified at once by Zenoh's own threads: as many as a
-robot in one process has. All others share one watch per kind, which is notified up to 0.05 s later.
+"""How many topics or services of each kind are watched one by one, so that Zenoh's own threads report at once: as many
+as a robot in one process has. All others share one watch per kind, which reports up to 0.05 s later.
 """
 
 
@@ -33,9 +33,10 @@ class GraphCache:
         known: Known | None = None,
         refused: Callable[[str], None] = lambda key: None,
     ) -> None:
-        """With `known` all existing tokens are taken in at once; `refused` is called with a new key that is no token.
+        """If `known` is given, all existing tokens are added at once; `refused` is called with a new key that is not a
+        token.
 
-        Without a key nothing is declared: an existing watch calls `saw`, and is given to `set_watch`.
+        Without a key nothing is declared: an existing watch, passed to `set_watch`, calls `saw`.
         """
         self._refused = refused
         self._own = session.zid
@@ -51,8 +52,8 @@ class GraphCache:
         self._declared = watch
 
     def saw(self, key: str, came: bool) -> None:
-        """A token appeared or disappeared; ignores keys that are no valid token, and tokens of this session."""
-        if came and key in self._tokens:  # most arrive twice: as a reply to the query and through the watch
+        """Handle a token that appeared or disappeared; ignores invalid tokens, and those of this session."""
+        if came and key in self._tokens:  # most arrive twice: as a reply to the query, and through the watch
             return
         try:
             token = parse_token(key)
@@ -70,7 +71,7 @@ class GraphCache:
             else:
                 del self._tokens[key]
             for listener in tuple(self._listeners):
-                # With the lock held, so that no listener sees a change before the state that it changes.
+                # With the lock held, so that no listener sees a change before an earlier one.
                 listener(token, came)
 
     def listen(self, listener: Listener) -> None:
@@ -103,7 +104,7 @@ class Watches:
 
     def __init__(self, session: Session) -> None:
         self._session = session
-        self._lock = threading.RLock()  # the garbage collector may end a node at any point
+        self._lock = threading.RLock()  # reentrant, as the garbage collector may end a node at any point
         self._seen: dict[tuple[Kind, str], GraphCache] = {}
         self._single: Counter[Kind] = Counter()
         self._kinds: dict[Kind, KindWatch] = {}
@@ -130,7 +131,7 @@ class Watches:
         return seen
 
     def _watch_of(self, kind: Kind) -> KindWatch | None:
-        """Return the watch to serve one more topic of a kind; None while there are few, which are watched singly."""
+        """Return the watch for one more topic of a kind; None while there are few, each with a watch of its own."""
         if self._single[kind] < SINGLE:
             return None
         if kind not in self._kinds:
@@ -152,7 +153,7 @@ class Watches:
         seen.close()
 
     def known(self) -> list[str] | None:
-        """Return all existing tokens that were reported; None if incomplete because a watch has ended."""
+        """Return all existing tokens that were reported; None if that is incomplete because a watch has ended."""
         with self._lock:
             if self._has_forgotten:
                 return None

@@ -1,4 +1,4 @@
-"""The contents of the graph when a watch of it begins."""
+"""The contents of the graph at the moment when a watch of it begins."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Known = Callable[[], "Iterable[str] | None"]
 
 
 def watch_all(session: Session, key: str, seen: TokenCallback, known: Known) -> TokenWatch:
-    """Watch the tokens of a key apart from Zenoh's threads, and take in all that exist now.
+    """Watch the tokens of a key in a separate thread, and add all that exist now.
 
     Directly linked processes have each other's tokens, sent when the link was made: declaring the watch delivers them
     before it returns, except those already reported to other watches of the session, which a Zenoh thread delivers some
@@ -30,9 +30,9 @@ def watch_all(session: Session, key: str, seen: TokenCallback, known: Known) -> 
 
 
 def _all_links_carry(session: Session, timeout_s: float) -> bool:
-    """Whether all linked processes have answered a small query, over links on which their first tokens precede it.
+    """Whether all linked processes have answered a small query, before which their links deliver their first tokens.
 
-    A link delivers in order, so no token that existed when the link was made is still under way.
+    A link delivers in order, so no token that existed when the link was made is still in transit.
     """
     linked = session.linked()
     here, answered = session.collect_tokens(f"{ROLL_CALL_KEY}*", timeout_s)

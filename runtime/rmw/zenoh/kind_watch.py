@@ -1,7 +1,7 @@
-"""One liveliness subscription per kind of token, shared by all that watch single topics or services.
+"""One liveliness subscription per kind of token, shared by all watches of single topics or services.
 
-Zenoh matches each received token against the key of each subscription of the session: with hundreds of subscriptions
-this is most of the cost of a large graph.
+Zenoh matches each received token against the keys of all subscriptions of the session: with hundreds of them this is
+most of the cost of a large graph.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ class TopicTokens:
     __slots__ = ("is_left", "keys", "lock", "seen")
 
     def __init__(self) -> None:
-        self.lock = threading.RLock()  # one per row, and reentrant: the garbage collector may end a node at any point
+        self.lock = threading.RLock()  # one per row; reentrant, as the garbage collector may end a node at any point
         self.keys: dict[str, None] = {}
         self.seen: TokenCallback | None = None
         self.is_left = False
@@ -42,7 +42,7 @@ class TopicWatch:
 
 
 class KindWatch:
-    """The tokens of one kind by topic or service; the tokens of a topic are parsed by its watcher."""
+    """The tokens of one kind, by topic or service; each topic's watcher parses its tokens."""
 
     def __init__(self, session: Session, kind: Kind) -> None:
         self._rows: dict[str, TopicTokens] = {}
@@ -51,7 +51,7 @@ class KindWatch:
     def watch(self, topic: str, seen: TokenCallback) -> TopicWatch:
         """Call back for each token of a topic that exists, appears or disappears.
 
-        Must not be called with a lock held that the removal of a node takes: it may wait for a watcher that is being
+        Call it without holding any lock that the removal of a node takes, as it may wait for a watcher that is being
         notified of another token.
         """
         self._take_waiting()
@@ -74,7 +74,7 @@ class KindWatch:
         self._change(mangled(topic), end)
 
     def known(self) -> list[str]:
-        """The keys of the existing tokens that were reported."""
+        """Return the keys of the existing tokens that were reported."""
         self._take_waiting()
         return [key for row in list(self._rows.values()) for key in tuple(row.keys)]
 

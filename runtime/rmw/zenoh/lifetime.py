@@ -1,4 +1,4 @@
-"""The lifetime of a session: it is opened, reopened underneath its declarations, which survive that, and closed."""
+"""The lifetime of a session: opening, reopening with the same declarations, and closing."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from bot_console.runtime.rmw.zenoh.declaration_throttle import Pace
 from bot_console.runtime.rmw.zenoh.declarations import Declaration
 
 CLOSE_TIMEOUT_S = 0.4
-"""How long `close` waits, in s: closing takes 2.5 s if the link to a frozen process is full."""
+"""How long `close` waits, in s; closing takes 2.5 s if the link to a frozen process is full."""
 
 
 class Lifetime:
-    """A session's declarations, from opening to closing; a subclass opens and closes it. Thread-safe."""
+    """A session's declarations from opening to closing; subclasses open and close the session. Thread-safe."""
 
     _zenoh: Any
     """The Zenoh session, replaced when it is reopened."""
@@ -23,7 +23,7 @@ class Lifetime:
     def __init__(self) -> None:
         self._lock = threading.RLock()
         self._declared: dict[Declaration, None] = {}
-        self._is_open = True  # each subclass opens at once
+        self._is_open = True  # each subclass opens it at once
         self._ended = False
         self._pace = Pace()
         self.settled = threading.Event()
@@ -33,20 +33,20 @@ class Lifetime:
 
     @staticmethod
     def errors() -> type[Exception]:
-        """Zenoh's error class; only asked for once an error was raised."""
+        """Return Zenoh's error class; called only once an error was raised."""
         raise NotImplementedError
 
     def _shut(self) -> None:
         """Close the Zenoh session."""
-        with contextlib.suppress(self.errors()):  # on a busy machine it times out after 10 s but is closed all the same
+        with contextlib.suppress(self.errors()):  # on a busy machine this times out after 10 s, but closes it
             self._zenoh.close()
 
     def _reopen(self, join: Callable[[], None]) -> bool:
         """Close, reopen with `join`, and declare everything again; returns False if it was closed for good meanwhile.
 
-        This takes seconds next to a frozen process, and longer if opening fails and is retried. The lock is not held
-        for that time, so that declaring, sending, querying and undeclaring do not wait. What is declared meanwhile is
-        made with the rest.
+        This takes seconds if another process is frozen, and longer if opening fails and is retried. The lock is not
+        held meanwhile, so that declaring, sending, querying and undeclaring do not wait. Entities declared meanwhile
+        are created with the rest.
         """
         with self._lock:
             if self._ended:
@@ -68,7 +68,7 @@ class Lifetime:
         return False
 
     def _settle(self) -> None:
-        """The links of a reopened session are up, or will not come up."""
+        """Finish the declarations of a reopened session: its links are up, or will not come up."""
         with self._lock:
             declared = tuple(self._declared)
         for each in declared:
@@ -80,7 +80,7 @@ class Lifetime:
         with self._lock:
             self._ended = True
             if not self._is_open:
-                return  # closed, or being reopened, which then ends with closing
+                return  # already closed, or being reopened, which then ends with closing
             self._is_open = False
         closing = threading.Thread(target=self._shut, name="zenoh-close", daemon=True)
         try:
@@ -91,7 +91,7 @@ class Lifetime:
             closing.join(CLOSE_TIMEOUT_S)
 
     def is_closed(self) -> bool:
-        """Whether it was closed."""
+        """Whether the session was closed."""
         return self._ended
 
     def _declare(self, thing: Any) -> Any:

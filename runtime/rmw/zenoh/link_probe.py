@@ -1,7 +1,6 @@
 """Probe whether a link is alive, by pinging its other end repeatedly.
 
-The link itself would notice a cut cable only after its lease, which the other side chooses and which is 10 s by
-default.
+The link itself would notice a cut cable only after its lease, which the other side chooses (10 s by default).
 """
 
 from __future__ import annotations
@@ -15,13 +14,13 @@ from dataclasses import dataclass, replace
 PING_PERIOD_S = 0.4
 """Interval between pings, in seconds."""
 DISTRUST_AFTER_S = 5.0
-"""After so many seconds without an answer, the next answer is not trusted: after ten, Zenoh gives up a link and ends
-all queries as if they were answered.
+"""Time without an answer, in seconds, after which the next answer is not trusted: after ten seconds Zenoh gives up a
+link and ends all queries as if they had been answered.
 """
 PING_TIMEOUT_S = 10.0
-"""Timeout of a ping, in seconds; on a full link an answer comes late, but still counts."""
+"""Timeout of a ping, in seconds; on a full link an answer arrives late, but still counts."""
 FIRST_PING_S, PING_POLL_S = 0.001, 0.02
-"""Polling intervals, in seconds: shortly after a ping, and later."""
+"""Polling intervals, in seconds: shortly after a ping, and after that."""
 
 Answer = Callable[[], "bool | None"]
 """Whether a ping was answered; None while the answer may still come."""
@@ -31,18 +30,18 @@ Ask = Callable[[float], Answer]
 
 @dataclass(frozen=True)
 class LinkState:
-    """The state of a link: when it last answered (s, monotonic clock) and how long that took (s)."""
+    """The state of a link: when it last answered (s, monotonic clock), and how long that answer took (s)."""
 
     to: str = ""
     """The other end, such as `tcp/robot:7447`."""
     heard: float | None = None
     delay: float | None = None
     lost: int = 0
-    """Messages that were lost or found no room here, judging by their sequence numbers."""
+    """Number of messages that were lost or found no room in a queue here, judging by gaps in their sequence numbers."""
 
 
 class LinkProbe:
-    """Pings in a separate thread until `end`; a ping does not wait for the answer to the previous one."""
+    """Pings in a separate thread until `end` is called; a ping does not wait for the answer to the previous one."""
 
     def __init__(self, ask: Ask, to: str, clock: Callable[[], float] = time.monotonic) -> None:
         self._ask = ask
@@ -53,7 +52,7 @@ class LinkProbe:
         self._asked = now - PING_PERIOD_S
         self._came = self._believed = now
         """When the last answer came, and from which time of sending on a ping's answer is trusted."""
-        self.state = LinkState(to, now)  # it has just been opened
+        self.state = LinkState(to, now)  # the link has just been opened
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._run, name="link-probe", daemon=True)
         self._thread.start()

@@ -1,9 +1,10 @@
-"""The threads in which Zenoh makes links, and what keeps one of them free to serve a new link's socket.
+"""The threads in which Zenoh makes links, and how one of them is kept free to serve a new link's socket.
 
 A new link first carries all declarations of its process, about 4 kB for each node. The thread that makes the link
-writes them, and waits while the link is full. By default the same thread alone notices that the socket takes more, so
+writes them, and waits while the link is full. By default only this thread can notice that the socket accepts more, so
 it waited for itself until the link was cut (`WAIT_BEFORE_CUT_US`) and made again: programs of 100 nodes and more were
-visible to others only now and then. A second thread of the same pool serves the socket instead, but it has to be woken.
+only intermittently visible to others. A second thread of the same pool serves the socket instead, but it has to be
+woken.
 """
 
 from __future__ import annotations
@@ -17,14 +18,14 @@ VARIABLE = "ZENOH_RUNTIME"
 """Environment variable from which Zenoh takes the number of its threads, when a process opens its first session."""
 
 THREADS = "(acc: (handover: net), net: (worker_threads: 8))"
-"""One pool makes the links, whether this process accepts them or connects. All but one of its threads may wait for room
-on a link at the same time; with two pools of two threads, links were still cut.
+"""One pool makes the links, both those this process accepts and those it opens. All but one of its threads may wait for
+room on a link at the same time; with two pools of two threads, links were still cut.
 """
 
 
 @contextmanager
 def link_threads() -> Generator[None]:
-    """Choose the threads of the session to be opened, unless the user has; programs started later inherit nothing."""
+    """Choose the threads of the session to be opened, unless the user has; programs started later do not inherit it."""
     if VARIABLE in os.environ:
         yield
         return
@@ -36,7 +37,7 @@ def link_threads() -> Generator[None]:
 
 
 class LinkWaker:
-    """Calls `wake`, which is to wake an idle thread of the pool, for each new link; in a separate thread."""
+    """Calls `wake`, which must wake an idle thread of the pool, for each new link; runs in a separate thread."""
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._wake = wake

@@ -17,14 +17,14 @@ from bot_console.runtime.rmw.zenoh.wire.attachment import pack
 from bot_console.runtime.rmw.zenoh.wire.tokens import Token
 
 KEEP_ALL_DEPTH = 1000
-"""How many messages a latching publisher with KEEP_ALL keeps for other processes."""
+"""How many messages a latching publisher with KEEP_ALL keeps for subscribers in other processes."""
 
 
 class RemotePublisher(deque[Any]):
     """The queue, among a publisher's local subscriptions, that represents all other processes.
 
-    A message that the publisher appends is sent at once; one that must not be dropped (reliable, and KEEP_ALL, a depth
-    of `DEEP_QUEUE` or a log line) is sent by another thread, so that the publisher does not wait. A latching
+    A message that the publisher appends is sent at once, but one that must not be dropped (reliable and KEEP_ALL, at
+    least `DEEP_QUEUE` deep, or a log line) is sent by another thread, so that the publisher does not wait. A latching
     publisher's messages are always sent: late subscribers get them from the session, not from the program.
     """
 
@@ -66,7 +66,7 @@ class RemotePublisher(deque[Any]):
         return self._out
 
     def saw(self, token: Token, came: bool) -> None:
-        """A subscription of another process appeared or disappeared."""
+        """Handle a subscription of another process that appeared or disappeared."""
         publisher = self._publisher
         endpoint = publisher.endpoint
         if not has_same_type(self._process, endpoint, self._key, token, came):
@@ -86,7 +86,7 @@ class RemotePublisher(deque[Any]):
         publisher.on_event("matched", 1 if came else -1)
 
     def send_again(self) -> None:
-        """Publish what a latching publisher has kept to the reopened session."""
+        """Publish the messages that a latching publisher has kept to the reopened session."""
         self._publisher.late(self._target)
 
     def close(self) -> None:
@@ -97,4 +97,4 @@ class RemotePublisher(deque[Any]):
 
 
 def _nothing() -> None:
-    """Wake nobody: what is sent has no reader in this process."""
+    """Notify nobody: what is sent has no reader in this process."""

@@ -18,7 +18,7 @@ from bot_console.runtime.rmw.zenoh.wire.tokens import Token
 from bot_console.runtime.rosidl.cdr import CdrError, deserialize
 
 KEEP_ALL_DEPTH = 1000
-"""How many earlier messages a subscription with KEEP_ALL requests."""
+"""How many of a latching publisher's messages a subscription with KEEP_ALL requests."""
 
 
 class RemotePublisher:
@@ -35,7 +35,7 @@ class RemotePublisher:
 
 
 class Arrived(Held):
-    """A received payload, deserialized by the thread that takes the message so that the link is drained without delay.
+    """A received payload; the thread that takes the message deserializes it, so that the link is drained without delay.
 
     A payload that a full queue drops is never deserialized.
     """
@@ -48,7 +48,7 @@ class Arrived(Held):
         self._peeked: Payload | None = None
 
     def peek(self) -> Payload | None:
-        """Return the message to be read, not changed; None if it is malformed."""
+        """Return the message for reading only; None if it is malformed."""
         self._peeked = self.take()
         return self._peeked
 
@@ -64,7 +64,7 @@ class Arrived(Held):
 
 
 class RemoteSubscription:
-    """Receives for one subscription what other processes publish."""
+    """Receives messages from other processes for one subscription."""
 
     def __init__(
         self, session: Session, subscription: SubscriptionEndpoint, key: str, own: Container[bytes], tap: Tap
@@ -97,7 +97,7 @@ class RemoteSubscription:
         self._declared = self._session.declare_subscriber(self._key, self.received, reliable=reliable, history=history)
 
     def received(self, payload: bytes, attachment: bytes | None) -> None:
-        """Take in a message, on one of Zenoh's threads."""
+        """Handle a message, on one of Zenoh's threads."""
         subscription = self._subscription
         try:
             number, stamp, gid = unpack(attachment, payload)
@@ -144,7 +144,7 @@ class RemoteSubscription:
             )
 
     def _overrun(self) -> None:
-        """Count an overwritten message on a topic whose readers need every message, and report it once."""
+        """Count a message that was overwritten on a topic whose readers need every one, and report it once."""
         queue, topic = self._subscription.queue, self._subscription.endpoint.topic
         self._session.lost += 1
         self._subscription.on_event("lost", 1)
@@ -154,7 +154,7 @@ class RemoteSubscription:
         )
 
     def saw(self, token: Token, came: bool) -> None:
-        """A publisher of another process appeared or disappeared."""
+        """Handle a publisher of another process that appeared or disappeared."""
         subscription = self._subscription
         endpoint = subscription.endpoint
         if not has_same_type(self._process, endpoint, self._key, token, came):

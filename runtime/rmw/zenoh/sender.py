@@ -1,4 +1,4 @@
-"""Send what must not be dropped, from a separate thread: no publisher waits long for a reader that does not read."""
+"""Sends messages that must not be dropped, in a thread, so that publishers do not wait for readers that do not read."""
 
 from __future__ import annotations
 
@@ -12,26 +12,26 @@ from bot_console.runtime.rmw.zenoh.congestion_control import WAIT_BEFORE_DROP_US
 from bot_console.runtime.rmw.zenoh.declarations import Publisher
 
 MAX_QUEUED_BYTES = 64_000_000
-"""Capacity of the queue in bytes: more than is published until a hung process is cut off (`WAIT_BEFORE_CUT_US`)."""
+"""Capacity of the queue in bytes: more than is published before a hung process is cut off (`WAIT_BEFORE_CUT_US`)."""
 
 BURST_MESSAGES, BURST_BYTES = 128, 4_000_000
-"""Queued messages, or bytes, from which a publisher lets the thread send all of them before it goes on.
+"""Queued messages, or bytes, from which on a publisher lets the thread send all of them before it continues.
 
-The thread releases the GIL with each message that it sends, and gets it back only after 5 ms while somebody publishes
-without a pause: during a burst next to nothing was sent, and most images found no room.
+The thread releases the GIL with each message that it sends, and gets it back only after 5 ms while another thread
+publishes without a pause: during a burst next to nothing was sent, and most images found no room in the queue.
 """
 YIELD_TIMEOUT_S = WAIT_BEFORE_DROP_US * 1e-6
-"""The longest such wait, in seconds: as long as other publishers wait for a full link. After an unsuccessful wait the
-publisher does not wait again until the queue is empty, or until more than half of it is full and the thread has sent
-something.
+"""The longest wait of a publisher for that, in seconds: as long as other publishers wait for a full link. After an
+unsuccessful wait the publisher does not wait again until the queue is empty, or until more than half of it is full and
+the thread has sent something.
 """
 
 
 class Sender:
     """The queue of a session's keep-all publishers, and the thread that drains it, started on first use.
 
-    A message stays in the queue until it is sent. Only that thread removes messages. The lock is taken by those who
-    append, and by the thread only when the queue is empty, so the two do not contend for each message.
+    A message stays in the queue until it is sent, and only the thread removes messages. Publishers take the lock to
+    append, the thread only when the queue is empty, so that they do not contend for it with each message.
     """
 
     def __init__(self) -> None:
@@ -103,7 +103,7 @@ class Sender:
     def undeclare(self, publisher: Publisher) -> None:
         """Undeclare a publisher once all its messages have been sent."""
         with self._lock:
-            # Copied atomically, as the thread removes messages meanwhile.
+            # The queue is copied atomically, as the thread removes messages meanwhile.
             if any(each[0] is publisher for each in tuple(self._queue)) and not self._ended:
                 self._queue.append((publisher, b"", b""))
                 self._start()
@@ -122,7 +122,7 @@ class Sender:
             queue.popleft()
 
     def _has_more(self) -> bool:
-        """Wait until something is put into the empty queue; return False at the end."""
+        """Wait until the empty queue receives something; return False when the sender ends."""
         while True:
             with self._lock:
                 if self._queue:

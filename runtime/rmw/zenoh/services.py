@@ -23,7 +23,7 @@ RESULT_TIMEOUT_S = 30 * 86400.0
 """Timeout of an action's result request, in s; it is answered when the goal has ended."""
 RESULT = "/_action/get_result"
 MAX_PENDING = 1000
-"""How many unanswered requests a server keeps; beyond that the oldest are given up."""
+"""How many unanswered requests a server keeps; beyond that, the oldest are dropped."""
 
 Caller = tuple[bytes, int]
 """Identifies a request: the client's id and the client's sequence number."""
@@ -47,7 +47,7 @@ class Served:
         self._declared: Declaration = session.declare_queryable(key, self.asked)
 
     def asked(self, query: Query) -> None:
-        """Take in a request, on one of Zenoh's threads."""
+        """Handle a request, on one of Zenoh's threads."""
         service = self._service
         try:
             number, _, gid = unpack(query.attachment, query.payload)
@@ -72,7 +72,7 @@ class Served:
         service.notify()
 
     def respond(self, client: RemoteClient, number: int, response: Any) -> None:
-        """Send a response; does nothing if no request is waiting for it."""
+        """Send a response; does nothing if no request is waiting for it any more."""
         with self._lock:
             query = self._pending.pop((client.gid, number), None)
         if query is not None:
@@ -108,7 +108,7 @@ class Asking:
         return bool(self._servers)
 
     def watch_servers(self) -> Callable[[], bool]:
-        """A function that says whether the servers of this moment have ended for certain."""
+        """Return a function that tells whether all servers there are now are known to have ended."""
         sessions = {zid: self._session.pid_of(zid) for zid in tuple(self._servers)}
 
         def ended() -> bool:
@@ -119,14 +119,14 @@ class Asking:
         return ended
 
     def saw(self, token: Token, came: bool) -> None:
-        """A server of another process appeared or disappeared."""
+        """Handle a server of another process that appeared or disappeared."""
         if token.type_name == self._client.type_name and self._key.endswith("/" + token.type_hash):
             servers = Counter(self._servers)
             servers[token.node.zid] += 1 if came else -1
-            self._servers = +servers  # replaced as a whole: other threads read it
+            self._servers = +servers  # replaced as a whole, as other threads read it
 
     def request(self, number: int, request: Any) -> None:
-        """Send a request to the servers in other processes, if any; held back while the session is being reopened."""
+        """Send a request to the servers in other processes, if any; held back while the session is reopening."""
         if not self._ask(number, request):
             self._unasked.append((number, request))
             if self._session.settled.is_set():  # the session has just been reopened
@@ -153,7 +153,7 @@ class Asking:
                 return
 
     def _replied(self, payload: bytes, attachment: bytes | None) -> None:
-        """Take in a response, on one of Zenoh's threads."""
+        """Handle a response, on one of Zenoh's threads."""
         client = self._client
         try:
             number, _, gid = unpack(attachment, payload)
@@ -173,7 +173,7 @@ class Asking:
 
 
 NOWHERE = NodeId("", "/")
-"""The node of a remote client, which is never looked up."""
+"""The node of every remote client; it is never looked up."""
 
 
 def _nothing() -> None:

@@ -1,6 +1,6 @@
-"""A session: this process's participation in a domain. The only file that imports Zenoh, and only to open a session.
+"""A session: this process's participation in a domain. Only this file imports Zenoh, and only to open a session.
 
-Callbacks run on Zenoh's own threads, at once and one after the other: they may only append to a queue and wake a
+Callbacks run on Zenoh's own threads, immediately and one after the other: they may only append to a queue and wake a
 thread. The process must not fork once a session has been opened.
 """
 
@@ -43,8 +43,8 @@ if TYPE_CHECKING:
 ROLL_CALL_KEY = "@bot_console/"
 """Prefix of the token that each session declares; the first 8 digits of its id follow."""
 ADDRESS_SPACE_KIB = 100_000
-"""The address space that Zenoh and its threads reserve (55,000), and as much for a while; it aborts the process if it
-gets none.
+"""The address space that Zenoh and its threads reserve (55,000 KiB), and as much again temporarily. Zenoh aborts the
+process if it cannot get it.
 """
 
 
@@ -68,28 +68,26 @@ def endpoints_of_file(file: str, last: Iterable[tuple[str, str]]) -> Sequence[st
 
 
 class Session(Lifetime):
-    """A session of one domain; a subclass defines how it connects. To be called from any thread but Zenoh's own."""
+    """A session of one domain; subclasses define how it connects. Call it from any thread but Zenoh's own."""
 
     joined: tuple[Socket, ...] = ()
-    """The sockets of this machine's processes that existed when the session joined, and that it connects to."""
+    """The sockets to which the session connected on joining: those of this machine's processes that existed then."""
     timeout_s = 3.0
     """Timeout for the answers of running processes, in s."""
 
     never_waits = False
-    """Whether every sample is taken at once, so that no publisher has to wait or to drop one."""
+    """Whether every sample is delivered at once, so that no publisher ever has to wait or drop one."""
 
     def __init__(self, domain: int) -> None:
         super().__init__()
         self.domain = domain
         self.zid = f"{int.from_bytes(os.urandom(16), 'big') | 1 << 127:032x}"
-        """The session's id: 32 hexadecimal digits, the first not 0. In the graph it stays the same when the session
-        rejoins.
-        """
+        """The session's id: 32 hexadecimal digits, the first not 0. It stays the same in the graph after a rejoin."""
         self.on_rejoin: Callable[[], None] = lambda: None
-        """Called when the session was reopened: what is kept for late subscribers must be published again."""
+        """Called after the session was reopened, to publish again what is kept for late subscribers."""
         self._waker: LinkWaker | None = None
         self.lost = 0
-        """Messages to this session's subscriptions that were lost, judging by their sequence numbers."""
+        """Number of messages to this session's subscriptions that were lost, judging by their sequence numbers."""
 
     def _open(self, settings: Mapping[str, object], file: str = "", last: Iterable[tuple[str, str]] = ()) -> None:
         """Open with these settings, which override those of `file` if given; `last` (path, JSON5) overrides both.
@@ -117,7 +115,7 @@ class Session(Lifetime):
             self.watch_links(self._waker.link_changed)
 
     def _wake(self) -> None:
-        """Give an idle thread of those that make links a task: the timeout of a query that is sent nowhere."""
+        """Wake an idle one of the threads that make links, with the timeout of a query that is sent nowhere."""
         import zenoh
 
         with contextlib.suppress(zenoh.ZError):  # no session is open
@@ -141,11 +139,11 @@ class Session(Lifetime):
         return zenoh.ZError
 
     def qos_rules(self, zid: str) -> QosRules:
-        """The QoS rules between this process and the session with that id."""
+        """Return the QoS rules between this process and the session with that id."""
         return DDS
 
     def watch(self) -> None:
-        """Watch the session's connection while it is open; not for short-lived programs."""
+        """Watch the session's connection while it is open; not meant for short-lived programs."""
 
     def answer_timeout_s(self) -> float:
         """The timeout of a graph query, in s: short if a process is known not to answer."""
@@ -168,21 +166,21 @@ class Session(Lifetime):
         return ()
 
     def leave(self) -> None:
-        """Remove what would be left behind, for a process that exits at once without waiting for `close`."""
+        """Remove the session's files, for a process that exits at once without waiting for `close`."""
         self._stop_polling()
 
     def _stop_polling(self) -> None:
-        """End the session's threads: one that the interpreter ended inside Zenoh would abort the process."""
+        """End the session's threads, as one that the interpreter's exit ended inside Zenoh would abort the process."""
         if self._waker:
             self._waker.end()
 
     def declare_publisher(
         self, key: str, *, reliable: bool = True, cache: int = 0, blocking: bool = False
     ) -> Publisher:
-        """Declare a publisher for other sessions; late subscribers get up to `cache` of its last samples.
+        """Declare a publisher for other sessions; late subscribers get up to `cache` of its latest samples.
 
         A `blocking` publisher drops nothing and waits for a full link instead, up to `WAIT_BEFORE_CUT_US`: use it in a
-        separate thread. It has its own priority, as publishers that drop would otherwise wait behind it.
+        separate thread. It has a priority of its own, as publishers that drop would otherwise wait behind it.
         """
         import zenoh
 
@@ -197,8 +195,8 @@ class Session(Lifetime):
         def declare(session: zenoh.Session) -> Any:
             if not cache:
                 return session.declare_publisher(key, **quality)
-            # The heartbeat overtakes what a blocking publisher has still to send: that would be taken for lost, and the
-            # last samples would be fetched from the cache before those in between have arrived.
+            # The heartbeat overtakes samples that a blocking publisher still has to send: a subscriber would take these
+            # for lost, and fetch the last samples from the cache before those in between have arrived.
             return TransientLocalPublisher(zenoh.ext, session, key, quality, cache, misses=reliable and not blocking)
 
         return self._declare(Publisher(self, declare))
@@ -206,7 +204,7 @@ class Session(Lifetime):
     def declare_subscriber(
         self, key: str, received: Received, *, reliable: bool = True, history: int | None = None
     ) -> Declaration:
-        """Declare a subscriber to other sessions; it requests up to `history` of the last samples."""
+        """Declare a subscriber to other sessions; it requests up to `history` of the latest samples."""
         import zenoh
 
         def take(sample: zenoh.Sample) -> None:
@@ -252,7 +250,8 @@ class Session(Lifetime):
     def declare_querier(self, key: str, timeout: float) -> Querier:
         """Declare a querier of a key's queryables in other sessions; each request ends after `timeout` (s).
 
-        Requests, and with them their answers, overtake messages, which would leave them no room on a narrow link.
+        Requests, and with them their answers, overtake messages, which would otherwise leave no room for them on a
+        narrow link.
         """
         import zenoh
 
@@ -291,8 +290,8 @@ class Session(Lifetime):
     def watch_tokens(self, key: str, seen: TokenCallback, *, apart: bool = False) -> TokenWatch:
         """Call back for each token that exists, appears or disappears; `key` may have wildcards.
 
-        With `apart`, a separate thread does so, a few tokens at a time: thousands of them would keep Zenoh's threads,
-        and with them all traffic on the links, waiting for the GIL.
+        If `apart`, a separate thread does so, a few tokens at a time: thousands of them would keep Zenoh's threads, and
+        with them all traffic on the links, waiting for the GIL.
         """
         import zenoh
 
@@ -316,11 +315,11 @@ class Session(Lifetime):
         return self._declare(watch)
 
     def collect_tokens(self, key: str, timeout: float) -> tuple[list[str], bool]:
-        """Return the tokens of those who answer within `timeout` (s), and whether all answered.
+        """Return the tokens of the sessions that answer within `timeout` (s), and whether all have answered.
 
         On a busy machine it may take twice the timeout. Replies go to a channel instead of a callback: Zenoh delivers
         them while holding its session's lock, unlike with any other callback, and a callback would wait there for the
-        GIL. A thread that holds the GIL while it waits for that lock would be in deadlock with it
+        GIL. A thread that waits for that lock while it holds the GIL would then deadlock with it
         (`TransientLocalPublisher`).
         """
         import zenoh
@@ -346,7 +345,7 @@ class Session(Lifetime):
         return found, answered
 
     def links_directly(self) -> bool:
-        """Whether each process is linked itself, without a router that answers for others."""
+        """Whether each process is linked directly, without a router that answers for others."""
         return False
 
     def linked(self) -> set[str]:
@@ -356,13 +355,13 @@ class Session(Lifetime):
         return set()
 
     def pid_of(self, zid: str) -> int | None:
-        """The process of another session; None if it is unknown or on another machine."""
+        """Return the pid of the process that has another session; None if it is unknown or on another machine."""
         return None
 
     def is_really_gone(self, zid: str, pid: int | None) -> bool:
-        """Whether what another session has withdrawn is gone, rather than the link to it lost for a moment.
+        """Whether what another session has withdrawn is really gone, instead of its link being lost for a moment.
 
-        `pid` is what `pid_of` has returned before.
+        `pid` is what `pid_of` returned before.
         """
         return zid in self.linked() or (pid is not None and not lives(pid))
 
@@ -383,11 +382,12 @@ class Session(Lifetime):
         )
 
     def attendance(self, who: str = "*", timeout: float = 0.1) -> set[str]:
-        """The first 8 digits of the ids of the sessions that answer within `timeout` (s)."""
+        """Return the first 8 digits of the ids of the sessions that answer within `timeout` (s)."""
         return {each.removeprefix(ROLL_CALL_KEY) for each in self.collect_tokens(ROLL_CALL_KEY + who, timeout)[0]}
 
     def question(self, timeout: float) -> Callable[[], bool | None]:
-        """Ping the other end; returns a function: whether it answered within `timeout` (s), None while it still may.
+        """Ping the other end; returns a function that tells whether it answered within `timeout` (s), None while it
+        may.
 
         Raises `RuntimeError` while the session is being closed.
         """
@@ -421,7 +421,7 @@ class Session(Lifetime):
 
 
 def preload() -> None:
-    """Import Zenoh, which opens nothing and starts no thread: for a process that forks others."""
+    """Import Zenoh without opening or starting anything, for a process that forks others."""
     import zenoh.ext  # noqa: F401  # pyright: ignore[reportUnusedImport]
 
 

@@ -1,7 +1,7 @@
 """The settings of a Zenoh session on this machine; all figures are measured.
 
-Multicast is off: the folder lists the processes. `open` connects in the background, and a frozen process blocks nobody:
-with Zenoh's defaults opening, closing and leaving take up to 10 s next to one.
+Multicast is off, as the folder lists the processes. `open` connects in the background, so that a frozen process blocks
+nobody: with Zenoh's defaults, opening, closing and leaving take up to 10 s beside one.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ SCHEME = "unixsock-stream/"
 OPEN_TIMEOUT_MS = 600_000
 """Timeout of one attempt to connect to another process, in ms; nothing waits for it.
 
-Zenoh aborts a longer attempt half-way, and then one side counts a link that carries nothing, until the domain's watch
-finds it: with 0.5 s this happened to some of twenty processes started at once on a machine with 30 others running. That
-the other process has ended is noticed regardless of this limit: its socket closes.
+Zenoh aborts a longer attempt half-way, and then one side keeps a link that carries nothing until the domain's watch
+finds it: with 0.5 s this happened to some of twenty processes started at once on a machine with 30 others running. The
+end of the other process is noticed regardless of this limit, as its socket closes.
 """
 
 LEASE_MS = 60_000
-"""Silence after which a link is given up, in ms; a quarter of it passes between keep-alives.
+"""Silence after which a link is given up, in ms; keep-alives are sent four times as often.
 
 Keep-alives are most of what fifty idle processes cost: 13 % of a core with 15 s, 7 % with this value. A frozen process
 is detected much earlier, by its state, and a process that ends closes its links.
@@ -42,7 +42,7 @@ ADMITTED_REGIONS = (
     {"filters": [{"region_names": [MESH_REGION]}]},
     {"filters": [{"modes": ["peer", "client"]}]},
 )
-"""The regions between which a router of the mesh forwards; a session belongs to the first that fits.
+"""The regions between which a router of the mesh forwards; a session belongs to the first one that it matches.
 
 Zenoh forwards nothing between the peers of one region, and a node of rmw_zenoh is a peer by default.
 """
@@ -52,7 +52,7 @@ INSEPARABLE = ("connect/retry",)
 
 
 class Serving(NamedTuple):
-    """A mesh's entry for other machines: the endpoints a router listens on besides its socket, and its TLS settings."""
+    """A mesh's access for other machines: the endpoints a router listens on besides its socket, and TLS settings."""
 
     endpoints: tuple[str, ...]
     tls: Mapping[str, object] = MappingProxyType({})
@@ -72,11 +72,11 @@ def session_settings(
 ) -> dict[str, object]:
     """Return the settings of a session with this id that listens on one endpoint and connects to others.
 
-    `auth` holds the credentials each link must present (`transport/auth`), if the file system does not protect the
+    `auth` holds the credentials that each link must present (`transport/auth`) if the file system does not protect the
     endpoints.
 
-    A session that admits other machines is a router, as nodes of rmw_zenoh and clients expect. It forwards between them
-    and the mesh, and tells peers of each other by gossip; the mesh's own processes are linked directly.
+    A session that admits other machines is a router, as rmw_zenoh's nodes and clients expect. It forwards between them
+    and the mesh, and announces peers to each other by gossip; the mesh's own processes are linked directly.
     """
     beside = serving.endpoints if serving else ()
     room = ROOM_OF_A_NETWORK if serving else ROOM_OF_A_LINK
@@ -104,7 +104,7 @@ def session_settings(
             "link": {
                 **(network_link(serving) if serving else {}),
                 "tx": {
-                    # Links to other machines keep Zenoh's default lease.
+                    # Links to other machines have Zenoh's default lease.
                     **({"batch_size": SMALL_BATCH} if serving else {"lease": LEASE_MS}),
                     "queue": queue_settings(room),
                 },
@@ -114,7 +114,7 @@ def session_settings(
 
 
 def leaves(settings: Mapping[str, object], above: str = "") -> Iterable[tuple[str, str]]:
-    """Yield the single settings, as path and JSON."""
+    """Yield the settings one by one, as path and JSON."""
     for name, value in settings.items():
         if isinstance(value, Mapping) and above + name not in INSEPARABLE:
             yield from leaves(cast("Mapping[str, Any]", value), f"{above}{name}/")

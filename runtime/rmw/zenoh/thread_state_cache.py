@@ -1,4 +1,4 @@
-"""Keep the interpreter's thread state of a Zenoh thread that calls back, instead of recreating it for each call."""
+"""Keeps the interpreter's thread state of a Zenoh thread that calls back, instead of recreating it for each call."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ def cache_thread_state() -> None:
     """Make the calling thread, a Zenoh thread in a callback, keep its interpreter state until the process ends.
 
     A thread not started by Python gets a thread state, with pages mapped for its frames, on each callback and loses it
-    on return: most of the cost of receiving a short message (9 of 10 us). One additional reference to the state, never
-    released, keeps it alive. Zenoh has few such threads, and they live as long as the process.
+    on return, which is most of the cost of receiving a short message (9 of 10 us). An additional reference to the
+    state, never released, keeps it alive. Zenoh has few such threads, and they live as long as the process.
     """
     if (next(_calls) >= MIN_CALLBACKS or "ctypes" in sys.modules) and next(_cached) <= MAX_THREADS:
         import ctypes

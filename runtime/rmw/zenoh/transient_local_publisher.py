@@ -12,8 +12,8 @@ class TransientLocalPublisher:
     """Zenoh's advanced publisher, with its detection token declared separately.
 
     If Zenoh undeclared the token together with the publisher, it would do so while holding the GIL, and would notify
-    this session's subscribers of the same key under one of their locks. A sample that arrives at that moment holds that
-    lock and waits for the GIL: a deadlock. A token of our own is undeclared with the GIL released.
+    this session's subscribers of the same key under one of their locks. The delivery of a sample that arrives at that
+    moment holds that lock and waits for the GIL: a deadlock. A token of our own is undeclared with the GIL released.
 
     For the same reason the publisher itself is dropped rather than undeclared: Zenoh's undeclare holds the GIL while it
     waits for the session's lock, and may have to wait for a callback that holds this lock and waits for the GIL.

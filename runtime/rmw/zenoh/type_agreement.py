@@ -1,4 +1,4 @@
-"""Whether two processes agree on a type's definition; if not, neither receives the other's messages."""
+"""Whether two processes agree on a type's definition; if they do not, neither receives the other's messages."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 def has_same_type(process: Warned, endpoint: Endpoint, key: str, token: Token, came: bool) -> bool:
     """Whether messages can pass between our endpoint and a remote one that has appeared or disappeared.
 
-    `key` is our endpoint's data key. A type of the same name with another definition is reported when it appears.
+    `key` is our endpoint's data key. A type with the same name but another definition is reported when it appears.
     """
     if token.type_name != endpoint.type_name:
         return False

@@ -24,7 +24,7 @@ class WholeGraph:
     """The graph entries of other processes, in tables like those of this process."""
 
     def __init__(self, session: Session, changed: GraphChanged, known: Known = lambda: None) -> None:
-        """`known` returns what other watches of the session have seen."""
+        """`known` returns the tokens that other watches of the session have seen."""
         self._changed = changed
         self.tables = GraphTables(threading.RLock())
         self._rows: dict[str, Row] = {}  # by token key; tokens arrive one after the other
@@ -64,7 +64,7 @@ class WholeGraph:
         self._changed((token.node.name, token.node.namespace))
 
     def nodes_of(self, sessions: Container[str]) -> Mapping[str, Sequence[str]]:
-        """Return the nodes of sessions, which are given by the first 8 digits of their ids."""
+        """Return the nodes of the sessions, which are given by the first 8 digits of their ids."""
         found: dict[str, list[str]] = {}
         for session, row in list(self._nodes.values()):
             if session in sessions:
@@ -98,10 +98,10 @@ def _row(token: Token) -> Row:
 
 @lru_cache(1024)  # a node has dozens of entities
 def _node(node: TokenNode) -> NodeId:
-    """Return a node's id. Its number, of session and node, is negative: this process uses small positive ones."""
+    """Return a node's id. The number, made from session and node, is negative: this process uses positive ones."""
     number = -1 - (hash(node.zid) << 32 | node.number)
     return NodeId(node.name, node.namespace, node.enclave, number)
 
 
 def _nothing() -> None:
-    """Wake nobody: entities of other processes have no reader here."""
+    """Notify nobody: entities of other processes have no reader here."""

@@ -1,4 +1,4 @@
-"""A file in the domain's folder for each process that is stopped in a debugger, so that others can show that.
+"""A file in the domain's folder for each process that is stopped in a debugger, so that other processes can report it.
 
 Such a process is alive and linked, but its nodes may answer nothing; only the process itself knows why.
 """
@@ -16,7 +16,7 @@ SUFFIX = ".debugger"
 
 
 def update_note(folder: str) -> None:
-    """Write, or remove, the file of this process."""
+    """Write this process's file if a debugger has stopped it, otherwise remove it."""
     line = line_in_debugger()
     if line is None:
         remove_note(folder, getpid())
@@ -32,7 +32,7 @@ def remove_note(folder: str, pid: int) -> None:
 
 
 def debugger_line(folder: str, pid: int) -> str | None:
-    """Return the line at which a process is stopped, maybe empty if it is unknown; None if it is not stopped."""
+    """Return the line at which a debugger has stopped a process, empty if unknown; None if it is not stopped."""
     try:
         with open(_path(folder, pid), encoding="utf-8", errors="surrogateescape") as file:
             return file.read()
@@ -41,7 +41,7 @@ def debugger_line(folder: str, pid: int) -> str | None:
 
 
 def debugger_lines(folder: str) -> Mapping[int, str]:
-    """Return the lines of all processes that are stopped, by pid."""
+    """Return the lines of all stopped processes by pid."""
     pids = [name.removesuffix(SUFFIX) for name in os.listdir(folder) if name.endswith(SUFFIX)]
     found = {int(each): debugger_line(folder, int(each)) for each in pids if each.isascii() and each.isdecimal()}
     return {pid: line for pid, line in found.items() if line is not None}

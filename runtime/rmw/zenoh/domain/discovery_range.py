@@ -6,7 +6,7 @@ import os
 
 RANGE_VARIABLE = "ROS_AUTOMATIC_DISCOVERY_RANGE"
 RANGES = frozenset({"", "OFF", "LOCALHOST", "SUBNET", "SYSTEM_DEFAULT"})
-"""Only OFF makes a difference: nothing reaches beyond this machine unless it is asked to."""
+"""The valid values. Only OFF makes a difference: nothing reaches beyond this machine unless it is asked to."""
 
 
 def is_in_range() -> bool:
@@ -15,7 +15,7 @@ def is_in_range() -> bool:
 
 
 def why_range_is_ignored() -> str:
-    """Return rcl's message for a value that it does not know, such as `off`; empty for a valid one."""
+    """Return rcl's message for an unknown value, such as `off`; empty for a valid one."""
     value = os.environ.get(RANGE_VARIABLE, "")
     known = value in RANGES
     return "" if known else f"Invalid value '{value}' specified for '{RANGE_VARIABLE}', assuming localhost only"

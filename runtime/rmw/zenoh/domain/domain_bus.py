@@ -22,7 +22,7 @@ FORKED = (
     "start it with multiprocessing.get_context('spawn')"
 )
 _opened_by: set[int] = set()
-"""The processes, as pids, in which a session was opened: its threads do not exist in a fork of them."""
+"""The pids of processes that have opened a session: the threads of a session do not exist in forks of its process."""
 _buses: dict[int, ZenohBus] = {}
 _lock = threading.Lock()
 
@@ -30,7 +30,7 @@ _lock = threading.Lock()
 def shared_bus(domain: int) -> Bus:
     """Return the bus of a domain, created on first use; the in-process bus if the discovery range is OFF.
 
-    Meant as an argument of `choose_middleware`. Raises what `open_session` raises.
+    Meant as an argument for `choose_middleware`. Raises what `open_session` raises.
     """
     if not is_in_range():
         return local_bus(domain)
@@ -38,7 +38,7 @@ def shared_bus(domain: int) -> Bus:
         notify(current(), FORKED)
     with _lock:
         if domain not in _buses:
-            # Imported here because a launch whose nodes are all separate processes opens no session.
+            # Imported here because a launch whose nodes are all separate processes needs no session.
             from bot_console.runtime.rmw.zenoh.bus import ZenohBus
             from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
 
@@ -50,14 +50,14 @@ def shared_bus(domain: int) -> Bus:
 
 
 def share_domains() -> None:
-    """Make contexts that are initialised from now on share their domain with other processes, and leave it at exit."""
+    """Make contexts that are initialised from now on share their domain with other processes; at exit, leave it."""
     if not is_chosen(shared_bus):
         choose_middleware(shared_bus)
         atexit.register(leave_all)
 
 
 def close_shared_buses() -> None:
-    """Leave all domains; contexts that still use their bus can no longer reach other processes."""
+    """Leave all domains; contexts that still use their buses can no longer reach other processes."""
     with _lock:
         for bus in _buses.values():
             bus.close()

@@ -5,14 +5,14 @@ from __future__ import annotations
 import os
 
 FOLDER_HOLDS_LOCKS = hasattr(os, "O_DIRECTORY")
-"""Whether a folder can be opened, and so can itself be locked."""
+"""Whether a folder can be opened, and can therefore be locked itself."""
 
 NO_LINK = getattr(os, "O_NOFOLLOW", 0)
 """Flag that refuses to open a symbolic link; 0 if the system has no such flag."""
 
 
 def open_lock(path: str | os.PathLike[str]) -> int:
-    """Open the file to lock, creating it for this user alone; never follows a symbolic link. Raises `OSError`."""
+    """Open a file for locking, created for this user alone if missing; follows no symbolic links. Raises `OSError`."""
     return os.open(path, os.O_RDWR | os.O_CREAT | NO_LINK, 0o600)
 
 

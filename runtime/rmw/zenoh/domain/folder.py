@@ -1,7 +1,7 @@
 """The folder of a ROS domain, through which the processes of one user on one machine discover each other.
 
-Like tmux's, it is in `/tmp`, named after the user and closed to everybody else. The login session's runtime folder
-would not do: it is removed at the last logout, while a robot may go on running.
+Like tmux's folder, it is in `/tmp`, named after the user and closed to everybody else. The login session's runtime
+folder (XDG_RUNTIME_DIR) is unsuitable because it is removed at the last logout, while a robot may keep running.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ BASE_VARIABLE = "BOT_CONSOLE_SOCKET_DIR"
 """Environment variable that names another base folder: for tests, or to run several systems side by side."""
 
 MAX_PATH_BYTES = 107 if sys.platform == "linux" else 103
-"""Maximum length of a Unix socket's path in bytes; connecting to a longer one fails silently."""
+"""Maximum length of a Unix socket's path in bytes; connecting to a longer one fails without an error."""
 MAX_NAME_BYTES = len("4194304.01234567")
-"""Length of a socket's name in bytes: a process id of the most digits, and the first 8 digits of a session's id."""
+"""Length of a socket's name in bytes: the longest process id, and the first 8 digits of a session's id."""
 
 
 class FolderRefusedError(RuntimeError):
-    """A folder is not safe to use, or no socket can be made in it; the message says why and how to fix it."""
+    """A folder is not safe to use, or no socket can be created in it; the message says why and how to fix it."""
 
 
 def base_folder() -> str:
@@ -52,7 +52,7 @@ def domain_folder(domain: int) -> str:
 
 
 def runtime_folder(name: str) -> str:
-    """Return a folder for other short-lived files of the user, made and checked as those of the domains are."""
+    """Return a folder for other short-lived files of the user, created and checked like a domain's folder."""
     base = base_folder()
     folder = os.path.join(base, name)
     _private_folder(base)
@@ -61,12 +61,12 @@ def runtime_folder(name: str) -> str:
 
 
 def _user() -> int:
-    """The user id; 0 on Windows, where the temporary folder is private to the user and has no mode."""
+    """Return the user id; 0 on Windows, where the temporary folder is private to the user and has no mode."""
     return os.geteuid() if hasattr(os, "geteuid") else 0
 
 
 def _temporary_folder() -> str:
-    """`/tmp` whatever TMPDIR says: two terminals with different values would never meet."""
+    """Return `/tmp` whatever TMPDIR says: programs in two terminals with different values would not find each other."""
     if os.path.isdir("/tmp"):
         return "/tmp"
     import tempfile
@@ -90,7 +90,7 @@ def _private_folder(path: str) -> None:
 
 
 def _problem(path: str) -> str:
-    """Say what is wrong with a folder and how to fix it; empty if nothing is. Does not follow links."""
+    """Say what is wrong with a folder and how to fix it; empty if nothing is wrong. Does not follow links."""
     found = os.lstat(path)
     if stat.S_ISLNK(found.st_mode):
         return "is a symbolic link, which somebody else may have put there: remove it"

@@ -1,4 +1,4 @@
-"""Let processes join a domain one at a time: two that start together would list the folder and miss each other."""
+"""Let processes join a domain one at a time: two that list the folder at the same time would miss each other."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from bot_console.runtime.rmw.zenoh.domain.file_lock import FOLDER_HOLDS_LOCKS, o
 from bot_console.runtime.rmw.zenoh.domain.sockets import is_stopped, live_sockets
 
 LOCK_TIMEOUT_S = 0.2
-"""Timeout of one attempt to get the lock, in s; after it the holder of the lock is checked."""
+"""Timeout of one attempt to get the lock, in s; after each attempt the lock's holder is checked."""
 
 MAX_HOLD_S = 2.0
-"""A holder of the lock that has used no processor time for so long, in s, is considered hung."""
+"""Time without processor use, in s, after which a holder of the lock is considered hung."""
 
 MAX_WAIT_S = 10.0
-"""A process continues without the lock if the same process has held it for so long, in s, or if for so long no holder
-could be found. Joining takes 10 ms, and several times that on a busy machine.
+"""How long, in s, one process may hold the lock, or no holder be found, before a process continues without the lock.
+Joining takes 10 ms, and several times that on a busy machine.
 """
 
 POLL, MAX_POLL_S = 0.003, 0.02
-"""Interval between attempts to get the lock, in s, at first and at most: fifty waiting processes would otherwise keep
-the holder from the processor.
+"""Interval between attempts to get the lock, in s, at first and at most: fifty waiting processes would otherwise take
+the processor from the holder.
 """
 
 
@@ -32,8 +32,8 @@ the holder from the processor.
 def folder_lock(folder: str) -> Generator[None]:
     """Hold the lock of a domain's folder.
 
-    A process that is frozen or hangs while it holds the lock blocks nobody: the others continue without the lock, and
-    the watch that each process keeps on the folder restores the links they missed.
+    A process that freezes or hangs while it holds the lock blocks nobody: the others continue without the lock, and the
+    watch that each process keeps on the folder restores the links they missed.
     """
     handle = _opened(folder)
     try:
@@ -46,7 +46,7 @@ def folder_lock(folder: str) -> Generator[None]:
 
 
 class _Behind:
-    """The holder of the lock, and since when it has been the same."""
+    """Tracks who holds the lock, since when, and since when that process has used no processor time."""
 
     def __init__(self) -> None:
         self._holder: int | None = None
@@ -78,7 +78,7 @@ def remove_dead(folder: str) -> None:
 
 
 def _opened(folder: str) -> int:
-    """Open what is locked: if possible the folder itself, as a lock file could be removed while somebody holds it."""
+    """Open what is to be locked: the folder itself if possible, as a lock file could be removed while it is locked."""
     if FOLDER_HOLDS_LOCKS:
         return os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
     return open_lock(os.path.join(folder, "joining.lock"))
@@ -97,13 +97,13 @@ def _taken(handle: int, timeout_s: float) -> bool:
 
 
 def _time_used(pid: int | None) -> float:
-    """The processor time (s) that a process has used; 0 if unknown."""
+    """Return the processor time (s) that a process has used; 0 if unknown."""
     reported = state_and_seconds(str(pid))
     return reported[1] if reported else 0.0
 
 
 def _holder(handle: int) -> int | None:
-    """The process that holds the lock; None if nobody does any more or the system does not tell."""
+    """Return the process that holds the lock; None if nobody holds it any more or the system does not tell."""
     inode = f":{os.fstat(handle).st_ino}"
     try:
         with open("/proc/locks") as file:

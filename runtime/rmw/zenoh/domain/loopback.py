@@ -13,7 +13,7 @@ import sys
 from bot_console.runtime.rmw.zenoh.domain.file_lock import NO_LINK, open_lock, try_lock
 
 VARIABLE = "BOT_CONSOLE_LOOPBACK"
-"""Set to 1, it selects ports even if there are Unix sockets: for folders in which no socket can be made."""
+"""Environment variable: 1 selects ports even if there are Unix sockets; for folders that cannot hold sockets."""
 
 SUFFIX = ".tcp"
 """Suffix of a file that names a port."""
@@ -25,12 +25,12 @@ SECRET = "secret"
 
 
 def is_chosen() -> bool:
-    """Whether ports are used: there are no Unix sockets, or the environment asks for it."""
+    """Whether ports are used, because there are no Unix sockets or the environment asks for it."""
     return sys.platform == "win32" or os.environ.get(VARIABLE, "") not in ("", "0")
 
 
 class OpenPort:
-    """The port of this process: named in a file of the folder, and alive while `<file>.lock` is locked."""
+    """The port of this process: a file in the folder names it, and it counts as alive while `<file>.lock` is locked."""
 
     def __init__(self, path: str) -> None:
         self._path = path
@@ -42,7 +42,7 @@ class OpenPort:
             file.write(self.endpoint)
 
     def close(self) -> None:
-        """Release the lock; the file now counts as that of a dead process. Does nothing if already closed."""
+        """Release the lock, so that the file counts as a dead process's. Does nothing if already closed."""
         lock, self._lock = self._lock, -1
         if lock >= 0:
             os.close(lock)
@@ -58,7 +58,7 @@ def endpoint(path: str) -> str:
 def authentication(folder: str) -> dict[str, object]:
     """Return Zenoh's `transport/auth` settings, which admit only links that know the folder's secret.
 
-    Creates the secret if there is none yet; to be called with the folder's lock held.
+    Creates the secret if there is none yet. Call only with the folder's lock held.
     """
     path = os.path.join(folder, SECRET)
     if not endpoint(path).startswith(f"{USER}:"):
@@ -70,8 +70,8 @@ def authentication(folder: str) -> dict[str, object]:
 
 
 def _free_port() -> int:
-    """Return a port that is free now: Zenoh does not report the port it got when it chooses one itself."""
-    import socket  # not at the top: most verbs use Unix sockets and do not need it
+    """Return a port that is free now: Zenoh does not report which port it got if it chooses one itself."""
+    import socket  # imported here because most verbs use Unix sockets and do not need it
 
     with socket.socket() as probe:
         probe.bind((HOST, 0))

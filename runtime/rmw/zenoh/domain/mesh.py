@@ -1,4 +1,4 @@
-"""A session in the mesh of a domain: the processes of one user on one machine, each linked to all others."""
+"""A session in a domain's mesh: the processes of one user on one machine, each linked to all others."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ if TYPE_CHECKING:
 
 
 SETTLE_TIMEOUT_S = 5.0
-"""How long a reopened session waits for the answers of the others, in s; 50 processes take 0.1 s."""
+"""How long a reopened session waits for the answers of the other processes, in s; 50 processes take 0.1 s."""
 
 
 FROZEN_TIMEOUT_S = 0.2
-"""Timeout of a graph query beside a frozen process, in s; running processes answer within 5 ms."""
+"""Timeout of a graph query if a process is frozen, in s; running processes answer within 5 ms."""
 
 PORTS = 5
 """How many ports are tried for listening if there are no Unix sockets."""
@@ -37,7 +37,7 @@ class MeshSession(Session):
     """A session that listens on a socket in the domain's folder and connects to all other sockets there."""
 
     def __init__(self, domain: int, serving: Serving | None = None) -> None:
-        """With `serving`, the session also admits other machines."""
+        """If `serving` is given, the session also accepts links from other machines."""
         super().__init__(domain)
         self._serving = serving
         self._opened = False
@@ -63,7 +63,7 @@ class MeshSession(Session):
         self._open_among(folder, self.socket.endpoint())
 
     def _join_on_port(self, folder: str) -> None:
-        """Join without Unix sockets, trying another port if somebody takes the one just found."""
+        """Join without Unix sockets; tries another port if another process takes the one just found."""
         if self._serving:
             raise SessionError(
                 f"other machines can join only on systems with Unix sockets, and not with {loopback.VARIABLE}"
@@ -94,16 +94,16 @@ class MeshSession(Session):
             raise SessionError(f"cannot listen on {' and '.join(places)}: {error}") from None
 
     def _link_id(self) -> str:
-        """The session's id for Zenoh: a new one on each reopening, except for its first 8 digits.
+        """Return the session's id for Zenoh, which changes with each reopening except for its first 8 digits.
 
-        Another process may count its half-made link to the closed session for ever, and would send the answers to
-        queries of a session with the same id over that link.
+        Another process may never give up its half-made link to the closed session, and would use it to answer the
+        queries of a session with the same id.
         """
         first, self._opened = not self._opened, True
         return self.zid if first else f"{self.zid[:8]}{os.urandom(12).hex()}"
 
     def qos_rules(self, zid: str) -> QosRules:
-        """The rules of the domain within the mesh, those of rmw_zenoh for nodes behind a router."""
+        """Return the domain's rules for sessions of the mesh, rmw_zenoh's for nodes behind a router."""
         if zid not in self._rules:
             self._rules[zid] = RMW_ZENOH if self.pid_of(zid) is None else DDS
         return self._rules[zid]
@@ -123,8 +123,8 @@ class MeshSession(Session):
         with self._socket_path() as folder:
             if not needed(folder):
                 return
-        # Closed without the folder's lock: this takes seconds next to a frozen process, and may hang in a process whose
-        # program has closed our file descriptors.
+        # Closed without the folder's lock: closing takes seconds if another process is frozen, and may hang in a
+        # process whose program has closed our file descriptors.
         try:
             is_open = self._reopen(self._rejoin)
             if is_open:
@@ -161,13 +161,13 @@ class MeshSession(Session):
         return {each.zid: each.pid for each in sockets(os.path.dirname(self.socket.path))}
 
     def debugged(self) -> Mapping[str, str]:
-        """The processes of the mesh that are stopped in a debugger, by session, with the line."""
+        """The mesh's processes that a debugger has stopped: the first 8 digits of their session ids, with the line."""
         folder = os.path.dirname(self.socket.path)
         lines = debugger_lines(folder)
         return {each.zid: lines[each.pid] for each in sockets(folder) if each.pid in lines} if lines else {}
 
     def pid_of(self, zid: str) -> int | None:
-        """The process of another session of the mesh."""
+        """Return the pid of the process that has another session of the mesh."""
         found = sockets(os.path.dirname(self.socket.path))
         return next((each.pid for each in found if zid.startswith(each.zid)), None)
 
@@ -186,7 +186,7 @@ class MeshSession(Session):
         if self._port:
             self._port.close()
         self.socket.remove()
-        if self._watch:  # a long-lived process: nodes that it started may have died
+        if self._watch:  # a long-lived process, so nodes that it started may have died
             remove_dead(os.path.dirname(self.socket.path))
 
     def _stop_polling(self) -> None:

@@ -13,8 +13,9 @@ from bot_console.runtime.rmw.zenoh.session import Session
 def await_answers(session: Session, timeout_s: float) -> list[Socket]:
     """Wait until each process that existed when the session joined has answered; return those that have not.
 
-    An answer shows that the link carries queries, which a new link does not yet; only then does a single graph query
-    return the whole graph. A running process takes 5 ms, one of 400 nodes 0.4 s; frozen processes are not waited for.
+    An answer proves that the link carries queries, which a new link cannot do at once; only then does a single graph
+    query return the whole graph. A running process takes 5 ms, one of 400 nodes 0.4 s; frozen processes are not waited
+    for.
     """
     deadline = time.monotonic() + timeout_s
     missing = list(session.joined)

@@ -1,7 +1,8 @@
 """The sockets of a domain's folder: one per process, named `<pid>.<first 8 digits of its session's id>`.
 
 Zenoh keeps `<socket>.lock` locked while the process lives, so a socket whose lock can be acquired is dead. Without Unix
-sockets, a file that names a port replaces each socket, with another suffix. Other files in the folder are left alone.
+sockets, a file that names a port, with another suffix, takes the place of each socket. Other files in the folder are
+left alone.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ class Socket(NamedTuple):
         except OSError:
             return False
         try:
-            return try_lock(handle)  # if it is held by another, that process lives
+            return try_lock(handle)  # if another process holds the lock, that process is alive
         except OSError:
             return True
         finally:
@@ -55,9 +56,9 @@ class Socket(NamedTuple):
         return is_stopped(self.pid)
 
     def remove(self) -> None:
-        """Remove the socket, its lock file and its note of a debugger.
+        """Remove the socket, its lock file and its debugger note.
 
-        What cannot be removed, as a folder of such a name, harms nobody.
+        Anything that cannot be removed, such as a folder with such a name, is left; it does no harm.
         """
         for path in (self.path, self.lock):
             with contextlib.suppress(OSError):
@@ -93,7 +94,7 @@ def live_sockets(folder: str) -> list[Socket]:
 
 
 def _ending() -> str:
-    """Suffix of the names: processes that use ports and processes that use sockets cannot be linked."""
+    """Return the names' suffix, as processes that use ports cannot be linked to processes that use sockets."""
     return loopback.SUFFIX if loopback.is_chosen() else ""
 
 
@@ -104,7 +105,7 @@ def is_stopped(pid: int) -> bool:
 
 
 def lives(pid: int) -> bool:
-    """Whether a process exists; True where asking would end it (Windows).
+    """Whether a process exists; always True on Windows, where asking would kill it.
 
     A process that has ended does not count, even if its parent has not reaped it yet (a zombie).
     """

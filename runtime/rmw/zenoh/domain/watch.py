@@ -1,10 +1,10 @@
-"""Watches a session's place in the mesh and reopens the session if it has lost it; notes if a debugger stops it.
+"""Watches a session's links in the mesh and reopens it if they are lost; records whether a debugger has stopped us.
 
 Three things can go wrong after a process has joined: its socket is removed from the folder (by a cleaner of temporary
 files, or by hand), so that later processes do not see it; a process that joined without the lock has no link to it; or
-a link carries nothing, because Zenoh gave up opening it half-way (`OPEN_TIMEOUT_MS`) but counts it for ever. Each new
-link is queried once for an answer of the other side; keep-alives are not enough, as some such links carry these but no
-queries.
+a link carries nothing, because Zenoh gave up opening it half-way (`OPEN_TIMEOUT_MS`) but never gives up the link
+itself. Each new link is queried once for an answer of the other side; keep-alives are not enough, as some such links
+carry these but no queries.
 """
 
 from __future__ import annotations
@@ -20,29 +20,29 @@ from bot_console.runtime.rmw.zenoh.domain.debugger_note import update_note
 from bot_console.runtime.rmw.zenoh.domain.sockets import Socket, is_stopped, live_sockets, sockets
 
 SOCKET_POLL_S = 1.0
-"""How often the own socket is checked, in s."""
+"""Interval between checks of the session's own socket, in s."""
 
 PROCESSES_POLL_S = 5.0
-"""How often the other processes are checked at most, in s.
+"""Minimum interval between checks of the other processes, in s.
 
-Many that start together are then checked and asked once: when each of fifty did so once a second while the others
-were starting, that was a fifth of the total cost.
+It lets processes that start together be checked and queried once: when each of fifty did so once a second while the
+others were starting, that was a fifth of the total cost.
 """
 
 LINK_TIMEOUT_S = 15.0
-"""How long another process may have no link, or a link without any answer, before that counts as a fault, in s: links
-are made in the background.
+"""How long, in s, another process may have no link, or a link without any answer, before that counts as a fault; it
+takes time because links are made in the background.
 
 Of two processes the one with the higher id waits twice as long, so that only one of them reopens its session; and each
 doubles its wait after every reopening, up to `MAX_TIMEOUT_FACTOR` times.
 """
 
 MAX_TIMEOUT_FACTOR = 8.0
-"""The largest factor of the grace period on a machine that is not busy."""
+"""The largest multiple of the grace period (`LINK_TIMEOUT_S`) on a machine that is not busy."""
 
 BUSY_LOAD = 4.0
-"""Load per processor from which a machine counts as busy: the grace period grows with the load, as making links slows
-down with it. A session that is reopened in vain would make all others busy, too.
+"""Load per processor above which a machine counts as busy. The grace period grows with the load, as making links slows
+down with it: a session reopened in vain would make all others busy, too.
 """
 
 MAX_REOPENS = 3
@@ -54,17 +54,17 @@ ANSWER_TIMEOUT_S = 1.0
 """Timeout for an answer, in s; a running process takes 5 ms."""
 
 LAST_ANSWER_TIMEOUT_S = 10.0
-"""The same timeout before the session is reopened because a process does not answer, in s."""
+"""The timeout for the last query before the session is reopened because a process does not answer, in s."""
 
 
 class Watched(Protocol):
-    """The interface of a session that the watch needs."""
+    """What the watch needs of a session."""
 
     zid: str
     socket: Socket
 
     def linked(self) -> set[str]:
-        """The ids of the sessions that this session is linked to."""
+        """Return the ids of the sessions that this session is linked to."""
         ...
 
     def watch_links(self, changed: Callable[[str, bool], None]) -> object:
@@ -72,7 +72,7 @@ class Watched(Protocol):
         ...
 
     def attendance(self, who: str, timeout: float) -> set[str]:
-        """The first 8 digits of the ids of the sessions matching `who` that answer within `timeout` (s)."""
+        """Return the first 8 digits of the ids of the sessions matching `who` that answer within `timeout` (s)."""
         ...
 
     def rejoin(self, needed: Callable[[str], bool]) -> None:
@@ -110,19 +110,19 @@ class Watch:
         self._ended.set()
 
     def _link_changed(self, zid: str, there: bool) -> None:
-        """A link was made or lost; called on one of Zenoh's threads."""
+        """Handle a link that was made or lost; called on one of Zenoh's threads."""
         if not there:
             self._cut.add(zid[:8])
 
     def _run(self) -> None:
         while not self._ended.wait(SOCKET_POLL_S):
-            with contextlib.suppress(OSError, RuntimeError):  # for example if the folder is refused for now: retried
+            with contextlib.suppress(OSError, RuntimeError):  # for example, the folder is refused for now; tried again
                 update_note(os.path.dirname(self._session.socket.path))
                 if self.has_lost_its_place():
                     self._session.rejoin(self._still_lost)
 
     def has_lost_its_place(self) -> bool:
-        """Whether the socket is not listed, or a running process has had no working link for its grace period."""
+        """Whether the socket is gone from the folder, or a running process has had no working link for too long."""
         own = self._session.socket
         try:
             state = os.stat(os.path.dirname(own.path))
@@ -154,7 +154,7 @@ class Watch:
         return LINK_TIMEOUT_S * times * (2.0 if other[0] < self._session.zid[:8] else 1.0)
 
     def _is_to_ask(self, now: float) -> bool:
-        """Whether to query the processes that are not yet overdue; the intervals get longer."""
+        """Whether it is time to query the processes that are not yet overdue; the intervals get longer."""
         if not self._since:
             self._pause = SOCKET_POLL_S
         if now < self._next_question or not any(now - since >= SOCKET_POLL_S for since in self._since.values()):
@@ -163,18 +163,16 @@ class Watch:
         return True
 
     def _ask(self, due: set[Identity]) -> None:
-        """Query the linked processes; with the longer timeout if some of them are about to be given up."""
+        """Query the linked processes, with the longer timeout if some of them are about to be given up."""
         linked = {zid[:8] for zid in self._session.linked()}
         asked = {zid for zid, _ in self._since if zid in linked}
         if asked:
-            who = "*" if len(asked) > 1 else min(asked)  # by a single one, fifty others need not answer
+            who = "*" if len(asked) > 1 else min(asked)  # a query by name spares fifty others the answer
             answered = self._session.attendance(who, LAST_ANSWER_TIMEOUT_S if due else ANSWER_TIMEOUT_S)
             self._answered |= {each for each in self._since if each[0] in answered}
 
     def _still_lost(self, folder: str) -> bool:
-        """Check again with the folder's lock held and dead sockets removed: another process may have fixed it
-        meanwhile.
-        """
+        """Check again with the folder's lock held and dead sockets removed: another process may have fixed it."""
         live = live_sockets(folder)
         lost = self._running(self._without_link(live)) & self._lost
         for zid, _ in lost:
@@ -187,7 +185,7 @@ class Watch:
         return bool(lost) or self._session.socket not in live
 
     def _without_link(self, found: list[Socket]) -> list[Socket]:
-        """The sockets that the session has no link to, or a link over which no answer has come yet."""
+        """Return the sockets to which the session has no link, or a link over which no answer has come yet."""
         cut, self._cut = self._cut, set()
         self._answered = {each for each in self._answered if each[0] not in cut}
         linked = {zid[:8] for zid in self._session.linked()}
@@ -195,13 +193,13 @@ class Watch:
         return [each for each in found if each.zid not in works and each.zid != self._session.zid[:8]]
 
     def _running(self, found: list[Socket]) -> set[Identity]:
-        """The processes that are not frozen, and for which the session has not been reopened too often."""
+        """Return the processes that are not frozen and have not yet made the session reopen too often."""
         running = {identity(each) for each in found if not is_stopped(each.pid)}
         return {each for each in running if self._tries.get(each[0], 0) < MAX_REOPENS}
 
 
 Identity = tuple[str, int]
-"""The identity of a socket, which tells it from a later one at the same path: its session's id and its inode number."""
+"""The identity of a socket, which distinguishes it from a later one at its path: session id and inode number."""
 
 
 def identity(socket: Socket) -> Identity:
@@ -213,7 +211,7 @@ def identity(socket: Socket) -> Identity:
 
 
 def slowness() -> float:
-    """How many times longer things take because the machine is busy; 1 if it is not, or if the load is unknown."""
+    """Return how many times longer things take as the machine is busy; 1 if it is not, or if the load is unknown."""
     try:
         load, *_ = os.getloadavg()
     except (OSError, AttributeError):

@@ -26,16 +26,16 @@ QUERY_TIMEOUT_MS = 600_000
 
 @dataclass(frozen=True)
 class Way:
-    """How to reach a robot: the endpoints of its router, such as `tcp/robot:7447`, and the TLS files."""
+    """How to reach a robot: its router's endpoints, such as `tcp/robot:7447`, and the TLS files."""
 
     endpoints: tuple[str, ...] = ()
     tls: Tls = Tls()  # noqa: RUF009 - it is frozen
     file: str = ""
-    """A Zenoh configuration file; the other fields take precedence over it."""
+    """A Zenoh configuration file; the other fields override it."""
     override: tuple[tuple[str, str], ...] = ()
     """Settings (path, JSON5) that override everything else."""
     timeout_s: float = 5.0
-    """Timeout of the first connection, in seconds; reconnecting is retried for ever."""
+    """Timeout of the first connection, in seconds; reconnecting is retried indefinitely."""
 
     def __str__(self) -> str:
         return ", ".join(self.endpoints) or self.file
@@ -56,12 +56,12 @@ def with_environment(way: Way) -> Way:
 
 
 def endpoints_of(way: Way) -> Sequence[str]:
-    """Return the endpoints that a client on this way connects to, be they its own or those of its file."""
+    """Return the endpoints that a client connects to, whether given in `way` or in its configuration file."""
     return way.endpoints or (endpoints_of_file(way.file, way.override) if way.file else ())
 
 
 def client_settings(zid: str, way: Way) -> dict[str, object]:
-    """Return a client's settings. It drops at once what a full link cannot take: nothing here waits for a network."""
+    """Return a client's settings. It drops at once what a full link cannot take: nothing waits for the network."""
     connect: dict[str, object] = {
         "timeout_ms": round(way.timeout_s * 1000),
         "exit_on_failure": True,
@@ -99,11 +99,11 @@ class NetworkSession(Session):
         self._stopped: StoppedBehind | None = None
 
     def qos_rules(self, zid: str) -> QosRules:
-        """The rules of rmw_zenoh, between all nodes that meet at its routers."""
+        """Return rmw_zenoh's rules, which apply between all nodes that meet at its routers."""
         return RMW_ZENOH
 
     def watch(self) -> None:
-        """Probe the link to the router repeatedly, and watch which processes it reports as frozen or in a debugger."""
+        """Probe the link to the router repeatedly, and track which processes it reports as frozen or in a debugger."""
         self._probe = self._probe or LinkProbe(self.question, str(self.way))
         self._stopped = self._stopped or StoppedBehind(self)
 
@@ -112,11 +112,11 @@ class NetworkSession(Session):
         return self._stopped.now() if self._stopped else {}
 
     def debugged(self) -> Mapping[str, str]:
-        """Those in a debugger, with the line."""
+        """The processes behind the router that are stopped in a debugger, each with the line."""
         return self._stopped.debugged() if self._stopped else {}
 
     def stopped_afar(self) -> Sequence[int]:
-        """The pids of those processes, which run on the robot."""
+        """The pids of the frozen processes, which run on the robot."""
         return sorted(self.stopped().values())
 
     @property

@@ -1,7 +1,7 @@
 """Which processes behind a router are frozen or stopped in a debugger: it declares a token for each to its clients.
 
-Zenoh itself considers such a process alive, for long or for ever, and a client cannot read the states of processes on
-another machine.
+Zenoh itself considers such a process alive for a long time, or for ever, and a client cannot read the states of
+processes on another machine.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from bot_console.runtime.rmw.zenoh.session import Session
 TOKEN = "@bot_console_stopped/"
 """Prefix of the token of a frozen process; the first 8 digits of its session's id and its pid follow."""
 DEBUGGED_TOKEN = "@bot_console_debugged/"
-"""The same for a process in a debugger; the line at which it is follows, as hexadecimal digits after an x."""
+"""The prefix for a process in a debugger; the current line follows, as hexadecimal digits after an x."""
 MAX_LINE_BYTES = 1000
 FROZEN_POLL_S = 0.25
 """Interval between two checks, in seconds."""
@@ -42,7 +42,7 @@ class StoppedTokens:
         while not self._ended.wait(FROZEN_POLL_S):
             try:
                 self.poll()
-            except (OSError, RuntimeError):  # the folder is refused for now, or the session is being closed
+            except (OSError, RuntimeError):  # the folder is refused for now, or the session is closing
                 continue
 
     def poll(self) -> None:
@@ -65,7 +65,7 @@ class StoppedBehind:
         session.watch_tokens(f"{DEBUGGED_TOKEN}*/*", self._seen_in_debugger)
 
     def _seen(self, key: str, came: bool) -> None:
-        """Take in a token; one with a foreign name comes from another program and is ignored."""
+        """Handle a token; one with an unexpected name comes from another program and is ignored."""
         zid, _, pid = key.removeprefix(TOKEN).partition("/")
         if came and pid.isascii() and pid.isdecimal():
             self._found[zid] = int(pid)
@@ -79,15 +79,15 @@ class StoppedBehind:
             return
         if came:
             self._lines[zid] = line
-        elif self._lines.get(zid) == line:  # else the token of the next line has come first
+        elif self._lines.get(zid) == line:  # otherwise the next line's token came first
             del self._lines[zid]
 
     def now(self) -> Mapping[str, int]:
-        """Return the first 8 digits of their session ids, mapped to their pids. Thread-safe."""
+        """Return the frozen processes: the first 8 digits of their session ids, mapped to their pids. Thread-safe."""
         return self._found.copy()
 
     def debugged(self) -> Mapping[str, str]:
-        """Return the same of those in a debugger, mapped to the line. Thread-safe."""
+        """Return the processes in a debugger: the first 8 digits of their session ids, with the line. Thread-safe."""
         return self._lines.copy()
 
 
@@ -96,7 +96,7 @@ def _encoded(line: str) -> str:
 
 
 def _decoded(text: str) -> str | None:
-    """The line in a token; None if another program has declared it."""
+    """Return the line in a token; None if another program has declared the token."""
     if text[:1] != "x" or len(text) > 1 + 2 * MAX_LINE_BYTES:
         return None
     try:

@@ -31,13 +31,13 @@ class NetworkBuses:
             return self._open[domain][1]
 
     def link(self) -> LinkState:
-        """Return the state of the link; of several, the one that has been silent longest."""
+        """Return the state of the link; if there are several, of the one that has been silent longest."""
         with self._lock:
             states = [session.link for session, _ in self._open.values()]
         return min(states, key=lambda each: each.heard or 0.0, default=LinkState(str(self._way)))
 
     def other_domains(self, domain: int) -> str:
-        """The domains of the router that have nodes if this one has none, in one line; empty otherwise."""
+        """Return, in one line, the router's domains that have nodes if this one has none; otherwise empty."""
         with self._lock:
             opened = self._open.get(domain)
         return other_domains(opened[0]) if opened else ""

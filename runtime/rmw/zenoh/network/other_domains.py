@@ -1,4 +1,4 @@
-"""Which ROS domains a router knows nodes of: a console in the wrong one sees none, without any error."""
+"""Find the ROS domains in which a router has nodes: a console in the wrong domain sees none, without any error."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
 from bot_console.runtime.rmw.zenoh.wire.tokens import NODES_OF_ALL_DOMAINS, parse_token
 
 MAX_NAMED = 4
-"""Domains that are named one by one."""
+"""How many domains are named one by one."""
 
 
 def other_domains(session: Session) -> str:
-    """The domains that have nodes, if that of the session has none, and how to get there; empty otherwise.
+    """Return which domains have nodes if the session's domain has none, and how to join them; otherwise empty.
 
-    Tools and consoles, whose names begin with an underscore, do not count. Only names of nodes are asked for, which
-    even a slow link carries.
+    Tools and consoles, whose names begin with an underscore, do not count. Only the names of nodes are queried, few
+    enough for a slow link.
     """
     tokens, _ = session.collect_tokens(NODES_OF_ALL_DOMAINS, session.answer_timeout_s())
     domains = _domains(tokens)

@@ -1,6 +1,6 @@
 """Find out why a router cannot be reached, by trying the network and TLS without Zenoh.
 
-Zenoh itself only reports that it could not connect.
+Zenoh itself reports only that it could not connect.
 """
 
 from __future__ import annotations
@@ -20,14 +20,14 @@ PORT = 7447
 
 @dataclass(frozen=True)
 class Tls:
-    """TLS files (PEM). A client with a certificate of its own authenticates itself (mutual TLS)."""
+    """TLS files (PEM). A client that has its own certificate authenticates itself (mutual TLS)."""
 
     ca: str = ""
     """The certificate authority that signed the other side's certificate."""
     certificate: str = ""
     key: str = ""
     any_name: bool = False
-    """Whether the name in the router's certificate may differ from the one that was dialled."""
+    """Whether the name in the router's certificate may differ from the host name used to connect."""
 
     def as_client(self) -> dict[str, object]:
         """Return the settings for connecting."""
@@ -45,7 +45,7 @@ class Tls:
         return given
 
     def as_listener(self) -> dict[str, object]:
-        """Return the settings for listening; with an authority, clients need a certificate signed by it."""
+        """Return the settings for listening; if an authority is given, clients need a certificate signed by it."""
         given: dict[str, object] = {}
         if self.certificate:
             given.update(
@@ -70,7 +70,7 @@ class Tls:
 
 
 def place_of(endpoint: str) -> tuple[str, str, int]:
-    """Split an endpoint such as `tcp/robot:7447` or `tls/[::1]:7447` in protocol, host, port; raises `ValueError`."""
+    """Split an endpoint such as `tcp/robot:7447` or `tls/[::1]:7447` into protocol, host, port; raises `ValueError`."""
     protocol, _, rest = endpoint.partition("#")[0].partition("?")[0].partition("/")
     host, _, port = rest.rpartition(":")
     if not (protocol.isalnum() and host and port.isdecimal() and 0 < int(port) < 65536):
@@ -79,7 +79,7 @@ def place_of(endpoint: str) -> tuple[str, str, int]:
 
 
 def why_unreachable(endpoints: Sequence[str], tls: Tls) -> str:
-    """Say why none of these is reachable and what to do; empty if the network shows no reason."""
+    """Say why none of the endpoints is reachable and what to do; empty if the network shows no reason."""
     reasons: list[str] = []
     for each in endpoints:
         protocol, host, port = place_of(each)
@@ -96,7 +96,7 @@ def _why(endpoint: str, host: str, port: int, tls: Tls | None) -> str:
     try:
         with socket.create_connection((host, port), TIMEOUT_S) as link:
             return _why_no_tls(link, endpoint, host, tls) if tls else ""
-    except (socket.gaierror, UnicodeError):  # UnicodeError: it cannot be a host name at all
+    except (socket.gaierror, UnicodeError):  # UnicodeError: not a host name
         return f"{endpoint}: no host of the name '{host}' is known here: check the name, or give the robot's address"
     except ConnectionRefusedError:
         return (
@@ -132,7 +132,7 @@ def _why_no_tls(link: socket.socket, endpoint: str, host: str, tls: Tls) -> str:
         return _refused(endpoint, error, tls)
     try:
         with secure:
-            secure.settimeout(0.5)  # a router that requires a certificate says so only after the handshake
+            secure.settimeout(0.5)  # a router that requires a certificate reports that only after the handshake
             secure.recv(1)
     except TimeoutError:
         return ""

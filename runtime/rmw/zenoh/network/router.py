@@ -1,4 +1,4 @@
-"""A Zenoh router of our own: for a robot without one, and for tests."""
+"""A Zenoh router of our own, for tests and for robots that have none."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from bot_console.runtime.rmw.zenoh.settings import Serving, network_link
 
 
 def router_settings(zid: str, serving: Serving) -> dict[str, object]:
-    """Return a router's settings as rmw_zenoh nodes expect: they discover each other through it, then link directly."""
+    """Return a router's settings as rmw_zenoh expects: nodes discover each other through it, then link directly."""
     return {
         "mode": "router",
         "id": zid,

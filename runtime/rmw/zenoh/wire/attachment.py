@@ -1,8 +1,8 @@
 """The attachment of each message, request and response: number, time and sender, in rmw_zenoh's 33 bytes.
 
-Ours end with a seal, a hash of the payload, which rmw_zenoh does not read. When Zenoh cuts the link to a process that
-does not read, it stops in the middle of a message but still writes what is queued behind it: the rest of that message
-then consists of foreign bytes, and would be taken for the end of a command or a parameter.
+Ours end with a seal, a hash of the payload, which rmw_zenoh ignores. When Zenoh cuts the link to a process that does
+not read, it stops in the middle of a message but still writes what is queued behind it: the rest of that message then
+consists of foreign bytes, which would be taken for the end of a command or a parameter.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from xxhash import xxh3_64_intdigest, xxh3_128_intdigest
 GID_BYTES = 16
 _LAYOUT = struct.Struct("<qqB16s")
 _FIELDS = struct.Struct("<qqx16s")
-"""The same layout, skipping the length of the id."""
+"""The same layout, skipping the byte that holds the length of the id."""
 _SEALED_LAYOUT = struct.Struct("<qqB16s4sQ")
 _SEAL = b"xxh3"
 _SEALED_SIZE = _SEALED_LAYOUT.size
@@ -45,8 +45,8 @@ def pack(number: int, time_ns: int, gid: bytes, payload: bytes | None = None) ->
 def unpack(data: bytes | None, payload: bytes | None = None) -> Attachment:
     """Parse an attachment.
 
-    Raises `FormatError` if the layout is different, naming the rmw_zenoh releases known to write another one, or if it
-    is sealed and `payload` is not what was sent.
+    Raises `FormatError` if the layout is different, with the rmw_zenoh releases known to write another one, or if it is
+    sealed and `payload` is not what was sent.
     """
     if data is None:
         raise FormatError("a message without attachment: its sender does not speak the format of rmw_zenoh")
@@ -60,7 +60,8 @@ def unpack(data: bytes | None, payload: bytes | None = None) -> Attachment:
     if size != _LAYOUT.size or data[16] != GID_BYTES:
         if data.startswith(_OLD):
             raise FormatError("the sender's rmw_zenoh is too old (before Jazzy 0.2.4, Humble 0.1.2): update it")
-        # Without the bytes, which differ between messages: a report meant to appear once would appear for each message.
+        # The message leaves out the bytes, which differ each time: a problem that should be reported once would be
+        # reported with each message.
         raise FormatError(f"no attachment of 33 bytes, but one of {size} that is not sealed as ours are")
     return _FIELDS.unpack(data)
 

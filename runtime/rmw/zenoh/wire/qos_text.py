@@ -1,4 +1,4 @@
-"""QoS in rmw_zenoh's text format: six fields, each empty if it has its default."""
+"""QoS in rmw_zenoh's text format: six fields, each empty for its default value."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ class WireQos(NamedTuple):
 
 
 def encode_qos(qos: Profile) -> str:
-    """Encode a profile; policies left to the middleware are resolved as in rmw_zenoh."""
+    """Encode a profile; policies that are left to the middleware are resolved as by rmw_zenoh."""
     reliability = _named(Reliability, qos.reliability.name, Reliability.RELIABLE)
     durability = _named(Durability, qos.durability.name, Durability.VOLATILE)
     history = _named(History, qos.history.name, History.KEEP_LAST)
@@ -94,7 +94,7 @@ def encode_qos(qos: Profile) -> str:
     return ":".join(fields)
 
 
-@lru_cache(256)  # a graph of thousands of endpoints has only a few profiles
+@lru_cache(256)  # a graph of thousands of endpoints has only a few different profiles
 def decode_qos(text: str) -> WireQos:
     """Decode a profile; raises `FormatError`."""
     fields = text.split(":")
@@ -120,7 +120,7 @@ def _unless(value: int, default: int) -> str:
 
 
 def _named(kind: type[IntEnum], name: str, default: IntEnum) -> IntEnum:
-    """Return the member of a name; the default if the choice is left open."""
+    """Return the member with that name; the default if the profile leaves the choice open."""
     found = kind.__members__.get(name, default)
     return default if found.name in ("SYSTEM_DEFAULT", "UNKNOWN", "BEST_AVAILABLE") else found
 

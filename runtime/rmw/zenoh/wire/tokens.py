@@ -13,7 +13,7 @@ Kind = Literal["NN", "MP", "MS", "SS", "SC"]
 
 NODE_PARTS = 9
 ENTITY_PARTS = 13
-"""The parts between slashes, of the token of a node and of those of other entities."""
+"""The number of slash-separated parts in a node's token, and in other entities' tokens."""
 SPACE = "@ros2_lv"
 NODES_OF_ALL_DOMAINS = f"{SPACE}/*/*/*/*/NN/**"
 """The key expression that matches the tokens of all nodes in all domains."""
@@ -114,6 +114,6 @@ def tokens_of_kind(domain: int, kind: Kind) -> str:
 
 
 def topic_part(key: str) -> str | None:
-    """Return a token's topic or service as mangled in its key; None if it has none. Parses nothing else."""
+    """Return the topic or service in a token as mangled in its key; None if it has none. Parses nothing else."""
     parts = key.split("/", NODE_PARTS + 1)
     return parts[NODE_PARTS] if len(parts) > NODE_PARTS else None
