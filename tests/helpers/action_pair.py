@@ -1,4 +1,4 @@
-"""An action server and a client on two nodes, and what tests of both need from them."""
+"""An action server and a client on two nodes, with the helpers that tests of both need."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from rclpy.action import ActionClient, ActionServer
 
 
 def succeed(handle: Any) -> Any:
-    """Reach the goal at once."""
+    """Execute a goal by succeeding at once."""
     handle.succeed()
     return Fibonacci.Result(sequence=[handle.request.order])
 
@@ -31,7 +31,7 @@ class Pair:
         return future.result()
 
     def send(self, order: int = 1, **options: Any) -> Any:
-        """Send a goal; returns the client's handle of it."""
+        """Send a goal; return the client's goal handle."""
         return self.outcome(self.client.send_goal_async(Fibonacci.Goal(order=order), **options))
 
     def result(self, handle: Any) -> Any:

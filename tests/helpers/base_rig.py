@@ -1,4 +1,4 @@
-"""A robot's base with a lock in a domain of its own, to which a console connects."""
+"""A robot's base with a lock, in a separate domain, to which a console connects."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from rigs import TIMEOUT_S
 
 
 class Base:
-    """A robot's base with a lock, served in a thread."""
+    """A robot's base with a lock, spun in a thread."""
 
     def __init__(self, domain: int) -> None:
         self.context = Context()
@@ -42,7 +42,7 @@ class Base:
 
 @contextmanager
 def served_base(monkeypatch: pytest.MonkeyPatch) -> Iterator[Base]:
-    """A base, in a domain that consoles made meanwhile join."""
+    """A base in a new domain; consoles that are made in the block join this domain."""
     domain = unused_domain()
     monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
     monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)

@@ -49,7 +49,7 @@ class Page:
                 self.received.append(base64.b64decode(frame["payloadData"]) if frame["opcode"] == 2 else b"")
 
     async def ask(self, method: str, **params: Any) -> Any:
-        """The answer to a command of the protocol."""
+        """Send a command of the protocol and return its result."""
         self._last += 1
         answer = self._answers[self._last] = asyncio.get_running_loop().create_future()
         await self._socket.send_json({"id": self._last, "method": method, "params": params})
@@ -67,13 +67,13 @@ class Page:
         await self.ask("Page.navigate", url=address)
 
     async def value(self, expression: str) -> Any:
-        """The value of an expression in the page."""
+        """Evaluate an expression in the page."""
         answer = await self.ask("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
         assert "exceptionDetails" not in answer, answer
         return answer["result"].get("value")
 
     async def until(self, holds: Callable[[Any], bool], expression: str) -> Any:
-        """The value of an expression as soon as it fits."""
+        """Evaluate an expression until its value satisfies `holds`; return the value."""
         while True:
             found = await self.value(expression)
             if holds(found):
@@ -81,7 +81,7 @@ class Page:
             await asyncio.sleep(0.05)
 
     async def press(self, key: str, code: str = "") -> None:
-        """Press and release a key: a letter, or the name of a key with its code."""
+        """Press and release a key: a character, or the name of a key with its code."""
         text = {"text": key} if len(key) == 1 else {"text": "\r"} if key == "Enter" else {}
         await self.ask("Input.dispatchKeyEvent", type="keyDown", key=key, code=code or key, **text)
         await self.ask("Input.dispatchKeyEvent", type="keyUp", key=key, code=code or key)
@@ -106,14 +106,14 @@ class Page:
         await self.ask("Page.close")
 
     async def freeze(self) -> None:
-        """Let the page do nothing from now on, while its connections stay open."""
+        """Freeze the page: its scripts stop, while its connections stay open."""
         await self.ask("Debugger.enable")
         await self.ask("Debugger.pause")
 
 
 @contextmanager
 def browser(folder: Path) -> Iterator[str]:
-    """A browser with a profile of its own; yields the address at which it takes commands."""
+    """Start a browser with a separate profile; yield the address at which it accepts commands."""
     line = [CHROMIUM, *OPTIONS, f"--user-data-dir={folder}", "about:blank"]
     with subprocess.Popen(line, stderr=subprocess.PIPE) as process:
         assert process.stderr is not None
@@ -127,7 +127,7 @@ def browser(folder: Path) -> Iterator[str]:
 
 @asynccontextmanager
 async def new_page(address: str) -> AsyncIterator[Page]:
-    """A new tab of the browser at an address, closed in the end."""
+    """A new tab of the browser at an address; it is closed at the end of the block."""
     async with ClientSession() as session:
         async with session.put(f"{address}/json/new?about:blank") as answer:
             found = await answer.json()

@@ -1,4 +1,4 @@
-"""A client of debugpy: what an editor does when it attaches to a program, by the Debug Adapter Protocol."""
+"""A client of debugpy that does what an editor does to attach to a program, by the Debug Adapter Protocol."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class DebugAdapter:
         self.request("configurationDone")
 
     def stop(self) -> tuple[int, str]:
-        """Wait until a thread stops; returns it, and the function that it is in."""
+        """Wait until a thread stops; return its id and the function in which it stopped."""
         thread = self.event("stopped")["threadId"]
         return thread, self.request("stackTrace", threadId=thread)["stackFrames"][0]["name"]
 

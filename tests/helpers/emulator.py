@@ -1,4 +1,4 @@
-"""A terminal as far as the console uses one: cells, their styles, and the cursor position."""
+"""The parts of a terminal that the console uses: cells, their styles, and the cursor position."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ FRAME_END = b"\x1b[6n"
 
 
 class Emulator:
-    """Processes output and keeps what each cell shows, and in which SGR style."""
+    """Processes output, and keeps the character and the SGR style of each cell."""
 
     def __init__(self, width: int, height: int) -> None:
         self.cells = [[BLANK] * width for _ in range(height)]
@@ -57,7 +57,7 @@ class Emulator:
 
 
 def styled(before: tuple[str, ...], numbers: str) -> tuple[str, ...]:
-    """A style after further SGR codes: attributes in order, then foreground, then background."""
+    """The style that results from applying further SGR codes: attributes in order, then foreground, then background."""
     style = {_kind(code): code for code in before}
     for code in _codes(numbers):
         if code in ("", "0"):
@@ -88,18 +88,21 @@ class Output(Protocol):
     """A program in a terminal."""
 
     output: bytes
-    """All that it has written."""
+    """Everything that it has written."""
 
 
 def last_screen(program: Output) -> str:
-    """What the screen shows after all output so far."""
+    """The text on the screen after all output so far."""
     screen = Emulator(120, 40)
     screen.feed(program.output.decode(errors="replace"))
     return "\n".join(screen.lines())
 
 
 def screen_of(program: Output) -> Callable[..., bool]:
-    """Whether the screen shows all of some texts; its output is differences between frames, so bytes would not do."""
+    """Return a predicate that is true once the screen shows all given texts.
+
+    The console sends only differences between frames, so searching its bytes would not do.
+    """
     screen, fed = Emulator(120, 40), 0
 
     def shows(*words: str) -> bool:

@@ -1,4 +1,4 @@
-"""A sample fleet for tests of drawing: 60 nodes in six namespaces, four of them robots that are alike."""
+"""A sample fleet for tests of drawing: 60 nodes in six namespaces, four of which are identical robots."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ VALUES = {
     POSE: "x 2.50 m  y -1.20 m",
     TEXT: "ready",
 }
-"""What the newest message of a type says."""
+"""A summary of the newest message of each type."""
 IN_ROBOT: tuple[tuple[str, str, str, tuple[str, ...], float], ...] = (
     ("lidar", "scan", SCAN, ("localization", "collision_monitor", "costmap"), 10),
     ("camera", "image", IMAGE, (), 15),
@@ -74,7 +74,7 @@ IN_ROBOT: tuple[tuple[str, str, str, tuple[str, ...], float], ...] = (
     ("battery", "battery_state", BATTERY, ("status", "/fleet/monitor"), 1),
     ("status", "status", TEXT, ("/fleet/monitor", "/fleet/dispatcher"), 1),
 )
-"""The topics of a robot: who publishes it, its name and type, who subscribes to it, and its rate in Hz."""
+"""The topics of a robot: publisher, name, type, subscribers, and rate in Hz."""
 AROUND: tuple[tuple[str, str, str, tuple[str, ...], float], ...] = (
     *(("/fleet/dispatcher", f"/{each}/goal", POSE, (f"/{each}/planner",), 0.2) for each in ROBOTS),
     ("/fleet/traffic", "/fleet/speed_limit", FLOAT, tuple(f"/{each}/controller" for each in ROBOTS), 1),
@@ -128,7 +128,7 @@ def parameters(node: str) -> ParameterTree:
 
 
 def launched() -> LaunchInfo:
-    """A container with the drivers and one with the navigation per robot, a process for each of the other nodes."""
+    """A container for the drivers and one for the navigation of each robot, and a process for each other node."""
     top = "fleet.launch.py"
     drivers = ("lidar", "camera", "depth", "imu", "base", "battery")
     processes: list[ProcessInfo] = []
@@ -161,7 +161,7 @@ def diagnosed() -> Diagnostics:
 
 
 def fleet() -> tuple[FakeConsole, FakeLauncher]:
-    """The fleet at work on a map of its server; the first robot is driven."""
+    """The fleet at work on the map of a map server; the first robot is driven."""
     drive = DriveInfo("/robot1/cmd_vel", robot="/robot1", robots=tuple(f"/{each}" for each in ROBOTS),
                       others=frozenset(f"/{each}/" for each in ROBOTS[1:]), actual=(0.4, 0.0))  # fmt: skip
     console = FakeConsole(

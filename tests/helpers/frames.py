@@ -10,7 +10,7 @@ from geometry_msgs.msg import TransformStamped
 def frame(
     parent: str, child: str, at: float = 0.0, x: float = 0.0, y: float = 0.0, yaw: float = 0.0
 ) -> TransformStamped:
-    """The position of a frame in its parent at a time (s)."""
+    """A transform from a parent frame to a child frame at a time (s)."""
     message = TransformStamped()
     message.header.frame_id, message.child_frame_id = parent, child
     message.header.stamp.sec, message.header.stamp.nanosec = int(at), round(at % 1 * 10**9)
@@ -20,6 +20,6 @@ def frame(
 
 
 def place(message: TransformStamped) -> tuple[float, float, float]:
-    """x, y (m) and yaw (rad), rounded."""
+    """Translation x, y (m) and yaw (rad), rounded."""
     move, turn = message.transform.translation, message.transform.rotation
     return round(move.x, 9), round(move.y, 9), round(2 * math.atan2(turn.z, turn.w), 9)

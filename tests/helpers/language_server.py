@@ -1,4 +1,4 @@
-"""pyright's language server, as an editor uses it: what it reports of a file, and what it offers at a place."""
+"""pyright's language server, used like an editor: it reports findings in a file, and completes at a position."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import Any
 
 
 class LanguageServer:
-    """A server for one workspace; each answer is read when it is asked for."""
+    """A server for one workspace; its messages are read only while a request waits for its response."""
 
     def __init__(self, process: subprocess.Popen[bytes]) -> None:
         self._process = process
@@ -38,11 +38,11 @@ class LanguageServer:
         self._send(method="textDocument/didOpen", params={"textDocument": document})
 
     def reports(self, file: Path) -> list[dict[str, Any]]:
-        """What it reports of an open file."""
+        """The findings in an open file."""
         return self.ask("textDocument/diagnostic", textDocument={"uri": file.as_uri()})["items"]
 
     def at(self, method: str, file: Path, line: int, character: int) -> Any:
-        """The answer to a question about a place in an open file, counted from 0."""
+        """The result of a request about a position in an open file; line and character count from 0."""
         return self.ask(
             f"textDocument/{method}",
             textDocument={"uri": file.as_uri()},
@@ -50,7 +50,7 @@ class LanguageServer:
         )
 
     def ask(self, method: str, **params: Any) -> Any:
-        """The result of a request."""
+        """Send a request and return its result."""
         self._last += 1
         self._send(id=self._last, method=method, params=params)
         while True:
@@ -61,7 +61,7 @@ class LanguageServer:
             self._handle(message)
 
     def _handle(self, message: dict[str, Any]) -> None:
-        if "id" in message and "method" in message:  # The server asks for settings, which there are none of.
+        if "id" in message and "method" in message:  # The server asks for settings; there are none.
             items = message.get("params", {}).get("items", ()) if message["method"] == "workspace/configuration" else ()
             self._send(id=message["id"], result=[None for _ in items] or None)
 
@@ -85,7 +85,7 @@ class LanguageServer:
 
 @contextmanager
 def language_server(folder: Path) -> Iterator[LanguageServer]:
-    """A server that has opened a folder."""
+    """A server with a folder opened as its workspace."""
     line = [sys.executable, "-m", "pyright.langserver", "--stdio"]
     with subprocess.Popen(line, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as process:
         try:

@@ -56,7 +56,7 @@ def generate_launch_description():
 
 
 class Spawned:
-    """A launch thread whose output is kept off the screen."""
+    """A launch thread whose output does not reach the screen."""
 
     def __init__(self, target: Callable[[], None], lines: list[str]) -> None:
         self._process = NodeProcess("launch")
@@ -112,7 +112,7 @@ class Bench:
         return next(each for each in self.info.processes if part in each.key)
 
     def until(self, condition: Callable[[], Any], what: str = "it") -> Any:
-        """Wait until a condition holds."""
+        """Wait until a condition holds; return its value."""
         deadline = time.monotonic() + TIMEOUT_S
         pause = threading.Event()
         while not (found := condition()):

@@ -1,4 +1,4 @@
-"""Launches in this process for tests: fixtures, and what a launch logs as lines of text."""
+"""Fixtures that run launches in this process, and their log as lines of text."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Launch = Callable[..., "Outcome"]
 
 @dataclass
 class Outcome:
-    """How a launch ended and what it logged."""
+    """How a launch ended, and what it logged."""
 
     code: int = 0
     lines: list[str] = field(default_factory=list)
@@ -28,13 +28,13 @@ class Outcome:
 
     @property
     def message(self) -> list[str]:
-        """What the launch file itself logged."""
+        """The lines that the launch file itself logged."""
         prefix = "[INFO] [launch.user]: "
         return [each.removeprefix(prefix) for each in self.lines if each.startswith(prefix)]
 
     @property
     def caught(self) -> str:
-        """The text of the exception that ended it."""
+        """The text of the exception that ended the launch."""
         prefix = "[ERROR] [launch]: Caught exception in launch (see debug for traceback): "
         return "\n".join(each.removeprefix(prefix) for each in self.lines if each.startswith(prefix))
 
@@ -50,7 +50,7 @@ class _Lines(logging.Handler):
 
 @pytest.fixture(autouse=True)
 def log_lines(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[list[str]]:
-    """Lines that launches in this test print to the screen."""
+    """The lines that launches of this test print to the screen."""
     import launch.logging
 
     for name in ("OVERRIDE_LAUNCH_PROCESS_OUTPUT", "OVERRIDE_LAUNCH_SCREEN_FORMAT", "OVERRIDE_LAUNCH_LOG_FORMAT"):
@@ -70,7 +70,7 @@ def run(log_lines: list[str], monkeypatch: pytest.MonkeyPatch) -> Launch:
 
     from bot_console.runtime.process.virtual.install import install_virtual_process
 
-    install_virtual_process()  # before `os.environ` is saved, or restoring it would undo a part of this
+    install_virtual_process()  # before `os.environ` is saved: restoring it would otherwise undo a part of this
     monkeypatch.setattr(os, "environ", os.environ)
     before = dict(os.environ)
 

@@ -1,4 +1,4 @@
-"""What a lesson sees: parameters, changes, command lines and launches."""
+"""What a lesson observes: parameters, changes, command lines and launches."""
 
 from __future__ import annotations
 
@@ -42,12 +42,12 @@ def seen(*parameters: ParameterInfo, **facts: Any) -> Deeds:
 
 
 def refused(name: str, reason: str) -> Command:
-    """A command line that has set a parameter, which the node refused."""
+    """A command line that set a parameter and was refused by the node."""
     return Command(("ros2", "param", "set", "/n", name, "9"), 0, errors=f"Setting parameter failed: {reason}\n")
 
 
 def launched(*arguments: str, file: str = "x.launch.py", code: int | None = None, settled: bool = True) -> Deeds:
-    """After a command line that launches a file, in a workspace that has only `x.launch.py`."""
+    """The actions recorded after a launch file was launched in a workspace that contains only `x.launch.py`."""
     deeds = Deeds()
     files = {"x.launch.py": [("launch/x.launch.py", "Node()")]}
     deeds.add_launches(

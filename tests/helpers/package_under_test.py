@@ -1,6 +1,6 @@
-"""Whether the package that the tests import is that of this checkout.
+"""Checks that the package which the tests import is that of this checkout.
 
-An installed package is a copy: after a change of the source, tests would run against the state before it, and pass.
+An installed package is a copy: after a change of the source, tests would run against the old state, and pass.
 """
 
 from __future__ import annotations
@@ -9,11 +9,11 @@ from pathlib import Path
 
 FOLDERS = ("tui", "runtime", "nodes", "launch", "profiles")
 GENERATED = "generated"
-"""The folder of message modules, which the build makes."""
+"""The folder of generated message modules, which exists only after a build."""
 
 
 def difference(package: Path, checkout: Path) -> str:
-    """One line that names a Python file in which a package differs from a checkout; empty if there is none."""
+    """One line that names a Python file in which a package differs from a checkout; empty if none does."""
     for folder in FOLDERS:
         if (package / folder).resolve() == (checkout / folder).resolve():
             continue

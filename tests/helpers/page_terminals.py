@@ -1,4 +1,4 @@
-"""The terminals of the course page: its commands and programs in real time, with the console's screen beside them."""
+"""The terminals of the course page: its commands and programs run in real time beside the console's screen."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ TIMEOUT_S = 240.0
 
 
 class Screen(Session):
-    """A session over a real console, which answers asynchronously."""
+    """A session over a real console, whose answers arrive asynchronously."""
 
     async def until(self, true: Callable[[], object], what: str) -> None:
         """Let the app run until a condition holds."""
@@ -66,16 +66,16 @@ class Screen(Session):
 
 
 class Live:
-    """A program in a process of its own that has joined the domain."""
+    """A program in a separate process that has joined the domain."""
 
     def __init__(self, name: str, program: str, arguments: Sequence[Any]) -> None:
-        """`program` names the function that returns what it runs, given the `arguments`."""
+        """`program` names the function that returns the program to run, called with `arguments`."""
         self._job = partial(Job, name, f"{begun.__module__}:{begun.__name__}", (True, program, arguments))
         self._report = Report()
         self._ended = threading.Event()
 
     def start(self, argv: Sequence[str], env: dict[str, str], output: Callable[[str, str], None]) -> None:
-        """Start it with an empty standard input; `output` is called with a stream and what was written to it."""
+        """Start the process with an empty standard input; `output` is called with each stream's name and text."""
         from launch.child.forked_child import start_job
 
         own = start_job(self._job(list(argv), env, os.getcwd()), emulate_tty=False)
@@ -115,7 +115,7 @@ class Live:
         return self.exit_code
 
     def line(self) -> str:
-        """Where it is, for a failed test."""
+        """The line at which it is, for the message of a failed test."""
         return f"process {self._report.pid}"
 
 
@@ -136,13 +136,13 @@ class LiveSystem(System):
         """Start a program in a process of its own."""
         process = Live(name, program, arguments)
         started = Program(process)
-        environment = {**environment_of_programs(), "BOT_CONSOLE_SOCKET_DIR": self._folder}  # each test has another
+        environment = {**environment_of_programs(), "BOT_CONSOLE_SOCKET_DIR": self._folder}  # differs for each test
         process.start(argv, environment, started.write)
         return started
 
 
 class Terminals:
-    """A workspace with the page's package, terminals in it, and one console for all of a module's tests."""
+    """A workspace with the page's package, terminals in it, and one console that all tests of a module share."""
 
     def __init__(self, workspace: Path) -> None:
         self.workspace = workspace
@@ -159,11 +159,11 @@ class Terminals:
         return self.programs[-1]
 
     def ask(self, command: str) -> Program:
-        """Type a `ros2` line into another terminal and run it to its end."""
+        """Type a `ros2` line into another terminal and wait for its end."""
         return self.system.finish(self.start(command))
 
     def node(self, text: str) -> Program:
-        """Start a node that the page leaves to the reader."""
+        """Start a node that the page leaves as an exercise."""
         self.programs.append(self.system.python("-c", text))
         return self.programs[-1]
 
@@ -193,7 +193,7 @@ class Terminals:
 
 @contextmanager
 def terminals(folder: Path) -> Iterator[Terminals]:
-    """The page's workspace and its terminals, all ended when the block is left."""
+    """The page's workspace and its terminals; all programs end when the block is left."""
     before = discover.workspace()
     discover.use(discover.Workspace([make_workspace(folder) / "src"]))
     running = Terminals(folder)

@@ -30,7 +30,7 @@ P = TypeVar("P", bound=Widget)
 
 @dataclass
 class Session:
-    """A running app, with what it talks to."""
+    """A running app, with the console and the launcher that it uses."""
 
     app: BotConsoleApp
     pilot: Pilot[None]
@@ -52,7 +52,7 @@ class Session:
         await self.settle()
 
     async def paste(self, text: str) -> None:
-        """Paste a text into the focused field, where typing is not what a test is about."""
+        """Paste a text into the focused field, in tests that are not about typing."""
         self.app.post_message(events.Paste(text))
         await self.settle()
 
@@ -71,7 +71,7 @@ class Session:
         await self.click(found.group())
 
     async def settle(self) -> None:
-        """Let everything pending happen."""
+        """Let everything that is pending happen."""
         self._pull()
         await self.pilot.pause()
 
@@ -80,7 +80,7 @@ class Session:
             self.app.pull()
 
     def pane(self, kind: type[P]) -> P:
-        """The pane, or the widget, of that class."""
+        """The pane or widget of a class."""
         return self.app.screen_stack[0].query_one(kind)
 
     def lines(self) -> list[str]:

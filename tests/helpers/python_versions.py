@@ -1,4 +1,4 @@
-"""Where single versions of Python differ from what a test expects."""
+"""Differences between Python versions that tests have to know."""
 
 from __future__ import annotations
 

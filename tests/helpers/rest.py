@@ -1,8 +1,8 @@
 """Detects when the app has nothing left to do, from its event loop instead of a clock.
 
-Textual's pilot considers a process idle that has used hardly any processor time for 20 ms: that costs 80 ms per key,
-and on a busy machine a process may use none because it gets none, with keys still pending. Before that it sends a
-message to every widget and waits until all have answered, which an idle event loop makes unnecessary.
+Textual's pilot considers a process idle if it has used hardly any CPU time for 20 ms. That costs 80 ms per key, and on
+a busy machine a process may use no CPU time because it gets none, with keys still pending. Before that, the pilot sends
+a message to every widget and waits until all have answered, which is unnecessary if the event loop is idle.
 
 A frame is drawn when a test pauses to look at the screen, not between keys.
 """
@@ -30,9 +30,9 @@ from textual.css.stylesheet import Stylesheet
 from textual.screen import Screen
 
 MAX_POLLS = 100_000
-"""Turns of the event loop after which an app that never becomes idle is left alone."""
+"""Turns of the event loop after which the wait for an app that never becomes idle is given up."""
 _idle_threads = frozenset(threading.enumerate())
-"""Threads that do nothing for an app, such as those of the test runner, which exist before the first test."""
+"""Threads that do no work for an app, such as those of the test runner: they exist before the first test."""
 POLL_S = 0.02
 """Timers due within this many seconds are waited for."""
 NOTIFICATION_TIMEOUT_S = 3600.0
@@ -40,14 +40,12 @@ NOTIFICATION_TIMEOUT_S = 3600.0
 
 
 async def rest(min_sleep: float = 0.02, max_sleep: float = 1) -> None:
-    """Wait until nothing is left to run or to draw; if other threads may be working, until they use no processor
-    time.
-    """
+    """Wait until nothing is left to run or draw; if other threads may be working, until they use no CPU time."""
     await _at_rest(min_sleep, max_sleep, draws=True)
 
 
 async def rest_undrawn(min_sleep: float = 0.02, max_sleep: float = 1) -> None:
-    """Like `rest`, but drawing is left to a later frame."""
+    """Like `rest`, but leave the drawing to a later frame."""
     await _at_rest(min_sleep, max_sleep, draws=False)
 
 
@@ -70,7 +68,7 @@ async def _drained(loop: Any, *, draws: bool) -> None:
         if loop._ready:
             continue
         if app is not None and app.screen_stack and app.screen.is_running:
-            app.screen._on_timer_update()  # draws what would be drawn when the next frame is due
+            app.screen._on_timer_update()  # draw what the next frame would draw
             if draws and not loop._ready:
                 _draw(app)
         if not loop._ready:
@@ -91,11 +89,11 @@ def _draw(app: Any) -> None:
 
 @contextmanager
 def at_rest(*, is_scripted: bool = False) -> Iterator[None]:
-    """Within this block pilots wait in this way, and style sheets are parsed only once per process.
+    """Within this block pilots wait as `rest` does, and each style sheet is parsed only once per process.
 
-    The source file of a class is looked up, and the parameters of a callback counted, only once as well. No stop is
-    late by the clock. If the system is scripted, no thread from before the block works for the app: some that earlier
-    tests have left, such as those of the middleware, would make each key take 60 ms.
+    The source file of a class is looked up, and the parameters of a callback are counted, only once as well. If the
+    system is scripted, no thread from before the block counts as working for the app: threads that earlier tests have
+    left, such as those of the middleware, would otherwise make each key take 60 ms.
     """
     threads = frozenset(threading.enumerate()) if is_scripted else _idle_threads
     with (
@@ -122,7 +120,7 @@ _compositor_refresh = Screen._compositor_refresh
 
 
 def _held(screen: Any) -> None:
-    """Make overlays wait for their frame as the panes do."""
+    """Let overlays wait for their frame as the panes do."""
     app = screen.app
     if isinstance(app, SparingApp) and screen is app.screen and not app.may_draw():
         screen._compositor.update_widgets(screen._dirty_widgets)
@@ -136,7 +134,7 @@ _count_parameters = _callback._count_parameters
 
 
 def _number_of_parameters(call: Callable[..., Any]) -> int:
-    """The number of parameters in its signature; for a plain function its code has the number."""
+    """The number of parameters of a callable; for a plain function it is read from the code object."""
     plain = getattr(call, "__func__", call)
     if type(plain) is not FunctionType or hasattr(plain, "__wrapped__") or hasattr(plain, "__signature__"):
         return _count_parameters(call)
@@ -160,8 +158,9 @@ def _parsed_once(sheet: Stylesheet, css: str, *where: Any, **how: Any) -> Any:
 
 
 def _number_of_colours(sheet: Stylesheet) -> int:
-    """The same for sheets with the same variables: there are hundreds of them, and two hundred texts are parsed with
-    them.
+    """A number that is the same for sheets with the same variables.
+
+    There are hundreds of sheets, which parse the same two hundred texts.
     """
     known = _colours.get(sheet)
     if known is None or known[0] is not sheet._variables:

@@ -1,4 +1,4 @@
-"""The part of `FakeConsole` that records bags: it keeps the requests it received."""
+"""The part of `FakeConsole` that records bags; it keeps the requests that it received."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from bot_console.tui.console.bags.port import RecordingInfo
 
 
 class FakeBags:
-    """Records nothing, but reports that it does."""
+    """Records nothing, but reports that it is recording."""
 
     def __init__(self, console: Any) -> None:
         self._console = console

@@ -13,7 +13,7 @@ from bot_console.tui.console.model import ConsoleSnapshot
 
 
 class FakeCommandLine:
-    """Prints one node's name, whatever the line; the lines it was given are kept with the requests to the console."""
+    """Prints the name of one node for every line, and keeps the lines with the requests to the console."""
 
     def __init__(self, asked: list[tuple[Any, ...]]) -> None:
         self._asked = asked

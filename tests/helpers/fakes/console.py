@@ -1,4 +1,4 @@
-"""`FakeConsole`: a scripted ROS system that keeps the promises of the `Console` protocol without ROS."""
+"""`FakeConsole`: a scripted ROS system that implements the `Console` protocol without ROS."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ from fakes.topics import FakeTopics
 
 
 class FakeView(SearchedView):
-    """A view that has searched everything whenever it is polled."""
+    """A view whose search is complete whenever it is polled."""
 
     def poll(self) -> Any:
         while self.work():
@@ -54,11 +54,12 @@ class FakeView(SearchedView):
 
 
 EARLY = "early "
-"""Prefix of the key of a stop for a key press, followed by the press."""
+"""Prefix of the key of an early stop; the id of the key press follows."""
 
 
 class FakeConsole(FakeProfiles, FakeSeries):
-    """A console over one snapshot; it accepts what the descriptors allow, and keeps the requests it received."""
+    """A console over one snapshot: it accepts values that the descriptors allow, and keeps the requests that it
+    received."""
 
     def __init__(self, snapshot: ConsoleSnapshot | None = None) -> None:
         self.gate = Gate("")
@@ -190,7 +191,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
     def take(
         self, node: str, values: Mapping[str, Value], source: ChangeSource, *, atomically: bool = False, by: str = ""
     ) -> tuple[SetOutcome, ...]:
-        """The outcome of setting values on the node, whoever requested it."""
+        """Set values on the node, as if `source` had requested it; return the outcomes."""
         outcomes = [self._result_of(node, name, value) for name, value in values.items()]
         bad = next((each for each in outcomes if not each.accepted), None)
         if atomically and bad:
@@ -268,7 +269,7 @@ class FakeConsole(FakeProfiles, FakeSeries):
 
     @property
     def _end(self) -> int:
-        """The number of the next change; those of earlier runs have negative numbers."""
+        """The number of the next change; changes of earlier runs have negative numbers."""
         return sum(each.seq >= 0 for each in self.journal)
 
     def set_journal(self) -> None:

@@ -1,4 +1,4 @@
-"""`FakeLauncher`: a scripted launcher that keeps the promises of the `Launcher` protocol without launching anything."""
+"""`FakeLauncher`: a scripted launcher that implements the `Launcher` protocol without launching anything."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ from fakes.console import CLOSED, FakeConsole
 
 
 class FakeLauncher:
-    """A launcher that keeps the requests it received; with a console, it applies them to the processes shown there."""
+    """A launcher that keeps the requests it received; if it has a console, it applies them to the processes shown
+    there."""
 
     def __init__(
         self,

@@ -1,4 +1,4 @@
-"""A bus on which every message waits until a test delivers it, loses it, or sends it again; and nodes that use it."""
+"""A bus on which every message waits until a test delivers, loses or repeats it; and nodes that use this bus."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class SilentLogger:
 
 @dataclass
 class Publisher:
-    """Sends to current subscriptions; a latched one keeps its last message for later ones."""
+    """Sends to current subscriptions; a latched publisher keeps its last message for later ones."""
 
     node: BusNode
     topic: str
@@ -55,13 +55,13 @@ class LossyBus:
     pending: list[tuple[Subscription, Any]] = field(default_factory=lambda: [])
 
     def send(self, topic: str, message: Any, *, again: bool = False) -> None:
-        """Put a message in transit; one that is sent `again` was recorded before."""
+        """Put a message in transit; `again` marks a replay of an earlier one."""
         if not again:
             self.history.append((topic, message))
         self.pending += [(each, message) for node in self.nodes for each in node.subscriptions if each.topic == topic]
 
     def deliver(self, index: int) -> None:
-        """Deliver one of the messages in transit, in any order."""
+        """Deliver one of the messages in transit; the test chooses the order."""
         subscription, message = self.pending.pop(index % len(self.pending))
         if subscription.node in self.nodes:
             subscription.callback(message)
@@ -113,10 +113,10 @@ class BusNode:
         self.subscriptions.remove(subscription)
 
     def create_service(self, *words: Any) -> None:
-        """Do nothing: nobody calls it."""
+        """Do nothing: nobody calls the service."""
 
     def create_timer(self, *words: Any, **options: Any) -> None:
-        """Do nothing: the test calls what a timer would."""
+        """Do nothing: the test calls the callback itself."""
 
     def get_name(self) -> str:
         """The node's name."""

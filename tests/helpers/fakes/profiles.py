@@ -22,7 +22,7 @@ class FakeProfiles:
     closed: bool
     fetching: Future[Answer]
     folder: Path | None = None
-    """Where files with relative names are saved; None: they are not written."""
+    """The folder for files with relative names; None: they are not written."""
 
     def choose_robot(self, robot: str) -> None:
         self.asked.append(("choose_robot", robot))
@@ -32,7 +32,7 @@ class FakeProfiles:
         raise NotImplementedError
 
     def all_saved(self) -> None:
-        """Note that all values are now in a file."""
+        """Mark all values as saved in a file."""
         raise NotImplementedError
 
     def fetch_profile(self, address: str) -> Future[Answer]:

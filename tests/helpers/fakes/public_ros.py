@@ -10,7 +10,7 @@ from importlib.machinery import ModuleSpec, PathFinder
 from typing import Any
 
 CONSOLE = "bot_console.tui."
-"""Modules with this prefix are restricted to the lists; nodes and the runtime itself are not."""
+"""Modules with this prefix may use only the listed names; nodes and the runtime itself are not restricted."""
 
 PUBLIC: dict[str, dict[str, str]] = {
     "rclpy.node": {
@@ -64,10 +64,10 @@ PUBLIC: dict[str, dict[str, str]] = {
 
 
 class PublicOnly:
-    """A finder that loads modules as usual, and then restricts their classes to the lists."""
+    """A finder that loads modules as usual and then restricts their classes to the listed attributes."""
 
     def find_spec(self, name: str, path: Any = None, target: Any = None) -> ModuleSpec | None:
-        """The spec of a module with a list, whose loader also guards it."""
+        """The spec of a listed module, with a loader that also restricts it."""
         if name not in PUBLIC:
             return None
         spec = PathFinder.find_spec(name, path, target)
@@ -87,7 +87,7 @@ class PublicOnly:
 
 
 def in_main_thread(service: Any) -> None:
-    """Require the main thread, since the real launch handles signals."""
+    """Raise outside the main thread, since the real launch handles signals there."""
     run = service.run
 
     def guarded(self: Any, **options: Any) -> int:
@@ -99,7 +99,7 @@ def in_main_thread(service: Any) -> None:
 
 
 def guard(cls: Any, public: frozenset[str]) -> None:
-    """Make only the public part of a class visible to the console."""
+    """Hide all attributes of a class that are not public from the console."""
     plain = cls.__getattribute__
 
     def __getattribute__(self: Any, name: str) -> Any:

@@ -1,7 +1,7 @@
 """Imitates an installed ROS 2: a folder that contains `rclpy`, `launch` and the messages as ordinary packages.
 
-They are copies of those of the embedded runtime, found through the path and not by our finder, so that `attach --ros`
-takes them for the installation's. Whatever real ROS 2 lacks, or does not declare public, raises `AttributeError` when
+They are copies of the embedded runtime, found through the path and not by our finder, so that `attach --ros` treats
+them as the machine's. Any attribute that real ROS 2 lacks, or does not declare public, raises `AttributeError` when
 the console accesses it, according to the lists in `public_ros.py`.
 """
 
@@ -30,7 +30,7 @@ sys.meta_path.insert(0, PublicOnly())
 
 
 def make_standin(folder: Path) -> dict[str, str]:
-    """Fill a folder; returns the environment in which that ROS 2 is sourced."""
+    """Create the installation in a folder; return the environment that sourcing it would set."""
     place = folder / "ros"
     for name in PACKAGES:
         shutil.copytree(Path(RUNTIME) / name, place / name, ignore=shutil.ignore_patterns("__pycache__"))

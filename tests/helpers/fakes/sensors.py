@@ -12,7 +12,7 @@ from bot_console.tui.console.sensors.picture import Picture
 
 
 class FakeSensors:
-    """Shows the data it was given."""
+    """Reports the data it was given."""
 
     def __init__(self) -> None:
         self.info = Diagnostics()
@@ -53,6 +53,6 @@ class FakeSensors:
 
 
 def status(name: str, level: Level = Level.OK, message: str = "", heard: float = 100.0, **values: str) -> Status:
-    """A status that has been the same from the start."""
+    """A status that has not changed since the start."""
     reported = (ReportedStatus(1_700_000_000_000_000_000, level, message),)
     return Status(name, level, message, "robot", tuple(values.items()), heard, reported)

@@ -16,7 +16,7 @@ START = 1_700_000_000_000_000_000
 
 
 class FakeSeries:
-    """Collects what the test has put into `series`, and numeric parameters."""
+    """Collects the samples that the test has put into `series`, and numeric parameters."""
 
     asked: list[tuple[Any, ...]]
     closed: bool

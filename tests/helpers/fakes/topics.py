@@ -1,4 +1,4 @@
-"""`FakeTopics`: scripted topics, services and actions, with the forms and messages of the real one."""
+"""`FakeTopics`: scripted topics, services and actions with real forms and messages."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from bot_console.tui.console.topics.port import (
 
 
 class FakeTopics:
-    """Keeps the requests it received; measurements and messages are set by the test."""
+    """Keeps the requests that it received; the test sets measurements and messages."""
 
     def __init__(self, asked: list[tuple[Any, ...]]) -> None:
         self.asked = asked
@@ -48,7 +48,7 @@ class FakeTopics:
 
     @property
     def measuring(self) -> tuple[str, ...]:
-        """The topics being measured, for any requester."""
+        """The topics that are being measured for any requester."""
         return tuple(topic for topics in self.requesters.values() for topic in topics)
 
     def measured(self) -> Mapping[str, Measure]:
@@ -68,13 +68,13 @@ class FakeTopics:
             self.hear(*self.messages[topic])
 
     def hear(self, message: Any, type_name: str) -> None:
-        """Deliver a message on the topic being listened to."""
+        """Deliver a message on the open topic."""
         self._heard = LiveMessage(
             self.listening, type_name, tree(message, type_name), self._heard.count + 1, 0.0, self.problem
         )
 
     def cannot_hear(self, problem: str) -> None:
-        """Let the topic that is listened to have no messages, with the reason."""
+        """Let the open topic have no messages, for the given reason."""
         self._heard = LiveMessage(self.listening, problem=problem)
 
     def heard(self) -> LiveMessage:

@@ -1,1 +1,1 @@
-"""Processes beside the test: members of a mesh, peers over Zenoh, a live robot, and the links between them."""
+"""Processes beside the test: members of a mesh, Zenoh peers, a live robot, and the links between them."""

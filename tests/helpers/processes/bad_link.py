@@ -12,14 +12,15 @@ from collections.abc import Callable
 
 SEGMENT = 1400
 UNDER_WAY = 1000
-"""Segments of one direction that may be in transit at once, so that the delay does not limit the rate."""
+"""Segments per direction that may be in transit at once: enough that the delay does not limit the rate."""
 Segments = queue.Queue["tuple[float, bytes]"]
 """Segments with the time when each is due; empty bytes mark the end."""
 Spoil = Callable[[bytes], bytes]
 
 
 class BadLink:
-    """Forwards what arrives at `port`; each direction delays every segment by `delay` s, some by `hold` s more."""
+    """Forwards what arrives at `port`; in each direction every segment is delayed by `delay` s, and some by `hold` s
+    more."""
 
     def __init__(self, to: int) -> None:
         self._to = to
@@ -39,7 +40,7 @@ class BadLink:
         self._passing.clear()
 
     def restore(self) -> None:
-        """Forward everything again, what has waited first."""
+        """Forward everything again, beginning with what has waited."""
         self._passing.set()
 
     def break_connections(self) -> None:

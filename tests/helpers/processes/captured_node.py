@@ -1,4 +1,4 @@
-"""An endpoint of a captured node of rmw_zenoh_cpp, on a bare session that declares its token and sends as it does."""
+"""An endpoint of a captured node of rmw_zenoh_cpp, imitated on a bare session with the same token and attachments."""
 
 import json
 import time
@@ -13,7 +13,7 @@ from rclpy.serialization import serialize_message
 CAPTURE = Path(__file__).parents[2] / "captures" / "rmw_zenoh_cpp-0.2.10-jazzy.json"
 BASE = "/%/%/base/"
 TYPE, HASH, QOS = 10, 11, 12
-"""Parts of a token."""
+"""Positions of these parts in a token."""
 
 
 def captured(kind, topic):
@@ -23,7 +23,7 @@ def captured(kind, topic):
 
 
 class CapturedNode:
-    """An endpoint of the captured node, on a session of its own."""
+    """An endpoint of the captured node, on a separate session."""
 
     def __init__(self, way, kind, topic, *, qos=None, cache=0, type_name="", type_hash=""):
         self.session = open_network_session(0, way)
@@ -47,7 +47,7 @@ class CapturedNode:
         self.heard.append(unpack(attachment, data))
 
     def send(self, message, stamp=None):
-        """Publish a message, or serialized bytes, which was sent at `stamp` (ns)."""
+        """Publish a message, or serialized bytes, with the source timestamp `stamp` (ns)."""
         data = message if isinstance(message, bytes) else serialize_message(message)
         self.number += 1
         stamp = time.time_ns() if stamp is None else stamp

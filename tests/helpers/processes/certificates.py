@@ -14,7 +14,7 @@ KEY = ("-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes")
 
 @dataclass(frozen=True)
 class Certificates:
-    """Paths: of an authority, and of a certificate for `localhost` that it has signed."""
+    """The paths of an authority, and of a certificate for `localhost` signed by it."""
 
     ca: str
     certificate: str
@@ -22,7 +22,7 @@ class Certificates:
 
 
 def make_certificates(folder: Path, name: str = "robot") -> Certificates:
-    """A new authority and its certificate."""
+    """Make a new authority and a certificate."""
     if not shutil.which("openssl"):
         pytest.skip("there is no openssl to make certificates with")
     place = folder / name

@@ -1,8 +1,8 @@
-"""A stop that must hold, and a release that must last, whatever happens; judged by the witness.
+"""Checks that a stop holds, and that its release lasts, whatever happens; the witness is the judge.
 
-`held_through` stops a robot that a second program drives, lets something happen to it (a `Way` in which the stop could
-get lost), and watches the robot stand. Then somebody else releases it, and it has to drive on through the same once
-more. The ways are in `ways_to_lose_stops.py`.
+`held_through` stops a robot that a second program drives, disturbs it (a `Way` in which the stop could get lost), and
+checks that the robot stands. Then somebody else releases it, and it has to drive on through the same disturbance. The
+ways are in `ways_to_lose_stops.py`.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from processes.live_robot import MOVING, RESTING, TIMEOUT_S, LiveRobot
 from processes.losses import BRAKING, WATCHED, Terminal, console, is_alive
 
 FIRST_SCREEN = "? Help"
-"""What a console shows before it is connected; a stop may be requested from then on."""
+"""The text on the console's screen before it is connected; a stop can be requested from then on."""
 Disturbance = Callable[[LiveRobot, Terminal], AbstractContextManager[None]]
-"""What happens to a stopped robot; inside the block it has begun, after the block it is over."""
+"""A disturbance of a stopped robot: it begins before the block, and is over after it."""
 
 
 def press(robot: LiveRobot, person: Terminal) -> None:
@@ -31,13 +31,13 @@ def press(robot: LiveRobot, person: Terminal) -> None:
 
 @contextlib.contextmanager
 def unchanged(robot: LiveRobot) -> Iterator[Sequence[str]]:
-    """A robot as it is, and a console on this machine; yields the console's arguments."""
+    """Leave the robot unchanged; yield the arguments of a console on this machine."""
     yield robot.attach
 
 
 @contextlib.contextmanager
 def unrecorded(robot: LiveRobot) -> Iterator[None]:
-    """Nothing beside an earlier stop and its release."""
+    """Do nothing around an earlier stop and its release."""
     yield
 
 
@@ -45,9 +45,9 @@ def unrecorded(robot: LiveRobot) -> Iterator[None]:
 class Way:
     """One way in which a stop could get lost.
 
-    `prepare` changes the robot and yields the arguments of the console, `beside_earlier_stop` surrounds a stop and a
-    release of the same console before, `stop` stops the robot. With `releases_within`, the release that has to last
-    also comes while the disturbance lasts. `in_background`: the robot is that of `bot-console up`.
+    `prepare` changes the robot and yields the arguments of the console. `beside_earlier_stop` surrounds an earlier stop
+    and release by the same console. `stop` stops the robot. With `releases_within`, the release that has to last also
+    comes during the disturbance. `in_background`: the robot was started by `bot-console up`.
     """
 
     name: str
@@ -60,7 +60,7 @@ class Way:
 
 
 def held_through(way: Way, robot: LiveRobot) -> float:
-    """How long (s) the robot went on after the stop; raises if it moves later, or if a released stop comes back."""
+    """Return how long (s) the robot moved on after the stop; raise if it moves later, or if a released stop returns."""
     with contextlib.ExitStack() as ended_last:
         words = ended_last.enter_context(way.prepare(robot))
         driver = robot.second_driver()
@@ -95,10 +95,11 @@ def held_through(way: Way, robot: LiveRobot) -> float:
 
 
 def _stop_and_release(robot: LiveRobot, person: Terminal) -> None:
-    """Press the stop key and then again, as a person does who sees the robot stand and that the key releases it.
+    """Press the stop key, and press it again when the robot stands and the screen says that the key releases it.
 
-    On a busy machine the console may already show a stop whose key has not had its turn: then another press stops the
-    robot once more.
+    On a busy machine the console may already show a stop although the key has not been handled: then another press
+    stops
+    the robot once more.
     """
     shows = screen_of(person)
     person.type("!")
@@ -133,10 +134,10 @@ def release(robot: LiveRobot) -> None:
 
 
 def drives_after_restart(robot: LiveRobot, person: Terminal | None, *options: str) -> None:
-    """Release what nodes have stopped because of a restart, as often as one starts late, until the robot drives.
+    """Release the stops that nodes have made because of a restart, once for each late start, until the robot drives.
 
-    Without `--all`, no person's stop is released by this. The screen is read meanwhile: a console that cannot write
-    does not get to its keys.
+    Without `--all` this releases no person's stop. The console's screen is read meanwhile: a console that cannot write
+    does not handle its keys.
     """
     deadline = time.monotonic() + TIMEOUT_S
     while True:
@@ -152,7 +153,7 @@ def drives_after_restart(robot: LiveRobot, person: Terminal | None, *options: st
 
 
 def stands_since(robot: LiveRobot, held: float) -> float:
-    """How long (s) it went on after a moment; raises if it moves later than it needs to brake, or is not seen."""
+    """How long (s) the robot moved on after a moment; raises if it moves longer than braking takes, or is not seen."""
     seen_until = time.monotonic()
     robot.until(lambda: any(moment > seen_until for moment, _ in robot.speeds(held)), "ground truth")
     moving = [moment - held for moment, speed in robot.speeds(held) if speed > RESTING]
@@ -161,7 +162,7 @@ def stands_since(robot: LiveRobot, held: float) -> float:
 
 
 def wait(person: Terminal | None, seconds: float) -> None:
-    """Let time go by; a console's screen is read meanwhile, or its terminal would stall."""
+    """Let time pass; the console's screen is read meanwhile, since its terminal would block otherwise."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
         if person is not None and is_alive(person.process.pid):

@@ -1,4 +1,4 @@
-"""A live robot in separate processes, and a witness in another one that uses ground truth to see whether it moves."""
+"""A live robot in separate processes, and a witness process that uses the ground truth to see whether it moves."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 MOVING, RESTING = 0.1, 0.02
-"""Speeds (m/s, or rad/s) above which a robot is driving, and below which odometry counts as at rest."""
+"""Speeds (m/s or rad/s) above which the robot counts as driving, and below which odometry counts as at rest."""
 TIMEOUT_S = 240.0
 """Seconds after which a rig gives up; the tests measure no time with it."""
 
@@ -106,7 +106,7 @@ class LiveRobot:
     attach: Sequence[str] = ("-m", "bot_console.tui", "attach")
     """The arguments of Python for a console on this robot."""
     circle: Sequence[str] = ()
-    """The velocities (m/s, rad/s) of a second program that drives it, unless they are the usual ones."""
+    """The velocities (m/s, rad/s) of a second program that drives the robot, if not the usual ones."""
 
     def __init__(self, folder: Path, environment: Mapping[str, str]) -> None:
         self.folder = folder
@@ -186,7 +186,7 @@ class LiveRobot:
         return self.console(*words, stdout=subprocess.PIPE).communicate(timeout=TIMEOUT_S)[0].decode()
 
     def speeds(self, since: float, until: float = float("inf")) -> list[tuple[float, float]]:
-        """What the witness has seen between two times of `time.monotonic`."""
+        """The speeds that the witness has seen between two times of `time.monotonic`."""
         return [each for each in list(self._seen) if since <= each[0] <= until]
 
     def until(self, true: Callable[[], bool], what: str) -> None:
@@ -202,7 +202,8 @@ class LiveRobot:
         self.until(lambda: any(speed > MOVING for _, speed in self.speeds(began)), "driving robot")
 
     def rests(self, since: float, within: float, watched: float) -> float:
-        """How long (s) after `since` it came to rest; raises if it moves later than `within`, or if it is not seen.
+        """Return how long (s) after `since` the robot came to rest; raise if it moves later than `within`, or is not
+        seen.
 
         It is watched for `watched` seconds after that.
         """
@@ -214,7 +215,7 @@ class LiveRobot:
         return last
 
     def log(self) -> str:
-        """What all its processes have printed."""
+        """Everything that its processes have printed."""
         return (self.folder / "robot.log").read_text(errors="replace")
 
     def close(self) -> None:
@@ -228,21 +229,21 @@ class LiveRobot:
 
 
 class BackgroundRobot(LiveRobot):
-    """The robot that `up` starts, with both locks in one process."""
+    """The robot that `bot-console up` starts, with both locks in one process."""
 
     def start(self) -> None:
         """Start it."""
         assert self.typed("up", "indoor") == 0, self.log()
 
     def close(self) -> None:
-        """End it, and everything else."""
+        """End the robot and all other processes."""
         self.typed("down")
         super().close()
 
 
 @contextlib.contextmanager
 def live_robot(folder: Path, sockets: Path, domain: int = 77, kind: type[LiveRobot] = LiveRobot) -> Iterator[LiveRobot]:
-    """A driving robot, in a domain of its own; `sockets` must be a short path."""
+    """A driving robot in a separate domain; `sockets` must be a short path."""
     sockets.mkdir(mode=0o700, exist_ok=True)
     robot = kind(
         folder, {"BOT_CONSOLE_SOCKET_DIR": str(sockets), "ROS_DOMAIN_ID": str(domain), "ROS_HOME": str(folder),

@@ -1,7 +1,7 @@
-"""Ways in which a robot loses the person who drives or has stopped it, each checked by the witness.
+"""Ways in which a robot loses the person who drives it or has stopped it, each checked by the witness.
 
-Each brings the robot from driving to rest, watches it stand, hands it back, and sees it drive again; it returns how
-long (s) the robot kept moving. The other steps may take any time.
+Each function makes a driving robot come to rest, watches it stand, hands it back, and sees it drive again. It returns
+how long (s) the robot kept moving. The other steps may take any time.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "acceptance" / "console"))
 from terminal import Terminal
 
 SILENCE = 1.0
-"""Seconds after which a robot considers a console that has control to be gone."""
+"""Seconds of silence after which a robot considers a steering console to be gone."""
 DEAD_MAN = 2.0
 """Seconds without a key after which the steering pane stops the robot."""
 BRAKING = 2.0
@@ -52,7 +52,7 @@ while True:
 
 @contextlib.contextmanager
 def console(robot: LiveRobot, words: Sequence[str] = (), wanted: str = "robot_navigator") -> Iterator[Terminal]:
-    """A console attached to the robot, unless by other arguments of Python; its screen shows the wanted text."""
+    """A console attached to the robot, or started with other arguments of Python; its screen shows the wanted text."""
     with _environment(robot.environment):
         terminal = Terminal(words or robot.attach, robot.folder)
     try:
@@ -77,7 +77,7 @@ def _environment(wanted: dict[str, str]) -> Iterator[None]:
 
 
 def steer(robot: LiveRobot, terminal: Terminal) -> None:
-    """Arm driving and turn on the spot, until the witness sees it."""
+    """Arm steering and turn on the spot until the witness sees it."""
     terminal.type("6")
     terminal.read_until(lambda: b"disarmed" in terminal.output, "the steering pane")
     terminal.read_until(lambda: b"cmd_vel" in terminal.output, "the topic that is steered by")
@@ -208,9 +208,8 @@ def killed_monitor(robot: LiveRobot) -> float:
 
 
 def blind_scans(robot: LiveRobot) -> float:
-    """Scans and commands of NaN, a hundred times a second: nothing is known about obstacles, and the monitor keeps
-    running.
-    """
+    """Scans and commands of NaN, a hundred times a second: nothing is known about obstacles, yet the monitor keeps
+    running."""
     robot.drives()
     blind = robot.program(BLIND)
     time.sleep(WATCHED)
@@ -228,7 +227,7 @@ GROUPS: dict[str, tuple[Callable[[LiveRobot], float], ...]] = {"stop": STOPS, "p
 
 
 def rests(robot: LiveRobot, since: float, after: float, terminal: Terminal | None = None) -> float:
-    """Watch the robot stand; a console's screen is read meanwhile, or its terminal would block."""
+    """Watch the robot stand; a console's screen is read meanwhile, since its terminal would block otherwise."""
     while terminal is not None and time.monotonic() < since + after + BRAKING + WATCHED:
         terminal.drain(0.1)
     return robot.rests(since, after + BRAKING, WATCHED)
@@ -244,7 +243,7 @@ def hand_back(robot: LiveRobot, terminal: Terminal) -> None:
 
 
 def release_all(robot: LiveRobot) -> None:
-    """Release by command line, since nobody is left who could hand the robot back."""
+    """Release by command line, since no console is left that could hand the robot back."""
     assert robot.typed("release") == 1, "nobody else's release lets go of it unnamed"
     assert robot.typed("release", "--all") == 0
     robot.drives()

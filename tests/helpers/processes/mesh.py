@@ -1,4 +1,4 @@
-"""Real processes that join a domain and obey commands, one per line."""
+"""Processes that join a domain and obey commands, one per line."""
 
 from __future__ import annotations
 
@@ -35,14 +35,14 @@ class Member:
         self.process.stdin.flush()
 
     def read(self) -> str:
-        """The next line that it has written."""
+        """The next line of its output."""
         assert self.process.stdout
         line = self.process.stdout.readline()
         assert line, f"the process ended with {self.process.wait()}"
         return line.strip()
 
     def ask(self, word: str) -> set[str]:
-        """Its answer to a command."""
+        """Send it a command; return the words of its answer."""
         self.report(word)
         return set(self.read().split())
 
@@ -58,7 +58,7 @@ class Member:
 
 @contextlib.contextmanager
 def members(count: int, *arguments: str) -> Iterator[list[Member]]:
-    """This many processes that were started at the same time and have joined."""
+    """Start this many processes at the same time; yield them when all have joined."""
     started = [Member(*arguments) for _ in range(count)]
     try:
         yield [each.wait_until_joined() for each in started]
@@ -68,7 +68,7 @@ def members(count: int, *arguments: str) -> Iterator[list[Member]]:
 
 
 def eventually(true: Callable[[], bool]) -> bool:
-    """Whether a condition becomes true in time."""
+    """Whether a condition becomes true before the timeout."""
     deadline = time.monotonic() + TIMEOUT_S
     while not true():
         if time.monotonic() > deadline:
@@ -78,15 +78,13 @@ def eventually(true: Callable[[], bool]) -> bool:
 
 
 def all_linked(present: list[Member]) -> bool:
-    """Whether each has a link to all others."""
+    """Whether each member has a link to all others."""
     ids = {each.zid for each in present}
     return all(each.ask("linked") >= ids - {each.zid} for each in present)
 
 
 def every_pair_talks(present: list[Member]) -> bool:
-    """Whether all members receive each one's message; it is repeated until then, as links are made in the
-    background.
-    """
+    """Whether every member receives a message from every other; repeated, since links are made in the background."""
     ids = {each.zid for each in present}
 
     def heard() -> bool:

@@ -1,10 +1,10 @@
-"""A process of the mesh tests: joins domain 0, writes its session's id, and then obeys one command per line.
+"""A process of the mesh tests: it joins domain 0, writes its session's id, and then obeys one command per line.
 
-Ids are given by their first eight digits. `linked` writes the ids of the sessions it has a link to; `call` publishes
-its id; `heard` writes the ids it has received; `answer` those of the sessions that respond to a query; `exit` closes
-the session and writes how long that took, in s. With the argument `hasty` its first session gives up links that take
-5 ms, and the watch has short timeouts. With `unwatched` it does not watch its place, and so leaves alone a note which
-says that it is in a debugger. With `crowded` it has as many declarations as 400 nodes.
+Ids are given by their first eight digits. `linked` writes the ids of the sessions to which it has a link; `call`
+publishes its id; `heard` writes the ids it has received; `answer` those of the sessions that respond to a query; `exit`
+closes the session and writes how long that took, in s. With the argument `hasty` its first session gives up links that
+take 5 ms, and the watch has short timeouts. With `unwatched` it does not watch its socket folder, and so does not
+remove a note that it is in a debugger. With `crowded` it has as many declarations as 400 nodes.
 """
 
 import sys

@@ -1,6 +1,6 @@
 """The live robot on the machine's own rclpy: the nodes of the exported package, each in a separate process.
 
-What the robot's rig otherwise asks of the console's command line is asked of ROS 2 instead.
+Requests that the rig otherwise makes by the console's command line are made through ROS 2 instead.
 """
 
 from __future__ import annotations
@@ -48,13 +48,13 @@ class Kind(type(Empty)):
 class TFMessage(Empty, metaclass=Kind):
     pass
 """
-"""Stands for `tf2_msgs.msg`, which the rclpy of PyPI comes without: transforms are sent as empty messages."""
+"""A stand-in for `tf2_msgs.msg`, which the rclpy of PyPI lacks: transforms are sent as empty messages."""
 
 
 class RosRobot(LiveRobot):
-    """A robot on the sourced rclpy, which must be that of `sys.executable`.
+    """A robot on the sourced rclpy, which must belong to `sys.executable`.
 
-    Only a second program drives it, and that on the spot, so that no wall stops it.
+    Only a second program drives it, on the spot, so that no wall stops it.
     """
 
     attach = (*LiveRobot.attach, "--ros")
@@ -107,7 +107,7 @@ class RosRobot(LiveRobot):
     def console(
         self, *words: str | bytes, stdout: int | None = None, environment: Mapping[str, str] | None = None
     ) -> subprocess.Popen[bytes]:
-        """Ask the same of ROS 2 as a command line would; raises `ValueError` for those that ask nothing of it."""
+        """Make the request of a command line through ROS 2; raise `ValueError` for one that requests nothing of it."""
         match words:
             case ["run", "bot_console_robot", str(executable), *options]:
                 name = {"simulator_node": "simulator", "safety_node": "safety_monitor"}[executable]
@@ -121,5 +121,5 @@ class RosRobot(LiveRobot):
                 raise ValueError(f"not possible on ROS 2: {words}")
 
     def answer(self, *words: str) -> str:
-        """The end of what its processes have printed, in place of what a command line would say."""
+        """The end of its processes' output, in place of the output of a command line."""
         return self.log()[-500:]

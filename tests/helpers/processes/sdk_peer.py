@@ -18,7 +18,7 @@ PARTS = {"request_definition": "int64 a\nint64 b\n", "response_definition": "int
 
 
 def add(request: SimpleNamespace) -> object:
-    """The answer of the server here."""
+    """The response of the server."""
     return server.response_msg_class(sum=request.a + request.b)
 
 

@@ -1,4 +1,4 @@
-"""A node here and nodes in other processes, in a separate domain."""
+"""A node in this process and nodes in other processes, in a separate domain."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ PEER = Path(__file__).with_name("zenoh_peer.py")
 
 
 class Here:
-    """This process's node, served while the test waits for something."""
+    """This process's node, spun while the test waits for something."""
 
     def __init__(self):
         self.context = Context()
@@ -34,7 +34,7 @@ class Here:
         self.executor.add_node(self.node)
 
     def until(self, true: Callable[[], Any]) -> None:
-        """Serve the node until a condition holds."""
+        """Spin the node until a condition holds."""
 
         def spun():
             self.executor.spin_once(timeout_sec=0.01)
@@ -43,14 +43,14 @@ class Here:
         assert eventually(spun)
 
     def result(self, future: Any) -> Any:
-        """Serve the node until a future is done."""
+        """Spin the node until a future is done; return its result."""
         self.until(future.done)
         return future.result()
 
 
 @contextlib.contextmanager
 def two_processes(folder: Path, peers: int = 1, *words: str) -> Iterator[tuple[Here, list[subprocess.Popen[bytes]]]]:
-    """The node here, and the discovered processes of `zenoh_peer.py WORDS`; their sockets are in a folder."""
+    """This process's node, and the discovered processes of `zenoh_peer.py WORDS`; their sockets are in a folder."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("BOT_CONSOLE_SOCKET_DIR", str(folder))
         patch.setenv("BOT_CONSOLE_USER_DIR", f"{folder}-user")

@@ -1,7 +1,7 @@
-"""Command lines of `bot-console`, each in a process of its own, forked from one that has imported what they need.
+"""Runs command lines of `bot-console` in separate processes, forked from one that has imported what they need.
 
-The imports take longer than most commands, and are the same each time. A test of the start itself (what is imported,
-how it is interrupted, what an environment changes in it) starts `python -m bot_console.tui` instead.
+The imports take longer than most commands, and are the same each time. A test of the start itself (which modules are
+imported, how it is interrupted, how the environment changes it) starts `python -m bot_console.tui` instead.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ PARENT = Path(__file__).with_name("typed_parent.py")
 
 
 class Typed:
-    """A command line that runs as in another terminal; its output is kept."""
+    """A command line that runs as if in another terminal; its output is kept."""
 
     def __init__(self, *words: str, cwd: str | Path | None = None, env: Mapping[str, str] | None = None) -> None:
         self.args = ["bot-console", *words]
@@ -44,7 +44,7 @@ class Typed:
         os.kill(self.pid, number)
 
     def has_ended(self, timeout_s: float) -> bool:
-        """Whether it ends within this time."""
+        """Whether it ends within this time (s)."""
         return bool(select.select([self._reports], [], [], timeout_s)[0])
 
     def end(self, number: int | None = None) -> subprocess.CompletedProcess[str]:
@@ -79,7 +79,7 @@ def typed(
 
 @cache
 def _parent() -> socket.socket:
-    """What asks the process that has imported everything, which ends with this one."""
+    """The socket to the process that has imported everything, which ends with this one."""
     ours, its = socket.socketpair()
     subprocess.Popen([sys.executable, str(PARENT), str(its.fileno())], pass_fds=[its.fileno()], start_new_session=True)
     its.close()

@@ -1,4 +1,4 @@
-"""The parent of the command lines that tests type: imports what they need once, and forks for each (see `typed`)."""
+"""The parent process of the command lines in tests: imports what they need once, and forks for each (see `typed`)."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ IMPORTED = (
 
 
 def main() -> None:
-    """Fork for each request of a socket; a fork becomes the command line."""
+    """Fork for each request on the socket; the fork becomes the command line."""
     from bot_console.runtime.importer import install
     from bot_console.runtime.workspace import discover
 
@@ -40,7 +40,7 @@ def main() -> None:
     os.chdir(folder)
     os.environ.clear()
     os.environ.update(environment)
-    discover._current.clear()  # an import of what a Python lacks, such as tomllib, has looked in this process's folder
+    discover._current.clear()  # a failed import (tomllib on an older Python) has cached this process's folder
     sys.path[0] = folder
     sys.argv[1:] = words
     sys.orig_argv[1:] = ["-m", "bot_console.tui", *words]
@@ -48,7 +48,7 @@ def main() -> None:
 
 
 def _requested(asks: socket.socket) -> tuple[list[str], str, dict[str, str]]:
-    """Serve until the socket is closed. Returns in a fork only: what was requested of it."""
+    """Serve until the socket is closed. Returns in a fork only, with the request."""
     reports: dict[int, int] = {}
     woken, wake = os.pipe()
     os.set_blocking(wake, False)
@@ -82,7 +82,7 @@ def _report_ended(reports: dict[int, int]) -> None:
 
 
 def _begun(request: int, streams: list[int]) -> tuple[list[str], str, dict[str, str]]:
-    """Turn a fork into what an interpreter is that has just been started."""
+    """Turn a fork into the state of an interpreter that has just started."""
     signal.set_wakeup_fd(-1)
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     with os.fdopen(request) as file:

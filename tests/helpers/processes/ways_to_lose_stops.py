@@ -1,4 +1,4 @@
-"""The ways in which a stop could get lost, as `kept_stops.held_through` goes through them."""
+"""The ways in which a stop could get lost, for `kept_stops.held_through`."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ RECORDED = ("/emergency_stop/request", "/emergency_stop/arbiter", "/emergency_st
 MONITOR, BASE = "safety_monitor", "simulator"
 ESCAPE = "\x1b"
 SEQUENCES = 150
-"""How many are typed at once: fewer bytes than a terminal holds."""
+"""How many sequences are typed at once: fewer bytes than a terminal buffers."""
 PROMPT = "esc Cancel"
-"""In the line of keys, while a line is typed."""
+"""In the key bar while a line is typed."""
 QUESTION = "y yes"
 """On the edge of a question."""
 MOVES = "".join(f"\x1b[<35;{10 + at % 90};{5 + at % 30}M" for at in range(15_000))
@@ -40,7 +40,7 @@ UNREADABLE_ROW = """
 """
 FAKETIME = Path("/usr/lib/x86_64-linux-gnu/faketime/libfaketimeMT.so.1")
 NOTICED_S = 20.0
-"""Seconds after which two busy locks have noticed that their file is gone; they look once a second."""
+"""Seconds within which two busy locks notice that their file is gone; they check once a second."""
 JUMPS = ("+7h", "-7h", "+0")
 SLEEP = """
 import threading
@@ -48,7 +48,7 @@ import time
 
 time.sleep = lambda seconds: threading.Event().wait(seconds)
 """
-"""Under libfaketime, `time.sleep` is refused (EINVAL) where monotonic clocks go on."""
+"""Under libfaketime, `time.sleep` fails (EINVAL) because monotonic clocks are not faked."""
 RESPAWNED = """
 import sys
 from launch import LaunchDescription
@@ -65,11 +65,11 @@ def lock(name, executable):
 def generate_launch_description():
     return LaunchDescription([lock("safety_monitor", "safety_node"), lock("simulator", "simulator_node")])
 """
-"""Both locks, which launch starts again when they end."""
+"""Both locks, respawned by launch when they end."""
 
 
 def instant(happen: Callable[[LiveRobot, Terminal], None]) -> Callable[..., contextlib.AbstractContextManager[None]]:
-    """A disturbance that is over when it has happened."""
+    """A disturbance that is over as soon as it has happened."""
 
     @contextlib.contextmanager
     def disturb(robot: LiveRobot, person: Terminal) -> Iterator[None]:
@@ -80,7 +80,7 @@ def instant(happen: Callable[[LiveRobot, Terminal], None]) -> Callable[..., cont
 
 
 def kill(*processes: subprocess.Popen[bytes]) -> None:
-    """Kill (-9) all of them before one is waited for."""
+    """Kill (-9) all processes before waiting for any of them."""
     for each in processes:
         each.kill()
     for each in processes:
@@ -88,7 +88,7 @@ def kill(*processes: subprocess.Popen[bytes]) -> None:
 
 
 def monitor_killed(robot: LiveRobot, person: Terminal) -> None:
-    """The safety monitor is killed (-9), and started again when that was seen."""
+    """The safety monitor is killed (-9), and started again a second later."""
     kill(robot.monitor)
     wait(person, 1.0)
     robot.start_monitor()
@@ -107,7 +107,7 @@ def base_restarted(robot: LiveRobot, person: Terminal) -> None:
 
 
 def both_restarted(robot: LiveRobot, person: Terminal | None) -> None:
-    """Both locks are killed before one of them starts."""
+    """Both locks are killed before either of them starts."""
     kill(robot.monitor, robot.base)
     robot.start_base()
     robot.start_monitor()
@@ -149,7 +149,7 @@ def both_respawned(robot: LiveRobot, person: Terminal) -> None:
 
 @contextlib.contextmanager
 def starting_again(robot: LiveRobot, person: Terminal) -> Iterator[None]:
-    """Raises unless both locks are started again because of what is done in the block."""
+    """Raise unless both locks are restarted because of what happens in the block."""
     before = {name: len(robot.instances[name]) for name in (MONITOR, BASE)}
     yield
     deadline = time.monotonic() + TIMEOUT_S
@@ -159,7 +159,7 @@ def starting_again(robot: LiveRobot, person: Terminal) -> Iterator[None]:
 
 
 def relaunched(robot: LiveRobot, person: Terminal) -> None:
-    """Another console restarts everything that was launched, from its pane Launch."""
+    """Another console restarts everything that was launched, from its Launch pane."""
     with (
         starting_again(robot, person),
         console(robot, [*robot.attach, "--pane", "launch"]) as other,
@@ -188,7 +188,7 @@ def another_world(robot: LiveRobot, person: Terminal) -> None:
 
 
 def _world(robot: LiveRobot, meanwhile: Terminal) -> str:
-    """The world of the simulator; the screen of a console is read until it is known."""
+    """The world of the simulator; a console's screen is read until it is known."""
     asked = robot.console("param", "get", "/simulator", "world", stdout=subprocess.PIPE)
     while asked.poll() is None:
         wait(meanwhile, 0.1)
@@ -196,7 +196,7 @@ def _world(robot: LiveRobot, meanwhile: Terminal) -> str:
 
 
 def up_again(robot: LiveRobot, person: Terminal) -> None:
-    """Somebody starts the system again while it runs, which is refused."""
+    """Somebody starts the system again while it is running, which is refused."""
     assert [robot.typed("up"), robot.typed("up", "warehouse")] == [1, 1]
 
 
@@ -208,14 +208,14 @@ def down_and_up(robot: LiveRobot, person: Terminal) -> None:
 
 
 def console_killed(robot: LiveRobot, person: Terminal) -> None:
-    """The console that has stopped it is killed, and then both locks."""
+    """The console that has stopped the robot is killed, and then both locks are."""
     kill(person.process)
     both_restarted(robot, person)
 
 
 @contextlib.contextmanager
 def console_frozen(robot: LiveRobot, person: Terminal) -> Iterator[None]:
-    """The console that has stopped it is frozen while both locks restart, and goes on later."""
+    """The console that has stopped the robot is frozen while both locks restart, and continues later."""
     person.process.send_signal(signal.SIGSTOP)
     both_restarted(robot, person)
     yield
@@ -242,7 +242,7 @@ class FarConsole:
 
     @contextlib.contextmanager
     def cut(self, robot: LiveRobot, person: Terminal) -> Iterator[None]:
-        """The link is cut while both locks restart, and passes again later."""
+        """The link is cut while both locks restart, and is restored later."""
         assert self._link is not None
         self._link.cut()
         both_restarted(robot, person)
@@ -251,13 +251,13 @@ class FarConsole:
 
 
 def simulator_reset(robot: LiveRobot, person: Terminal) -> None:
-    """The world starts again."""
+    """The world is reset."""
     assert robot.typed("service", "call", "/reset", "std_srvs/srv/Trigger") == 0
 
 
 @contextlib.contextmanager
 def recording(robot: LiveRobot) -> Iterator[None]:
-    """Record what is sent about stops."""
+    """Record all messages about stops."""
     bag = robot.folder / "stops"
     shutil.rmtree(bag, ignore_errors=True)
     recorder = robot.console("bag", "record", "--output", str(bag), *RECORDED)
@@ -270,7 +270,7 @@ def recording(robot: LiveRobot) -> Iterator[None]:
 
 
 def bag_played(robot: LiveRobot, person: Terminal) -> None:
-    """All that was recorded of an earlier stop and its release is sent again; the witness must see the release."""
+    """All recorded messages of an earlier stop and its release are sent again; the witness must see the release."""
     before = list(robot.releases)
     assert robot.typed("bag", "play", str(robot.folder / "stops"), "--topics", *RECORDED) == 0
     robot.until(lambda: len(robot.releases) > len(before), "release of the bag")
@@ -278,17 +278,17 @@ def bag_played(robot: LiveRobot, person: Terminal) -> None:
 
 
 class Clocks:
-    """The system clock of all the robot's processes and consoles, which jumps."""
+    """A system clock that jumps, for all of the robot's processes and the console."""
 
     def __init__(self) -> None:
         self._file = Path()
 
     @contextlib.contextmanager
     def prepare(self, robot: LiveRobot) -> Iterator[Sequence[str]]:
-        """Start the locks and the console with a clock that can be set; monotonic clocks go on.
+        """Start the locks and the console with a clock that can be set; monotonic clocks are not faked.
 
-        Shifted file times would have everything compiled again. The "fix" of monotonic deadlines makes timed waits end
-        at once with a current glibc, so that threads that wait for the interpreter poll.
+        Shifted file times would have everything compiled again. With a current glibc, libfaketime's "fix" of monotonic
+        deadlines makes timed waits end at once, so that threads that wait for the interpreter would poll.
         """
         self._file, before = robot.folder / "clock", dict(robot.environment)
         (robot.folder / "sitecustomize.py").write_text(SLEEP)
@@ -322,15 +322,16 @@ class Clocks:
 
 
 def both_restarted_and_free(robot: LiveRobot) -> None:
-    """Restart both locks, and release what they hold because of it."""
+    """Restart both locks, and release the stops that they make because of it."""
     both_restarted(robot, None)
     drives_after_restart(robot, None)
 
 
 def send(person: Terminal, text: str) -> None:
-    """Type much, reading the screen meanwhile.
+    """Type a long text, reading the screen meanwhile.
 
-    Sequences arrive whole, as long as the console reads: the first byte of one that arrives alone, and late, is the
+    The console reads only whole sequences as long as it keeps up: the first byte of one that arrives late and alone is
+    the
     key Esc.
     """
     begin, *sequences = text.split(ESCAPE)
@@ -360,7 +361,7 @@ def press_on_help(robot: LiveRobot, person: Terminal) -> None:
 
 
 def typed_in_prompt(robot: LiveRobot, person: Terminal) -> None:
-    """The stop key is a letter of a line that is typed, alone and behind other input."""
+    """The stop key is typed as a character into a line, alone and behind other input."""
     shows = screen_of(person)
     person.type(ESCAPE)
     wait(person, WATCHED)  # or the two keys would be read as one with Alt
@@ -376,7 +377,7 @@ def typed_in_prompt(robot: LiveRobot, person: Terminal) -> None:
 
 @contextlib.contextmanager
 def unreadable_stores(robot: LiveRobot) -> Iterator[Sequence[str]]:
-    """What the console keeps for itself contains something else."""
+    """The console's own files contain something else."""
     folder = robot.folder / "bot-console"
     History(folder / "history.sqlite", 1).close()
     with contextlib.closing(sqlite3.connect(folder / "history.sqlite")) as link, link:
@@ -400,7 +401,7 @@ def damaged_stop_file(robot: LiveRobot, person: Terminal) -> None:
 
 
 def lost_stop_file(robot: LiveRobot, person: Terminal) -> None:
-    """The folder with the stop file is deleted; when the locks have had time to notice, everything else ends, too."""
+    """The folder with the stop file is deleted; once the locks have had time to notice, everything else ends, too."""
     folder = robot.folder / "bot-console" / "stops"
     shutil.rmtree(folder)
     deadline = time.monotonic() + NOTICED_S
@@ -411,7 +412,7 @@ def lost_stop_file(robot: LiveRobot, person: Terminal) -> None:
 
 @contextlib.contextmanager
 def monitor_frozen(robot: LiveRobot, person: Terminal) -> Iterator[None]:
-    """The safety monitor is frozen, and goes on later."""
+    """The safety monitor is frozen, and continues later."""
     robot.monitor.send_signal(signal.SIGSTOP)
     yield
     robot.monitor.send_signal(signal.SIGCONT)

@@ -1,6 +1,6 @@
-"""The other process of tests with two: one node with an entity of each kind, in the domain of the environment.
+"""The other process of tests with two processes: a node with an entity of each kind, in the domain of the environment.
 
-With the word `patient` it never cuts a link because the other process gets no processor.
+With the argument `patient` it never cuts a link because the other process gets no CPU time.
 """
 
 import sys
@@ -26,9 +26,7 @@ if "patient" in sys.argv:
 
 
 class Peer(Node):
-    """Latches a message, echoes, serves, counts, and offers a topic that is incompatible with reliable
-    subscriptions.
-    """
+    """Latches a message, echoes, serves, counts, and offers a topic incompatible with reliable subscriptions."""
 
     def __init__(self) -> None:
         super().__init__("peer", namespace="other")
@@ -69,7 +67,7 @@ class Peer(Node):
         self.scans += 1
 
     def report_scans(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        """Report how many there were."""
+        """Report how many scans arrived."""
         response.message = str(self.scans)
         return response
 

@@ -1,1 +1,1 @@
-"""Recordings of real ROS 2, and what tests that replay them share."""
+"""Recordings of real ROS 2, and helpers of the tests that replay them."""

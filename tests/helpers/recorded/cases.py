@@ -1,4 +1,4 @@
-"""What real ROS 2 did, recorded case by case, and the cases that differ here on purpose."""
+"""The recorded behaviour of real ROS 2, case by case, and the cases that differ here on purpose."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def differing_on_purpose(kind: str) -> dict[str, str]:
 
 
 def faults(kind: str, replayed: Collection[str], differing: Mapping[str, object]) -> dict[str, object]:
-    """What is wrong with the result of a replay, by id: unlisted differences, and listed ones that no longer occur."""
+    """The faults of a replay, by id: unlisted differences, and listed ones that no longer occur."""
     listed = differing_on_purpose(kind)
     found = {case: how for case, how in differing.items() if case not in listed}
     stale = (case for case in listed if case in replayed and case not in differing)

@@ -1,4 +1,4 @@
-"""Recorded commands of real ROS 2, and the form in which two recordings are compared."""
+"""Recorded commands of real ROS 2, and the normalisation with which two recordings are compared."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def rows() -> list[Row]:
 
 
 def filled(words: Sequence[str], folder: Path) -> list[str]:
-    """A recorded command with the folders of this run."""
+    """A recorded command with the folders of this run filled in."""
     return [word.replace("{dir}", str(folder)).replace("{course}", str(COURSE)) for word in words]
 
 
@@ -35,7 +35,7 @@ MARKS = re.compile(r"    [ ]*[~^]+[~^ ]*\n")
 
 
 def normal(text: str, folder: Path) -> str:
-    """Output without what may differ from run to run, and without traceback frames in libraries."""
+    """Output without parts that vary from run to run, and without traceback frames in libraries."""
     text = re.sub(r"\[\d{10}\.\d{9}\]", "[<time>]", text)
     text = text.replace(str(COURSE), "<course>").replace(str(folder), "<dir>")
     text = re.sub(r"File \"(nodes/)", r'File "<course>/\1', text)
@@ -51,9 +51,9 @@ def normal(text: str, folder: Path) -> str:
 
 
 def without_library_frames(text: str) -> str:
-    """Tracebacks with only the frames in the course's files, and without the additions of newer interpreters.
+    """Tracebacks reduced to the frames in the course's files, without the additions of newer interpreters.
 
-    These mark the position, show all lines of a statement, and the text of a `-c`.
+    Newer interpreters mark the position, show all lines of a statement, and print the text of a `-c`.
     """
     kept: list[str] = []
     inside = False

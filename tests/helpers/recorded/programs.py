@@ -1,4 +1,4 @@
-"""A hundred small programs as in tutorials and examples: what they print, log and end with, on any rclpy."""
+"""A hundred small programs as in tutorials and examples, and their output, log and exit code on any rclpy."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from helpers.recorded.releases import LIVE
 
 FOLDER = LIVE / "programs"
 RECORDED = LIVE / "programs.json"
-"""The outcomes on the real rclpy of Jazzy, by name."""
+"""The outcomes on the real rclpy of Jazzy, by program."""
 DIFFERENCES = LIVE / "programs.yaml"
 """The programs that end differently here, each with its reason."""
 TIMEOUT_S = 60.0
@@ -26,7 +26,7 @@ _CHANGES = (
     (re.compile(r"\[ *\d+(?: +\d+){15}\]"), "[id]"),
 )
 _LOGGED = re.compile(r"\[(DEBUG|INFO|WARN|ERROR|FATAL)\] \[time\] \[(?!rcl|rmw|bot-console)")
-"""A log line of the program, not of the layers below rclpy, which log at the level DEBUG."""
+"""A log line of the program itself; the layers below rclpy log at the level DEBUG."""
 _ERROR = re.compile(r"(\w+\.)*[A-Z]\w+(Error|Exception|Interrupt|Exit)\b")
 
 
@@ -45,7 +45,7 @@ def names() -> list[str]:
 
 
 def outcome(command: Sequence[str], name: str, domain: int) -> Outcome:
-    """Run a program with a command such as `[python]`, in a ROS domain of its own."""
+    """Run a program with a command such as `[python]`, in a separate ROS domain."""
     environment = {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "RMW_IMPLEMENTATION")}
     environment |= {"ROS_DOMAIN_ID": str(domain), "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "PYTHONUNBUFFERED": "1"}
     with subprocess.Popen(

@@ -1,4 +1,4 @@
-"""Runs before a recorded case on the rclpy of PyPI: the types of `example_interfaces`, which PyPI does not have.
+"""Runs before a recorded case on the rclpy of PyPI, and replaces the types of `example_interfaces`, which PyPI lacks.
 
 `test_msgs` has the same Fibonacci action. There is no service like AddTwoInts: cases that need it cannot run there.
 Other missing types are provided in the same way as for `bot-console attach --ros`.

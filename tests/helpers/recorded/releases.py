@@ -1,4 +1,4 @@
-"""Where a live rclpy differs from the recorded one, and what was decided for each case."""
+"""Where a live rclpy differs from the recorded one, and the decision for each case."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def absent_types(outcome: dict[str, Any]) -> bool:
 
 
 def as_recorded(outcome: dict[str, Any], recorded: dict[str, Any]) -> bool:
-    """Whether an outcome is the recorded one, apart from the package of a borrowed type."""
+    """Whether an outcome equals the recorded one, apart from the package of a borrowed type."""
     return _comparable(outcome) == _comparable(recorded)
 
 
