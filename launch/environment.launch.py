@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The system in one environment: its parameters and its world."""
+"""Launches the system with the parameters and the world of one environment."""
 
 from ament_index_python.packages import get_package_share_directory
 from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription, LogInfo

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The full system on a tour: all nodes, with the motion controller leading the robot along the world's waypoints."""
+"""Launches all nodes for a tour on which the motion controller leads the robot along the world's waypoints."""
 
 from ament_index_python.packages import get_package_share_directory
 from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription

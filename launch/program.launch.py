@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""One node: a Python file, or an executable of a package."""
+"""Launches one node: a Python file, or an executable of a package."""
 
 import os
 import shlex
@@ -28,7 +28,7 @@ def generate_launch_description():
 
 
 def make_program(context):
-    """The node, with its arguments."""
+    """Make the action that starts the node with its arguments."""
     words = shlex.split(LaunchConfiguration("words").perform(context))
     program = LaunchConfiguration("program").perform(context)
     options = {"package": name} if (name := LaunchConfiguration("package").perform(context)) else {}

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The whole robot system: simulator, navigator, sensors, motion controller, safety monitor and telemetry.
+"""Launches the whole robot system: simulator, navigator, sensors, motion controller, safety monitor and telemetry.
 
 Velocity commands go navigator -> motion controller -> safety monitor -> robot. A person's commands go to
 `cmd_vel_teleop`.
@@ -28,7 +28,7 @@ def generate_launch_description():
     use_sim_time = {"use_sim_time": ParameterValue(LaunchConfiguration("use_sim_time"), value_type=bool)}
     follow_route = {"follow_route": ParameterValue(LaunchConfiguration("follow_route"), value_type=bool)}
 
-    # Only one of the two may drive to a goal: the controller in a straight line, or Nav2's navigator over the map.
+    # Only one of them may drive to a goal: the controller in a straight line, or the navigator with Nav2's actions.
     goals = "goal_pose", PythonExpression(["'_direct_goal' if '", navigator, "' == 'goals' else 'goal_pose'"])
 
     def robot_node(executable, name, remappings=(), extra=None, **options):
@@ -82,7 +82,7 @@ def generate_launch_description():
 
 
 def make_navigator(context):
-    """The built-in navigator, the one for Nav2 goals, a Python file in its place, or nothing."""
+    """Make the navigator: the built-in one, the one with Nav2's actions, a Python file, or none."""
     chosen = LaunchConfiguration("navigator").perform(context)
     if chosen.lower() in ("false", "0"):
         return []
@@ -106,7 +106,7 @@ def make_navigator(context):
 
 
 def make_simulator(context):
-    """The simulator with the given arguments; all other parameters come from its file."""
+    """Make the simulator with the given arguments; all other parameters come from the parameter file."""
     given = {}
     if seed := LaunchConfiguration("seed").perform(context):
         given["seed"] = int(seed)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Only the simulated robot, for nodes that are started elsewhere; also with a TurtleBot's frames, speed and laser."""
+"""Launches only the simulated robot, for nodes started elsewhere; also with a TurtleBot's frames, speed and laser."""
 
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
 from launch.conditions import IfCondition
@@ -63,7 +63,7 @@ def stamped():
 
 
 def make_simulator(context):
-    """The simulator, configured for the chosen model."""
+    """Make the simulator, configured for the chosen model."""
     model = LaunchConfiguration("model").perform(context)
     world, speed, view = MODEL_SETTINGS[model]
     return [

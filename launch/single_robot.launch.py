@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The smallest system: the navigator drives the simulated robot directly, without other nodes in between."""
+"""Launches the smallest system: the navigator drives the simulated robot directly, without other nodes in between."""
 
 from ament_index_python.packages import get_package_share_directory
 from launch.actions import DeclareLaunchArgument

@@ -1,1 +1,1 @@
-"""The ROS package `bot_console_robot`: the nodes of a small robot system, and the simulated robot that they drive."""
+"""The ROS package `bot_console_robot`: the nodes of a small robot system, and the simulated robot that they control."""

@@ -28,7 +28,7 @@ from std_msgs.msg import UInt32
 
 MONITOR = "safety_monitor"
 WATCHED_NS = 1_000_000_000
-"""A report of the safety monitor is valid for this long."""
+"""Nanoseconds for which a report of the safety monitor is valid."""
 LOCKED = "emergency stop"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 COLLISION = 2.0
@@ -36,7 +36,7 @@ COLLISION = 2.0
 NEARNESS = 5.0
 """Score penalty per metre of missing clearance, in m/s."""
 DIGITS = 3
-"""Decimals of the values that are tried."""
+"""Number of decimals of the tried values."""
 
 
 class AutoTune(Node):
@@ -105,7 +105,7 @@ class AutoTune(Node):
                 self._locked = values.get("limited_by", "") == LOCKED
 
     def _hindrance(self) -> str:
-        """Why nothing may be adjusted now; empty if adjusting is allowed."""
+        """Why the parameter may not be adjusted now; empty if it may."""
         if not self.get_parameter("enabled").value:
             return "it is not enabled"
         if self._steady.now().nanoseconds - self._heard > WATCHED_NS:
@@ -115,7 +115,7 @@ class AutoTune(Node):
         return "" if self._client.services_are_ready() else f"{self._node} is not running"
 
     async def _poll(self) -> None:
-        """Runs twice a second: stops at once if adjusting is not allowed, and moves on after a period or a
+        """Called twice a second: stop at once if adjusting is not allowed; try the next value after a period or a
         collision.
         """
         if self._busy:
@@ -153,7 +153,7 @@ class AutoTune(Node):
         self._climber = None
 
     async def _ready(self) -> bool:
-        """Read the parameter's value and range if they are unknown or another client has set it."""
+        """Read the parameter's value and range if unknown or changed by another client; False if that fails."""
         now = await self._value()
         if now is None:
             return False
@@ -198,7 +198,7 @@ class AutoTune(Node):
         self._forget()
 
     async def _set(self, value: float) -> str:
-        """Set a value; returns the node's reason for refusing it, or an empty text if it was accepted."""
+        """Set a value; returns the reason for which the node refused it, or an empty text if it was accepted."""
         answer: Any = await self._client.set_parameters([Parameter(self._name, value=value)])
         result = answer.results[0] if answer and answer.results else None
         if result is None or not result.successful:

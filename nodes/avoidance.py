@@ -27,7 +27,7 @@ HABIT = 0.3
 WANDER = 0.55
 """Heading offset (rad) that breaks ties; without it, the robot would follow the same wall for ever."""
 WANDER_PERIODS = (173.0, 282.0)
-"""Periods, in scans, of the two waves of this offset; they share no common multiple worth mentioning."""
+"""Periods, in scans, of the two waves of this offset; their sum hardly ever repeats."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +43,7 @@ class Rules:
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """A velocity in m/s and rad/s, whether the way is blocked, and the distance to the nearest return in m or `inf`."""
+    """A velocity in m/s and rad/s, whether the way is blocked, and the distance (m) of the nearest return, or `inf`."""
 
     linear: float
     angular: float
@@ -69,7 +69,7 @@ class Avoidance:
         if len(intensities) == len(ranges):
             seen &= intensities >= rules.detection_threshold
         cos, sin = self._beams(len(ranges), first, increment)
-        # Returns beyond the horizon block no lane.
+        # Returns beyond the horizon do not block any lane.
         near = (seen & (ranges < HORIZON + rules.safety_distance)).nonzero()[0]
         depth = ranges.take(near)
         within = depth if len(near) else ranges[seen]
@@ -112,14 +112,14 @@ class Avoidance:
         return fastest * max(0.2, math.cos(self._heading)), angular
 
     def _whim(self) -> float:
-        """Return the heading in rad that is preferred at present."""
+        """Return the present heading offset (rad) that breaks ties; see `WANDER`."""
         return 0.5 * WANDER * sum(math.sin(math.tau * self._scans / period) for period in WANDER_PERIODS)
 
     def _keep_side(self, ranges: Floats) -> float:
-        """Which way to turn on the spot, +1 (left) or -1: initially the more open side, then the same one until the
-        way is free.
+        """Return which way to turn on the spot, +1 (left) or -1: to the more open side, and then the same way until the
+        robot is free.
 
-        Alternating between sides in a corner would never end.
+        In a corner, choosing again each time would make it alternate for ever.
         """
         if self._side == 0.0:
             capped = np.minimum(ranges, HORIZON)

@@ -104,7 +104,7 @@ class MotionController(Node):
         self._publish(*self._velocity.step(*wanted, CONTROL_PERIOD_S, self._gains))
 
     def _fall_silent(self) -> None:
-        """Publish one zero velocity, then nothing, so that others can drive."""
+        """Publish one zero velocity and then nothing, so that others can drive."""
         if not self._silent:
             self._silent = True
             self._velocity.reset()

@@ -1,11 +1,11 @@
-"""Hill climbing on a live robot: change a value by a step, score it for a period, then continue or turn back. Pure."""
+"""Hill climbing on a live robot: change a value by a step, score it for a period, then go on or turn back. Pure."""
 
 from __future__ import annotations
 
 MIN_STEP = 0.25
-"""The smallest step as a fraction of the first one: the search never stops, because the optimum may move."""
+"""The smallest step, as a fraction of the first one; the search never stops, because the optimum may move."""
 FORGETTING = 0.1
-"""How much of the difference to the latest score the remembered best score adopts in each period."""
+"""The fraction by which the best score moves towards the latest one in each period, since conditions change."""
 
 
 class HillClimber:
@@ -40,7 +40,7 @@ class HillClimber:
         return self.value
 
     def danger(self) -> float:
-        """Record that the current value was dangerous; returns the value to go back to, a step towards safety."""
+        """Record that the current value was dangerous; returns the value to go back to, one step towards safety."""
         if self.value > self.low and (self._direction > 0 or self.value >= self.best):
             self.high = max(self.low, self.value - self._step)
             self._direction = -1.0

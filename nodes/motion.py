@@ -1,4 +1,4 @@
-"""Velocity control: smooth speed changes with gains, and driving to waypoints."""
+"""Velocity control: smooth changes of speed, and driving to waypoints."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ REACHED = 0.35
 CRUISE = 0.5
 """The speed in m/s towards a waypoint if no limit is given."""
 DETOUR = 2.0
-"""Seconds to keep avoiding an obstacle before heading for the waypoint again."""
+"""Seconds for which an obstacle is avoided before the robot heads for the waypoint again."""
 CREEP = 0.05
 """An allowed speed in m/s below which the way counts as blocked."""
 
@@ -27,7 +27,7 @@ class Gains:
 
 
 class VelocityController:
-    """Ramps the velocity towards the requested one; deceleration is never delayed."""
+    """Ramps the velocity up towards the requested one; deceleration is never delayed."""
 
     def __init__(self) -> None:
         self.linear = 0.0
@@ -69,7 +69,7 @@ class WaypointFollower:
         return self._points[0] if self._points else None
 
     def arrived(self, x: float, y: float) -> bool:
-        """Whether the target has been reached from here; if so, the next waypoint becomes the target."""
+        """Return whether the target is reached at this position; if so, make the next waypoint the target."""
         if not self._points or math.dist((x, y), self._points[0]) > REACHED:
             return False
         point = self._points.popleft()

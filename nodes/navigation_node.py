@@ -35,17 +35,17 @@ if TYPE_CHECKING:
 
 ACTIONS: Any = nav2_msgs.action  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- the same
 MESSAGES: Any = nav2_msgs.msg  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- the same
-"""Generated at import time, so a type checker does not know them."""
+"""The messages are generated when they are imported, so a type checker does not know them."""
 CONTROL_PERIOD_S = 0.05
 """Interval between control steps, in s."""
 NO_VALID_PATH = 208
 """Error code of Nav2."""
 NAV2_NODES = ("bt_navigator", "amcl")
-"""Nav2 nodes whose `get_state` service programs wait for before they start."""
+"""Nav2 nodes whose service `get_state` programs wait for before they start."""
 
 
 class Navigator(Node):
-    """Executes one goal at a time; a newer one replaces it."""
+    """Executes one goal at a time; a new goal replaces the present one."""
 
     def __init__(self) -> None:
         super().__init__("bt_navigator", enable_logger_service=True)

@@ -28,15 +28,13 @@ from std_srvs.srv import Trigger
 LEFT_OUT = ("use_sim_time", "start_type_description_service")
 """Parameters that every node has and no preset contains."""
 NODE_POLL_S, MAX_NODE_POLLS = 0.05, 40
-"""Interval in s at which a new client checks for its services, and number of checks: discovery takes time on a
+"""Interval (s) at which a new client checks for its services, and the number of checks, since discovery takes time on a
 network.
 """
 
 
 class Presets(Node):
-    """Applies presets all or nothing: if a node refuses, changes that other nodes have already accepted are
-    reverted.
-    """
+    """Applies presets all or nothing: if a node refuses, the changes that other nodes have accepted are reverted."""
 
     def __init__(self) -> None:
         super().__init__("presets", enable_logger_service=True)
@@ -75,7 +73,7 @@ class Presets(Node):
             return self._answered(response, False, str(error))
 
     async def _set_all(self, wanted: preset_files.Values) -> int:
-        """Set the values of all nodes, or of none; raises `PresetError`."""
+        """Set the values of all nodes, or of none; returns the number of values, raises `PresetError`."""
         before = {node: await self._values(node, list(values)) for node, values in wanted.items()}
         for node, values in wanted.items():
             if missing := [name for name in values if before[node].get(name) is None]:
@@ -165,7 +163,7 @@ class Presets(Node):
         return {name: list(value) if _is_array(value) else value for name, value in values.items() if value is not None}
 
     async def _set(self, node: str, values: Mapping[str, Any]) -> str:
-        """Set values of one node together; returns its reason for refusing them, or an empty text if it accepted."""
+        """Set values of one node together; returns the reason for which it refused them, or an empty text."""
         parameters = [Parameter(name, value=value) for name, value in values.items()]
         answer = await (await self._client(node)).set_parameters_atomically(parameters)
         if answer and answer.result.successful:

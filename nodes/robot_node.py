@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node `robot_navigator`: drives towards free space; changes of its six parameters take effect at once."""
+"""Node `robot_navigator`: drives towards free space; changes to its six parameters take effect at once."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node `safety_monitor`: the only one that commands the robot. Selects a source of commands, limits speed and stops."""
+"""Node `safety_monitor`: the only node that commands the robot. It selects a source, limits its speed, and stops."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ TELEOP, NAVIGATION = "cmd_vel_teleop", "cmd_vel_nav"
 WATCH_PERIOD_S = 0.1
 """Seconds between two checks for commands and scans that are too old."""
 ZEROS = 10
-"""Number of zero commands sent after the last source has expired, before silence."""
+"""Number of zero commands that are sent after the last source has expired."""
 NO_COMMAND = "no fresh command"
 NO_SCAN = "no fresh scan"
 LOCKED = "emergency stop"
@@ -114,7 +114,7 @@ class SafetyMonitor(Node):
         return self._arbiter.choose(*((NAVIGATION,) if self._stop.steered_by else ()))
 
     def _watch(self) -> None:
-        if LATE_NS < self._scan.age < math.inf:  # Before the first scan nothing is late, and the robot does not drive.
+        if LATE_NS < self._scan.age < math.inf:  # before the first scan, the robot does not drive
             self._robot_time.follow(self._scan.stamp)
         if self._stop.lock.held or self._choose() is None or self._verdict.limited_by == NO_SCAN:
             self._decide()
@@ -180,7 +180,7 @@ class SafetyMonitor(Node):
 
 
 def _problem(emergency: float, warning: float) -> str:
-    """The problem with two distances in m; empty if they are consistent."""
+    """What is wrong with the two distances (m); empty if they are consistent."""
     if warning > emergency:
         return ""
     return f"warning_distance ({warning} m) must be greater than emergency_stop_distance ({emergency} m)"

@@ -56,7 +56,7 @@ class SensorHandler(Node):
         self._count += 1
 
     def _poll(self) -> Health:
-        """Report the number of scans in the last second."""
+        """Return the health: the number of scans in the last second."""
         count, self._count = self._count, 0
         beams, things = self._beams
         values = {"scans per second": count, "beams": beams, "things seen": things, "filtered": self._filter}

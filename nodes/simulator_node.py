@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Node `simulator`: a robot in a world, in constant 10 ms steps on steady time, with services to pause and reset it.
 
-The steps since the last one are made when something depends on them: when a pose or a scan is to be published, and
-before a command or a setting changes. While somebody subscribes to the time or the bumper, that is each step.
+Steps are made in batches, whenever something depends on them: before a pose or a scan is published, and before a
+command or a setting changes. While somebody subscribes to the time or the bumper, each step is made when it is due.
 """
 
 from __future__ import annotations
@@ -40,18 +40,18 @@ from std_srvs.srv import SetBool, Trigger
 from visualization_msgs.msg import MarkerArray
 
 CATCH_UP = 25
-"""Maximum number of steps made at once; any further lag is dropped, so that a stall does not cause a burst."""
+"""Maximum number of steps made at once; any further lag is dropped, so that a stall is not followed by a burst."""
 MAX_STEPS_AHEAD = 5
 """Maximum number of steps until the next call of the timer: 50 ms, so that a collision is reported in time."""
 QUIET_NS = 60_000_000_000
-"""Nanoseconds without a lag after which the next one is reported again."""
+"""Nanoseconds without a lag after which a new one is reported."""
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 class Simulator(Node):
-    """Takes `cmd_vel` and `initialpose`; publishes what a robot would, plus the ground truth and `/clock`.
+    """Takes `cmd_vel` and `initialpose`; publishes what a robot would, and the ground truth and `/clock`.
 
-    While its emergency stop is locked it obeys nobody, whoever publishes on `cmd_vel`.
+    While its emergency stop is locked, it obeys no command on `cmd_vel`, whoever publishes it.
     """
 
     def __init__(self) -> None:
@@ -106,12 +106,12 @@ class Simulator(Node):
         self._routes = self.create_publisher(Path, "route", LATCHED)
 
     def _make(self) -> Simulation:
-        """A new run with the present parameters; raises `WorldError`."""
+        """Create a new run with the present parameters; raises `WorldError`."""
         world = find_world(str(self.get_parameter("world").value))
         return Simulation(world, int(self.get_parameter("seed").value), settings(self))
 
     def _begin(self) -> None:
-        """Announce a new run on the graph."""
+        """Publish the map, route and initial state of a new run."""
         world, stamp = self._simulation.world, messages.time_of(0)
         self._bumped = False
         self._restart_time()
@@ -133,7 +133,7 @@ class Simulator(Node):
         self._schedule()
 
     def _schedule(self) -> None:
-        """Set the timer to the next step at which something is published, counted from the origin."""
+        """Set the timer to the next step at which something is published; it counts from the origin to avoid drift."""
         if self._paused:
             self._timer.cancel()
             return
@@ -171,7 +171,7 @@ class Simulator(Node):
             self.get_logger().info(f"✓ {change.name}: {change.value}")
 
     def _hold(self) -> None:
-        """Stop at once when the emergency stop has been locked."""
+        """Stop the robot at once if the emergency stop has been locked."""
         if self._stop.lock.held:
             self._catch_up()
             self._simulation.command(0.0, 0.0)
@@ -255,7 +255,7 @@ class Simulator(Node):
         self._done += due
 
     def _poll(self) -> Health:
-        """Report whether the simulation has kept up with real time since the last call."""
+        """Return the health: whether the simulation has kept up with real time since the last call."""
         left_out, self._left_out = self._left_out, 0.0
         simulation = self._simulation
         values: dict[str, object] = {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Node `telemetry_publisher`: figures worth plotting, published at its own rate."""
+"""Node `telemetry_publisher`: publishes values that are worth plotting, at its own rate."""
 
 from __future__ import annotations
 

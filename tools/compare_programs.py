@@ -1,9 +1,9 @@
-"""Runs the programs in `tests/contract/live/programs` on a real rclpy and on ours, and prints where they differ.
+"""Runs the programs in `tests/contract/live/programs` on a real rclpy and on ours, and prints the differences.
 
     python tools/compare_programs.py REAL_PYTHON [--record] [NAME ...]
 
-The differences that are accepted are in `tests/contract/live/programs.yaml`. `REAL_PYTHON` is the interpreter of an
-environment with `ros-jazzy-rclpy`; `--record` keeps its outcomes.
+Accepted differences are listed in `tests/contract/live/programs.yaml`. `REAL_PYTHON` is the interpreter of an
+environment with `ros-jazzy-rclpy`; `--record` saves its outcomes.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ DOMAIN = 66
 
 
 def main() -> int:
-    """Compare; the exit code is 1 if a program differs without a reason, or no longer differs."""
+    """Compare all programs; returns 1 if one differs without a listed reason, or no longer differs."""
     parser = argparse.ArgumentParser()
     parser.add_argument("real_python")
     parser.add_argument("--record", action="store_true")

@@ -1,9 +1,9 @@
-"""Walks from a clone to a tuned robot by keys in a tmux session, and prints the seconds that each step takes.
+"""Goes from a clone to a tuned robot by typing keys in a tmux session, and prints the seconds that each step takes.
 
 python tools/first_quarter_hour.py [URL or folder of the repository]
 
-What a person reads and thinks is not part of the time. The clone, the environment, the home folder and the ROS domain
-are new and are deleted at the end; `git`, `python3` and `tmux` have to be there.
+The time does not include reading and thinking. The clone, the environment, the home folder and the ROS domain are new,
+and are deleted at the end; `git`, `python3` and `tmux` have to be installed.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ class Step(NamedTuple):
 
 
 def steps(repository: str) -> list[Step]:
-    """The way of the README, then a first tuning of the robot."""
+    """The steps of the README, then a first tuning of the robot."""
     clone = f"git clone -q {shlex.quote(repository)} bot-console && cd bot-console && echo clon''ed\r"
     install = "python3 -m venv .venv && .venv/bin/pip install -q . && echo instal''led\r"
     erase = ["\x7f"] * 5  # Backspace, for the value in the editor.
@@ -58,7 +58,7 @@ def steps(repository: str) -> list[Step]:
 
 
 class Tmux:
-    """A tmux server of its own, with one window."""
+    """A separate tmux server with one window."""
 
     def __init__(self, folder: Path) -> None:
         self._call = ["tmux", "-S", str(folder / "tmux")]
@@ -85,12 +85,12 @@ class Tmux:
         return subprocess.run(words, check=True, capture_output=True, text=True).stdout.rstrip()
 
     def close(self) -> None:
-        """End everything in it."""
+        """End the server and all programs in it."""
         subprocess.run([*self._call, "kill-server"], check=False)
 
 
 def walk(tmux: Tmux, repository: str) -> float:
-    """Do all steps; returns their seconds. Raises `TimeoutError` with the screen where it does not go on."""
+    """Do all steps; returns their total time (s), raises `TimeoutError` with the screen if one does not succeed."""
     total = 0.0
     for step in steps(repository):
         start = time.monotonic()
@@ -108,7 +108,7 @@ def walk(tmux: Tmux, repository: str) -> float:
 
 
 def main() -> int:
-    """Walk the way, and print how long it took."""
+    """Do all steps, and print how long they took."""
     repository = sys.argv[1] if len(sys.argv) > 1 else str(Path(__file__).resolve().parents[1])
     with tempfile.TemporaryDirectory(prefix="bc-", ignore_cleanup_errors=True) as folder:
         tmux = Tmux(Path(folder))

@@ -1,8 +1,8 @@
-"""Takes the moving picture of the README from a real run: a value is refused, another one slows the robot, and undo.
+"""Makes the animation of the README from a real run: a value is refused, another one slows the robot, and is undone.
 
 python tools/moving_picture.py [docs/images]
 
-An SVG whose frames a style sheet shows one after the other; where motion is not wanted, the last one stands still.
+It is an SVG whose frames a style sheet shows one after the other; for readers who prefer reduced motion, only the last.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class Film:
         self._frames: list[tuple[str, float]] = []
 
     def take(self, seconds: float) -> None:
-        """Add the screen as a frame that is shown for so many seconds."""
+        """Add the screen as a frame that is shown for `seconds`."""
         self._frames.append((self._at.picture(f"f{len(self._frames)}-"), seconds))
 
     def svg(self) -> str:
@@ -60,7 +60,7 @@ class Film:
 
 
 async def tune(at: Photographer) -> None:
-    """Ask for too much, drive slower, take it back."""
+    """Set a value that is refused, then a lower one, and undo it."""
     film = Film(at)
     await at.drive(10.0)
     await at.select("max_speed")

@@ -2,7 +2,7 @@
 
     BOT_CONSOLE_TESTS_RECORD=FOLDER .ci/on_rclpy && python tools/rclpy_releases.py FOLDER
 
-Writes `tests/contract/live/DISTRO.json`; `python tools/what_runs.py` makes the table in the documentation from it.
+Writes `tests/contract/live/DISTRO.json`, from which `python tools/what_runs.py` makes a table in the documentation.
 """
 
 from __future__ import annotations

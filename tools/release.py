@@ -1,8 +1,8 @@
-"""Gives the program the version that a tag names, and prints what the changelog says about it.
+"""Sets the program's version to that of a tag, and prints its section of the changelog.
 
     python tools/release.py v0.1.0
 
-Ends with 1 and the reason if the tag names no version, or `CHANGELOG.md` has no section for it.
+Prints the reason and exits with 1 if the tag names no version, or `CHANGELOG.md` has no section for it.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ VERSION = re.compile(r'^__version__ = ".+"$', re.MULTILINE)
 
 
 class NoRelease(ValueError):
-    """The tag cannot be released."""
+    """The tag cannot be released; the message says why."""
 
 
 def version_of(tag: str) -> str:

@@ -43,7 +43,7 @@ GENTLE = """# Gentle: near people
   ros__parameters: {kp_angular: 50.0}
 """
 MEASURED = 8.0
-"""Seconds until the graph shows rates."""
+"""Seconds to wait until the graph shows rates."""
 RESPONSE = 3.0
 """Seconds of driving with each of two sets of values."""
 TIMEOUT_S = 30.0
@@ -60,7 +60,7 @@ class Photographer:
         self._session, self._pilot, self._folder = session, pilot, folder
 
     async def drive(self, seconds: float) -> None:
-        """Let the robot drive for so many seconds."""
+        """Let the robot drive for `seconds`."""
         await self._pilot.pause(seconds)
 
     async def until(self, condition: Callable[[], object]) -> None:
@@ -93,7 +93,7 @@ class Photographer:
         await self._pilot.pause(0.5)
 
     async def find(self, name: str) -> None:
-        """Filter for a parameter, which puts the cursor on it."""
+        """Filter for a parameter, which also moves the cursor to it."""
         await self.press("1", "slash", *["backspace"] * 20, *_keys(name), "enter")
 
     async def steer_until_limited(self) -> None:
@@ -110,13 +110,13 @@ class Photographer:
         await self._pilot.pause(0.5)
 
     def keep_profile(self, name: str, text: str) -> None:
-        """Write a user's profile, which the console finds by itself."""
+        """Write a profile to the user's folder, where the console finds it."""
         folder = config_folder() / "profiles"
         folder.mkdir(parents=True, exist_ok=True)
         (folder / f"{name}.yaml").write_text(text, encoding="utf-8")
 
     def picture(self, prefix: str = "") -> str:
-        """The screen as an SVG; it uses the reader's fonts, and loads none. Its class names begin with the prefix."""
+        """The screen as an SVG that uses the reader's fonts and loads none; its class names begin with `prefix`."""
         svg = self._session.app.export_screenshot(title="bot-console")
         svg = FONT_FACE.sub("", svg).replace("font-family: Fira Code, monospace", f"font-family: {FONTS}")
         svg = UNIQUE.sub(prefix, svg)
@@ -183,12 +183,12 @@ async def take_all(at: Photographer) -> None:
 
 
 async def main(folder: Path, play: Callable[[Photographer], Awaitable[None]], size: tuple[int, int]) -> None:
-    """Start the robot's own system, photograph it as a new user sees it, end it."""
+    """Start the robot's system, take the pictures as a new user sees it, and end it."""
     folder.mkdir(parents=True, exist_ok=True)
     os.environ["BOT_CONSOLE_USER_DIR"] = str(BEGINNER)
-    shutil.rmtree(BEGINNER, ignore_errors=True)  # the history of a run that was interrupted
+    shutil.rmtree(BEGINNER, ignore_errors=True)  # left by an interrupted run
     BEGINNER.mkdir()
-    choose([BEGINNER])  # else the packages below the current directory add their panes
+    choose([BEGINNER])  # otherwise the packages below the current directory would add their panes
     session = Session(Options(seed=1, workspace=[BEGINNER]))
     try:
         async with session.app.run_test(size=size) as pilot:

@@ -1,4 +1,4 @@
-"""Writes the tables of the documentation that are made from the code: keys, parameters, arguments, options.
+"""Writes the tables of the documentation that are generated from the code: keys, parameters, arguments, options.
 
     python tools/tables.py          # rewrites docs/*.md between <!-- table: NAME --> and <!-- end -->
     python tools/tables.py measure  # runs the four profiles as well and prints the rows of the environment guide

@@ -1,10 +1,10 @@
-"""Counts the functions that a parameter edit, a velocity and a log line walk through, in a running console.
+"""Counts the functions through which a parameter edit, a velocity and a log line pass in a running console (a "walk").
 
 python tools/walks.py [--list]
 
 Profile functions in all threads record a walk: whenever its next point is called, the functions on the stack, down to
-the event loop, the executor or the start of the thread, are added unless they are part of the walk already. So what
-only computes something on the way and returns is not counted, nor are the functions of Textual and asyncio.
+the event loop, the executor or the start of the thread, are added unless they are part of the walk already. So helpers
+that only compute something on the way and return are not counted, nor are the functions of Textual and asyncio.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from bot_console.tui.session.live import Session
 from textual.pilot import Pilot
 
 ROOTS = (Path(keymap.__file__).parents[1], Path(keymap.__file__).resolve().parents[1])
-"""The folder with `tui`, `runtime` and `nodes`; in a checkout, some modules are found through a symbolic link."""
+"""The folder with `tui`, `runtime` and `nodes`, and its real path: a checkout finds some modules through a link."""
 PARTS = ("tui", "runtime", "nodes")
 LOOPS = (
     "/asyncio/",
@@ -41,7 +41,7 @@ LOOPS = (
     "textual/message_pump.py",
     "/tui/terminal/styling",
 )
-"""The files of event loops and executors: a walk does not continue into them."""
+"""Parts of the paths of event loops and executors, into which a walk does not continue."""
 TIMEOUT_S = 30.0
 POLL_S = 0.05
 WALKS: dict[str, tuple[str, ...]] = {
@@ -70,8 +70,8 @@ WALKS: dict[str, tuple[str, ...]] = {
         "tui/panes/logs/rows.py:row",
     ),
 }
-"""The points of each walk: from Enter behind a value to the request; from the response to the row that shows the
-refusal; from a key of the steering pane to the wheels; from `/rosout` to a row of the log. `f < g`: f, called in g.
+"""The points of each walk: from Enter after a value to the request, and from the response to the row that shows the
+refusal; from a key of the steering pane to the wheels; from `/rosout` to a row of the log. `f < g` is f called by g.
 """
 
 
@@ -92,7 +92,7 @@ def place(code: CodeType) -> str:
 
 
 class Walk:
-    """The functions seen so far, and how many of the points have been reached."""
+    """The functions passed so far, and the number of points reached."""
 
     def __init__(self, points: Sequence[str]) -> None:
         self._points = points
@@ -106,7 +106,7 @@ class Walk:
         return self._reached == len(self._points)
 
     def observe(self, frame: FrameType, event: str, argument: object) -> None:
-        """The profile function of each thread."""
+        """Handle a profiling event of a thread."""
         if event != "call" or self.is_over or not is_at(frame, self._points[self._reached]):
             return
         with self._lock:
@@ -119,7 +119,7 @@ class Walk:
             self.functions += [each for each in reversed(found) if place(each) and each not in self.functions]
 
     def counts(self) -> dict[str, int]:
-        """How many of the functions belong to each part of this program."""
+        """The number of functions in each part of this program."""
         parts = [place(each).partition("/")[0] for each in self.functions]
         return {each: parts.count(each) for each in PARTS if each in parts}
 
@@ -139,7 +139,7 @@ class Recorder:
         self.walks: dict[str, Walk] = {}
 
     def observe(self, frame: FrameType, event: str, argument: object) -> None:
-        """The profile function of all threads."""
+        """Pass profiling events of all threads to the present walk."""
         if self._now is not None:
             self._now.observe(frame, event, argument)
 
@@ -172,7 +172,7 @@ class Recorder:
         await self.until(lambda: walk.is_over, "the refusal")
 
     async def velocity(self) -> None:
-        """Arm, and press a key that drives."""
+        """Arm the steering, and press a key that drives."""
         await self.pilot.press("6", "enter")
         await self.until(lambda: self.session.console.snapshot().drive.steered_by, "the steering")
         walk = self.begin("velocity")

@@ -29,7 +29,7 @@ ROS 2. `python tools/what_runs.py` generates the page from what the runtime prov
 | --- | --- | --- |
 """
 RELEASES = {"jazzy": "7.1.5", "kilted": "9.1.2"}
-"""The release of rclpy on PyPI for each distribution."""
+"""The release of rclpy on PyPI, for each distribution."""
 LIVE = Path(__file__).resolve().parents[1] / "tests" / "contract" / "live"
 FOLLOWED = """
 ## Which releases are followed

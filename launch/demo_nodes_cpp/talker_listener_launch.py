@@ -1,4 +1,4 @@
-"""A talker and a listener."""
+"""Launches a talker and a listener."""
 
 from launch_ros.actions import Node
 

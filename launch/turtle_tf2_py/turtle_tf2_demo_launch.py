@@ -1,4 +1,4 @@
-"""A turtle that follows the frame of another one; drive the first with `turtle_teleop_key`."""
+"""Launches a turtle that follows the frame of another one, which `turtle_teleop_key` drives."""
 
 from launch.actions import DeclareLaunchArgument
 from launch.substitutions import LaunchConfiguration

@@ -1,4 +1,4 @@
-"""Two turtlesim windows, each in its own namespace."""
+"""Launches two turtlesim nodes, each in its own namespace."""
 
 from launch_ros.actions import Node
 

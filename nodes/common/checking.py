@@ -1,7 +1,6 @@
-"""A service that checks values without setting them, `~/check_parameters`, using the node's own validation.
+"""The service `~/check_parameters`, which validates values with the node's own callback, without setting them.
 
-ROS 2 has no service that asks a node's callback about values. This one answers as `set_parameters_atomically` would,
-and changes nothing.
+ROS 2 has no such service. This one answers as `set_parameters_atomically` would, but changes nothing.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ SERVICE = "check_parameters"
 
 
 def offer_check(node: Node, check: Callable[[list[Parameter]], SetParametersResult]) -> None:
-    """Offer the result of `check`, the node's on-set callback, which must not change anything itself.
+    """Offer the service; `check` is the node's on-set callback, which must not change anything itself.
 
     Ranges are not checked, because clients can read them from the descriptors.
     """
@@ -35,5 +34,5 @@ def offer_check(node: Node, check: Callable[[list[Parameter]], SetParametersResu
 
 
 def _fits(node: Node, asked: Parameter) -> bool:
-    """Whether the value can be passed to a callback that relies on the declared types."""
+    """Whether a value has the declared type, so that it can be passed to a callback that relies on it."""
     return node.has_parameter(asked.name) and node.get_parameter(asked.name).type_ == asked.type_

@@ -1,4 +1,4 @@
-"""Skips messages that have no subscriber: most of a robot's topics are rarely subscribed to."""
+"""Helps nodes to skip messages that nobody receives: most of a robot's topics rarely have subscribers."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from rclpy.publisher import Publisher
 def wanted(publisher: Publisher) -> bool:
     """Whether the publisher currently has a receiver.
 
-    A middleware may have receivers that are not subscriptions, such as a recorder of the last minutes; it reports those
+    A middleware that has receivers other than subscriptions, such as a recorder of the last minutes, reports them
     itself.
     """
     is_heard: Callable[[], bool] | None = getattr(publisher, "_is_heard", None)

@@ -16,9 +16,7 @@ Health = tuple[bytes, str, Mapping[str, object]]
 
 
 class HealthReport:
-    """Publishes `<node>: <part>` with the result of `poll` while there are subscribers; `poll` is called every second
-    anyway.
-    """
+    """Publishes `<node>: <part>` with the result of `poll`, which is called every second even without subscribers."""
 
     def __init__(self, node: Node, part: str, poll: Callable[[], Health]) -> None:
         self._node = node
@@ -34,5 +32,5 @@ class HealthReport:
 
     @property
     def wanted(self) -> bool:
-        """Whether the status has a receiver."""
+        """Whether somebody receives the status."""
         return wanted(self._publisher)

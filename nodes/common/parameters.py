@@ -1,7 +1,7 @@
 """Parameter descriptors with ranges, as declared by every node of this package.
 
-A step of 0 makes a range continuous; any other step would refuse values instead of rounding them. Descriptions end with
-the unit.
+All ranges have the step 0, which makes them continuous, since a node refuses values between steps instead of rounding
+them. Descriptions end with the unit.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ def fixed(description: str) -> ParameterDescriptor:
 
 
 def proposed(node: Node, changes: Iterable[Parameter], *names: str) -> list[float]:
-    """Return the values that some numeric parameters would have after the changes, for rules that span parameters."""
+    """Return the values that numeric parameters would have after changes, for rules that involve several of them."""
     after = {each.name: each.value for each in changes}
     return [float(after[name] if name in after else node.get_parameter(name).value) for name in names]
 

@@ -1,4 +1,4 @@
-"""The clock for judging a robot that may be simulated: a simulation that lags behind real time is slow, not broken."""
+"""The clock by which a robot's messages age: a simulation that lags behind real time is slow, not broken."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from rosgraph_msgs.msg import Clock as ClockMessage
 
 TOPIC = "/clock"
 FAR_NS = 5_000_000_000
-"""A clock that differs from a scan's stamp by more than this is not the robot's."""
+"""A clock that differs from a scan's stamp by more than these nanoseconds is not the robot's."""
 NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 
 class RobotTime:
-    """Steady time, until a message is late while a simulator publishes its time; from then on, the simulator's time.
+    """Steady time until a message is late while a simulator publishes its time; from then on, the simulator's time.
 
-    It costs nothing before it is needed, and never goes backwards, even if a simulation restarts or its clock ends.
+    It costs nothing until then, and never goes backwards, even if a simulation restarts or its clock stops.
     """
 
     def __init__(self, node: Node, steady: Clock) -> None:
@@ -49,8 +49,8 @@ class RobotTime:
             )
 
     def _on_matched(self, matched: QoSSubscriptionMatchedInfo) -> None:
-        # Querying the graph for clocks would make this process track the whole graph when the machine is already too
-        # busy.
+        # Querying the graph for clocks would make this process track the whole graph, while the machine is too busy
+        # already.
         if matched.current_count == 0:
             self._leave()
 

@@ -49,17 +49,14 @@ def _spin_node(make_node: Callable[[], Node]) -> None:
     except Exception:
         if rclpy.ok():
             raise
-        # If a signal shuts the context down while a callback is about to publish, that is a normal end and not an
-        # error.
+        # A signal may shut the context down while a callback is about to publish: a normal end, not an error.
     finally:
         if node is not None:
             node.destroy_node()
 
 
 def _interrupt_once() -> None:
-    """Raise KeyboardInterrupt only for the first Ctrl-C, so that further ones do not interrupt the shutdown with
-    tracebacks.
-    """
+    """Raise KeyboardInterrupt only for the first Ctrl-C, so that another one does not end the shutdown with a traceback."""
     raised = False
 
     def interrupt(number: int, frame: object) -> None:

@@ -1,4 +1,4 @@
-"""LaserScan messages as NumPy arrays and back, without a loop over the beams."""
+"""Converts LaserScan messages to NumPy arrays and back, without a loop over the beams."""
 
 from __future__ import annotations
 

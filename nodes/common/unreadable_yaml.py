@@ -5,6 +5,6 @@ from __future__ import annotations
 import yaml
 
 UNREADABLE = (yaml.YAMLError, ValueError, TypeError, AttributeError, LookupError, OverflowError, RecursionError)
-"""Besides YAML's own errors, those raised for values of tags such as `!!timestamp` and for a document that contains
+"""YAML's own errors, and those raised for invalid values of tags such as `!!timestamp` and for a document that contains
 itself.
 """

@@ -1,3 +1,3 @@
-"""The nodes of the ROS 2 tutorials, one folder per package; the importer provides this package as
+"""The nodes of the ROS 2 tutorials, one folder for each package; the importer provides them as the package
 `bot_console_demos`.
 """

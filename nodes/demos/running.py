@@ -12,7 +12,7 @@ from rclpy.node import Node
 
 @contextlib.contextmanager
 def initialised(args: list[str] | None) -> Generator[None]:
-    """Use ROS in a `with` block, until it is interrupted or its context is shut down; `rclpy.init` returns nothing."""
+    """Initialise rclpy for a `with` block, which an interrupt or the shutdown of the context ends without an error."""
     with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
         rclpy.init(args=args)
         try:

@@ -1,1 +1,1 @@
-"""Path planning on a map, and path following. Imports no ROS."""
+"""Path planning on a map, and path following."""

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 
 Point = tuple[float, float]
 Pose = tuple[float, float, float]
-"""m, m, rad."""
+"""x (m), y (m), heading (rad)."""
 Velocity = tuple[float, float]
-"""m/s, rad/s."""
+"""Linear (m/s) and angular (rad/s) velocity."""
 
 WAY_POINT = 0.25
-"""Distance in m from a corner of the path at which to head for the next one."""
+"""Distance (m) from a corner of the path at which the robot heads for the next one."""
 TURN_FIRST = 0.6
 """Angle (rad) to the next point above which the robot turns in place first."""
 GAIN = 2.0
@@ -33,7 +33,7 @@ class Limits:
 
 
 def off(wanted: float, is_now: float) -> float:
-    """Return the angle (rad) from one heading to another, the shorter way round."""
+    """Return the angle (rad) from the present heading to the wanted one, the shorter way round."""
     return math.remainder(wanted - is_now, 2.0 * math.pi)
 
 

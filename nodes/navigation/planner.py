@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 OCCUPIED = 50
-"""Occupancy in percent from which a cell is blocked; unknown cells (-1) are blocked too."""
+"""Occupancy in percent at and above which a cell is blocked; unknown cells (-1) are blocked too."""
 COARSE = 0.1
 """Cell size in m of the grid used for planning."""
 SHY = 0.3
@@ -122,7 +122,7 @@ class Planner:
         return kept
 
     def _sees(self, a: Cell, b: Cell) -> bool:
-        """Whether all cells between two are free, and none costs more than the costlier of the two."""
+        """Whether all cells between two are free, and none costs more than both of them."""
         count = 2 * max(abs(a[0] - b[0]), abs(a[1] - b[1])) + 1
         rows = np.rint(np.linspace(a[0], b[0], count)).astype(int)
         columns = np.rint(np.linspace(a[1], b[1], count)).astype(int)

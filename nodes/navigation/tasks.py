@@ -11,7 +11,7 @@ from bot_console_robot.navigation.driving import Limits, Point, Pose, Velocity, 
 STUCK = 10.0
 """Seconds without progress after which a goal is aborted."""
 PROGRESS = 0.1
-"""Distance in m, or angle in rad, that counts as progress."""
+"""Minimum distance (m) or angle (rad) that counts as progress."""
 FAILED_TO_MAKE_PROGRESS, COLLISION_AHEAD, TIMEOUT = 105, 714, 711
 """Error codes of Nav2."""
 

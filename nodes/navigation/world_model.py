@@ -1,4 +1,4 @@
-"""The navigator's knowledge: the map, the robot's pose, and the free room around it."""
+"""What the navigator knows: the map, the robot's pose, and the free room around it."""
 
 from __future__ import annotations
 
@@ -86,8 +86,8 @@ class WorldModel:
         self._scan = self._seconds(), ahead, behind
 
     def seen(self) -> Seen | None:
-        """Return the current state, or None without a pose. Without a recent scan, there is no free room ahead or
-        behind.
+        """Return the current state, or None if there is no pose. Without a recent scan, it has no free room on either
+        side.
         """
         if self.pose is None:
             return None

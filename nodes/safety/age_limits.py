@@ -1,6 +1,6 @@
-"""How old a command or a scan may be before the robot no longer drives on it."""
+"""The age limits of commands and scans, beyond which the robot does not drive on them."""
 
 MAX_AGE_NS = 500_000_000
-"""Age after which a command or scan no longer counts."""
+"""Nanoseconds after which a command or a scan no longer counts."""
 LATE_NS = MAX_AGE_NS // 4
-"""Age after which a scan counts as late at ten scans a second: from then on, a simulator's time is followed."""
+"""Nanoseconds after which a scan counts as late, at ten scans per second; then the simulator's time is followed."""

@@ -1,4 +1,4 @@
-"""Which velocity command may drive the robot, and how fast: priorities, freshness, distances."""
+"""Decides which velocity command may drive the robot, and how fast, by priorities, freshness and distances."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """A velocity in m/s and rad/s, from a source, at a steady time in ns."""
+    """A velocity in m/s and rad/s from a source, with its time in ns by the clock of the source."""
 
     source: str
     linear: float
@@ -19,7 +19,7 @@ class Command:
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """The requested and the final velocity (m/s, rad/s), and the rule or parameter that changed it; empty for none."""
+    """The requested and the final velocity (m/s, rad/s), and what limited it: a rule or a parameter, or empty."""
 
     source: str
     asked: tuple[float, float]
@@ -29,10 +29,10 @@ class Verdict:
 
 
 class Arbiter:
-    """Keeps the newest command of each source; the first source with a fresh one drives.
+    """Keeps the newest command of each source; the first source that has a fresh one drives.
 
-    Each source has its own clock (ns): a person's commands age in steady time, a simulated robot's in the time of its
-    world.
+    Each source has its own clock (ns): a person's commands age in steady time, those of a simulated robot's nodes in
+    simulated time.
     """
 
     def __init__(self, sources: Mapping[str, Callable[[], int]], lifetime_ns: int) -> None:
@@ -47,7 +47,7 @@ class Arbiter:
         self._newest[source] = Command(source, linear, angular, self._clocks[source]())
 
     def choose(self, *withheld: str) -> Command | None:
-        """The command that drives now; None if all have expired, or come from sources that may not drive."""
+        """The command that drives now; None if all have expired or come from `withheld` sources."""
         for source, clock in self._clocks.items():
             command = self._newest.get(source)
             if command and source not in withheld and 0 <= clock() - command.stamp <= self._lifetime:
@@ -56,7 +56,9 @@ class Arbiter:
 
 
 def limit(command: Command, nearest: float, emergency: float, warning: float) -> Verdict:
-    """Slow forward driving between `warning` and `emergency` (m), and stop it below; turning and reversing go on."""
+    """Slow forward motion between the distances `warning` and `emergency` (m) and stop it below; turning and reversing
+    are not limited.
+    """
     linear, limited_by = command.linear, ""
     if linear > 0.0 and nearest < emergency:
         linear, limited_by = 0.0, "emergency_stop_distance"

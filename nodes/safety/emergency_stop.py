@@ -1,4 +1,4 @@
-"""The emergency stop of one node, as ROS interfaces: requests and other nodes' states in, its own latched state out."""
+"""The ROS interfaces of one node's emergency stop: requests and other nodes' states in, its own latched state out."""
 
 from __future__ import annotations
 
@@ -29,19 +29,19 @@ ARBITER, BASE = "emergency_stop/arbiter", "emergency_stop/base"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 STOP_FILE = "stop_file"
 STOP_FILE_VARIABLE = "BOT_CONSOLE_STOP_FILE"
-"""The environment variable with the default of that parameter."""
+"""The environment variable with the default of the parameter `stop_file`."""
 SERVICE = "service"
 """The key of stops requested by a service call, which does not identify its caller."""
 WATCH_PERIOD_S = 0.1
-"""Seconds between two checks for requesters and nodes that have fallen silent."""
+"""Seconds between two checks whether a requester or a node has fallen silent."""
 GONE = 3
-"""Checks without the arbiter after which the base locks; not one, since all nodes of a system end together."""
+"""Checks without the arbiter after which the base locks; more than one, since all nodes of a system end together."""
 REPORT_POLLS = 10
-"""Checks between two reports of an unchanged state, so that no replayed report stands for it longer."""
+"""Checks between two reports of an unchanged state; a replayed report can pass for the state no longer than that."""
 MAX_INSTANCES = 100
-"""Starts of the other node that are distinguished."""
+"""Maximum number of starts of the other node that are remembered."""
 REFUSAL_LOG_PERIOD_S = 1.0
-"""Seconds between two log lines about releases that are ignored."""
+"""Minimum seconds between two log lines about ignored releases."""
 
 
 def declare_stop_file(node: Node) -> None:
@@ -107,7 +107,7 @@ class EmergencyStop:
         return self._latch.steered_by
 
     def stop(self, holder: str, reason: str) -> None:
-        """Lock for a reason of the node's own."""
+        """Lock for one of the node's own reasons."""
         self._settle(self._latch.stop(holder, reason))
 
     def _now(self) -> int:
@@ -122,14 +122,14 @@ class EmergencyStop:
         self._settle(changed)
         question = specification_of(message)
         if question or (not changed and request.verb in (STOP, RELEASE)):
-            # A requester that asks again has not received the answer, or has received a replayed one since.
+            # A requester that asks again has not received the answer, or has received a replayed state since.
             self._publish(question)
 
     def _on_state(self, message: DiagnosticStatus) -> None:
         state = state_of(message)
         self._other_challenge = state.challenge
         if state.instance not in self._other_instances:
-            # An instance that was there before is an old message that somebody has replayed.
+            # A message of an instance that is known already may be a replayed one, and does not mean a restart.
             restarted = bool(self._other_instances)
             self._other_instances = [*self._other_instances[-MAX_INSTANCES:], state.instance]
             if restarted and self._other == ARBITER:
@@ -181,10 +181,9 @@ class EmergencyStop:
                 self.stop(self._node.get_name(), "the safety monitor has gone")
 
     def _settle(self, changed: bool) -> None:
-        """Act on a change before it is published, so that what is published is true.
+        """Act on a change before publishing it, so that the published state is true.
 
-        A stop takes effect before it is written to the file, which may take long; a release counts only once it is
-        written.
+        A stop takes effect before it is written to the file, which may take long; a release only after it is written.
         """
         if not changed:
             return
@@ -201,10 +200,10 @@ class EmergencyStop:
         self._log()
 
     def _keep(self) -> bool:
-        """Update the file, and adopt what it contains; returns whether that has changed the lock.
+        """Merge the lock with the file; returns whether that has changed the lock.
 
-        A file that cannot be used locks the robot, since no stop would be known after the next start. That lock is kept
-        as soon as the file can be used: it also stands for stops whose release could not be written.
+        If the file cannot be used, the robot is locked, since no stop would be known after the next start. This stop is
+        written as soon as the file can be used: it also stands for stops whose release could not be written.
         """
         if self._file is None or self.lock.kept == self._filed:
             return False
@@ -218,8 +217,9 @@ class EmergencyStop:
         return changed
 
     def _keep_again(self) -> None:
-        """Restore the file if it was deleted or replaced, or could not be used before: nobody else may remember the
-        stops when the nodes have ended.
+        """Restore the file if it was deleted or replaced, or could not be used before.
+
+        Otherwise nobody might remember the stops after the nodes have ended.
         """
         if self._file is not None and not self._file.is_as_left:
             self._filed = None
@@ -241,7 +241,7 @@ class EmergencyStop:
 
 
 def _remedy(error: StopFileError, unreadable: bool) -> str:
-    """The problem with the stop file, and its remedy."""
+    """A text that says what is wrong with the stop file, and how to fix it."""
     if unreadable:
         return f"the kept stops are unknown: {error}; a release moves that file aside"
     return f"stops cannot be kept: {error}; free some space, or make it and its folder writable, then release"

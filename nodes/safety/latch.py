@@ -1,8 +1,7 @@
 """The state of the emergency stop: anybody's first request locks it, only a person's request releases it. Pure.
 
-It remembers everybody who has stopped the robot, and stays locked until the last of these stops is released. The nodes
-of a robot that can be locked (the arbiter of commands, and the base itself) hold one each; `follow` keeps them in
-agreement.
+It remembers everybody who has stopped the robot, and stays locked until the last of these stops is released. Each node
+of a robot that can be locked (the arbiter of commands, and the base itself) has one; `follow` keeps them in agreement.
 """
 
 from __future__ import annotations
@@ -18,11 +17,11 @@ STOP, RELEASE, STEER, HAND_BACK = "stop", "release", "steer", "hand_back"
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """A request: one of the four verbs. `key` distinguishes requesters of the same name.
+    """A request with one of the four verbs. `key` distinguishes requesters of the same name.
 
-    `id` identifies the stop; with `steer`, it is the stop to make if this was the requester's last message. A release
-    has the `ids` of the stops to release and quotes `challenges`; None stands for the older form, in which `of` are
-    keys of requesters.
+    `id` identifies the stop; with `steer`, it is that of the stop to make if this was the requester's last message. A
+    release has the `ids` of the stops to release and quotes `challenges`; if `ids` is None, it has the older form, with
+    the keys of requesters in `of`.
     """
 
     verb: str
@@ -72,7 +71,7 @@ class Latch:
         return "it quotes no challenge, so it releases only stops that the same program has requested without an id"
 
     def request(self, request: Request, now: int) -> bool:
-        """Carry out a request, unless there is a `refusal`; an invalid one is a stop."""
+        """Carry out a request, unless there is a `refusal`; an invalid request counts as a stop."""
         if request.verb == RELEASE:
             if self.refusal(request):
                 return False
@@ -87,14 +86,15 @@ class Latch:
         return self._stop(request.holder, reason, request.key, request.id, request.kept)
 
     def _unnamed_of(self, request: Request) -> list[str]:
-        """The stops that a release of the older form covers: the same requester's, if they are of that form too."""
+        """The ids of the stops that a release of the older form covers: the requester's own of that form."""
         if request.of and request.key not in request.of:
             return []
         return [each.id for each in self._lock.stops if each.unnamed and each.key == request.key]
 
     def stop(self, holder: str, reason: str, *, kept: bool = False) -> bool:
-        """Lock for one of the node's own reasons, if it does not hold already; lasts until a release, or the node's
-        end unless it is `kept`.
+        """Lock for one of the node's own reasons, unless it holds already.
+
+        The stop lasts until a release; one that is not `kept` also ends with the node.
         """
         if any(each.key == NODE and each.holder == holder and each.kept >= kept for each in self._lock.stops):
             return False
@@ -112,7 +112,7 @@ class Latch:
         return self._become(self._lock.without(ids, by))
 
     def follow(self, other: Lock) -> bool:
-        """Adopt the stops and releases that another lock, or the stop file, knows."""
+        """Adopt the stops and releases of another lock or of the stop file."""
         return self._become(self._lock.merged(other))
 
     def _become(self, lock: Lock) -> bool:
@@ -125,7 +125,7 @@ class Latch:
         """Lock when a console that holds the steering has fallen silent."""
         silent = self._steering.take_silent(now)
         for key, (holder, id, _) in silent.items():
-            # Two locks that have received the same last message make the same stop. If it was released, this is another
-            # silence.
+            # Locks that have received the same last message make a stop with the same id. If that was released already,
+            # this is another silence, with a new id.
             self._stop(holder, SILENT, key, new_id() if self._lock.has_released(id) else id)
         return bool(silent)

@@ -1,4 +1,4 @@
-"""Who holds a robot and which stops were released, as one lock knows it; two locks merge their knowledge. Pure."""
+"""The knowledge of one lock: who holds a robot, and which stops were released; locks merge what they know. Pure."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 
 NODE = "node"
-"""The key of stops made by a node of the robot, not a person; every release that a program makes covers these too."""
+"""The key of stops made by a node of the robot instead of a person; every release by a program covers them too."""
 MAX_STOPS = 50
-"""Stops that are distinguished; any beyond share one entry, whose key is `OTHERS`."""
+"""Maximum number of stops that are distinguished; further ones share one entry, with the key `OTHERS`."""
 OTHERS = "others"
 MAX_RELEASES = 100
-"""The number of latest releases that are remembered; a late copy of a stop released before those locks the robot
+"""The number of latest releases that are remembered; a late copy of a stop whose release is forgotten locks the robot
 again.
 """
 UNNAMED = "unnamed-"
@@ -28,7 +28,8 @@ def new_id(prefix: str = "") -> str:
 class Stop:
     """One stop: its unique id, who requested it, why, and at which turn of the lock.
 
-    `key` is the requester's, the same for all its stops. A stop that is not `kept` ends with the robot's nodes.
+    `key` identifies the requester, and is the same for all its stops. A stop that is not `kept` ends with the robot's
+    nodes.
     """
 
     id: str
@@ -55,7 +56,7 @@ class Release:
 
 @dataclass(frozen=True, slots=True)
 class Lock:
-    """Who holds the robot, the first holder first; nobody if it is free. `turn` counts changes."""
+    """Who holds the robot, the oldest stop first; nobody if it is free. `turn` counts changes."""
 
     stops: tuple[Stop, ...] = ()
     turn: int = 0
@@ -68,12 +69,12 @@ class Lock:
 
     @property
     def holder(self) -> str:
-        """Who has held it longest."""
+        """Who has held it for the longest time."""
         return self.stops[0].holder if self.stops else ""
 
     @property
     def reason(self) -> str:
-        """The reason of the longest holder."""
+        """The reason of that holder."""
         return self.stops[0].reason if self.stops else ""
 
     @property
@@ -87,11 +88,11 @@ class Lock:
         return replace(self, stops=tuple(each for each in self.stops if each.kept), turn=0)
 
     def has_released(self, id: str) -> bool:
-        """Whether this stop was released, as far as that is remembered."""
+        """Whether this stop was released, as far as releases are remembered."""
         return any(each.id == id for each in self.released)
 
     def with_stop(self, stop: Stop) -> Lock:
-        """The lock with one more stop; the same lock if it knows that stop, held or released."""
+        """The lock with one more stop; the same lock if it already knows the stop, held or released."""
         if stop.id in self.ids or self.has_released(stop.id):
             return self
         turn = self.turn + 1
@@ -107,9 +108,9 @@ class Lock:
         return Lock(stops, turn, _latest((*self.released, *(Release(id, by, turn) for id in news))))
 
     def merged(self, other: Lock) -> Lock:
-        """The combined knowledge of both: a stop holds unless either of them knows that it was released.
+        """The combined knowledge of two locks: a stop holds unless one of them knows that it was released.
 
-        The order of merging makes no difference, so that locks that receive each other's states agree.
+        The order of merging makes no difference, so that locks which receive each other's states agree.
         """
         releases: dict[str, Release] = {}
         for each in (*self.released, *other.released):

@@ -1,4 +1,4 @@
-"""The distance to the obstacle ahead in a scan: which beams look ahead, and how many must agree."""
+"""Finds the distance to the obstacle ahead in a scan: which beams point ahead, and how many must agree."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 FRONT_RAD = math.radians(60.0)
-"""Half the angle ahead, in rad, in which obstacles count for driving forward."""
+"""Angle (rad) to either side of straight ahead within which obstacles limit forward motion."""
 MIN_BEAMS = 2
-"""Beams that must see an obstacle; a single one may be dust."""
+"""Minimum number of beams that must see an obstacle; a single one may have hit dust."""
 MIN_ANGLE_RAD, MAX_ANGLE_RAD = 1e-6, 4 * math.pi
-"""Limits (rad) for the angle between beams and of the whole scan; a sensor cannot mean others."""
+"""Limits (rad) of valid angles: the least between beams, and the greatest between beams or of the first beam."""
 ROUNDING_RAD = 1e-6
 """Rounding error (rad) of float32 angles."""
 
@@ -40,9 +40,7 @@ def nearest_ahead(ranges: npt.NDArray[np.float32], first: float, increment: floa
 
 @lru_cache(maxsize=4)
 def _beams_ahead(count: int, first: float, increment: float) -> npt.NDArray[np.int64] | slice:
-    """The indices of the beams ahead, as a slice if they are consecutive; cached, as a sensor's geometry hardly
-    changes.
-    """
+    """The indices of the beams ahead, as a slice if they are consecutive; cached, since the geometry hardly changes."""
     angles = first + increment * np.arange(count)
     ahead = np.flatnonzero(np.abs(np.remainder(angles + math.pi, 2 * math.pi) - math.pi) <= FRONT_RAD + ROUNDING_RAD)
     if len(ahead) and ahead[-1] - ahead[0] == len(ahead) - 1:

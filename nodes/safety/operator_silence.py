@@ -1,7 +1,8 @@
 """The rule of silence: a console that holds the steering and sends nothing for a second counts as gone. Pure.
 
-Whoever steers renews the claim while driving (`steer`), and gives it up in words (`hand_back`). A claim that merely
-ends means that the console, its connection or its computer has failed with the robot in motion, so the lock stops it.
+Whoever steers renews the claim while driving (`steer`), and gives it up explicitly (`hand_back`). A claim that is just
+not renewed means that the console, its connection or its computer has failed with the robot in motion, so the lock
+stops it.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ SILENT = "held the steering and fell silent"
 
 
 class SteeringClaim(NamedTuple):
-    """The last message of a holder: who it is, the id of the stop to make if no other follows, and when (steady ns)."""
+    """The last message of a holder: its name, the id of the stop to make if no other follows, its time (steady ns)."""
 
     holder: str
     stop_id: str
@@ -35,7 +36,7 @@ class SteeringHolders:
         return ", ".join(sorted({each.holder for each in self._claims.values()}))
 
     def renew(self, key: str, holder: str, stop_id: str, now: int) -> bool:
-        """Register that a holder is alive; returns whether `names` has changed."""
+        """Renew or begin a claim; returns whether `names` has changed."""
         if key not in self._claims and len(self._claims) >= MAX_STOPS:
             key = OTHERS
         before = self.names

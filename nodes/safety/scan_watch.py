@@ -18,15 +18,15 @@ class ScanWatch:
         self._lifetime = lifetime_ns
         self._taken: int | None = None
         self.stamp = 0
-        """When the last scan says it was taken, in ns."""
+        """The stamp of the last scan, in ns."""
         self.nearest = math.inf
-        """Distance in m to what was ahead in the last usable scan."""
+        """The distance (m) to the obstacle ahead in the last usable scan."""
 
     def take(self, scan: LaserScan) -> bool:
         """Take a scan; returns whether it was usable.
 
-        A scan that is no newer than the one before is not usable: it was late, or sent twice. Its time counts for the
-        next one, since a simulation that is reset starts again from zero.
+        A scan that is not newer than the one before is not usable: it was late, or sent twice. The next one is compared
+        with its stamp nevertheless, since a simulation that is reset starts again from zero.
         """
         stamp = scan.header.stamp.sec * 1_000_000_000 + scan.header.stamp.nanosec
         before, self.stamp = self.stamp, stamp

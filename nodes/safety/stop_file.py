@@ -1,4 +1,4 @@
-"""The stop file, in which the stops of a domain's robots, and their releases, outlive the nodes. POSIX and Windows."""
+"""The stop file, in which stops of a domain's robots, and releases, outlive the nodes. For POSIX and Windows."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from bot_console_robot.safety.stop_messages import releases_of, releases_text, s
 
 VERSION = 1
 MAX_FILE_BYTES = 4_000_000
-"""Larger than any file that a lock writes."""
+"""Maximum size of the file, which a lock never reaches."""
 MAX_TURN = 2**63
-"""More changes than any lock goes through."""
+"""Maximum turn, which a lock never reaches."""
 TURN_TIMEOUT_S = 5.0
-"""Seconds to wait for another lock that uses the file: on a busy disk it takes more than one until that is written."""
+"""Seconds to wait for another lock that uses the file; on a busy disk, writing it takes more than one second."""
 TURN_POLL_S = 0.01
 
 
@@ -29,24 +29,22 @@ class StopFileError(Exception):
 
 
 class UnreadableStopFileError(StopFileError):
-    """It cannot be read or has other content; only a person may have it replaced."""
+    """The file cannot be read or has other content; it is replaced only when a person releases the robot."""
 
 
 class StopFile:
-    """The stops that the locks of one robot keep in a file. Both locks of a robot, and several robots, may share one
-    file.
-    """
+    """The stops of one robot in the file, which both locks of a robot, and several robots, may share."""
 
     def __init__(self, path: str, robot: str) -> None:
         """`robot` is the namespace of the robot's nodes."""
         self._path = Path(path)
         self._robot = robot
         self._left: tuple[int, int, int] | None = None
-        """What distinguishes the file that was read or written last from others; None if that failed."""
+        """Inode, modification time and size of the file after the last merge; None if that failed."""
 
     @property
     def is_as_left(self) -> bool:
-        """Whether nobody has replaced or deleted the file since it was merged, and that succeeded."""
+        """Whether the last merge succeeded, and nobody has replaced or deleted the file since then."""
         return self._left is not None and self._identity() == self._left
 
     def _identity(self) -> tuple[int, int, int] | None:
@@ -57,10 +55,11 @@ class StopFile:
         return found.st_ino, found.st_mtime_ns, found.st_size
 
     def merge(self, lock: Lock, *, replace_unreadable: bool = False) -> Lock:
-        """Add what a lock knows to the file, and return the merged lock; raises `StopFileError`.
+        """Merge a lock with the file, and return the merged lock; raises `StopFileError`.
 
         Stops that end with the robot's nodes are not written. With `replace_unreadable`, a file that cannot be read is
-        moved aside. The first time, and after a failure, it is written in any case, to see whether that is possible.
+        moved aside. The first time, and after a failure, the file is written even if nothing has changed, to find out
+        whether that is possible.
         """
         must_write, self._left = self._left is None, None
         try:
@@ -82,7 +81,7 @@ class StopFile:
 
     @contextlib.contextmanager
     def _taken(self) -> Generator[None, None, None]:
-        """Keep other locks from the file; raises `OSError` if one of them does not release it in time."""
+        """Keep other locks from using the file; raises `OSError` if one of them does not release it in time."""
         self._path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         handle = os.open(f"{self._path}.lock", os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o600)
         try:
@@ -123,7 +122,7 @@ class StopFile:
 
     def _write(self, robots: dict[str, Any]) -> None:
         temporary = self._path.with_name(f"{self._path.name}.new")
-        temporary.unlink(missing_ok=True)  # Left by a process that was killed while it wrote.
+        temporary.unlink(missing_ok=True)  # left by a process that was killed while writing
         handle = os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
         with open(handle, "w", encoding="utf-8") as file:
             json.dump({"version": VERSION, "robots": robots}, file)
@@ -139,14 +138,14 @@ class StopFile:
 
 
 def _lock_of(section: Any) -> Lock:
-    """The lock in a robot's section; raises `ValueError` for any invalid content: nothing is guessed."""
+    """The lock in a robot's section; raises `ValueError` for any invalid content, instead of guessing."""
     if section is None:
         return Lock()
     try:
         turn, stops, released = section["turn"], section["stops"], section["released"]
         if not (isinstance(turn, int) and isinstance(stops, list) and isinstance(released, list)):
             raise TypeError
-        if not 0 <= turn <= MAX_TURN:  # The other lock would read a longer number as 0.
+        if not 0 <= turn <= MAX_TURN:  # the other lock would read a larger number as 0
             raise ValueError(f"its turn is not between 0 and {MAX_TURN}")
     except (TypeError, KeyError):
         raise ValueError("it contains no stops") from None

@@ -1,4 +1,7 @@
-"""The emergency stop as messages: `diagnostic_msgs/DiagnosticStatus`, which every ROS 2 has. See `docs/safety.md`."""
+"""Converts requests and states to `diagnostic_msgs/DiagnosticStatus`, which every ROS 2 has, and back.
+
+The fields are described in `docs/safety.md`.
+"""
 
 from __future__ import annotations
 
@@ -13,27 +16,25 @@ from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
 RELEASED = "released"
 MAX_TEXT_CHARS = 200
-"""Characters of an id, a name or a reason; the rest is cut off."""
+"""Maximum characters of an id, a name or a reason; the rest is cut off."""
 MAX_IDS = 2 * MAX_STOPS
-"""Stops that one release may name."""
+"""Maximum number of stops that one release may name."""
 
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """The state that a lock publishes: who holds the robot, the challenge for a release, and which start of the node it
-    is.
-    """
+    """The state that a lock publishes: who holds the robot, the challenge for a release, the id of the node's start."""
 
     lock: Lock
     instance: str
     challenge: str = ""
     steered_by: str = ""
     answers: str = ""
-    """The question of the request that this state answers."""
+    """The question of the request that this state answers; empty if it answers none."""
 
 
 def request_message(request: Request) -> DiagnosticStatus:
-    """A request."""
+    """The message of a request."""
     values = {"request": request.verb}
     if request.id:
         values["id"] = request.id
@@ -53,7 +54,7 @@ def request_message(request: Request) -> DiagnosticStatus:
 
 
 def request_of(message: DiagnosticStatus) -> Request:
-    """The request in a message; its verb is empty if the message contains none."""
+    """The request in a message; its verb is empty if the message has none."""
     values = _values(message)
     verb = _short(values.get("request", ""))
     holder = _short(message.name) or "somebody"
@@ -71,12 +72,12 @@ def request_of(message: DiagnosticStatus) -> Request:
 
 
 def specification_of(message: DiagnosticStatus) -> str:
-    """The text in a request that the answer must quote; empty if there is none."""
+    """The text in a request that the answer has to quote; empty if there is none."""
     return _short(_values(message).get("question", ""))
 
 
 def state_message(state: State, node: str) -> DiagnosticStatus:
-    """The state of a node's lock."""
+    """The message of the state of a node's lock."""
     lock = state.lock
     values = {"locked": str(lock.held).lower(), "holder": lock.holder, "reason": lock.reason, "turn": str(lock.turn)}
     values |= {"stops": stops_text(lock.stops), "released": releases_text(lock.released)}
@@ -93,13 +94,13 @@ def state_message(state: State, node: str) -> DiagnosticStatus:
 
 
 def state_of(message: DiagnosticStatus) -> State:
-    """The state in a message; one that cannot be read counts as locked."""
+    """The state in a message; an unreadable one counts as locked."""
     values = _values(message)
     turn, instance = _number(values.get("turn")), _short(values.get("instance", ""))
     stops = stops_of(values.get("stops"), instance)
     if values.get("locked") == "false":
         stops = ()
-    elif not stops:  # From a node that reports only that it is locked.
+    elif not stops:  # the node reports only that it is locked
         holder, reason = _short(values.get("holder", "")), _short(values.get("reason", ""))
         stops = (Stop(_older_id(OTHERS, turn, instance), OTHERS, holder, reason, turn),)
     lock = Lock(stops, turn, releases_of(values.get("released")))
@@ -108,12 +109,14 @@ def state_of(message: DiagnosticStatus) -> State:
 
 
 def stops_text(stops: tuple[Stop, ...]) -> str:
-    """Stops as JSON: key, holder, reason, turn, id, and whether it is kept; older locks end with the turn."""
+    """Stops as JSON, each as key, holder, reason, turn, id, and whether it is kept; those of older locks end with the
+    turn.
+    """
     return json.dumps([[each.key, each.holder, each.reason, each.turn, each.id, each.kept] for each in stops])
 
 
 def stops_of(text: str | None, instance: str = "") -> tuple[Stop, ...]:
-    """The stops in a text; those of an older lock get an id that differs for each of its changes."""
+    """The stops in such a text; those of an older lock get an id made from key, turn and instance."""
     found: list[Stop] = []
     for row in _rows(text)[: MAX_STOPS + 1]:
         if len(row) >= 4:
@@ -125,17 +128,17 @@ def stops_of(text: str | None, instance: str = "") -> tuple[Stop, ...]:
 
 
 def _older_id(key: str, turn: int, instance: str) -> str:
-    """The id of a stop in the report of an older lock: the same each time, and short whatever the report contains."""
+    """The id for a stop of an older lock: the same each time, and short whatever the message contains."""
     return hashlib.sha256(json.dumps([key, turn, instance]).encode()).hexdigest()[:32]
 
 
 def releases_text(released: tuple[Release, ...]) -> str:
-    """Releases as JSON: id, by whom, and the turn."""
+    """Releases as JSON, each as id, by whom, and the turn."""
     return json.dumps([[each.id, each.by, each.turn] for each in released])
 
 
 def releases_of(text: str | None) -> tuple[Release, ...]:
-    """The releases in a text."""
+    """The releases in such a text."""
     rows = [each for each in _rows(text)[:MAX_RELEASES] if len(each) >= 3]
     return tuple(Release(_short(str(id)), _short(str(by)), _number(str(turn))) for id, by, turn, *_ in rows)
 
@@ -165,5 +168,5 @@ def _values(message: DiagnosticStatus) -> dict[str, str]:
 
 
 def _short(text: str) -> str:
-    """The beginning of a text, encodable: otherwise no state that contains it could be published."""
+    """The beginning of a text, made encodable, since otherwise a state that contains it could not be published."""
     return text[:MAX_TEXT_CHARS].encode("utf-8", "replace").decode()

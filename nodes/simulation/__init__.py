@@ -1,1 +1,1 @@
-"""A planar robot world on pymunk, without ROS: fixed 10 ms steps and one seeded generator make every run repeatable."""
+"""A planar robot world on pymunk, without ROS. Fixed steps of 10 ms and one seeded generator make runs repeatable."""

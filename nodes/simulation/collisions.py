@@ -1,4 +1,4 @@
-"""Collisions as events: one contact is one event, however long the robot scrapes along."""
+"""Collisions as events: one contact is one event, no matter how long the robot scrapes along."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Collision:
 
 
 class CollisionLog:
-    """Detects collisions in the series of gaps; keeps their count and the latest one."""
+    """Detects collisions from the gaps to obstacles over time; keeps their count and the latest one."""
 
     def __init__(self) -> None:
         self.count = 0

@@ -1,4 +1,4 @@
-"""The physics engine below pymunk, for the operations of each step: pymunk's own layer costs more than the physics.
+"""Calls the physics engine below pymunk in each step, because pymunk's own layer costs more than the physics.
 
 This uses two private parts of pymunk on purpose: the module `_chipmunk_cffi`, which contains the C functions of the
 engine, and the attributes `_space`, `_body` and `_shape`, which hold the C objects. The public properties of pymunk
@@ -24,17 +24,17 @@ def pointer(item: pymunk.Space | pymunk.Body | pymunk.Shape) -> Any:
     return getattr(item, name)
 
 
-# Functions called in every step, looked up once and called directly: a wrapper would double their cost. All take the
-# result of `pointer`, which must not be used after the space has been freed. A vector is passed as a tuple, and
-# returned with `x` and `y`.
+# The functions called in every step, looked up once and called directly, since a wrapper would double their cost. All
+# take the result of `pointer`, which must not be used after the space has been freed. A vector is passed as a tuple,
+# and returned as an object with `x` and `y`.
 set_position: Any = lib.cpBodySetPosition
 set_velocity: Any = lib.cpBodySetVelocity
 set_force: Any = lib.cpBodySetForce
-"""For the next step only, in N; the torque likewise, in Nm."""
+"""Set the force (N) for the next step only; `set_torque` does the same for the torque (Nm)."""
 set_torque: Any = lib.cpBodySetTorque
 position: Any = lib.cpBodyGetPosition
 angle: Any = lib.cpBodyGetAngle
-"""In rad; keeps growing beyond a full turn."""
+"""The angle (rad), which keeps growing beyond a full turn."""
 velocity: Any = lib.cpBodyGetVelocity
 turn_rate: Any = lib.cpBodyGetAngularVelocity
 step: Any = lib.cpSpaceStep

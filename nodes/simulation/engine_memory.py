@@ -1,9 +1,9 @@
-"""Frees the memory of the physics engine explicitly from its owner, never from the garbage collector.
+"""Lets the owner free the memory of the physics engine explicitly, instead of the garbage collector.
 
 pymunk frees memory in Python functions that the collector runs in an arbitrary thread, some of them called back from C.
 An exception raised in that thread (Ctrl-C, a node being stopped) aborts such a function half way. Shapes then remain in
 a freed space, and the next access to them is a segmentation fault. Therefore these finalizers are detached from
-everything in a space; an exception can then at worst leave some memory unfreed.
+everything in a space, so that an exception can at worst leave some memory unfreed.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class EngineMemory:
         self._held: list[tuple[Callable[[Any], None], Any]] = []
 
     def take(self, *items: pymunk.Space | pymunk.Body | pymunk.Shape) -> None:
-        """Take ownership of these, the space first; they are freed only by `free`."""
+        """Take ownership of objects, of the space first; only `free` frees them."""
         for item in items:
             held = pointer(item)
             ffi.gc(held, None)

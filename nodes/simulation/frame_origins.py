@@ -1,4 +1,4 @@
-"""Where the frames `map` and `odom` originate in the world, whose own origin is its lower left corner."""
+"""The origins of the frames `map` and `odom` in the world, whose own origin is its lower left corner."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from bot_console_robot.simulation.geometry import Point, Pose
 from bot_console_robot.simulation.world import World
 
 ORIGINS = ("corner", "start")
-"""`corner`: both frames are the world's. `start`: both originate at the start pose, as on a robot that is switched on;
-`odom` also has the robot's initial heading, while `map` keeps the world's orientation.
+"""`corner`: both frames coincide with the world's. `start`: both have their origin at the start pose, as on a robot
+that was switched on there; `odom` also has the robot's initial heading, while `map` keeps the world's orientation.
 """
 
 

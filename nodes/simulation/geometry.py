@@ -50,9 +50,9 @@ class Disc:
 
 @dataclass(frozen=True, slots=True)
 class Mover:
-    """A round obstacle that drives along `route` repeatedly, or to random places in `area` (x0, y0, x1, y1).
+    """A round obstacle that moves along `route` repeatedly, or to random places in `area` (x0, y0, x1, y1).
 
-    It keeps `keep_off` m away from the robot's hull, and turns back if the robot does not move on.
+    It keeps `keep_off` m away from the robot's hull, and turns back if the robot does not move away.
     """
 
     radius: float
@@ -71,7 +71,7 @@ def rectangle(x: float, y: float, width: float, height: float, angle: float = 0.
 
 
 def rounded_rectangle(width: float, height: float, radius: float) -> tuple[Point, ...]:
-    """Return the outline of a `width` by `height` rectangle from the origin with rounded corners, counter-clockwise."""
+    """Return the outline of a `width` by `height` rectangle at the origin with rounded corners, counter-clockwise."""
     if radius <= 0.0:
         return ((0.0, 0.0), (width, 0.0), (width, height), (0.0, height))
     centres = (

@@ -15,15 +15,15 @@ from bot_console_robot.simulation.geometry import TURN, Pose
 from bot_console_robot.simulation.world import World
 
 EDGE = 1e-9
-"""Radians by which a span is widened, so that rounding never opens a gap between two walls."""
+"""Angle (rad) by which a span is widened, so that rounding never opens a gap between two walls."""
 END_ON = 1e-6
-"""Radians; an edge spanning less is seen end-on, where the intersection with its line is mostly rounding error."""
+"""Angle (rad); an edge that spans less is seen end-on, so that the intersection is mostly rounding error."""
 FULL_SCALE = 255.0
 """The intensity of a white surface right in front of the sensor."""
 DUST = (10.0, 80.0)
-"""Intensities of false returns: dust and rain reflect little light."""
+"""Range of the intensities of false returns: dust and rain reflect little light."""
 DUST_NEAREST = 0.4
-"""Minimum distance of false returns, in m."""
+"""Minimum distance (m) of false returns."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +66,7 @@ class Surfaces:
         points = [begin for begin, _, _ in edges] + [end for _, end, _ in edges] + centres
         self.edges = len(edges)
         self.points: Floats = np.array(([x for x, _ in points], [y for _, y in points]), np.float64)
-        """x and y (m) of the starts of edges, of their ends, and of the circles' centres."""
+        """x and y (m) of the starts of all edges, then of their ends, then of the circles' centres."""
         self.radius: Floats = np.array([each.radius for each in circles], np.float64)
         shine = [shine for _, _, shine in edges] + [each.reflectivity for each in circles]
         self.reflectivity: Floats = np.array(shine, np.float64)
@@ -81,7 +81,7 @@ class Surfaces:
 
 
 class Lidar:
-    """A LIDAR at the robot's centre; `scan` is what it reports, `cast` is the ground truth."""
+    """A LIDAR at the robot's centre; `scan` returns what it reports, `cast` the ground truth."""
 
     def __init__(self, settings: LidarSettings, surfaces: Surfaces) -> None:
         self.settings = settings
@@ -121,9 +121,7 @@ class Lidar:
         intensities[hit] = (DUST[0] + (DUST[1] - DUST[0]) * draw[2])[hit]
 
     def cast(self, pose: Pose) -> tuple[Floats, Floats]:
-        """Return true distances in m along each beam (`inf` beyond the last surface), and the reflectivity of the
-        surface hit.
-        """
+        """Return the true distance (m) along each beam, and the reflectivity of the surface hit (`inf`, 0: none)."""
         surfaces, edges = self._surfaces, self._surfaces.edges
         self._place[:, 0] = pose.x, pose.y
         points = surfaces.points - self._place
@@ -147,24 +145,23 @@ class Lidar:
     def _pairs(self, start: Floats, span: Floats, heading: float) -> tuple[Ints, Ints]:
         """Return which surface is hit by which beam: two index arrays ordered by surface, from spans in rad."""
         settings, step = self.settings, self._step
-        past = np.empty((len(start), 2))  # the first beam after the start of a span
+        past = np.empty((len(start), 2))  # the index of the first beam after the start of a span
         past[:, 0] = np.mod(start - (heading + settings.first_angle + EDGE), TURN) / step + 1.0
         past[:, 1] = past[:, 0] - TURN / step
         end = np.minimum(past + ((span + 2.0 * EDGE) / step)[:, None], settings.beams).astype(np.int64).ravel()
         first = np.maximum(past, 0.0).astype(np.int64).ravel()
         count = np.maximum(end - first, 0)
-        # The index among all pairs, minus that of the span's first pair, is the offset from its first beam.
+        # The index of a pair, minus that of its span's first pair, is the offset from the span's first beam.
         beam = (first - count.cumsum() + count).repeat(count)
         beam += np.arange(len(beam))
         return self._owners.repeat(count), beam
 
 
 def _spans(angle: Floats, edges: int, ratio: Floats) -> tuple[Floats, Floats]:
-    """Return start and width in rad of the angle spanned by each edge, then each circle; anything seen end-on spans
-    none.
+    """Return the start and the width (rad) of the angle that each edge and then each circle spans.
 
-    `angle` is that of the starts of edges, of their ends, and of the circles' centres; `ratio` is that of a
-    circle's radius to its distance.
+    A surface that is seen end-on has a negative width, and is hit by no beam. `angle` has the angles of the starts of
+    edges, of their ends, and of the circles' centres; `ratio` is that of a circle's radius to its distance.
     """
     start, span = np.empty((2, edges + len(ratio)))
     begin, centre = angle[:edges], angle[2 * edges :]
@@ -193,8 +190,8 @@ def _circle_depth(centres: Floats, radius: Floats, distance: Floats, owner: Ints
     (x, y), (dx, dy) = centres.take(owner, 1), rays
     along = x * dx + y * dy
     chord = (radius * radius).take(owner) - ((distance * distance).take(owner) - along * along)
-    depth = along - np.sqrt(np.maximum(chord, 0.0))  # at the rim, rounding may make it just miss
+    depth = along - np.sqrt(np.maximum(chord, 0.0))  # due to rounding, a ray at the rim may just miss
     around = distance <= radius
-    if np.count_nonzero(around):  # takes half as long as `any`
+    if np.count_nonzero(around):  # in half the time of `any`
         depth[around.take(owner)] = 0.0
     return depth

@@ -18,18 +18,18 @@ OBSTACLE = pymunk.ShapeFilter(categories=0b01)
 ROBOT = pymunk.ShapeFilter(categories=0b10)
 OBSTACLES_ONLY = pymunk.ShapeFilter(mask=0b01)
 FAR = 5.0
-"""Distances in m beyond which obstacles are not searched."""
+"""Distance in m beyond which obstacles are not searched for."""
 NEAR = 0.25
-"""Margin (m) added to the last distance for the first search: nothing farther away can arrive within one step."""
+"""Margin (m) added to the last distance for the first search; nothing farther away can come near within one step."""
 MASS_KG = 10.0
 SLOP_M = 0.001
-"""How far bodies may overlap without being pushed apart."""
+"""The depth (m) to which bodies may overlap without being pushed apart."""
 
 
 class Space:
-    """The physics of one world with a round robot in it; the caller sets its velocity before each step.
+    """The physics of one world with a round robot in it, whose velocity the caller sets with each step.
 
-    It also owns the bodies of the movers, which must not be used after it is freed.
+    It also owns the bodies of the movers, which must not be used after it has been freed.
     """
 
     def __init__(self, world: World, movers: list[MovingObstacle], pose: Pose, radius: float) -> None:
@@ -84,14 +84,14 @@ class Space:
         self._angle = pose.heading
 
     def step(self, dt: float, linear: float, angular: float) -> tuple[float, float, float]:
-        """Advance by `dt` s with the robot's wheels driving at m/s and rad/s; walls hold it back.
+        """Advance by `dt` s while the robot's wheels drive at `linear` m/s and `angular` rad/s; walls hold it back.
 
         Returns the new pose: x, y (m), and the angle (rad), which keeps growing beyond a full turn.
         """
         body = self._body
         velocity, turning = engine.velocity(body), engine.turn_rate(body)
-        # A step moves bodies first and resolves contacts afterwards, so a velocity set here would pass through walls.
-        # As a force it is resolved against them; the heading used is that at the middle of the resulting move.
+        # A step moves bodies first and resolves contacts afterwards, so a velocity set here would carry the robot
+        # through walls. A force is resolved against them; the heading is that at the middle of the resulting move.
         heading = self._angle + (turning + 0.5 * angular) * dt
         push = MASS_KG / dt
         force = (linear * math.cos(heading) - velocity.x) * push, (linear * math.sin(heading) - velocity.y) * push
@@ -103,10 +103,8 @@ class Space:
         return place.x, place.y, angle
 
     def nearest(self, x: float, y: float) -> tuple[float, str]:
-        """Return the gap in m between a robot at that position and the nearest obstacle, negative inside it, and its
-        kind.
-        """
-        # The nearest obstacle within a short reach is the nearest overall, and far fewer shapes have to be checked.
+        """Return the gap (m) between a robot at a position and the nearest obstacle, negative inside, and its kind."""
+        # If there is an obstacle within a short reach, it is the nearest overall, and few shapes have to be checked.
         found = self._find(x, y, self._reach)
         if not found and self._reach < FAR:
             found = self._find(x, y, FAR)
@@ -118,12 +116,12 @@ class Space:
         return distance - self._radius, self._kinds[found]
 
     def _find(self, x: float, y: float, reach: float) -> Any:
-        """Return the nearest shape within a reach, or None; details are in `_found`."""
+        """Return the nearest shape within a reach, or a null pointer; details are in `_found`."""
         self._place.x, self._place.y = x, y
         return lib.cpSpacePointQueryNearest(self._pointer, self._place[0], reach, self._obstacles[0], self._found)
 
     def distance_ahead(self, x: float, y: float, angle: float, reach: float) -> float:
-        """Return the distance in m to the first surface in a direction, one beam at a time; `inf` beyond `reach`."""
+        """Return the distance in m to the first surface in one direction; `inf` beyond `reach`."""
         end = (x + reach * math.cos(angle), y + reach * math.sin(angle))
         found = self._space.segment_query_first((x, y), end, 0.0, OBSTACLES_ONLY)
         return math.inf if found is None else found.alpha * reach

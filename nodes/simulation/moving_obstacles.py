@@ -1,4 +1,4 @@
-"""Moving obstacles: people and carts that give way to the robot, and turn back if it does not move on."""
+"""Moving obstacles: people and carts that give way to the robot, and turn back if it does not move away."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from bot_console_robot.simulation.engine import pointer, set_position, set_veloc
 from bot_console_robot.simulation.geometry import Mover, Point
 
 TURN_BACK_AFTER_S = 2.0
-"""Seconds they wait before they turn back."""
+"""Seconds that an obstacle waits for the robot before it turns back."""
 
 
 class MovingObstacle:
@@ -57,8 +57,8 @@ class MovingObstacle:
         else:
             self._waited = 0.0
             self._place = place
-        # The engine moves the body by its velocity; setting the start position prevents rounding errors from
-        # accumulating.
+        # The engine moves the body by its velocity; setting the position before each step keeps rounding errors from
+        # adding up.
         set_position(self._pointer, begin)
         set_velocity(self._pointer, ((place[0] - begin_x) / dt, (place[1] - begin_y) / dt))
 

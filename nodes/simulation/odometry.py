@@ -23,7 +23,7 @@ class Odometry:
     def __init__(self, pose: Pose, noise: OdometryNoise, rng: np.random.Generator) -> None:
         self._x, self._y, self._heading = pose
         self.noise = noise
-        self._draw = rng.standard_normal  # one number at a time: an array of two costs more than both
+        self._draw = rng.standard_normal  # one number at a time, since an array of two costs more
 
     @property
     def pose(self) -> Pose:

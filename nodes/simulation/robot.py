@@ -1,4 +1,4 @@
-"""A differential drive with limits: how its wheels respond to a velocity command."""
+"""A differential drive with limits, whose wheels respond to velocity commands."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ class DifferentialDrive:
         self._feasible = feasible(*self._asked, limits)
 
     def command(self, linear: float, angular: float) -> None:
-        """Set a new command; it holds until the next one or until it is older than `command_timeout`."""
+        """Set a new command, which is valid until the next one or until it is older than `command_timeout`."""
         self._asked = (linear, angular)
         self._feasible = feasible(linear, angular, self._limits)
         self._age = 0.0

@@ -18,10 +18,10 @@ from bot_console_robot.simulation.robot import DifferentialDrive, DriveLimits
 from bot_console_robot.simulation.world import World, WorldError, inside, populated
 
 STEP = 0.01
-"""The constant physics step in s. Elapsed wall time limits how many steps are made, never how long one is."""
+"""The constant physics step in s. Elapsed wall time determines how many steps are made, never how long they are."""
 STEP_NS = 10_000_000
 SLACK = 1e-9
-"""Possible error in m of a gap that is computed from an earlier one."""
+"""Possible rounding error in m of a gap that is computed from an earlier one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,14 +102,13 @@ class Simulation:
         self.pose = Pose(x, y, heading)
         metrics = self.metrics
         metrics.update(x, y, heading, speed)
-        # Nothing can come closer than the distance driven, so most steps need no search of the surroundings.
+        # The gap shrinks at most by the distances driven, so most steps need no search of the surroundings: only those
+        # in which a contact or a new minimum is possible.
         self._least_gap = gap = self._least_gap - (math.hypot(dx, dy) + self._movers_way)
         return (gap < TOUCH or gap < metrics.min_clearance) and self._scan_surroundings()
 
     def _scan_surroundings(self) -> bool:
-        """Search the surroundings; returns whether a collision began. Called when a contact or a new minimum is
-        possible.
-        """
+        """Measure the gap to the nearest obstacle; returns whether a collision began."""
         x, y, _ = self.pose
         gap, what = self._space.nearest(x, y)
         self._least_gap = min(gap, FAR - self.drive.limits.radius) - SLACK
@@ -140,7 +139,7 @@ class Simulation:
         return self._space.nearest(x, y)[0] if inside(self.world.boundary, x, y) else -math.inf
 
     def place(self, pose: Pose) -> None:
-        """Place the robot at rest; odometry follows. Raises `ValueError` if it does not fit there."""
+        """Place the robot and its odometry at a pose, at rest; raises `ValueError` if it does not fit there."""
         if self.gap_at(pose.x, pose.y) <= 0.0:
             raise ValueError("the robot does not fit there")
         self._space.place(pose)

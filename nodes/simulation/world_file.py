@@ -46,7 +46,7 @@ def load_world(path: Path) -> World:
         return parse_world(path.stem, data)
     except WorldError as error:
         raise WorldError(f"{path}: {error}") from None
-    except ValueError:  # Raised when formatting an error message: Python converts no integer of more than 4,300 digits.
+    except ValueError:  # raised when a message is formatted: Python converts no integer of more than 4,300 digits
         raise WorldError(f"{path}: a whole number has thousands of digits") from None
 
 

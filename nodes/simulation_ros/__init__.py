@@ -1,1 +1,1 @@
-"""The ROS side of the simulator: its parameters, messages and worlds."""
+"""The ROS side of the simulator: parameters, messages, and finding worlds."""

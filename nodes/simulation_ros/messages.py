@@ -1,4 +1,4 @@
-"""The state of the simulation as ROS messages. Frames: `map` is the truth, `odom` drifts."""
+"""Converts the state of the simulation to ROS messages. Of the frames, `map` is the truth, and `odom` drifts."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 MAP, ODOM = "map", "odom"
 FULL_TURN = 6.2
-"""Fields of view (rad) of at least this size are taken for a full turn."""
+"""Fields of view of at least this angle (rad) count as a full turn."""
 PERSON_HEIGHT_M = 1.7
 
 
@@ -63,9 +63,9 @@ def scan_message(scan: Scan, settings: LidarSettings, period: float, stamp: Time
 
 
 class Odometer:
-    """Messages of a pose in the first of two frames and a velocity in the second, the robot's own.
+    """Makes odometry messages, with a pose in the first of two frames and a velocity in the second, the robot's own.
 
-    Reuses one message with new numbers: what is published is copied, and creating it would cost more.
+    It reuses one message: publishing copies it, and creating a new one would cost more.
     """
 
     def __init__(self, frame: str, child_frame: str) -> None:
@@ -76,7 +76,7 @@ class Odometer:
         self._linear, self._angular = motion.linear, motion.angular
 
     def report(self, pose: Pose, velocity: tuple[float, float], stamp: Time) -> Odometry:
-        """The message, to be published before the next call; m/s, rad/s."""
+        """Return the message, to be published before the next call; `velocity` is in m/s, rad/s."""
         x, y, heading = pose
         self._header.stamp = stamp
         self._position.x, self._position.y = x, y

@@ -1,4 +1,4 @@
-"""Robot models whose names for frames and joints the simulator can use, so that programs written for them work."""
+"""Robot models whose frame and joint names the simulator can use, so that programs written for them work."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Model:
     scan_height: float = 0.17
     wheel_radius: float = 0.033
     scan_from_front: bool = False
-    """Whether beam 0 of a full turn points forward, not backward."""
+    """Whether beam 0 of a full turn points forward instead of backward."""
 
 
 MODELS = {
@@ -33,4 +33,4 @@ MODELS = {
         wheel_radius=0.0358,
     ),
 }
-"""By the value of the simulator's parameter `model`."""
+"""The models, by the value of the simulator's parameter `model`."""

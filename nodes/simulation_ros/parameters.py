@@ -53,13 +53,13 @@ DECLARED: tuple[tuple[str, Any, ParameterDescriptor], ...] = (
 
 
 def declare(node: Node) -> None:
-    """Declare all of them."""
+    """Declare all parameters."""
     for name, default, descriptor in DECLARED:
         node.declare_parameter(name, default, descriptor)
 
 
 def settings(node: Node) -> Settings:
-    """The settings for the present parameters."""
+    """The settings that the present parameters specify."""
 
     def group(prefix: str) -> dict[str, Any]:
         return {name: value.value for name, value in node.get_parameters_by_prefix(prefix).items()}
@@ -73,7 +73,7 @@ def settings(node: Node) -> Settings:
 
 
 def problem(node: Node, changes: Iterable[Parameter]) -> str:
-    """The problem between parameters after some changes; empty if there is none."""
+    """Why the parameters would contradict each other after changes; empty if they would not."""
     origin = {each.name: each.value for each in changes}.get("origin", node.get_parameter("origin").value)
     if origin not in ORIGINS:
         return f"origin must be one of {', '.join(ORIGINS)}, not '{origin}'"

@@ -1,7 +1,6 @@
-"""Messages that programs written for other robots expect beside scans and odometry: frames, wheels, inertia and
-battery.
+"""Publishes what programs for other robots expect in addition to scans and odometry: frames, wheels, IMU and battery.
 
-Everything but the fixed frames is published only while somebody subscribes to it.
+Everything except the fixed frames is published only while somebody subscribes to it.
 """
 
 from __future__ import annotations
@@ -23,11 +22,11 @@ from tf2_msgs.msg import TFMessage
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 GRAVITY_M_S2 = 9.81
 FULL_VOLTAGE, EMPTY_VOLTAGE, CAPACITY = 12.6, 11.0, 1.8
-"""V, V, Ah: three lithium cells."""
+"""Voltages (V) and capacity (Ah) of three lithium cells."""
 LASTS = 9000.0
-"""Seconds until the battery is empty, in simulated time, so that a run is reproducible."""
+"""Simulated seconds until the battery is empty; wall time would make runs differ."""
 POSES_PER_BATTERY_STATE = 20
-"""Poses between two battery states: one a second at 20 Hz."""
+"""Number of poses between two battery states, for one per second at 20 Hz."""
 
 
 class Signals:
@@ -47,7 +46,7 @@ class Signals:
         self._count = 0
 
     def begin(self, simulation: Simulation, frames: Frames, stamp: Time) -> None:
-        """Publish the fixed frames; a run begins."""
+        """Publish the fixed frames at the beginning of a run."""
         self._frames = frames
         model, half = self._model, 0.5 * simulation.drive.limits.wheel_separation
         wheel = Quaternion(x=-math.sin(math.pi / 4), w=math.cos(math.pi / 4))

@@ -13,7 +13,7 @@ PACKAGE = "bot_console_robot"
 
 
 def find_world(name: str) -> World:
-    """The world of that name or path; raises `WorldError`, which lists the available names."""
+    """Load the world of that name or path; raises `WorldError`, which lists the available names."""
     path = Path(name)
     if path.suffix in {".yaml", ".yml"} or len(path.parts) > 1:
         return load_world(Path(os.path.expanduser(path)))

@@ -1,4 +1,4 @@
-"""Program `republish`: forwards images of one transport (`in`, `in/compressed`) through another one (`out` ...)."""
+"""Program `republish`: forwards images from one transport (`in`, `in/compressed`) through another one (`out` ...)."""
 
 from __future__ import annotations
 
@@ -16,13 +16,11 @@ from rclpy.utilities import remove_ros_args
 
 USAGE = "usage: republish [IN_TRANSPORT [OUT_TRANSPORT]] --ros-args -r in:=TOPIC -r out:=TOPIC; transports: {}"
 QUEUE = 10
-"""Messages that a subscription or publisher keeps."""
+"""Depth of the history of subscriptions and publishers."""
 
 
 class Republisher(Node):
-    """Subscribes only while its output has subscribers; without a given output transport, it offers all available
-    ones.
-    """
+    """Subscribes only while its output has subscribers; with no given output transport, it offers all available ones."""
 
     def __init__(self, given: list[str]) -> None:
         super().__init__("image_republisher")

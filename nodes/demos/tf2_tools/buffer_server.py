@@ -36,7 +36,7 @@ ERRORS: dict[type[TransformException], int] = {
 
 
 class BufferServer(Node):
-    """Answers a goal when its transform becomes available, or on timeout with the reason."""
+    """Answers a goal as soon as its transform is available, or with the reason when its time is up."""
 
     def __init__(self) -> None:
         super().__init__("tf_buffer")

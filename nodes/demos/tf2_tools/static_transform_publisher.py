@@ -73,7 +73,7 @@ def read(words: Sequence[str]) -> TransformStamped:
 
 
 def _in_new_style(words: Sequence[str]) -> Sequence[str]:
-    """Convert the old-style arguments, `x y z yaw pitch roll FRAME CHILD` or with a quaternion of four, to options."""
+    """Convert old-style arguments, `x y z yaw pitch roll FRAME CHILD` or with a quaternion instead, to options."""
     names = {8: ("x", "y", "z", "yaw", "pitch", "roll"), 9: ("x", "y", "z", *TURN)}.get(len(words))
     if names is None or any(each.startswith("--") for each in words):
         return words

@@ -16,7 +16,7 @@ from tf_transformations import euler_from_quaternion, quaternion_matrix
 
 
 class Echo(Node):
-    """Prints at a rate (Hz); reports once a second what it is waiting for."""
+    """Prints at a rate (Hz); while there is no transform, reports once a second what it is waiting for."""
 
     def __init__(self, source: str, target: str, rate: float) -> None:
         super().__init__("tf2_echo")

@@ -1,4 +1,4 @@
-"""The turtles' drawing as pixels."""
+"""The drawing of the turtles, as pixels."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Color = tuple[int, int, int]
 """Red, green and blue, 0 to 255."""
 
 BLANK: Color = (255, 255, 255)
-"""The colour that a sensor reports where nothing has been drawn; the background is not visible to it."""
+"""The colour that a sensor reports where nothing has been drawn; it does not see the background."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Canvas:
     def __init__(self) -> None:
         self._pixels: npt.NDArray[np.uint8] = np.zeros((PIXELS, PIXELS, 4), np.uint8)
         self.changes = 0
-        """Counts drawing and clearing operations."""
+        """The number of drawing and clearing operations."""
         self.clear()
 
     def clear(self) -> None:

@@ -13,11 +13,11 @@ from std_srvs.srv import Empty
 from turtlesim.msg import Pose
 
 SIDE = 2.0
-"""Length of a side in m."""
+"""The length of a side in m."""
 SPEED, TURN_RATE = 1.0, 0.4
-"""m/s, rad/s."""
+"""Forward speed (m/s) and turn rate (rad/s)."""
 NEAR, ALIGNED, AT_REST = 0.1, 0.01, 0.0001
-"""m, rad, and m/s or rad/s."""
+"""Tolerances of position (m), heading (rad) and standstill (m/s or rad/s)."""
 
 
 class DrawSquare(Node):

@@ -18,7 +18,7 @@ class NoKeyboard(Exception):
 
 
 class Keyboard:
-    """Reads keys as they are pressed, without echo; a context manager that raises `NoKeyboard` on entry."""
+    """Reads keys as they are pressed, without echo; a context manager, which may raise `NoKeyboard` on entry."""
 
     def __enter__(self) -> Keyboard:
         if sys.stdin is None or not sys.stdin.isatty():
@@ -40,8 +40,7 @@ class Keyboard:
             termios.tcsetattr(sys.stdin.fileno(), termios.TCSADRAIN, self._before)
 
     def read(self) -> str:
-        """Return a typed byte as a character, so that an arrow key takes three reads; empty if nothing was typed in
-        time.
+        """Return the next byte as a character (an arrow key takes three reads); empty if none is typed in time.
 
         Raises `EOFError` when the terminal is gone.
         """
@@ -58,11 +57,11 @@ def _from_terminal(file: int) -> str:
 
 
 WINDOWS_ARROWS = {"H": "A", "P": "B", "M": "C", "K": "D"}
-"""Second characters of Windows' arrow keys, and the final characters of a terminal's."""
+"""The final characters of a terminal's arrow keys, by the second characters of those of Windows."""
 
 
 def _from_windows() -> str:
-    keys: Any = __import__("msvcrt")  # its functions are unknown to a type checker on other systems
+    keys: Any = __import__("msvcrt")  # a type checker does not know its functions on other systems
     if not keys.kbhit():
         time.sleep(KEY_TIMEOUT_S)
         return ""

@@ -1,4 +1,4 @@
-"""How a turtle moves. Pure; step, rounding and walls match turtlesim, so that paths are identical."""
+"""The motion of a turtle. Pure; steps, rounding and walls match turtlesim, so that paths are identical."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ ROTATION_SPEED = 1.0
 ROTATION_TOLERANCE = 0.02
 """Angle (rad) to the target at which a rotation is complete."""
 PI = 3.14159265
-"""Truncated as in turtlesim, which affects angles."""
+"""Truncated as in turtlesim, since that affects angles."""
 
 
 def single(value: float) -> float:

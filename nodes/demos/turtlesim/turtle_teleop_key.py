@@ -31,7 +31,7 @@ MOVES = {"A": (1.0, 0.0), "B": (-1.0, 0.0), "C": (0.0, -1.0), "D": (0.0, 1.0)}
 DIRECTIONS = {
     "g": 0.0, "t": 0.7854, "r": 1.5708, "e": 2.3562, "d": 3.1416, "c": -2.3562, "v": -1.5708, "b": -0.7854,
 }  # fmt: skip
-"""Headings (rad) by key; on the keyboard the keys surround `f` in these directions."""
+"""Headings (rad) by key; on the keyboard, the keys lie around `f` in these directions."""
 
 
 class TeleopTurtle(Node):

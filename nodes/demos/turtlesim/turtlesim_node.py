@@ -22,7 +22,7 @@ from turtlesim.srv import Kill, Spawn
 BACKGROUND = {"background_r": ("Red", 0x45), "background_g": ("Green", 0x56), "background_b": ("Blue", 0xFF)}
 """Parameters of the background: the name of the channel, and its default."""
 FRAMES_PER_PICTURE = 12
-"""Minimum number of frames between two pictures: five pictures per second are enough."""
+"""Minimum number of frames between two published pictures, since five pictures per second are enough."""
 WINDOW_HINT = "To see the turtle, run in another terminal: bot-console attach --pane world"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
@@ -30,7 +30,7 @@ LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 class TurtleSim(Node):
     """Spawns and kills turtles and moves them once per frame.
 
-    The drawing is published on the hidden topic `~/_canvas`, where upstream has a window.
+    The drawing is published on the hidden topic `~/_canvas`; upstream shows it in a window.
     """
 
     def __init__(self) -> None:

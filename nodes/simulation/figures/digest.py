@@ -1,4 +1,4 @@
-"""The digest of a run: equal for two runs in which the robot's poses are identical bit by bit."""
+"""The digest of a run, which is equal for two runs in which the robot's poses are identical bit by bit."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import hashlib
 import struct
 
 VERSION = 1
-"""Changes with anything that gives an unchanged run another digest: what is hashed, the physics, the order of turns."""
+"""Has to change with anything that gives equal runs other digests: the hashed data, the physics, the order of turns."""
 _BATCH = 3 * 256
-"""How many numbers are collected before they are hashed together; the hash covers their bytes in order."""
+"""The number of values that are hashed together; the digest does not depend on it."""
 
 
 class PoseDigest:

@@ -53,12 +53,12 @@ class Metrics:
 
     @property
     def mean_speed(self) -> float:
-        """The distance driven divided by time, in m/s."""
+        """The distance driven divided by the time, in m/s."""
         return self.distance / self.duration if self.steps else 0.0
 
     @property
     def longest_standstill(self) -> float:
-        """The longest time in s without driving."""
+        """The longest time without driving, in s."""
         return self._longest * self._dt
 
     @property
