@@ -56,7 +56,7 @@ def _spin_node(make_node: Callable[[], Node]) -> None:
 
 
 def _interrupt_once() -> None:
-    """Raise KeyboardInterrupt only for the first Ctrl-C, so that another one does not end the shutdown with a traceback."""
+    """Raise KeyboardInterrupt only for the first Ctrl-C: another one would end the shutdown with a traceback."""
     raised = False
 
     def interrupt(number: int, frame: object) -> None:

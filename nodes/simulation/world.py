@@ -21,7 +21,7 @@ class WorldError(ValueError):
 
 @dataclass(frozen=True, slots=True)
 class Scatter:
-    """Random discs: at most `count`, with radii (m) in the range `radius`, at least `gap` m apart from anything else."""
+    """Random discs: at most `count`, with radii (m) within `radius`, and at least `gap` m apart from anything else."""
 
     count: int
     radius: tuple[float, float]

@@ -20,7 +20,7 @@ QUEUE = 10
 
 
 class Republisher(Node):
-    """Subscribes only while its output has subscribers; with no given output transport, it offers all available ones."""
+    """Subscribes only while its output has subscribers; offers all available transports if none is given."""
 
     def __init__(self, given: list[str]) -> None:
         super().__init__("image_republisher")

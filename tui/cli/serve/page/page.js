@@ -1,8 +1,8 @@
-// Signs of life from the page itself, so that a browser that is gone is noticed behind a tunnel, too; the stop button.
+// Sends signs of life, so that a closed browser is noticed even behind a tunnel; handles the stop button.
 const ALIVE_MS = 200;
 const Socket = window.WebSocket;
 
-// Keys reach the console wherever the focus was: nobody should have to click before ! works.
+// Keys reach the console wherever the focus is, so that ! works without a click.
 const takeKeys = () => document.querySelector(".xterm-helper-textarea")?.focus();
 window.addEventListener("focus", takeKeys);
 window.addEventListener("keydown", takeKeys, { capture: true });
@@ -20,7 +20,7 @@ window.WebSocket = class extends Socket {
 };
 
 window.addEventListener("DOMContentLoaded", () => {
-  // The terminal's room also changes without the window: a device may turn out to have no mouse.
+  // The space for the terminal may also change without the window, when a device turns out to have no mouse.
   new ResizeObserver(() => window.onresize?.()).observe(document.getElementById("terminal"));
   document.getElementById("again").addEventListener("click", () => window.location.reload());
   document.getElementById("stop-button").addEventListener("click", () => {
