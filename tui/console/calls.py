@@ -55,7 +55,7 @@ class Calls:
     async def ask(self, kind: Any, service: str, request: Any, timeout_s: float = ANSWER_TIMEOUT_S) -> Any:
         """Call a service; raises `NoAnswer` when there is no server or none responds in time."""
         client = self._client(kind, service)
-        if not (client.service_is_ready() or await self._gets_ready(client, service)):
+        if not (client.service_is_ready() or await self._wait_until_ready(client, service)):
             raise NoAnswer(f"no service {service} is offered; has its node ended?")
         answer: RosFuture[Any] = client.call_async(request)
         period, away = min(MAX_POLL_S, timeout_s / MIN_POLLS), 0
@@ -63,7 +63,7 @@ class Calls:
 
         def poll() -> None:
             nonlocal away
-            away = 0 if _is_there(client) else away + 1
+            away = 0 if _is_available(client) else away + 1
             if away >= GONE_POLLS:
                 self._give_up(answer, client, f"{service} went away before it answered; has its node ended?")
             elif next(polls) * period >= timeout_s:
@@ -76,7 +76,7 @@ class Calls:
         finally:
             self._node.destroy_timer(timer)
 
-    async def _gets_ready(self, client: Any, service: str) -> bool:
+    async def _wait_until_ready(self, client: Any, service: str) -> bool:
         """Wait until a new client has discovered its server; False at once if the server is not in the graph."""
         if not self._node.count_services(service):
             return False
@@ -116,7 +116,7 @@ class Calls:
             self._node.destroy_client(self._clients.pop(key))
 
 
-def _is_there(client: Any) -> bool:
+def _is_available(client: Any) -> bool:
     """Whether the server of a client is in the graph."""
     try:
         return bool(client.service_is_ready())

@@ -19,7 +19,7 @@ READ_ONLY = "this console is read-only (--read-only)"
 
 
 @dataclass(frozen=True)
-class _Pending:
+class _PendingRequest:
     """A request: how to turn a refusal into a result, and the coroutine that is to produce the result."""
 
     refused: Callable[[str], Any]
@@ -36,7 +36,7 @@ class Gate:
         self.read_only = ""
         """Why this console may not change anything; empty if it may."""
         self._start: Callable[[Coroutine[Any, Any, None]], object] | None = None
-        self._pending: dict[Future[Any], _Pending] = {}
+        self._pending: dict[Future[Any], _PendingRequest] = {}
         self._queries: list[Callable[[], object]] = []
         self._lock = threading.Lock()
 
@@ -102,14 +102,14 @@ class Gate:
         task = guarded()
         with self._lock:
             why = self.refusal if changes else self.unreached
-            self._pending[outcome] = _Pending(refused, task)
+            self._pending[outcome] = _PendingRequest(refused, task)
         if why or self._start is None:
             self._refuse(outcome, why)
         else:
             self._start(task)
         return outcome
 
-    def _claim(self, outcome: Future[Any]) -> _Pending | None:
+    def _claim(self, outcome: Future[Any]) -> _PendingRequest | None:
         """Remove a pending request; the caller that gets it has to complete it."""
         with self._lock:
             return self._pending.pop(outcome, None)

@@ -67,7 +67,7 @@ class ConsoleNode:
         ports.parameters.attach(self.node, calls, ports.logs.add, history, active_profile)
         ports.topics.attach(self.node, calls)
         ports.sensors.attach(self.node)
-        self._lifecycle = LifecycleWatch(self.node, calls, self._graph.lifecycle_is)
+        self._lifecycle = LifecycleWatch(self.node, calls, self._graph.set_lifecycle_states)
         ports.graph.attach(self._graph, self._lifecycle)
         ports.bags.attach()
 

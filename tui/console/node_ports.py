@@ -12,7 +12,7 @@ from bot_console.tui.console.bags.node_bags import NodeBags
 from bot_console.tui.console.bags.port import GenericTypes, SnapshotKeeper
 from bot_console.tui.console.command_gate import READ_ONLY, Gate
 from bot_console.tui.console.graph.node_graph import NodeGraph
-from bot_console.tui.console.launch.elsewhere import Elsewhere
+from bot_console.tui.console.launch.external_programs import ExternalPrograms
 from bot_console.tui.console.launch.gated_launcher import GatedLauncher
 from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.logs.node_logs import NodeLogs
@@ -47,12 +47,12 @@ class NodePorts:
         types: TypeSource | None,
         generic: GenericTypes | None,
         processes: Callable[[], Mapping[int, Sequence[str]]],
-        elsewhere: Elsewhere,
+        external_programs: ExternalPrograms,
     ) -> None:
         self.gate = Gate()
         self._capabilities = capabilities
         self._launch_info = launch_info
-        self._elsewhere = elsewhere
+        self._external_programs = external_programs
         self._link = link
         self.problem = ""
         """Why the console itself cannot continue; empty when all is well."""
@@ -76,7 +76,7 @@ class NodePorts:
             report=lambda text: self.printed(Severity.WARN, LABEL, text),
         )
         self.plots = NodePlots(self.gate, lambda: self.graph.info, lambda: self.parameters.trees)
-        self.parameters = NodeParameters(self.gate, provenance, self.plots.parameter_is)
+        self.parameters = NodeParameters(self.gate, provenance, self.plots.record_parameter)
         self.profiles = NodeProfiles(
             self.gate, self.parameters, lambda: self.topics.request("/reset", "std_srvs/srv/Trigger", {})
         )
@@ -110,7 +110,7 @@ class NodePorts:
         old = self._snapshot
         world, launch = self.drive.world, self._launch_info()
         self.logs.discount_errors_of_ending(launch)
-        launch = self._elsewhere.beside(launch)
+        launch = self._external_programs.merged_with(launch)
         new = ConsoleSnapshot(
             seq=old.seq,
             graph=self.graph.info,

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from bot_console.tui.console.bags.port import GenericTypes, SnapshotKeeper
 from bot_console.tui.console.command_gate import CLOSED
-from bot_console.tui.console.launch.elsewhere import Elsewhere
+from bot_console.tui.console.launch.external_programs import ExternalPrograms
 from bot_console.tui.console.model import Capabilities, LaunchInfo, LinkInfo, Severity
 from bot_console.tui.console.node_ports import LABEL, NodePorts
 
@@ -61,7 +61,7 @@ class RosConsole(NodePorts):
         stop_means: Sequence[ConfiguredMeans] = (),
         expected: str = "",
         processes: Callable[[], Mapping[int, Sequence[str]]] = dict,
-        elsewhere: Elsewhere | None = None,
+        external_programs: ExternalPrograms | None = None,
     ) -> None:
         """`own_profiles` is the folder in which profiles are saved; `workspace_profiles` finds further folders with
         profiles. `active_profile` is the name, or the absolute path, of the profile with which the system starts.
@@ -73,7 +73,7 @@ class RosConsole(NodePorts):
         `halted` returns the nodes of stopped processes. `types` builds missing message types, and `generic` provides
         classes for those without a definition. `stop_means` stop robots without a lock. `expected` is the path of a
         file with the expected rates of topics. `processes` returns the nodes of the programs on this machine, by pid;
-        `elsewhere` finds those started in other terminals.
+        `external_programs` finds those started in other terminals.
         """
         super().__init__(
             self._connect_robot,
@@ -84,7 +84,7 @@ class RosConsole(NodePorts):
             types=types,
             generic=generic,
             processes=processes,
-            elsewhere=elsewhere or Elsewhere(),
+            external_programs=external_programs or ExternalPrograms(),
         )
         self._profile_store_of = profile_folders, own_profiles, workspace_profiles, fetch
         self._active_profile = active_profile

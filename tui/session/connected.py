@@ -10,7 +10,7 @@ from bot_console.tui.arrangement.arrival import System
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.tune.background_tuner import LocalTuner
 from bot_console.tui.console.bags.port import SnapshotKeeper
-from bot_console.tui.console.launch.elsewhere import Elsewhere
+from bot_console.tui.console.launch.external_programs import ExternalPrograms
 from bot_console.tui.console.model import LaunchInfo, Severity
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.files.folders import config_folder, state_folder
@@ -79,7 +79,7 @@ class Connected:
             stop_means=settings.stop_means,
             expected=settings.expected,
             processes=node_processes,
-            elsewhere=Elsewhere(node_processes, find_vitals, self._other_hosts),
+            external_programs=ExternalPrograms(node_processes, find_vitals, self._other_hosts),
         )
         self.launcher = system(self.console)
         self._local_tuner = LocalTuner()

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 from bot_console.tui.cli.numbers import positive, seconds
 from bot_console.tui.console.graph.connections import connections, is_hidden, is_own_service, unconnected
-from bot_console.tui.console.graph.expected import Expected, differences, read_file, written
+from bot_console.tui.console.graph.expected import ExpectedGraph, differences, read_file, written
 from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.ros_console import RosConsole
@@ -53,7 +53,7 @@ def run(words: list[str]) -> int:
         return 1 if console is None else _judge(console, expected, given)
 
 
-def _judge(console: RosConsole, expected: Expected | None, given: argparse.Namespace) -> int:
+def _judge(console: RosConsole, expected: ExpectedGraph | None, given: argparse.Namespace) -> int:
     if expected is not None:
         return _compare(console, expected, given)
     if given.launch is not None:
@@ -109,7 +109,7 @@ def lines_of(info: GraphInfo, hides: Iterable[str]) -> Iterator[str]:
     yield from (f"{sanitize(each)}  without topics, services and actions" for each in alone)
 
 
-def _compare(console: RosConsole, expected: Expected, given: argparse.Namespace) -> int:
+def _compare(console: RosConsole, expected: ExpectedGraph, given: argparse.Namespace) -> int:
     """Wait until the graph matches, then measure rates; print each difference and return the exit code."""
     deadline = time.monotonic() + given.wait
     found = differences(expected, console.snapshot().graph)

@@ -26,7 +26,7 @@ INFINITE = float("inf")
 
 
 @dataclass(frozen=True)
-class Expected:
+class ExpectedGraph:
     """The contents of a file with an expected graph."""
 
     nodes: frozenset[str] = frozenset()
@@ -41,7 +41,7 @@ class Expected:
         return {name: each for name, each in self.topics.items() if each.is_measured}
 
 
-def read_file(path: str) -> Expected:
+def read_file(path: str) -> ExpectedGraph:
     """Read a file with an expected graph; raises `ValueError` with a description of the error."""
     try:
         return read(expanded_path(path).read_text("utf-8"))
@@ -51,16 +51,16 @@ def read_file(path: str) -> Expected:
         raise ValueError("it is not a text file") from None
 
 
-def read(text: str) -> Expected:
+def read(text: str) -> ExpectedGraph:
     """Parse the text of such a file; raises `ValueError` with a description of the error."""
     if KEYWORD in text:
-        return Expected(topics=_of_parameters(text))
+        return ExpectedGraph(topics=_of_parameters(text))
     try:
         whole: Any = yaml.safe_load(text)
     except UNREADABLE as error:
         raise ValueError(f"this is not YAML: {fault_of(error)}") from None
     found = _mapping(whole, "the file", PARTS)
-    return Expected(
+    return ExpectedGraph(
         _names(found.get("nodes"), "nodes"),
         {_full(name): _topic(name, each) for name, each in _mapping(found.get("topics"), "topics").items()},
         _types(found.get("services"), "services"),
@@ -121,7 +121,7 @@ def _topic(name: str, value: Any) -> ExpectedTopic:
     return ExpectedTopic(None if kind is None else str(kind), ends[0], ends[1], rate, float(tolerance), age)
 
 
-def differences(expected: Expected, info: GraphInfo, measured: Mapping[str, Measure] | None = None) -> list[str]:
+def differences(expected: ExpectedGraph, info: GraphInfo, measured: Mapping[str, Measure] | None = None) -> list[str]:
     """The differences of a graph from the expected one, one line each; rates and ages only with `measured`."""
     nodes = {each.name: each for each in info.nodes if not each.hidden}
     found = [f"node {name} is missing" for name in sorted(expected.nodes - nodes.keys())]

@@ -32,10 +32,10 @@ def findings(info: GraphInfo) -> tuple[GraphFinding, ...]:
     nodes = [each for each in info.nodes if not each.hidden]
     visible = replace(info, nodes=tuple(nodes))
     otherwise = (GraphFinding(each.partition(": ")[0], each, True) for each in info.unheard)
-    frozen = (GraphFinding(node, f"{node} is frozen: {finding_hint(pid)}", True) for node, pid in info.frozen)
+    frozen = (GraphFinding(node, f"{node} is frozen: {resume_hint(pid)}", True) for node, pid in info.frozen)
     silent = (GraphFinding(node, f"{node} {SILENT}", True) for node in info.silent)
     debugged = (GraphFinding(node, f"{node} is {debugger_text(line)}") for node, line in info.debugged)
-    found = [*_same_named(nodes), *_topics(visible), *_services(nodes), *_alone(nodes)]
+    found = [*_duplicate_names(nodes), *_topics(visible), *_services(nodes), *_isolated_nodes(nodes)]
     found += [*otherwise, *frozen, *silent, *debugged]
     return tuple(sorted(found, key=lambda each: (not each.fault, each.subject)))
 
@@ -45,14 +45,14 @@ def debugger_text(line: str) -> str:
     return f"stopped in debugger at {line}" if line else "stopped in debugger"
 
 
-def finding_hint(pid: int) -> str:
+def resume_hint(pid: int) -> str:
     """A text saying that a process is stopped, and how to resume it."""
     return f"process {pid} is stopped; `kill -CONT {pid}` resumes it"
 
 
 def _topics(info: GraphInfo) -> Iterator[GraphFinding]:
-    publishers = _ends(info.nodes, "publishers")
-    subscribers = _ends(info.nodes, "subscriptions")
+    publishers = _endpoints_by_name(info.nodes, "publishers")
+    subscribers = _endpoints_by_name(info.nodes, "subscriptions")
     for topic in sorted(publishers.keys() | subscribers.keys()):
         if "/_" in topic:
             continue
@@ -74,14 +74,14 @@ def _topics(info: GraphInfo) -> Iterator[GraphFinding]:
 
 def _services(nodes: list[NodeInfo]) -> Iterator[GraphFinding]:
     for given, taken, what in (("services", "clients", "serves"), ("action_servers", "action_clients", "executes")):
-        gives, takes = _ends(nodes, given), _ends(nodes, taken)
+        gives, takes = _endpoints_by_name(nodes, given), _endpoints_by_name(nodes, taken)
         for name in sorted(takes.keys() - gives.keys()):
             yield GraphFinding(name, f"nobody {what} {name}, which {_list(takes[name])} asks for", True)
         for name in sorted(each for each, servers in gives.items() if len(servers) > 1):
             yield GraphFinding(name, f"{_number(len(gives[name]))} servers of {name}: {_list(gives[name])}", True)
 
 
-def _alone(nodes: list[NodeInfo]) -> Iterator[GraphFinding]:
+def _isolated_nodes(nodes: list[NodeInfo]) -> Iterator[GraphFinding]:
     for node in nodes:
         ends = (*node.publishers, *node.subscriptions, *node.clients, *node.action_servers, *node.action_clients)
         services = [each for each in node.services if not each.name.startswith(f"{node.name}/")]
@@ -89,13 +89,13 @@ def _alone(nodes: list[NodeInfo]) -> Iterator[GraphFinding]:
             yield GraphFinding(node.name, f"{node.name} publishes, subscribes to and serves nothing")
 
 
-def _same_named(nodes: list[NodeInfo]) -> Iterator[GraphFinding]:
+def _duplicate_names(nodes: list[NodeInfo]) -> Iterator[GraphFinding]:
     for node in nodes:
         if node.copies > 1:
-            yield GraphFinding(node.name, same_named(node), True)
+            yield GraphFinding(node.name, duplicate_name_text(node), True)
 
 
-def same_named(node: NodeInfo) -> str:
+def duplicate_name_text(node: NodeInfo) -> str:
     """A message saying that several nodes share this name, and what follows from it."""
     return (
         f"{_number(node.copies)} nodes are called {node.name}: values shown and set may belong to any of them; "
@@ -103,7 +103,7 @@ def same_named(node: NodeInfo) -> str:
     )
 
 
-def _ends(nodes: list[NodeInfo] | tuple[NodeInfo, ...], kind: str) -> dict[str, dict[str, Endpoint]]:
+def _endpoints_by_name(nodes: list[NodeInfo] | tuple[NodeInfo, ...], kind: str) -> dict[str, dict[str, Endpoint]]:
     """The endpoints of one kind, by name and then by node."""
     found: dict[str, dict[str, Endpoint]] = {}
     for node in nodes:

@@ -35,8 +35,8 @@ class Observer:
         """`make` returns another node like the given one, and a function that destroys it."""
         self.node = node
         self._first = node
-        self._make = make or _another
-        self._end: Callable[[], None] = _nothing
+        self._make = make or _new_participant
+        self._end: Callable[[], None] = _do_nothing
         self._next: tuple[Node, Callable[[], None]] | None = None
         self._polls = 0
         self._nameless = 0
@@ -81,7 +81,7 @@ def _unnamed(node: Node) -> int:
     return sum(each.node_name == UNNAMED for each in node.get_publishers_info_by_topic(TOPIC))
 
 
-def _another(like: Node) -> tuple[Node, Callable[[], None]]:
+def _new_participant(like: Node) -> tuple[Node, Callable[[], None]]:
     """Create a node with its own context, and so its own participant."""
     context = Context()
     rclpy.init(args=[], context=context, domain_id=like.context.get_domain_id())
@@ -96,5 +96,5 @@ def _another(like: Node) -> tuple[Node, Callable[[], None]]:
     return node, end
 
 
-def _nothing() -> None:
+def _do_nothing() -> None:
     """Stand-in for destroying a node that was not created here."""

@@ -46,7 +46,7 @@ class UnheardPairs:
         for name in nodes.keys() | self._nodes.keys():
             before, now = self._nodes.get(name), nodes.get(name)
             if before is not now:
-                touched |= self._moved(name, _ends(before), _ends(now))
+                touched |= self._update_endpoints(name, _endpoints_of(before), _endpoints_of(now))
         self._nodes = nodes
         incompatible = {topic: pairs for topic, pairs in self.incompatible.items() if topic not in touched}
         for topic in touched:
@@ -66,7 +66,9 @@ class UnheardPairs:
         if found != self.found:
             self.found = found
 
-    def _moved(self, node: str, before: set[tuple[bool, Endpoint]], now: set[tuple[bool, Endpoint]]) -> set[str]:
+    def _update_endpoints(
+        self, node: str, before: set[tuple[bool, Endpoint]], now: set[tuple[bool, Endpoint]]
+    ) -> set[str]:
         """Update a node's endpoints; returns the topics whose endpoints have changed."""
         for publishes, each in before - now:
             self._ends[each.name].discard((publishes, node))
@@ -82,7 +84,7 @@ def _differences(
     if len({hash_of(each) for each in (*publishers, *subscriptions)} - {""}) < 2:
         return ()
     pairs = ((one, other) for one in publishers for other in subscriptions)
-    return tuple(dict.fromkeys(text for one, other in pairs if (text := otherwise_defined(topic, one, other))))
+    return tuple(dict.fromkeys(text for one, other in pairs if (text := definition_mismatch(topic, one, other))))
 
 
 def _incompatible(
@@ -113,10 +115,10 @@ def why_incompatible(offered: Any, requested: Any) -> str:
     if get_rmw_implementation_identifier() == RMW_ZENOH:
         return ""
     verdict, why = qos_check_compatible(offered, requested)
-    return _words(why) if verdict == QoSCompatibility.ERROR else ""
+    return _reason_text(why) if verdict == QoSCompatibility.ERROR else ""
 
 
-def _ends(node: NodeInfo | None) -> set[tuple[bool, Endpoint]]:
+def _endpoints_of(node: NodeInfo | None) -> set[tuple[bool, Endpoint]]:
     """The endpoints by which a node publishes (True) and subscribes (False)."""
     if node is None:
         return set()
@@ -142,13 +144,13 @@ def _pair(topic: str, publisher: TopicEndpointInfo, subscription: TopicEndpointI
     one, other = node_name_of(publisher), node_name_of(subscription)
     if publisher.topic_type != subscription.topic_type:
         return f"{topic}: {one} publishes {publisher.topic_type}, {other} expects {subscription.topic_type}: rename one"
-    if text := otherwise_defined(topic, publisher, subscription):
+    if text := definition_mismatch(topic, publisher, subscription):
         return text
     why = why_incompatible(publisher.qos_profile, subscription.qos_profile)
     return f"{topic}: {other} receives nothing from {one}: {why}; change the QoS of one of them" if why else ""
 
 
-def otherwise_defined(topic: str, publisher: TopicEndpointInfo, subscription: TopicEndpointInfo) -> str:
+def definition_mismatch(topic: str, publisher: TopicEndpointInfo, subscription: TopicEndpointInfo) -> str:
     """A text if the two endpoints define the same type differently, which ROS does not report; else empty."""
     hashes = {hash_of(publisher), hash_of(subscription)} - {""}
     if _hidden(publisher) or _hidden(subscription) or len(hashes) < 2:
@@ -161,7 +163,7 @@ def otherwise_defined(topic: str, publisher: TopicEndpointInfo, subscription: To
     )
 
 
-def _words(why: str) -> str:
+def _reason_text(why: str) -> str:
     """The reasons that rclpy gives, less emphatic: `best effort publisher and reliable subscription`."""
     reasons = (each.strip().removeprefix("ERROR: ") for each in why.split(";"))
     return ", ".join(each[0].lower() + each[1:] for each in reasons if each)

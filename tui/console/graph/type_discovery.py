@@ -58,8 +58,8 @@ class TypeDiscovery:
             return
         nodes = {each.name for each in graph.nodes}
         self._asked = {each for each in self._asked if each[1] in nodes}
-        for type_name in dict.fromkeys(_used(graph)):
-            if type_name not in self._waiting and not self._is_here(type_name):
+        for type_name in dict.fromkeys(_used_types(graph)):
+            if type_name not in self._waiting and not self._is_available(type_name):
                 self._waiting.append(type_name)
         if self._waiting and not self._busy:
             self._busy = True
@@ -70,7 +70,7 @@ class TypeDiscovery:
         why = self._why.get(type_name)
         return f"the type {type_name} is not known here: {why}" if why else otherwise
 
-    def _is_here(self, type_name: str) -> bool:
+    def _is_available(self, type_name: str) -> bool:
         if type_name not in self._here:
             package, _, rest = type_name.partition("/")
             if package not in self._missing and importlib.util.find_spec(package) is None:
@@ -121,7 +121,7 @@ class TypeDiscovery:
             self._calls.forget(service)
 
 
-def _used(graph: GraphInfo) -> Iterator[str]:
+def _used_types(graph: GraphInfo) -> Iterator[str]:
     """The types of topics and services; for the parts of an action, the action."""
     for each in (*graph.topics, *graph.services):
         for type_name in each.types:

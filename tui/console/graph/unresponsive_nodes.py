@@ -28,7 +28,7 @@ MAX_REQUESTS_PER_POLL = 25
 """Requests per poll; if there are more nodes, each is asked less often."""
 
 
-class _Asked:
+class _PolledNode:
     """A node and the last request sent to it."""
 
     def __init__(self, client: Any) -> None:
@@ -45,7 +45,7 @@ class _Asked:
         return self.answer is not None and not self.answer.done()
 
 
-class SilentNodes:
+class UnresponsiveNodes:
     """Asks the nodes of the graph, at most once a second and only while somebody is viewing them.
 
     `changed` receives the names of the nodes that do not respond. All methods are called by the executor's thread.
@@ -55,7 +55,7 @@ class SilentNodes:
         self._node = node
         self._changed = changed
         self._timer: Any = None
-        self._nodes: dict[str, _Asked] = {}
+        self._nodes: dict[str, _PolledNode] = {}
         self._silent: frozenset[str] = frozenset()
 
     def poll(self, on: bool, graph: GraphInfo) -> None:
@@ -74,7 +74,7 @@ class SilentNodes:
         for name in self._nodes.keys() - asked:
             self._node.destroy_client(self._nodes.pop(name).client)
         for name in sorted(asked - self._nodes.keys()):
-            self._nodes[name] = _Asked(self._node.create_client(GetParameterTypes, f"{name}/{SERVICE}"))
+            self._nodes[name] = _PolledNode(self._node.create_client(GetParameterTypes, f"{name}/{SERVICE}"))
         self._report(self._silent & asked)
 
     def tick(self) -> None:
@@ -103,7 +103,7 @@ class SilentNodes:
         asked.answer = answer
         answer.add_done_callback(partial(self._answered, name, asked))
 
-    def _answered(self, name: str, asked: _Asked, answer: Future[Any]) -> None:
+    def _answered(self, name: str, asked: _PolledNode, answer: Future[Any]) -> None:
         if answer is asked.answer:
             asked.polls, asked.lives = 0, True
             self._report(self._silent - {name})

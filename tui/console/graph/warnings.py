@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Hashable, Iterator
 
-from bot_console.tui.console.graph.findings import finding_hint, same_named
+from bot_console.tui.console.graph.findings import duplicate_name_text, resume_hint
 from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.model import GraphInfo, NodeInfo, Severity
 from bot_console.tui.console.robot.command_topics import command_types_of
@@ -32,15 +32,15 @@ class GraphWarnings:
 def warnings(graph: GraphInfo) -> Iterator[tuple[Hashable, str]]:
     """The warnings that apply to a graph, each with a unique key."""
     for node, pid in graph.frozen:
-        yield ("frozen", node, pid), f"{node} is frozen: {finding_hint(pid)}"
+        yield ("frozen", node, pid), f"{node} is frozen: {resume_hint(pid)}"
     for node in graph.nodes:
         if node.copies > 1 and not node.hidden:
-            yield ("namesakes", node.name), same_named(node)
+            yield ("namesakes", node.name), duplicate_name_text(node)
     for topic, nodes in _rivals(graph):
-        yield ("rivals", topic, nodes), rivals(topic, nodes)
+        yield ("rivals", topic, nodes), rivals_text(topic, nodes)
 
 
-def rivals(topic: str, nodes: tuple[str, ...]) -> str:
+def rivals_text(topic: str, nodes: tuple[str, ...]) -> str:
     """A message saying that several nodes publish the same velocity topic, and what follows from it."""
     return (
         f"{topic} is published by {', '.join(nodes[:-1])} and {nodes[-1]}: the newest command wins, and the "

@@ -11,7 +11,7 @@ from typing import Any
 from bot_console.tui.console.graph.full_name import full_node_name
 from bot_console.tui.console.graph.observer import Observer
 from bot_console.tui.console.graph.pairs import UnheardPairs
-from bot_console.tui.console.graph.unresponsive_nodes import SilentNodes
+from bot_console.tui.console.graph.unresponsive_nodes import UnresponsiveNodes
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from rclpy.node import Node
 
@@ -80,8 +80,8 @@ class GraphWatch:
         self._reported = events is not None
         self._asks_nodes = foreign or events is None
         self._unheard = UnheardPairs(self._observer)
-        self._silence = SilentNodes(node, self._silent_are)
-        self._end = events(node.context.get_domain_id(), self._news.append) if events else _nothing
+        self._silence = UnresponsiveNodes(node, self._set_silent_nodes)
+        self._end = events(node.context.get_domain_id(), self._news.append) if events else _do_nothing
         node.create_timer(GRAPH_POLL_S, self._tick)
 
     def _tick(self) -> None:
@@ -119,7 +119,8 @@ class GraphWatch:
         profiles = Profiles(node)
         owners = Counter(node.get_node_names_and_namespaces())
         nodes = {
-            owner: _copied(known.get(owner) or self._inspect(owner, profiles), count) for owner, count in owners.items()
+            owner: _with_copies(known.get(owner) or self._inspect(owner, profiles), count)
+            for owner, count in owners.items()
         }
         different = [each for each in nodes.keys() | self._nodes.keys() if nodes.get(each) is not self._nodes.get(each)]
         if self._reported and not different:
@@ -148,12 +149,12 @@ class GraphWatch:
         if self._asks_nodes:
             self._silence.poll(on, self.info)
 
-    def lifecycle_is(self, states: Mapping[str, str]) -> None:
+    def set_lifecycle_states(self, states: Mapping[str, str]) -> None:
         """Set the states of lifecycle nodes."""
         self.info = replace(self.info, lifecycle=states)
         self._changed(self.info)
 
-    def _silent_are(self, nodes: tuple[str, ...]) -> None:
+    def _set_silent_nodes(self, nodes: tuple[str, ...]) -> None:
         self.info = replace(self.info, silent=nodes)
         self._changed(self.info)
 
@@ -181,8 +182,8 @@ class GraphWatch:
         """Query a node; returns its answer and description, the same object as before if the answer is unchanged."""
         answer, known = self._ask(*owner), self._nodes.get(owner)
         if known is None:
-            return answer, _described(owner, answer, NodeInfo(""), profiles)
-        return known if known[0] == answer else (answer, _described(owner, answer, known[1], profiles))
+            return answer, _describe(owner, answer, NodeInfo(""), profiles)
+        return known if known[0] == answer else (answer, _describe(owner, answer, known[1], profiles))
 
     def _ask(self, name: str, space: str) -> Answer:
         node = self._observer.node
@@ -199,7 +200,7 @@ class GraphWatch:
         return publishers, subscriptions, services, clients
 
 
-def _copied(described: tuple[Answer, NodeInfo], copies: int) -> tuple[Answer, NodeInfo]:
+def _with_copies(described: tuple[Answer, NodeInfo], copies: int) -> tuple[Answer, NodeInfo]:
     """A node with the number of nodes that share its name; the same object if that number is unchanged."""
     answer, info = described
     return described if info.copies == copies else (answer, replace(info, copies=copies))
@@ -232,7 +233,7 @@ class Profiles:
         return self._found[key].get(owner, "")
 
 
-def _described(owner: Owner, answer: Answer, before: NodeInfo, profiles: Profiles) -> NodeInfo:
+def _describe(owner: Owner, answer: Answer, before: NodeInfo, profiles: Profiles) -> NodeInfo:
     """The description of a node from its answer; endpoints that it already had keep their profiles."""
     publishers, subscriptions, services, clients = answer
     name, space = owner
@@ -269,7 +270,7 @@ def _name(named: NodeInfo | Endpoint) -> str:
     return named.name
 
 
-def _nothing() -> None:
+def _do_nothing() -> None:
     """Stand-in for unsubscribing when there are no events."""
 
 

@@ -29,19 +29,19 @@ def fault_text(
     causes = list(_causes(error))
     error = causes[-1]
     if isinstance(error, SyntaxError) and error.filename:
-        return _at((error.filename, error.lineno), f"syntax error: {error.msg}")
+        return _with_place((error.filename, error.lineno), f"syntax error: {error.msg}")
     own = _user_line(error)
     if isinstance(error, RecursionError):
-        return _at(own or _include_line(causes) or (path, None), ENDLESS)
-    place = own or _reported(causes, file_of) or (path, _parsers_line(error) if reading else None)
+        return _with_place(own or _include_line(causes) or (path, None), ENDLESS)
+    place = own or _recorded_place(causes, file_of) or (path, _parser_line(error) if reading else None)
     named = own and not _is_missing_package(error)
-    return _at(place, f"{type(error).__name__}: {error}" if named else _text(error))
+    return _with_place(place, f"{type(error).__name__}: {error}" if named else _text(error))
 
 
 def _text(error: BaseException) -> str:
     """The message of an error raised by launch or a parser."""
     if _is_missing_package(error):
-        return _no_package(str(error.args[0]))
+        return _missing_package_text(str(error.args[0]))
     if isinstance(error, OSError) and error.strerror:
         return error.strerror
     problem = getattr(error, "problem", None)  # set by a YAML parser
@@ -55,7 +55,7 @@ def _is_missing_package(error: BaseException) -> bool:
     return isinstance(error, PackageNotFoundError) and bool(error.args)
 
 
-def _no_package(message: str) -> str:
+def _missing_package_text(message: str) -> str:
     """The message for a package that was not found, with a remedy."""
     from ament_index_python.packages import get_packages_with_prefixes
 
@@ -67,7 +67,7 @@ def _no_package(message: str) -> str:
     )
 
 
-def _at(place: Place, text: str) -> str:
+def _with_place(place: Place, text: str) -> str:
     file, line = place
     return f"{file}, line {line}: {text}" if line else f"{file}: {text}"
 
@@ -92,7 +92,7 @@ def _user_line(error: BaseException) -> Place | None:
     return lines[-1] if lines else None
 
 
-def _parsers_line(error: BaseException) -> int | None:
+def _parser_line(error: BaseException) -> int | None:
     """The line at which a YAML or XML parser stopped."""
     mark: Any = getattr(error, "problem_mark", None)
     position: Any = getattr(error, "position", None)
@@ -101,11 +101,11 @@ def _parsers_line(error: BaseException) -> int | None:
     return None if position is None else position[0]
 
 
-def _reported(causes: Sequence[BaseException], file_of: Callable[[Any], str]) -> Place | None:
+def _recorded_place(causes: Sequence[BaseException], file_of: Callable[[Any], str]) -> Place | None:
     """The place that launch recorded on the innermost error; a line in a library is replaced by the launch file that
     caused it.
     """
-    for reported in _all_causes(reversed(causes)):
+    for reported in _launch_places(reversed(causes)):
         if reported.file and not (reported.entity is not None and reported.file.startswith(library_folders())):
             return reported.file, reported.line
         file = "" if reported.entity is None else file_of(reported.entity)
@@ -116,9 +116,9 @@ def _reported(causes: Sequence[BaseException], file_of: Callable[[Any], str]) ->
 
 def _include_line(causes: Sequence[BaseException]) -> Place | None:
     """The line of the include that was being executed."""
-    return next(((reported.file, reported.line) for reported in _all_causes(causes) if reported.line), None)
+    return next(((reported.file, reported.line) for reported in _launch_places(causes) if reported.line), None)
 
 
-def _all_causes(errors: Iterable[BaseException]) -> Iterator[Any]:
+def _launch_places(errors: Iterable[BaseException]) -> Iterator[Any]:
     """The `launch.launch_place.LaunchPlace` of each error that has one."""
     return (each for each in (getattr(error, "launch_place", None) for error in errors) if each is not None)

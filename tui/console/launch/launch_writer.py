@@ -127,7 +127,7 @@ class Start:
 
 def found_starts(system: RunningSystem) -> tuple[list[Start], list[NodeInfo]]:
     """The programs of a system, and the nodes whose programs are not known."""
-    starts = [*_launched(system)]
+    starts = [*_launched_programs(system)]
     covered = {node for each in starts for node in each.nodes}
     launched = {each.pid for each in system.launch.processes}
     for pid, nodes in sorted(system.processes.items()):
@@ -145,7 +145,7 @@ def found_starts(system: RunningSystem) -> tuple[list[Start], list[NodeInfo]]:
     return starts, rest
 
 
-def _launched(system: RunningSystem) -> Iterator[Start]:
+def _launched_programs(system: RunningSystem) -> Iterator[Start]:
     there = {each.name for each in system.graph.nodes}
     for each in system.launch.processes:
         if each.program is None or each.state not in ALIVE:
@@ -225,7 +225,7 @@ def _start_text(
     comments = [] if start.nodes else ["UNKNOWN: the names of its nodes"]
     comments += [f"{node}: {why}" for node in start.nodes for why in _remarks(about.get(node), node in trees)]
     if not parameter_file or not start.nodes or any(node not in trees for node in start.nodes):
-        others += _lasting(ros.parameters)
+        others += _without_temporary_files(ros.parameters)
     arguments = {
         "package": program.package or None,
         "executable": executable,
@@ -242,7 +242,7 @@ def _start_text(
     return "".join(f"            # {_plain(each)}\n" for each in comments) + _call("Node", arguments)
 
 
-def _lasting(words: Sequence[str]) -> Iterator[str]:
+def _without_temporary_files(words: Sequence[str]) -> Iterator[str]:
     """The parameter options of a command line, without the files that launch creates and removes."""
     for option, value in zip(words[::2], words[1::2], strict=True):
         if not os.path.basename(value).startswith(WRITTEN_BY_LAUNCH):

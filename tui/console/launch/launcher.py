@@ -19,7 +19,7 @@ from bot_console.tui.console.launch.restart_policy import DEFAULT_RESTARTS, Rest
 from bot_console.tui.console.launch.restart_recipe import Recipe, recipe
 from bot_console.tui.console.launch.run import LaunchRun, Listener
 from bot_console.tui.console.launch.timeline import LaunchTimeline
-from bot_console.tui.console.launch.title import argument_line, title_of, unused
+from bot_console.tui.console.launch.title import argument_line, title_of, unique_title
 from bot_console.tui.console.launch.vitals import HANGS, FindVitals, Usage, Vitals
 from bot_console.tui.console.model import (
     LaunchArgument,
@@ -48,7 +48,7 @@ class Joinable(Protocol):
         ...
 
 
-class _Held:
+class _ProcessEntry:
     """A launched process with its action, its run, and its monitors."""
 
     def __init__(self, process: LaunchedProcess, run: LaunchRun, action: Any, made_from: Recipe) -> None:
@@ -94,8 +94,8 @@ class RosLauncher(ProcessVerbs):
             self._started, self._output, self._exited, self._missing, self._over, self._ending, self._fault
         )
         self._lock = threading.RLock()
-        self._held: dict[str, _Held] = {}
-        self._by_action: dict[Any, _Held] = {}
+        self._entries: dict[str, _ProcessEntry] = {}
+        self._by_action: dict[Any, _ProcessEntry] = {}
         self._runs: dict[LaunchRun, Joinable | None] = {}
         self._unanswered: dict[LaunchRun, Future[Answer]] = {}
         self._files: list[str] = []
@@ -111,7 +111,7 @@ class RosLauncher(ProcessVerbs):
             self._poll()
             if self._dirty:
                 self._dirty = False
-                processes = tuple(each.process.info for each in self._held.values())
+                processes = tuple(each.process.info for each in self._entries.values())
                 events = self._timeline.events
                 self._info = LaunchInfo(tuple(self._files), processes, events, self._problem, self._delayed)
             return self._info
@@ -122,27 +122,27 @@ class RosLauncher(ProcessVerbs):
         delayed = sum(run.delayed_starts for run in self._runs)
         self._dirty |= delayed != self._delayed
         self._delayed = delayed
-        for held in self._held.values():
-            info = held.process.info
-            if held.output is not None and held.process.alive:
-                held.output.settle()
-            if not self._closed and (order := held.process.due()) is not Order.NOTHING:
+        for entry in self._entries.values():
+            info = entry.process.info
+            if entry.output is not None and entry.process.alive:
+                entry.output.settle()
+            if not self._closed and (order := entry.process.due()) is not Order.NOTHING:
                 self._report(f"{info.label} is restarted after it has failed")
-                self._order(held, order)
-            if held.usage is not None and held.process.alive:
-                self._inspect(held, held.usage, now)
-            elif held.vitals is not None and info.exit_code == KILLED and info.state is not ProcessState.ABANDONED:
-                where = held.vitals.hangs_in() if info.state in ENDED else ""
+                self._order(entry, order)
+            if entry.usage is not None and entry.process.alive:
+                self._inspect(entry, entry.usage, now)
+            elif entry.vitals is not None and info.exit_code == KILLED and info.state is not ProcessState.ABANDONED:
+                where = entry.vitals.hangs_in() if info.state in ENDED else ""
                 if where:
-                    held.process.abandoned(where)
+                    entry.process.abandoned(where)
                     self._report(f"{info.label} is abandoned: {where}", Severity.WARN)
 
-    def _inspect(self, held: _Held, usage: Usage, now: float) -> None:
+    def _inspect(self, entry: _ProcessEntry, usage: Usage, now: float) -> None:
         before = usage.busy_s
         usage.poll(now)
-        self._dirty |= held.process.uses(usage.share, usage.memory)
-        label = held.process.info.label
-        if held.process.stands(usage.stands):
+        self._dirty |= entry.process.uses(usage.share, usage.memory)
+        label = entry.process.info.label
+        if entry.process.stands(usage.stands):
             self._dirty = True
             if usage.stands.startswith(HANGS):
                 self._report(f"{label} {usage.stands}", Severity.WARN)
@@ -172,8 +172,8 @@ class RosLauncher(ProcessVerbs):
             self._files.append(path)
             self._problem = ""
             self._report(argument_line(path, given))
-            shown = {each.title for each in self._runs} | {each.run.title for each in self._held.values()}
-            run = LaunchRun(unused(title_of(path, given), shown), self._listener)
+            shown = {each.title for each in self._runs} | {each.run.title for each in self._entries.values()}
+            run = LaunchRun(unique_title(title_of(path, given), shown), self._listener)
             run.path = path
             self._unanswered[run] = outcome
             self._begin(run, lambda: run.run_file(path, given))
@@ -198,155 +198,157 @@ class RosLauncher(ProcessVerbs):
                     self._printed(Severity.ERROR, "launch", problem)
             else:
                 self._report(f"{run.title} has ended")
-            for held in [each for each in self._held.values() if each.run is run]:
-                self._left_over(held, "" if run.has_begun else problem)
+            for entry in [each for each in self._entries.values() if each.run is run]:
+                self._run_ended(entry, "" if run.has_begun else problem)
         if of_file is not None:
             of_file.set_result(Answer(not problem, problem or f"{run.title} has ended"))
 
-    def _left_over(self, held: _Held, why: str) -> None:
+    def _run_ended(self, entry: _ProcessEntry, why: str) -> None:
         """Record that the run of a process is over; when started again, the process gets a separate run.
 
         `why` says why the run could not begin; empty if it could.
         """
-        if held.process.info.state is ProcessState.STARTING and not self._closed and not why:
-            self._order(held, Order.START)
+        if entry.process.info.state is ProcessState.STARTING and not self._closed and not why:
+            self._order(entry, Order.START)
         else:
-            self._ended(held, why)
+            self._ended(entry, why)
 
     def _want(self, verb: str, key: str) -> Future[Answer]:
         with self._lock:
-            held = self._held.get(key)
-            if held is None or self._closed:
+            entry = self._entries.get(key)
+            if entry is None or self._closed:
                 return done(Answer(False, CLOSED if self._closed else f"there is no process {key}"))
-            before = held.process.info
-            order, outcome = held.process.want(verb)
-            if held.process.info is not before or order is not Order.NOTHING:
+            before = entry.process.info
+            order, outcome = entry.process.want(verb)
+            if entry.process.info is not before or order is not Order.NOTHING:
                 self._report(f"{verb.replace('_', ' ')} {before.label}")
-            self._order(held, order)
+            self._order(entry, order)
         return outcome
 
-    def _order(self, held: _Held, order: Order) -> None:
+    def _order(self, entry: _ProcessEntry, order: Order) -> None:
         from launch.events import matches_action
         from launch.events.process import ShutdownProcess, SignalProcess
 
         if order is Order.START:
-            self._start(held)
-        elif held.action is None:
+            self._start(entry)
+        elif entry.action is None:
             return  # not executed yet: the process is ended as soon as it has started
         elif order is Order.KILL:
-            held.run.emit(SignalProcess(signal_number="SIGKILL", process_matcher=matches_action(held.action)))
+            entry.run.emit(SignalProcess(signal_number="SIGKILL", process_matcher=matches_action(entry.action)))
         elif order is Order.SHUT_DOWN:
-            held.run.emit(ShutdownProcess(process_matcher=matches_action(held.action)))
+            entry.run.emit(ShutdownProcess(process_matcher=matches_action(entry.action)))
 
-    def _start(self, held: _Held) -> None:
-        self._by_action.pop(held.action, None)
-        held.action = None
+    def _start(self, entry: _ProcessEntry) -> None:
+        self._by_action.pop(entry.action, None)
+        entry.action = None
 
         def make() -> Any:
-            action = held.recipe.action()
+            action = entry.recipe.action()
             with self._lock:
-                held.action = action
-                self._by_action[action] = held
+                entry.action = action
+                self._by_action[action] = entry
             return action
 
         def failed(why: str) -> None:
-            self._ended(held, why)
+            self._ended(entry, why)
 
-        if held.run.ending:  # another run of the same file may already exist, for processes that were restarted earlier
-            held.run = next((run for run in self._runs if run.title == held.run.title and not run.ending), held.run)
-        if not held.run.ending:
-            held.run.start(make, failed)
+        if entry.run.ending:  # another run of the same file may exist, for processes that were restarted earlier
+            entry.run = next((run for run in self._runs if run.title == entry.run.title and not run.ending), entry.run)
+        if not entry.run.ending:
+            entry.run.start(make, failed)
             return
-        file, run = held.run.path, LaunchRun(held.run.title, self._listener)
-        run.path, held.run = file, run
+        file, run = entry.run.path, LaunchRun(entry.run.title, self._listener)
+        run.path, entry.run = file, run
         self._begin(run, lambda: run.run_action(make, failed))
 
     def _started(self, run: LaunchRun, event: ProcessStarted, context: LaunchContext) -> None:
         nodes = _node_names(event.action)
         vitals = self._find_vitals(event.pid)
         with self._lock:
-            held = self._by_action.get(event.action) or self._found(run, event, context)
-            held.vitals, held.usage = vitals, Usage(vitals, time.monotonic()) if vitals else None
-            held.output = ProcessOutput(event.process_name, self._record, self._printed, self._heard, self._every)
-            order = held.process.started(event.process_name, event.pid, nodes)
-            info = held.process.info
+            entry = self._by_action.get(event.action) or self._add_process(run, event, context)
+            entry.vitals, entry.usage = vitals, Usage(vitals, time.monotonic()) if vitals else None
+            entry.output = ProcessOutput(event.process_name, self._record, self._printed, self._heard, self._every)
+            order = entry.process.started(event.process_name, event.pid, nodes)
+            info = entry.process.info
             again, pid = f" again ({info.restarts})" if info.restarts else "", f", pid {info.pid}" if info.pid else ""
             self._report(f"{info.label} started{again}{pid}")
-            self._order(held, order)
+            self._order(entry, order)
             outcome = self._unanswered.pop(run, None)
         if outcome is not None:
             outcome.set_result(Answer(True, f"{run.title} runs"))
 
-    def _found(self, run: LaunchRun, event: ProcessStarted, context: LaunchContext) -> _Held:
+    def _add_process(self, run: LaunchRun, event: ProcessStarted, context: LaunchContext) -> _ProcessEntry:
         """Add a process that has started for the first time."""
-        key = f"{event.process_name}@{len(self._held)}"
+        key = f"{event.process_name}@{len(self._entries)}"
         place = run.tree.place(event.action, context)
         made_from = recipe(event, context)
         process = LaunchedProcess(
             key, event.process_name, place, made_from.program, policy=self._policy, restarts=self._restarts
         )
-        held = _Held(process, run, event.action, made_from)
-        self._held[key] = self._by_action[event.action] = held
+        entry = _ProcessEntry(process, run, event.action, made_from)
+        self._entries[key] = self._by_action[event.action] = entry
         if self._closed or run.ending:
             process.exit_requested()
-        return held
+        return entry
 
     def _output(self, event: Any) -> None:
-        held = self._by_action.get(event.action)
-        if held is not None and held.output is not None:
+        entry = self._by_action.get(event.action)
+        if entry is not None and entry.output is not None:
             text = event.text.decode("utf-8", "replace") if isinstance(event.text, bytes) else event.text
-            held.output.feed(text, stderr=event.from_stderr)
+            entry.output.feed(text, stderr=event.from_stderr)
 
     def _exited(self, event: ProcessExited) -> None:
         with self._lock:
-            held = self._by_action.get(event.action)
-            if held is None:
+            entry = self._by_action.get(event.action)
+            if entry is None:
                 return
-            if held.output is not None:
-                held.output.close()
+            if entry.output is not None:
+                entry.output.close()
             future = event.action.get_asyncio_future()
             respawns = future is not None and not future.done()
-            order = held.process.exited(event.returncode, respawns, held.output.fault if held.output else "")
-            held.usage = None
-            bad = held.process.info.state is ProcessState.CRASHED or held.process.info.problem
-            text = f"{held.process.info.label} ended, exit code {event.returncode}"
+            order = entry.process.exited(event.returncode, respawns, entry.output.fault if entry.output else "")
+            entry.usage = None
+            bad = entry.process.info.state is ProcessState.CRASHED or entry.process.info.problem
+            text = f"{entry.process.info.label} ended, exit code {event.returncode}"
             self._report(text, Severity.ERROR if bad else Severity.INFO)
-            self._order(held, order)
+            self._order(entry, order)
 
     def _missing(self, run: LaunchRun, event: Any, context: LaunchContext) -> None:
         label = f"{event.package}/{event.executable}"
         with self._lock:
-            key = f"{label}@{len(self._held)}"
+            key = f"{label}@{len(self._entries)}"
             process = LaunchedProcess(key, label, run.tree.place(event.action, context))
             process.missing(event.reason)
-            self._held[key] = _Held(process, run, None, Recipe([], label, {}, "", is_node=True, package=event.package))
+            self._entries[key] = _ProcessEntry(
+                process, run, None, Recipe([], label, {}, "", is_node=True, package=event.package)
+            )
             self._report(f"{label} is missing: {event.reason}", Severity.WARN)
 
     def _over(self, action: Any) -> None:
         with self._lock:
-            held = self._by_action.get(action)
-            if held is not None:
-                self._ended(held)
+            entry = self._by_action.get(action)
+            if entry is not None:
+                self._ended(entry)
 
-    def _ended(self, held: _Held, why: str = "") -> None:
+    def _ended(self, entry: _ProcessEntry, why: str = "") -> None:
         """Record that a process has ended and that launch will not start it again."""
         with self._lock:
-            before = held.process.info
-            order = held.process.over(why)
-            if held.process.info is not before:
-                self._report(f"{before.label}: {held.process.info.problem or 'has ended'}")
-            self._order(held, order)
+            before = entry.process.info
+            order = entry.process.over(why)
+            if entry.process.info is not before:
+                self._report(f"{before.label}: {entry.process.info.problem or 'has ended'}")
+            self._order(entry, order)
 
     def _ending(self, run: LaunchRun, reason: str) -> None:
         with self._lock:
             if reason not in ("", "idle"):
                 self._report(f"{run.title} ends: {reason}")
-                for held in self._held.values():
-                    if held.run is run:
-                        held.process.forget_restart()
-            for held in self._held.values():
-                if held.run is run and held.process.alive:
-                    held.process.exit_requested()
+                for entry in self._entries.values():
+                    if entry.run is run:
+                        entry.process.forget_restart()
+            for entry in self._entries.values():
+                if entry.run is run and entry.process.alive:
+                    entry.process.exit_requested()
 
     def _fault(self, error: Exception) -> None:
         self._printed(Severity.ERROR, "bot-console", f"the launch pane could not process an event: {error!r}")
@@ -363,16 +365,16 @@ class RosLauncher(ProcessVerbs):
             runs = list(self._runs.items())
         for run, _ in runs:
             run.shut_down()
-        if _joined([thread for _, thread in runs], timeout_s):
+        if _join_all([thread for _, thread in runs], timeout_s):
             return
         with self._lock:
-            for held in self._held.values():
-                if held.process.alive:
-                    self._order(held, Order.KILL)
-        _joined([thread for _, thread in runs], KILLED_TIMEOUT_S)
+            for entry in self._entries.values():
+                if entry.process.alive:
+                    self._order(entry, Order.KILL)
+        _join_all([thread for _, thread in runs], KILLED_TIMEOUT_S)
 
 
-def _joined(threads: Sequence[Joinable | None], timeout_s: float) -> bool:
+def _join_all(threads: Sequence[Joinable | None], timeout_s: float) -> bool:
     """Wait for these threads, at most `timeout_s` in total; returns whether all have ended."""
     deadline = time.monotonic() + timeout_s
     for each in threads:

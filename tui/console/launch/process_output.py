@@ -7,7 +7,7 @@ here: those of a node without `/rosout`, of a logger without a node, or after `r
 
 The mark is a log format, set through the public `RCUTILS_CONSOLE_OUTPUT_FORMAT`; the user's own format stays inside it.
 The embedded rclpy also takes it from `BOT_CONSOLE_LOG_ENVELOPE`, which no launch file overrides, and adds whether the
-line was published on `/rosout`. A real rclpy does not know that field: see `Undecided`.
+line was published on `/rosout`. A real rclpy does not know that field: see `UndecidedLines`.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ Add = Callable[[int, int, str, str, tuple[str, str, int]], None]
 Record = tuple[int, int, str, str, tuple[str, str, int]]
 
 
-def marking(environment: Mapping[str, str]) -> dict[str, str]:
+def marking_variables(environment: Mapping[str, str]) -> dict[str, str]:
     """The variables that make loggers mark their lines; a format in the given environment is kept inside the mark."""
     return {
         ENVELOPE_VARIABLE: ENVELOPE,
@@ -63,7 +63,7 @@ class ProcessOutput:
         """`heard` says whether a line of a logger has arrived over `/rosout`; `every` receives all lines of loggers."""
         self._record = record
         self._every = every
-        self._undecided = Undecided(record, heard)
+        self._undecided = UndecidedLines(record, heard)
         self._streams = {stderr: Printed(label, printed, stderr=stderr) for stderr in (False, True)}
         self._readers = {stderr: OutputReader(self.logged, each.line) for stderr, each in self._streams.items()}
 
@@ -99,7 +99,7 @@ class ProcessOutput:
         self._undecided.settle(ended=True)
 
 
-class Undecided:
+class UndecidedLines:
     """Lines of a real rclpy or rclcpp, which do not say whether they were published on `/rosout`.
 
     A line counts as published if `/rosout` has brought any line of its logger. A logger's first line can arrive here

@@ -92,7 +92,7 @@ class LaunchRun:
                 if self._unwanted:
                     return ""
                 self._service = service
-            begun = OpaqueFunction(function=self._begun)
+            begun = OpaqueFunction(function=self._on_begin)
             service.include_launch_description(LaunchDescription([*self._handlers(), begun, *entities]))
             code = service.run(shutdown_when_idle=True)
         finally:
@@ -103,7 +103,7 @@ class LaunchRun:
             return self.fault(failure)
         return f"{self.path}: {self._reason.removeprefix(CAUGHT)}" if code else ""
 
-    def _begun(self, context: LaunchContext) -> None:
+    def _on_begin(self, context: LaunchContext) -> None:
         """Emit the earlier events; from now on, `emit` passes events to the running loop."""
         with self._lock:
             early, self._early = self._early or [], None
@@ -153,7 +153,7 @@ class LaunchRun:
             OnProcessStart(on_start=sanitize(self._started)),
             OnProcessIO(on_stdout=printed, on_stderr=printed),
             OnProcessExit(on_exit=sanitize(lambda event, context: heard.exited(event))),
-            OnShutdown(on_shutdown=sanitize(self._ends)),
+            OnShutdown(on_shutdown=sanitize(self._on_shutdown)),
         )
         return [RegisterEventHandler(each) for each in handlers]
 
@@ -169,7 +169,7 @@ class LaunchRun:
         if future is not None:
             future.add_done_callback(over)
 
-    def _ends(self, event: Shutdown, context: LaunchContext) -> None:
+    def _on_shutdown(self, event: Shutdown, context: LaunchContext) -> None:
         if self.ending:
             return
         self.ending = True

@@ -24,6 +24,6 @@ def argument_line(path: str, arguments: Mapping[str, str]) -> str:
     return " ".join(["launch", path, *(f"{name}:={value}" for name, value in arguments.items())])
 
 
-def unused(title: str, used: Collection[str]) -> str:
+def unique_title(title: str, used: Collection[str]) -> str:
     """Append a number to a title if another launch in the list has the same one."""
     return next(each for number in count(1) if (each := title if number == 1 else f"{title} ({number})") not in used)

@@ -29,10 +29,10 @@ class NodePlots:
         """Provide the collector, once the system has been reached."""
         self._watch = watch
 
-    def parameter_is(self, node: str, name: str, value: Value) -> None:
+    def record_parameter(self, node: str, name: str, value: Value) -> None:
         """Record a parameter's new value."""
         if self._watch is not None:
-            self._watch.parameter_is(node, name, value)
+            self._watch.record_parameter(node, name, value)
 
     def watch(self, path: str, requester: str = "") -> Answer:
         """Collect a series."""

@@ -84,7 +84,7 @@ class PlotWatch:
         if parameter.kind not in NUMBERS:
             raise NotPlottable(f"{name} is of type {parameter.kind.word}, not a number")
         self._watched[path] = _Watched()
-        self.parameter_is(node, name, parameter.value)
+        self.record_parameter(node, name, parameter.value)
 
     def _watch_topic(self, path: str, graph: GraphInfo) -> None:
         topic, types, rest = _split(path, graph)
@@ -137,7 +137,7 @@ class PlotWatch:
             self._other_clock = self.now() - time
         return time + self._other_clock
 
-    def parameter_is(self, node: str, name: str, value: Value) -> None:
+    def record_parameter(self, node: str, name: str, value: Value) -> None:
         """Record a parameter's new value."""
         watched = self._watched.get(f"{node}:{name}")
         if watched and isinstance(value, (bool, int, float)):

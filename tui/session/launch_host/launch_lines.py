@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 
-from bot_console.tui.console.launch.process_output import marking
+from bot_console.tui.console.launch.process_output import marking_variables
 from bot_console.tui.console.model import Severity
 
 OVERRIDE = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "own_log"}
@@ -17,7 +17,7 @@ LEVELS = {"DEBUG": Severity.DEBUG, "WARNING": Severity.WARN, "ERROR": Severity.E
 
 def launch_variables(environment: Mapping[str, str]) -> dict[str, str]:
     """An environment in which launch writes in the format parsed here."""
-    return {**environment, **OVERRIDE, **marking(environment)}
+    return {**environment, **OVERRIDE, **marking_variables(environment)}
 
 
 def notifier(printed: Callable[[int, str, str], None]) -> Callable[[str], None]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
-from bot_console.tui.console.launch.elsewhere import Elsewhere
+from bot_console.tui.console.launch.external_programs import ExternalPrograms
 from bot_console.tui.console.model import Capabilities, Endpoint, GraphInfo, LaunchInfo, LinkInfo, NodeInfo
 from bot_console.tui.console.node import ConsoleNode
 from bot_console.tui.console.node_ports import NodePorts
@@ -236,7 +236,7 @@ def test_choosing_a_robot_changes_control_and_view_together() -> None:
     ports = NodePorts(
         lambda: DriveNode(context, lambda error: None), Capabilities(), launch_info=LaunchInfo, link=LinkInfo,
         buffer=None, types=None, generic=None, processes=dict,
-        elsewhere=Elsewhere(),
+        external_programs=ExternalPrograms(),
     )  # fmt: skip
     robot = ports.drive.connect()
     console = ConsoleNode(robot, ports)

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from bot_console.tui.console.graph.unresponsive_nodes import MAX_REQUESTS_PER_POLL, SilentNodes
+from bot_console.tui.console.graph.unresponsive_nodes import MAX_REQUESTS_PER_POLL, UnresponsiveNodes
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from rclpy.task import Future
 
@@ -44,7 +44,7 @@ class Bench:
             create_timer=lambda period, tick: self.timers.append(tick) or tick,
             destroy_timer=self.timers.remove,
         )
-        self.watch = SilentNodes(node, lambda silent: setattr(self, "silent", silent))
+        self.watch = UnresponsiveNodes(node, lambda silent: setattr(self, "silent", silent))
 
     def tick(self, times: int = 1, *answering: str) -> None:
         """Poll `times` times; the nodes named respond at once."""

@@ -8,8 +8,8 @@ from bot_console.tui.console.launch.process_output import (
     ROSOUT_TIMEOUT_S,
     OutputReader,
     ProcessOutput,
-    Undecided,
-    marking,
+    UndecidedLines,
+    marking_variables,
 )
 from hypothesis import given
 from hypothesis import strategies as st
@@ -93,7 +93,7 @@ def test_only_lines_missing_from_rosout_are_added() -> None:
 
 def test_a_real_loggers_line_is_added_if_rosout_never_brings_that_logger() -> None:
     now, heard, taken = [0.0], {"n"}, []
-    undecided = Undecided(lambda *record: taken.append(record[2]), heard.__contains__, lambda: now[0])
+    undecided = UndecidedLines(lambda *record: taken.append(record[2]), heard.__contains__, lambda: now[0])
     for name in ("n", "late", "nodeless"):
         undecided.wait((1, 20, name, "x", ("", "", 0)))
     assert not taken
@@ -111,6 +111,6 @@ def test_a_real_logger_prints_the_unknown_field_verbatim() -> None:
 
 
 def test_a_format_set_by_the_user_stays_inside_the_mark() -> None:
-    variables = marking({FORMAT_VARIABLE: "{name}> {message}"})
+    variables = marking_variables({FORMAT_VARIABLE: "{name}> {message}"})
     assert variables[FORMAT_VARIABLE] == ENVELOPE.replace("{line}", "{name}> {message}")
     assert variables[ENVELOPE_VARIABLE] == ENVELOPE

@@ -1,7 +1,7 @@
 """The title of a launch: its file, or the one program that the user has named."""
 
 import pytest
-from bot_console.tui.console.launch.title import argument_line, title_of, unused
+from bot_console.tui.console.launch.title import argument_line, title_of, unique_title
 
 
 @pytest.mark.parametrize(
@@ -18,9 +18,9 @@ def test_the_title_is_the_file_or_program_named_by_the_user(path, arguments, tit
 
 
 def test_duplicate_titles_are_numbered_and_free_numbers_reused():
-    assert unused("a", ()) == "a"
-    assert unused("a", {"a", "a (2)"}) == "a (3)"
-    assert unused("a", {"b", "a (2)"}) == "a"
+    assert unique_title("a", ()) == "a"
+    assert unique_title("a", {"a", "a (2)"}) == "a (3)"
+    assert unique_title("a", {"b", "a (2)"}) == "a"
 
 
 def test_the_argument_line_repeats_the_request() -> None:

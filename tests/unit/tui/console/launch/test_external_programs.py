@@ -6,7 +6,7 @@ import os
 from dataclasses import replace
 from pathlib import Path
 
-from bot_console.tui.console.launch.elsewhere import HEADING, Elsewhere
+from bot_console.tui.console.launch.external_programs import HEADING, ExternalPrograms
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
 
 NOTHING = LaunchInfo()
@@ -24,7 +24,7 @@ class Machine:
         self.runs(SHELL, 1, "bash")
         self.runs(LAUNCH, SHELL, "/usr/bin/python3", "/opt/bin/ros2", "launch", "/home/me/fleet.launch.py")
         self.runs(FORKS, LAUNCH, "bot-console", "fork", "server")
-        self.search = Elsewhere(
+        self.search = ExternalPrograms(
             lambda: self.nodes, hosts=lambda: self.hosts, proc=self.folder, clock=lambda: self.now
         )  # fmt: skip
 
@@ -40,7 +40,7 @@ class Machine:
     def found(self, launch: LaunchInfo = NOTHING) -> tuple[ProcessInfo, ...]:
         """What is found a second later."""
         self.now += 1.0
-        return self.search.beside(launch).processes
+        return self.search.merged_with(launch).processes
 
 
 def test_launch_of_another_terminal_is_found_with_its_processes(tmp_path: Path) -> None:
@@ -91,13 +91,13 @@ def test_nodes_of_a_launched_program_are_known_even_if_it_started_them_through_a
 def test_launch_info_is_the_same_object_until_something_changes(tmp_path: Path) -> None:
     machine = Machine(tmp_path)
     launch = LaunchInfo()
-    assert machine.search.beside(launch) is launch
+    assert machine.search.merged_with(launch) is launch
     machine.runs(301, FORKS, "/opt/talker", nodes=("/talker",))
     machine.now += 1.0
-    merged = machine.search.beside(launch)
+    merged = machine.search.merged_with(launch)
     machine.now += 1.0
-    assert machine.search.beside(launch) is merged
-    assert machine.search.beside(LaunchInfo()) is not merged
+    assert machine.search.merged_with(launch) is merged
+    assert machine.search.merged_with(LaunchInfo()) is not merged
 
 
 def test_processes_of_other_machines_and_of_systems_without_proc_are_left_out(tmp_path: Path) -> None:

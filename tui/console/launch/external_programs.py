@@ -18,7 +18,7 @@ from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
 
 HEADING = "in other terminals"
 """The group of these programs in the list of processes."""
-ELSEWHERE_POLL_S = 1.0
+SEARCH_POLL_S = 1.0
 """Seconds between two searches."""
 MAX_TITLE = 60
 """The length to which a displayed command is shortened."""
@@ -35,14 +35,14 @@ class _Origin(NamedTuple):
     pid: int
 
 
-class _Found(NamedTuple):
+class _ExternalProgram(NamedTuple):
     """A program that was found in the graph."""
 
     origin: _Origin
     usage: Usage | None
 
 
-class Elsewhere:
+class ExternalPrograms:
     """Finds the programs of the domain that none of this console's launch hosts has started."""
 
     def __init__(
@@ -59,7 +59,7 @@ class Elsewhere:
         self._processes, self._vitals, self._hosts = processes, vitals, hosts
         self._proc, self._clock = proc, clock
         self._polled: float | None = None
-        self._found: dict[int, _Found] = {}
+        self._found: dict[int, _ExternalProgram] = {}
         self._infos: tuple[ProcessInfo, ...] = ()
         self._launched: dict[int, tuple[str, ...]] = {}
         """The nodes of launched processes, by pid."""
@@ -67,10 +67,10 @@ class Elsewhere:
         """The nodes of launched processes by key, kept for when a process has ended."""
         self._merged: tuple[tuple[object, ...], LaunchInfo] | None = None
 
-    def beside(self, launch: LaunchInfo) -> LaunchInfo:
+    def merged_with(self, launch: LaunchInfo) -> LaunchInfo:
         """The launched processes and those started elsewhere; the same object until something changes."""
         now = self._clock()
-        if self._polled is None or now - self._polled >= ELSEWHERE_POLL_S:
+        if self._polled is None or now - self._polled >= SEARCH_POLL_S:
             self._polled = now
             self._search(now, {each.pid for each in launch.processes})
         if not (self._infos or self._launched or self._ended):
@@ -90,7 +90,7 @@ class Elsewhere:
         return replace(process, nodes=(*process.nodes, *more)) if more else process
 
     def _search(self, now: float, launched: set[int | None]) -> None:
-        nodes = {pid: names for pid, every in self._processes().items() if (names := _shown(every))}
+        nodes = {pid: names for pid, every in self._processes().items() if (names := _visible_nodes(every))}
         self._found = {pid: self._found.get(pid) or self._find(pid, now) for pid in sorted(nodes)}
         known = {os.getpid(), *self._hosts(), *launched}
         infos = tuple(
@@ -108,9 +108,9 @@ class Elsewhere:
         if own != self._launched:
             self._launched = own
 
-    def _find(self, pid: int, now: float) -> _Found:
+    def _find(self, pid: int, now: float) -> _ExternalProgram:
         vitals = self._vitals(pid)
-        return _Found(self._origin(pid), None if vitals is None else Usage(vitals, now))
+        return _ExternalProgram(self._origin(pid), None if vitals is None else Usage(vitals, now))
 
     def _origin(self, pid: int) -> _Origin:
         line, first, words = [pid], pid, self._words(pid)
@@ -136,7 +136,7 @@ class Elsewhere:
             return 0
 
 
-def _shown(nodes: Sequence[str]) -> tuple[str, ...]:
+def _visible_nodes(nodes: Sequence[str]) -> tuple[str, ...]:
     """The nodes to show: neither those of tools, which are hidden, nor the one with which a launch sees the graph."""
     return tuple(each for each in nodes if "/_" not in each and not each.startswith("/launch_ros_"))
 
@@ -161,7 +161,7 @@ def _title(words: Sequence[str]) -> str:
     return text if len(text) <= MAX_TITLE else f"{text[: MAX_TITLE - 1]}…"
 
 
-def _info(pid: int, nodes: tuple[str, ...], found: _Found, now: float) -> ProcessInfo:
+def _info(pid: int, nodes: tuple[str, ...], found: _ExternalProgram, now: float) -> ProcessInfo:
     command, usage = found.origin.command, found.usage
     if usage is not None:
         usage.poll(now)
