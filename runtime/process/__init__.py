@@ -17,13 +17,14 @@ A node process
     `process.wait(timeout_s) -> exit_code | None`, `is_alive`, `line()` (where its main thread is).
     `interrupt()` (SIGINT), `terminate()` (SIGTERM), `kill()` (SIGKILL), `send_signal(n)`; `stop(grace_s)`: all in turn.
     `on_interrupt(callback(signum), signals)`: hook that runs before the handler, like that of `rclpy.init`; a hook for
-    SIGTERM replaces its default. On `MAIN` it is a real signal handler. `on_abandon(callback())`: it is over, however
-    it ended; leave the graph, because code of it may still run. `on_exit(callback(process))`: after that, newest
+    SIGTERM replaces its default. On `MAIN` it is a real signal handler. `on_abandon(callback())`: the process has ended
+    in any way; leave the graph, because its code may still run. `on_exit(callback(process))`: after that, newest
     callback first. All three return a callable that removes the callback.
     Exit codes: 0; n of `sys.exit(n)`; 1 for a text (on its stderr) or an uncaught exception (traceback on its stderr);
     -2 for `KeyboardInterrupt`; -15, -9, -n for a signal.
-    `explain_with(hook(exception) -> text | None)`: its cause and how to fix it, given as a notice after the traceback.
-    `on_notice(hook(process, text))`: what a node does that cannot be virtual, and lines that hang; to be shown as WARN.
+    `explain_with(hook(exception) -> text | None)`: an exception's cause and how to fix it, given as a notice after the
+    traceback. `on_notice(hook(process, text))`: what a node does that cannot be virtual, and lines that hang; to be
+    shown as WARN.
 
 Stepped runs
     `with stepped(seed=1) as clock`: virtual time for `MAIN` in this block; `NodeProcess(name, clock)` takes part in it.
@@ -31,8 +32,8 @@ Stepped runs
     `clock.deterministic`, `clock.stalls`: whether no thread blocked outside the clock, and the lines where one did.
 
 Virtual in a node process: threads and their lists, `sys.argv`, `sys.stdin/stdout/stderr/excepthook`, `os.environ`,
-`signal.signal` and `signal.getsignal`. That is what our nodes, launches and `ros2` commands use of their process; all
-else is that of the real process. A user's program is never one.
+`signal.signal` and `signal.getsignal`. That is all that our nodes, launches and `ros2` commands use of their process;
+everything else belongs to the real process. A user's program never runs as a node process.
 """
 
 from __future__ import annotations

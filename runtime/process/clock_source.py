@@ -18,7 +18,7 @@ class WaitingThread(Protocol):
         ...
 
     def begin_wait(self, waker: Callable[[], None]) -> None:
-        """Register how to wake the thread from the wait it is entering; raises what is pending for it."""
+        """Register how to wake the thread from the wait it is entering; raises any pending exception."""
         ...
 
     def end_wait(self) -> None:
@@ -31,13 +31,13 @@ class WaitingThread(Protocol):
 
 
 class TurnTaker(Protocol):
-    """A thread's place in a stepped run, as the thread sees it."""
+    """A thread's place in a stepped run."""
 
     detached: bool
-    """Whether the thread was considered hung, so that others run beside it."""
+    """Whether the thread was considered hung, so that other threads run beside it."""
 
     def take(self) -> None:
-        """Wait for the first turn; called in the thread that this task stands for."""
+        """Wait for the first turn; called in the thread that this task represents."""
         ...
 
     def hold_clock(self) -> None:
@@ -73,7 +73,7 @@ class Wakeup(Protocol):
 
 
 class ClockSource(Protocol):
-    """Steady and system time of one run. All blocking in the runtime goes through `wakeup()` and `sleep_until`."""
+    """Steady and system time of a run. All blocking in the runtime goes through `wakeup()` and `sleep_until`."""
 
     stepped: bool
     """Whether time is virtual."""
@@ -95,5 +95,5 @@ class ClockSource(Protocol):
         ...
 
     def task(self, thread: WaitingThread) -> TurnTaker | None:
-        """Return a task for a new thread of a node process; None if threads run freely."""
+        """Return a task for a new thread of a node process; None if threads do not take turns."""
         ...

@@ -8,7 +8,7 @@ Explain = Callable[[BaseException], "str | None"]
 """Returns the cause of an exception and how to fix it, or None for an unknown one."""
 
 HINT = "bot_console_hint"
-"""Attribute of an exception that holds its own explanation: the cause and how to fix it, as a text."""
+"""Attribute of an exception that holds its own explanation: a text with the cause and how to fix it."""
 
 _explainers: list[Explain] = []
 
@@ -20,9 +20,9 @@ def explain_with(explain: Explain) -> None:
 
 
 def explanation(exception: BaseException) -> str | None:
-    """Return the exception's own explanation, else the first from a registered function; None if there is none.
+    """Return the exception's own explanation, or the first from a registered function; None if there is none.
 
-    That of a program that exits with an error is the explanation of the exception that it was handling.
+    If a program exits with an error while handling an exception, the explanation is that exception's.
     """
     if isinstance(exception, SystemExit):
         return explanation(exception.__context__) if exception.code and exception.__context__ else None

@@ -1,4 +1,4 @@
-"""The node process of the calling thread, and variables that each node process has for itself."""
+"""The node process of the calling thread, and variables with a value per node process."""
 
 from __future__ import annotations
 

@@ -27,14 +27,14 @@ _pipe = _Pipe()
 
 
 def use(descriptor: int) -> None:
-    """Use this descriptor from now on, in non-blocking mode; stack traces of crashes go there, too."""
+    """Use this descriptor from now on, in non-blocking mode; stack traces of crashes are written to it, too."""
     os.set_blocking(descriptor, False)
     _pipe.descriptor = descriptor
     faulthandler.enable(descriptor)
 
 
 def is_open() -> bool:
-    """Whether there is a parent that reads."""
+    """Whether there is a parent that reads the pipe."""
     return _pipe.descriptor >= 0
 
 
@@ -50,5 +50,5 @@ def report(kind: str, **facts: Any) -> None:
             _pipe.rest = _pipe.rest[os.write(_pipe.descriptor, _pipe.rest) :]
         except BlockingIOError:
             return
-        except OSError:  # the parent is gone
+        except OSError:  # the parent has ended
             _pipe.descriptor, _pipe.rest = -1, b""

@@ -1,4 +1,4 @@
-"""End a process without finalizing its interpreter, which calls from foreign threads would find half torn down."""
+"""End a process without finalizing its interpreter: calls from foreign threads would find it half torn down."""
 
 from __future__ import annotations
 
@@ -17,14 +17,15 @@ def wait_for_threads() -> None:
     """Wait for non-daemon threads and executors, as the interpreter does at exit; Ctrl-C ends the wait."""
     with contextlib.suppress(KeyboardInterrupt):
         threading._shutdown()  # pyright: ignore[reportAttributeAccessIssue, reportUnknownMemberType] -- has no other name
-        # In a stepped run all are daemons to the interpreter, which would wait for them without giving them a turn.
+        # In a stepped run all threads are daemons to the interpreter, which would wait for them without giving them a
+        # turn.
         while left := [each for each, state in MAIN.children.items() if not state.daemon and each.is_alive()]:
             left[0].join()
 
 
 def exit_functions_run(code: int) -> int:
-    """Call the exit functions and flush the output streams, as the interpreter does at exit; leaves `os._exit` to the
-    caller.
+    """Call the exit functions and flush the output streams, as the interpreter does at exit. The caller must then call
+    `os._exit`.
 
     Returns the exit code: `code`, or `FLUSH_FAILED` if output could not be written.
     """
@@ -32,6 +33,6 @@ def exit_functions_run(code: int) -> int:
     for stream in (sys.stdout, sys.stderr):
         try:
             stream.flush()
-        except (AttributeError, OSError, ValueError):  # None, closed, or its reader is gone
+        except (AttributeError, OSError, ValueError):  # None, closed, or without a reader
             code = code if stream is None or getattr(stream, "closed", False) else FLUSH_FAILED
     return code

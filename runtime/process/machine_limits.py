@@ -1,8 +1,8 @@
-"""Limits that the system sets for this process (`ulimit`): soft ones are raised as far as is needed and allowed, and
-under a limit of the address space little is reserved.
+"""Limits that the system sets for this process (`ulimit`).
 
-Native libraries abort the process, without a word of ours, if they cannot reserve memory. So what they need must be
-there before they are used.
+Soft limits are raised as far as necessary and allowed, and under a limit of the address space little is reserved.
+Native libraries abort the process, without a message of ours, if they cannot reserve memory, so the memory they need
+must be available before they are used.
 """
 
 from __future__ import annotations
@@ -11,14 +11,15 @@ import os
 import sys
 
 ARENAS_VARIABLE, M_ARENA_MAX = "MALLOC_ARENA_MAX", -8
-"""glibc's limit on its arenas, for programs that are started, and for this one; it reserves 64 MiB for each."""
+"""Names of glibc's limit on its arenas, for programs to be started and for this one; each arena reserves 64 MiB."""
 BLAS_VARIABLE = "OPENBLAS_NUM_THREADS"
-"""OpenBLAS reserves 32 MiB for each of its threads, of which there is one for each processor."""
+"""OpenBLAS reserves 32 MiB for each of its threads; by default there is one per processor."""
 
 
 def hard_limit_below(name: str, wanted: int) -> int | None:
-    """Raise a soft limit (`RLIMIT_...`) to what is wanted, unless it is as high; return the hard limit if that is too
-    low. Windows has no such limits.
+    """Raise a soft limit (`RLIMIT_...`) to `wanted` unless it is at least that; return the hard limit if it is too low.
+
+    Windows has no such limits.
     """
     if sys.platform == "win32":
         return None
@@ -35,9 +36,9 @@ def hard_limit_below(name: str, wanted: int) -> int | None:
 
 
 def reserve_little_address_space() -> None:
-    """Let this program and those that it starts reserve little address space, if that is limited.
+    """Make this program and those that it starts reserve little address space, if the address space is limited.
 
-    The arenas and buffers of other threads only make them faster. To be called before any thread is started.
+    Separate arenas and buffers only make threads faster. Call this before any thread is started.
     """
     if sys.platform == "win32":
         return
@@ -51,18 +52,18 @@ def reserve_little_address_space() -> None:
 
     try:
         ctypes.CDLL(None).mallopt(M_ARENA_MAX, int(os.environ[ARENAS_VARIABLE]))
-    except (AttributeError, ValueError, OSError):  # not glibc; or a number that glibc does not read either
+    except (AttributeError, ValueError, OSError):  # not glibc, or a value that glibc cannot read either
         return
 
 
 def require_address_space(kib: int) -> None:
-    """Raise `MemoryError` unless so much address space is left, in KiB, or a soft limit could be raised that far."""
+    """Raise `MemoryError` unless `kib` KiB of address space are left, or a soft limit could be raised that far."""
     if hard_limit_below("RLIMIT_AS", (_address_space_kib() + kib) * 1024) is not None:
         raise MemoryError
 
 
 def _address_space_kib() -> int:
-    """The address space that this process has reserved; 0 where the system does not say."""
+    """Return the address space (KiB) that this process has reserved; 0 if the system does not tell."""
     try:
         with open("/proc/self/statm", "rb") as file:
             return int(file.read().split()[0]) * os.sysconf("SC_PAGESIZE") // 1024

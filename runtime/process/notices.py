@@ -1,4 +1,4 @@
-"""Notices about what a node process cannot do, or does to others: one message each, with file and line."""
+"""Notices about what a node process cannot do, or does to other processes: one message each, with file and line."""
 
 from __future__ import annotations
 
@@ -42,6 +42,6 @@ def notify(process: Warned, text: str) -> None:
         if process.stderr is not None:
             process.stderr.write(line)
         else:
-            # Not `sys.__stderr__`, which is the screen while a console runs: the line would corrupt its display.
+            # Not `sys.__stderr__`, which is the screen while a console runs: the line would corrupt the display.
             with contextlib.suppress(OSError):
                 os.write(STDERR, line.encode("utf-8", "backslashreplace"))

@@ -32,16 +32,16 @@ explain_with(_no_main)
 
 
 class Places(NamedTuple):
-    """Where the modules of a program are."""
+    """Where a program's modules are."""
 
     folders: Sequence[str] = ()
     """Entries for `sys.path`."""
     packages: frozenset[str] = frozenset()
-    """Names of embedded packages that give way to packages in the folders."""
+    """Names of embedded packages that the packages of the same name in `folders` replace."""
 
 
 ANYWHERE = Places()
-"""Only where the interpreter finds modules anyway."""
+"""No folders: modules are found only where the interpreter finds them anyway."""
 
 
 def file_program(path: str, places: Places = ANYWHERE) -> Callable[[], None]:
@@ -102,7 +102,7 @@ def _run_module(name: str, places: Places) -> None:
 
 def _run_code(text: str, places: Places) -> None:
     main = _new_main(places, "")
-    if sys.version_info >= (3, 13):  # from there on, tracebacks show the lines of `-c`
+    if sys.version_info >= (3, 13):  # from there on, tracebacks show the lines of the `-c` text
         import linecache
 
         linecache.cache["<string>"] = len(text), None, text.splitlines(keepends=True), "<string>"
@@ -110,17 +110,17 @@ def _run_code(text: str, places: Places) -> None:
 
 
 def _run_entry_point(module: str, function: str, places: Places) -> None:
-    if local.process.main_state is None:  # a composed node shares the modules of its process
+    if local.process.main_state is None:  # a composed node shares its process's modules
         _find_modules_in(places)
     sys.exit(_look_up(module, function)())
 
 
 def _look_up(module_name: str, function: str) -> Callable[[], Any]:
-    """Return the function of an entry point; raises what importing it raises, with a hint if it does not exist."""
+    """Return the function of an entry point; raises what the import raises, with a hint if it does not exist."""
     try:
         module: Any = importlib.import_module(module_name)
     except ModuleNotFoundError as error:
-        if error.name and f"{module_name}.".startswith(f"{error.name}."):  # else a module that this one imports
+        if error.name and f"{module_name}.".startswith(f"{error.name}."):  # else a module imported by this one
             setattr(error, HINT, NO_ENTRY.format(f"the module {module_name}", ""))
         raise
     found = module
@@ -129,7 +129,7 @@ def _look_up(module_name: str, function: str) -> Callable[[], Any]:
             found = getattr(found, name)
         except AttributeError as error:
             if name == "main":
-                raise  # which has its own explanation
+                raise  # the exception has its own explanation
             functions = _functions(module)
             has = f"; it has {', '.join(functions)}" if functions else ""
             setattr(error, HINT, NO_ENTRY.format(f"{function}() of {module_name}", has))
@@ -138,13 +138,13 @@ def _look_up(module_name: str, function: str) -> Callable[[], Any]:
 
 
 class _FoundFirst:
-    """A finder of `sys.meta_path`: a package in the program's folders precedes an embedded one of that name."""
+    """A finder for `sys.meta_path`: packages in the program's folders precede embedded ones of the same name."""
 
     def __init__(self, places: Places) -> None:
         self._places = places
 
     def find_spec(self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None) -> Any:
-        """Return the spec of such a package; None for every other name, and for a folder without `__init__.py`."""
+        """Return the spec of such a package; None for any other name, and for a folder without `__init__.py`."""
         if path is not None or fullname not in self._places.packages:
             return None
         spec = PathFinder.find_spec(fullname, self._places.folders)
@@ -152,7 +152,7 @@ class _FoundFirst:
 
 
 def _functions(module: ModuleType) -> list[str]:
-    """Return the names of the functions that a module itself defines."""
+    """Return the names of the functions that a module defines itself."""
     found: dict[str, object] = vars(module)
     own = (each for each in found.values() if isinstance(each, FunctionType) and each.__module__ == module.__name__)
     return sorted(each.__name__ for each in own)

@@ -1,4 +1,4 @@
-"""The machine's own clock, and waits on it that a signal to a node process can end."""
+"""The machine's own clock; a signal to a node process can end waits on it."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ if TYPE_CHECKING:
     from .clock_source import WaitingThread, Wakeup
 
 SIGNAL_CHECK_NS = 500_000_000
-"""How often (ns) a waiting real main thread checks for signals that another thread received for it."""
+"""How often (ns) a waiting real main thread checks for signals that another thread has received on its behalf."""
 _MAIN_THREAD = threading.main_thread().ident
 _monotonic_ns = time.monotonic_ns  # the real one: `time.monotonic_ns` is virtual during a stepped run
 
 
 class _RealWakeup:
-    """A wakeup on the machine's own clock; with one lock per wait, cheaper than a condition variable."""
+    """A wakeup on the machine's own clock; one lock per wait is cheaper than a condition variable."""
 
     __slots__ = ("__weakref__", "_set", "_waiters")
 
@@ -35,7 +35,7 @@ class _RealWakeup:
         while waiters:
             try:
                 waiter = waiters.pop()
-            except IndexError:  # another thread is setting it as well
+            except IndexError:  # another thread has set it at the same time
                 return
             _release(waiter)
 
@@ -56,7 +56,7 @@ class _RealWakeup:
     def _block(self, deadline_ns: int | None) -> bool:
         lock = allocate_lock()
         lock.acquire()
-        # Enlist first, then check the flag: a `set` in between would find nobody and be lost.
+        # Enlist first, then check the flag: otherwise a `set` in between would find no waiter and be lost.
         self._waiters.append(lock)
         try:
             return self._set or _acquire_until(lock, deadline_ns)
@@ -73,7 +73,7 @@ class _RealWakeup:
                 woken = self._set or _acquire_until(lock, deadline_ns)
             finally:
                 state.end_wait()
-                # Woken by `set`, even if `clear` was called before this thread ran again.
+                # It was woken by `set`, even if `clear` was called before this thread ran again.
                 was_set = not self._withdraw(lock)
             if state.called:
                 state.deliver()
@@ -95,7 +95,7 @@ def _release(lock: LockType) -> None:
 
 
 def _acquire_until(lock: LockType, deadline_ns: int | None) -> bool:
-    # A signal received by another thread does not end an acquire here, though its handler runs in this thread.
+    # A signal received by another thread does not end an `acquire` here, although its handler runs in this thread.
     if get_ident() == _MAIN_THREAD:
         while deadline_ns is None or deadline_ns - _monotonic_ns() > SIGNAL_CHECK_NS:
             if lock.acquire(True, SIGNAL_CHECK_NS * 1e-9):

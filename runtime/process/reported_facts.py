@@ -1,6 +1,6 @@
-"""Facts that a node process knows about itself and that no topic tells, as plain data for whoever started it.
+"""Facts that only a node process knows about itself, and no topic carries: plain data for the program that started it.
 
-A separate process writes them to its data pipe; a node process in a thread calls hooks of this process.
+A separate process writes them to its data pipe; for a node process in a thread, hooks in this process are called.
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ def on_fact(hook: Hook) -> Callable[[], None]:
 
 
 def anybody_listens() -> bool:
-    """Whether anybody receives facts, so that computing one is worth while."""
+    """Whether anybody receives facts, so that it is worth computing them."""
     return bool(_hooks) or data_pipe.is_open()
 
 
 def report_fact(kind: str, **facts: Any) -> None:
-    """Publish a fact made of plain values; never blocks."""
+    """Publish a fact that consists of plain values; never blocks."""
     data_pipe.report(kind, **facts)
     for hook in tuple(_hooks):
         hook(kind, facts)

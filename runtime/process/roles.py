@@ -1,4 +1,4 @@
-"""The roles of a node process towards those that use it: protocols, so that it may depend on them and not vice versa.
+"""The roles that a node process plays for its users: protocols, so that it may depend on them and not vice versa.
 
 `node.node_process.NodeProcess` implements the roles of a process, `node.thread_state.ThreadState` that of its threads.
 For the type checker only: nothing imports this at run time.
@@ -16,17 +16,17 @@ from .clock_source import ClockSource, WaitingThread
 from .node.process_state import ProcessState
 
 Handler = Callable[[int, Any], Any] | int | None
-"""What `signal.signal` takes: a function, or a number such as `SIG_DFL`; None for a handler not set from Python."""
+"""What `signal.signal` accepts: a function, or a number such as `SIG_DFL`; None for a handler not set from Python."""
 
 
 class NodeThread(WaitingThread, Protocol):
-    """A thread of a node process, for those who want to wake it or raise something in it."""
+    """A thread of a node process, which can be woken, or made to raise an exception."""
 
     daemon: bool
-    """Whether its process ends without waiting for it, as its program requested."""
+    """Whether the process ends without waiting for the thread, as the program has requested."""
     ident: int
     waits: int
-    """How many waits of the runtime it has entered."""
+    """How many waits of the runtime the thread has entered."""
 
     @property
     def thread(self) -> threading.Thread:
@@ -35,28 +35,28 @@ class NodeThread(WaitingThread, Protocol):
 
     @property
     def waiting(self) -> bool:
-        """Whether it is in a wait of the runtime, from which it can be woken."""
+        """Whether the thread is in a wait of the runtime, from which it can be woken."""
         ...
 
     @property
     def takes_turns(self) -> bool:
-        """Whether it takes turns in a stepped run."""
+        """Whether the thread takes turns in a stepped run."""
         ...
 
     def post(self, action: Callable[[], Any]) -> None:
-        """Make it call `action` in its present or next wait."""
+        """Make the thread call `action` in its current or next wait."""
         ...
 
     def take_back(self, action: Callable[[], Any]) -> bool:
-        """Withdraw a posted action; return whether it was in time."""
+        """Withdraw a posted action; return whether it was still pending."""
         ...
 
     def throw(self, exception: type[BaseException]) -> None:
-        """Raise in it, even if it is busy."""
+        """Raise the exception in the thread, even if it is busy."""
         ...
 
     def kill(self) -> None:
-        """Make this wait and every later one raise `ProcessKilled`."""
+        """Make the thread's current wait and every later one raise `ProcessKilled`."""
         ...
 
 
@@ -80,7 +80,7 @@ class Warned(Protocol):
 
 
 class RunningProcess(Warned, Protocol):
-    """A process found by its pid, to be sent a signal or examined."""
+    """A process found by its pid, for sending a signal or examining it."""
 
     @property
     def state(self) -> ProcessState:
@@ -121,12 +121,12 @@ class Pool(Protocol):
     """A thread pool: an executor of `concurrent.futures`, or one of the runtime's own."""
 
     def shutdown(self, wait: bool = ...) -> None:
-        """Let its threads end once they have finished the submitted work."""
+        """Let the pool's threads end once they have finished the submitted work."""
         ...
 
 
 class CurrentProcess(RunningProcess, Protocol):
-    """The process that a thread works for, as seen by wrappers and ROS code: it answers its code's process queries."""
+    """The process that a thread works for, as wrappers and ROS code see it when they ask for process attributes."""
 
     main_state: NodeThread | None
     """Its main thread; None before the start, and in the real process, where nothing is virtual."""
@@ -135,12 +135,12 @@ class CurrentProcess(RunningProcess, Protocol):
     pools: WeakSet[Pool]
     """The pools whose threads end with its main program."""
     cpu_of_ended_threads: float
-    """Processor time (s) used by its threads that have ended."""
+    """Processor time (s) used by threads of the process that have ended."""
     argv: list[str]
     overrides: dict[Any, Any]
-    """The module variables that it has set for itself."""
+    """The module variables that the process has set for itself."""
     locals: dict[Any, Any]
-    """The values of `ProcessLocal`."""
+    """The process's values of `ProcessLocal` variables."""
 
     @property
     def clock(self) -> ClockSource:
@@ -168,7 +168,7 @@ class CurrentProcess(RunningProcess, Protocol):
         ...
 
     def deliver_signals(self) -> None:
-        """Let pending signals take effect first, if called from its main thread."""
+        """Let pending signals take effect now, if called from the process's main thread."""
         ...
 
     def on_interrupt(self, callback: Callable[[int], Any], signals: Iterable[int] = ...) -> Callable[[], None]:
@@ -176,15 +176,15 @@ class CurrentProcess(RunningProcess, Protocol):
         ...
 
     def on_abandon(self, callback: Callable[[], Any]) -> Callable[[], None]:
-        """Call `callback()` when the process is over, however it ended. Returns a function that removes it."""
+        """Call `callback()` when the process has ended in any way. Returns a function that removes the callback."""
         ...
 
     def end_with_main(self, pool: Pool) -> None:
-        """When its main program is over, let a pool finish its submitted work and shut down, and wait for that."""
+        """When the main program has ended, let a pool finish its submitted work, shut it down, and wait for that."""
         ...
 
     def guarded(self, callback: Callable[[], Any]) -> None:
-        """Call back; an exception becomes a notice."""
+        """Call `callback`; an exception becomes a notice."""
         ...
 
     def die(self, code: int) -> None:
@@ -192,7 +192,7 @@ class CurrentProcess(RunningProcess, Protocol):
         ...
 
     def finish(self, code: int) -> None:
-        """Record the end of the process, once, and notify all."""
+        """Record the end of the process, once, and call all callbacks."""
         ...
 
     def break_off_later(self, states: Sequence[NodeThread]) -> None:

@@ -1,7 +1,7 @@
-"""A folder for this process's temporary files, removed with the process; leftovers of killed ones are removed, too.
+"""A folder for this process's temporary files, removed at its end; those of killed processes are removed by later ones.
 
 A user's programs share one folder with a subfolder per process. Each process keeps its subfolder locked while it lives,
-so that the next process to start can tell which are left over.
+so that the next process to start can recognise leftovers.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ from . import unpatched
 
 LOCK = "lock"
 OVER = ".over"
-"""Suffix of a folder being removed: whoever still has the old name can no longer write into it."""
+"""Suffix of a folder that is being removed: a process that still uses the old name can no longer write into it."""
 _made: dict[int, tuple[Path, int]] = {}
 _ended: set[int] = set()
-"""The pid of this process, once its folder was removed at its end: nothing would remove a folder made after that."""
+"""Contains this process's pid once its folder was removed at its end: nothing would remove a folder made after that."""
 _guard = _thread.allocate_lock()
-"""Several launches of a process start at once: each would make a folder, and only one would be remembered."""
+"""For launches that start at once in a process: each would make a folder, and only one would be remembered."""
 
 
 def _after_fork() -> None:
@@ -36,12 +36,12 @@ if hasattr(os, "register_at_fork"):
 
 
 def scratch() -> Path:
-    """Return this process's folder; raises `OSError` if none can be made, or if the process is ending."""
+    """Return this process's folder; raises `OSError` if it cannot be created, or if the process is ending."""
     pid = unpatched.getpid()
     with _guard:
         if pid in _ended:
             raise OSError("the process is ending")
-        if pid not in _made or not _made[pid][0].is_dir():  # some systems clean /tmp themselves
+        if pid not in _made or not _made[pid][0].is_dir():  # some systems clean up /tmp themselves
             _make(pid)
         return _made[pid][0]
 
@@ -53,14 +53,14 @@ def _make(pid: int) -> None:
     handle = os.open(new / LOCK, os.O_RDWR | os.O_CREAT, 0o600)
     with contextlib.suppress(OSError):
         _take(handle)
-    folder = new.rename(base / new.name[1:])  # visible to `clean` only now that it is locked
-    _made.clear()  # entries of the process that this one was forked from
+    folder = new.rename(base / new.name[1:])  # only now that it is locked may `clean` see it
+    _made.clear()  # entries of the process that forked this one
     _made[pid] = (folder, handle)
     unpatched.at_exit(remove)
 
 
 def scratch_file(prefix: str, text: str) -> Path:
-    """Create a file of this process with this text."""
+    """Create a file with this text in the process's folder."""
     handle, path = tempfile.mkstemp(prefix=prefix, dir=scratch())
     with open(handle, "w", encoding="utf-8") as file:
         file.write(text)
@@ -68,7 +68,7 @@ def scratch_file(prefix: str, text: str) -> Path:
 
 
 def remove() -> None:
-    """Remove this process's folder, at its end; no new one can be made."""
+    """Remove this process's folder at its end; no new one can be created."""
     pid = unpatched.getpid()
     with _guard:
         _ended.add(pid)
@@ -108,13 +108,13 @@ def _take(handle: int) -> None:
     """Lock a file while it is open; raises `OSError` if another process holds the lock, or locking is unsupported."""
     try:
         import fcntl
-    except ImportError:  # Windows: leftovers cannot be told apart, so nothing is removed
+    except ImportError:  # Windows: nothing is removed, as leftovers cannot be recognised
         raise OSError("no file locks here") from None
     fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 def _base() -> Path:
-    """Return a folder closed to other users, normally beside the sockets; a private one if that is not ours."""
+    """Return a folder closed to other users: normally one beside the sockets, or a private one if that is not ours."""
     user = os.geteuid() if hasattr(os, "geteuid") else 0
     ours = Path(tempfile.gettempdir()) / f"bot-console-{user}"
     for each in (ours, ours / "files"):

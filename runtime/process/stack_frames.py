@@ -1,4 +1,4 @@
-"""The line of a program that a thread is executing, as a user would name it; and tracebacks without our own frames."""
+"""Name the line that a thread is executing from a user's point of view; trim tracebacks to the user's frames."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from types import FrameType, TracebackType
 
 _PROCESS = os.path.dirname(os.path.abspath(__file__)) + os.sep
 _RUNTIME = os.path.dirname(_PROCESS.rstrip(os.sep)) + os.sep
-# ROS names are imported through links, whose targets are in another place in an editable installation.
+# ROS names are imported through links, whose targets are elsewhere in an editable installation.
 _OURS = (_RUNTIME, os.path.realpath(_RUNTIME) + os.sep)
 _SHIPPED = tuple(os.path.dirname(each.rstrip(os.sep)) + os.sep for each in _OURS)
 _STDLIB = os.path.dirname(os.path.realpath(os.__file__)) + os.sep
@@ -17,10 +17,10 @@ _SITE = ("site-packages", "dist-packages")
 
 
 def is_library(filename: str) -> bool:
-    """Whether a file belongs to the interpreter, an installed library or the runtime: not where a user would look."""
+    """Whether a file belongs to the interpreter, an installed library or the runtime, where a user would not look."""
     if filename.startswith(("<frozen", *_OURS)):
         return True
-    # A wheel puts our own nodes into site-packages, and a clone may hold an environment with its site-packages.
+    # A wheel puts our own nodes into site-packages, and a clone may contain an environment with its own site-packages.
     inside = next((filename[len(each) :] for each in _SHIPPED if filename.startswith(each)), filename)
     return any(part in inside for part in _SITE) or os.path.realpath(filename).startswith(_STDLIB)
 
@@ -36,7 +36,7 @@ def is_shipped(filename: str) -> bool:
 
 
 def user_frame(frame: FrameType) -> FrameType:
-    """Return the innermost frame of the user's own code on this stack; without any, the innermost of all."""
+    """Return the innermost frame of the user's own code on this stack; without such a frame, the innermost of all."""
     candidate: FrameType | None = frame
     while candidate is not None:
         if not is_library(candidate.f_code.co_filename):
@@ -51,7 +51,7 @@ def describe(frame: FrameType) -> str:
 
 
 def line_outside(frame: FrameType | None) -> str:
-    """Return `/path/file.py:12` of the innermost frame outside the runtime, even a library's; empty if none."""
+    """Return `/path/file.py:12` of the innermost frame outside the runtime, even in a library; empty if none."""
     while frame is not None and frame.f_code.co_filename.startswith((*_OURS, "<frozen")):
         frame = frame.f_back
     return f"{frame.f_code.co_filename}:{frame.f_lineno}" if frame is not None else ""
@@ -105,9 +105,9 @@ def trim(exception: BaseException) -> BaseException:
 
 
 def formatted(exception: BaseException) -> str:
-    """The text that the interpreter prints of an uncaught exception, for a process that prints to `sys.stderr`."""
+    """Return the interpreter's text for an uncaught exception, for a process that prints to `sys.stderr`."""
     if sys.version_info < (3, 12) and isinstance(exception, (AttributeError, NameError)):
-        # Before Python 3.12 the interpreter's own hook alone adds `Did you mean`.
+        # Before Python 3.12 only the interpreter's own hook adds `Did you mean`.
         from contextlib import redirect_stderr
         from io import StringIO
 
@@ -124,7 +124,7 @@ def print_exception(exception: BaseException) -> None:
     trim(exception)
     hook = sys.excepthook
     if hook is sys.__excepthook__ and sys.stderr is not sys.__stderr__:
-        # The interpreter's own hook writes to the stream of the whole process.
+        # The interpreter's own hook writes to the stream of the real process.
         import traceback
 
         traceback.print_exception(type(exception), exception, exception.__traceback__)

@@ -1,4 +1,4 @@
-"""The real clock, process id and threads, even where they are wrapped: for the runtime's own helpers."""
+"""The real clock, process id and threads, even where they are wrapped; for the runtime's own helpers."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ enumerate_threads = threading.enumerate
 
 
 class _Agenda:
-    """Actions scheduled in wall time, in one thread that exists only while there are any."""
+    """Actions scheduled in wall time, run by a thread that exists only while there are any."""
 
     def __init__(self) -> None:
-        # Plain locks and threads: those of `threading` belong to node processes and to stepped runs.
+        # Built-in locks and threads: those of `threading` belong to node processes and to stepped runs.
         self._guard = _thread.allocate_lock()
         self._news = _thread.allocate_lock()
-        # A lock used as an event: held while there is no news.
+        # A lock used as an event: held while there is nothing new.
         self._news.acquire()
         self._entries: list[tuple[float, int, Callable[[], None]]] = []
         self._count = 0

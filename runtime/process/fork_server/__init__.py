@@ -8,11 +8,11 @@ Here (the parent)
     dies in whatever way.
 
 There (the server)
-    One thread, no sockets but the parent's. It calls `warm_up()` once and forks a child for each `Job`.
+    It has one thread, and no socket but the parent's. It calls `warm_up()` once and forks a child for each `Job`.
 
 The child
-    A separate session, the given directory, environment, arguments and standard streams, default signals, and its own
-    random numbers. `Job.program` names a function that, called with `Job.arguments`, returns the program; that runs
+    It has its own session and random numbers, the given directory, environment, arguments and standard streams, and
+    default signals. `Job.program` names a function that, called with `Job.arguments`, returns the program; that runs
     as `__main__` does: its exceptions, `SystemExit`, Ctrl-C and threads end it as they end any Python process.
 """
 

@@ -20,13 +20,13 @@ sys.path.extend(each for each in {folders!r} if each not in sys.path)
 from bot_console.runtime.process.fork_server.main import main
 main({descriptor}, {warm_up!r}, {prepare!r})
 """
-"""The working directory is removed from `sys.path`: a user's `random.py` is for the user's nodes."""
+"""The working directory is removed from `sys.path`: a user's `random.py` there is meant for the user's nodes."""
 INSTALLATION = "bot_console_installation"
-"""The module with the folders of the runtime, in a Python that has found it by its shims."""
+"""The module that names the runtime's folders, in a Python that has found the runtime through its shims."""
 ENVIRONMENT = {"OPENBLAS_NUM_THREADS": "1"}
 """OpenBLAS starts threads on import; a fork loses them, and may hang."""
 END_S = 12.0
-"""Seconds the server may take to end its children: both steps of its escalation plus a margin."""
+"""Time (s) that the server may take to end its children: both steps of its escalation plus a margin."""
 
 
 class ForkServer:
@@ -35,8 +35,8 @@ class ForkServer:
     def __init__(self, warm_up: str, prepare: str = "", *, from_here: bool = False) -> None:
         """`warm_up` names a function, `package.module:function`; it must leave no thread and no open socket behind.
 
-        So must `prepare`, which the server calls with each job before it forks the child. The server is a new
-        interpreter, or a fork `from_here`: of this process, which must have one thread only.
+        The same applies to `prepare`, which the server calls with each job before it forks the child. The server is a
+        new interpreter or, if `from_here`, a fork of this process, which must then have only one thread.
         """
         _open_standard_streams()
         self._connection, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_STREAM)
@@ -54,7 +54,7 @@ class ForkServer:
     def start(self, job: Job, *, stdin: int, stdout: int, stderr: int, data: int, channel: int | None = None) -> int:
         """Start a child with these descriptors, which stay open here; return the descriptor to read its `Report` from.
 
-        The number of `channel`, if given, becomes the last argument of the job's function.
+        `channel`, if given, is passed on too; its number becomes the last argument of the job's function.
 
         Raises `FileNotFoundError` for a missing directory, `OSError` if the server has ended.
         """
@@ -69,7 +69,7 @@ class ForkServer:
             os.close(report)
             raise
         finally:
-            # The server has its own copy; while ours stays open, the report would never reach its end.
+            # The server has its own copies; while ours stay open, reading the report would never reach its end.
             os.close(theirs)
         return report
 
@@ -84,9 +84,9 @@ class ForkServer:
 
 
 def _open_standard_streams() -> None:
-    """Open those of the descriptors 0 to 2 that are closed, to nothing, here and for the server.
+    """Open any closed standard stream (descriptors 0 to 2) on the null device, here and for the server.
 
-    Else a socket or pipe gets such a number: it would be taken for a stream, and closed when a child gets its own.
+    Otherwise a socket or pipe would get its number, be taken for a stream, and be closed when a child gets its own.
     """
     while (descriptor := os.open(os.devnull, os.O_RDWR)) <= 2:
         os.set_inheritable(descriptor, True)
@@ -101,7 +101,7 @@ def _interpreter(_: socket.socket, connection: socket.socket, warm_up: str, prep
         stdin=subprocess.DEVNULL,
         pass_fds=[connection.fileno()],
         env={**os.environ, **ENVIRONMENT},
-        # Ctrl-C in the terminal is for the parent, which then ends what it has started.
+        # Ctrl-C in the terminal is for the parent, which then ends the processes it has started.
         start_new_session=True,
     )
 

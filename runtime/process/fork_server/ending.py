@@ -1,7 +1,7 @@
 """End a process that runs a program, in the interpreter's own order and with its exit codes.
 
-The interpreter itself is not finalized: foreign threads (of a middleware) may call back at any time, and one that finds
-it half torn down would print a panic after the program's output.
+The interpreter itself is not finalized: foreign threads (of a middleware) may call back at any time, and would print a
+panic after the program's output if they found it half torn down.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ def run_to_end(program: Callable[[], object]) -> NoReturn:
     wait_for_threads()
     code = exit_functions_run(code)
     _flush_of_c()
-    if code == -signal.SIGINT:  # so that the parent sees the signal as the cause
+    if code == -signal.SIGINT:  # so that the parent sees the signal as the cause of the exit
         signal.signal(signal.SIGINT, signal.SIG_DFL)
         os.kill(os.getpid(), signal.SIGINT)
     os._exit(code & 0xFF)

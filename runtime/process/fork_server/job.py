@@ -18,9 +18,9 @@ class Job(NamedTuple):
     """A program and its environment at start."""
 
     name: str
-    """The name in system tools, which show 15 characters."""
+    """The name that system tools show, cut to 15 characters."""
     program: str
-    """`package.module:function` that returns the program: a callable without arguments."""
+    """The function, as `package.module:function`, that returns the program: a callable without arguments."""
     arguments: Sequence[Any]
     """The arguments of that function: numbers, strings, lists, None."""
     argv: Sequence[str]

@@ -12,8 +12,8 @@ from .start import become, let_signals_in
 
 
 def main(descriptor: int, warm_up: str, prepare: str) -> None:
-    """Serve the parent at the other end of a socket; in each child, run its program."""
-    gc.disable()  # nearly all that is made here stays
+    """Serve the parent at the other end of a socket; in each child, run the child's program."""
+    gc.disable()  # nearly all objects created here stay
     function_named(warm_up)()
     gc.collect()
     birth = Server(socket.socket(fileno=descriptor), function_named(prepare) if prepare else _nothing).serve()

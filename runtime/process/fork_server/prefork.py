@@ -1,4 +1,4 @@
-"""Fork the server from its parent: it needs no start of an interpreter, and shares what the parent has imported."""
+"""Fork the server from its parent: that starts no new interpreter, and shares the modules the parent has imported."""
 
 from __future__ import annotations
 
@@ -24,19 +24,19 @@ DESCRIPTORS = "/dev/fd"
 
 
 def has_one_thread() -> bool:
-    """Whether this process may be forked and go on in both: a fork has only the thread that called it."""
+    """Whether this process may be forked and continue in both: a fork has only the thread that forked."""
     alone = threading.active_count() == 1 and threading.current_thread() is threading.main_thread()
     try:
-        return alone and len(os.listdir("/proc/self/task")) == 1  # libraries have threads that Python does not know
+        return alone and len(os.listdir("/proc/self/task")) == 1  # libraries may have threads that Python does not know
     except OSError:
         return alone
 
 
 class Fork:
-    """A fork of this process, with as much of `subprocess.Popen` as a parent of the server needs. Thread-safe."""
+    """A fork of this process, with the part of the interface of `subprocess.Popen` that is needed here. Thread-safe."""
 
     def __init__(self, serve: Callable[[], object], kept: int) -> None:
-        """Let the fork call `serve()` and end. Of all descriptors it has its output and `kept`."""
+        """Fork a child that calls `serve()` and exits. It inherits only its output and the descriptor `kept`."""
         for stream in (sys.stdout, sys.stderr):
             if stream is not None:  # None if the descriptor is closed
                 # the remaining content of its buffer would be written twice
@@ -44,7 +44,7 @@ class Fork:
                     stream.flush()
         self._lock = threading.Lock()
         self.returncode: int | None = None
-        # Ctrl-C is for the parent, and in the fork nothing would handle it before `setsid`.
+        # Ctrl-C is for the parent, and the fork has no handler for it before `setsid`.
         before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
         self.pid = os.fork()
         if self.pid == 0:
@@ -52,19 +52,19 @@ class Fork:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
     def poll(self) -> int | None:
-        """The exit code; None while it runs."""
+        """Return the exit code; None while the fork runs."""
         with self._lock:
             if self.returncode is None:
                 try:
                     pid, status = os.waitpid(self.pid, os.WNOHANG)
-                except ChildProcessError:  # somebody else has waited for every child
+                except ChildProcessError:  # another thread has waited for every child
                     self.returncode = 0
                 else:
                     self.returncode = os.waitstatus_to_exitcode(status) if pid else None
             return self.returncode
 
     def wait(self, timeout: float | None = None) -> int:
-        """Wait for the end; raises `subprocess.TimeoutExpired` after `timeout` (s)."""
+        """Wait for the fork to end; raises `subprocess.TimeoutExpired` after `timeout` (s)."""
         deadline, pause = time.monotonic() + (float("inf") if timeout is None else timeout), 0.0005
         while (code := self.poll()) is None:
             left = deadline - time.monotonic()
@@ -75,24 +75,24 @@ class Fork:
         return code
 
     def kill(self) -> None:
-        """Kill it, if it has not ended."""
+        """Kill the fork, unless it has ended."""
         if self.poll() is None:
             os.kill(self.pid, signal.SIGKILL)
 
 
 def _live(serve: Callable[[], object], kept: int, signals: set[signal.Signals] | set[int]) -> NoReturn:
-    """In the fork: drop what belongs to the parent's program, and serve."""
+    """In the fork: discard what belongs to the parent's program, and serve."""
     code = 1
     try:
         os.setsid()
-        signal.signal(signal.SIGINT, signal.SIG_IGN)  # until it serves; drops one that came before `setsid`
+        signal.signal(signal.SIGINT, signal.SIG_IGN)  # until the server runs; discards one sent before `setsid`
         signal.pthread_sigmask(signal.SIG_SETMASK, signals)
         _close_all_but(kept)
         _forget_the_program()
         show_command(NAME.split())
         serve()
         code = 0
-    except BaseException:  # nothing may return into the parent's program
+    except BaseException:  # control must never return to the parent's program
         traceback.print_exc()
     finally:
         os._exit(code)
@@ -103,14 +103,14 @@ def _close_all_but(kept: int) -> None:
     os.dup2(nothing, 0)
     for name in os.listdir(DESCRIPTORS):
         if int(name) > 2 and int(name) != kept:
-            with contextlib.suppress(OSError):  # that of the listing
+            with contextlib.suppress(OSError):  # the descriptor of the listing itself
                 os.close(int(name))
 
 
 def _forget_the_program() -> None:
-    """Programs of the children neither end as the parent's does, nor import modules that lie beside it."""
+    """Make the children's programs independent of the parent's: its exit functions, and the modules beside its file."""
     atexit._clear()  # pyright: ignore[reportPrivateUsage] -- has no other name
-    sys.modules["__main__"] = ModuleType("__main__")  # `multiprocessing` would import the parent's once more
+    sys.modules["__main__"] = ModuleType("__main__")  # else `multiprocessing` imports the parent's again
     beside = ("", os.getcwd(), os.path.dirname(os.path.realpath(sys.argv[0])))
     if sys.path and sys.path[0] in beside and not getattr(sys.flags, "safe_path", sys.flags.isolated):
         sys.path.pop(0)

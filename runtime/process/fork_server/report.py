@@ -1,4 +1,4 @@
-"""The fork server's report on a child: its pid at once, its exit code when it has ended."""
+"""The fork server's report on a child: its pid at once, and its exit code when it has ended."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ class Report:
         self._text = b""
         self.pid: int | None = None
         self.exit_code: int | None = None
-        """As in `subprocess`: negative for a signal."""
+        """The exit code as in `subprocess`: negative for a signal. None until the child has ended."""
         self.problem = ""
-        """Why the child could not be started."""
+        """Why the child could not be started; empty if it was."""
 
     def feed(self, data: bytes) -> None:
         """Parse the next bytes."""
@@ -30,7 +30,7 @@ class Report:
 
 
 def report_pid(descriptor: int, pid: int) -> None:
-    """Report that the child runs."""
+    """Report that the child is running."""
     _write(descriptor, f"pid {pid}\n")
 
 

@@ -16,9 +16,9 @@ from .job import Job
 from .report import report_exit, report_pid, report_problem
 
 ESCALATION_S = 5.0
-"""Seconds between SIGINT and SIGTERM, and between SIGTERM and SIGKILL, to children whose parent is gone."""
+"""Time (s) between SIGINT and SIGTERM, and between SIGTERM and SIGKILL, to the children of a parent that has ended."""
 ORPHANS_S = 1.0
-"""Seconds between SIGTERM and SIGKILL to the processes that children have left behind."""
+"""Time (s) between SIGTERM and SIGKILL to the processes that children have left behind."""
 HELD_BACK = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGCHLD)
 """Signals blocked in a child until it is ready for them."""
 
@@ -35,11 +35,11 @@ class Birth:
 
 @dataclass
 class Server:
-    """Serves one parent until the parent is gone."""
+    """Serves one parent until the parent has ended."""
 
     parent: socket.socket
     prepare: Callable[[Job], object]
-    """Called with each job before the fork, to import what its program needs."""
+    """Called with each job before the fork, to import the modules its program needs."""
     _children: dict[int, int] = field(default_factory=dict[int, int])
     """The report descriptor of each child, by pid."""
     _sessions: set[int] = field(default_factory=set[int])
@@ -47,11 +47,11 @@ class Server:
     _ending: bool = False
 
     def serve(self) -> Birth | None:
-        """Start children until the parent is gone and all have ended; return None, or in each child its `Birth`."""
+        """Start children until the parent and all of them have ended; return None, but in each child its `Birth`."""
         wake, woken = os.pipe()
         os.set_blocking(wake, False)
         os.set_blocking(woken, False)
-        # A signal makes `select` return: a child may end, or the parent may ask for the end, at any time.
+        # A signal makes `select` return: a child may end, or the parent may ask the server to end, at any time.
         signal.set_wakeup_fd(woken, warn_on_full_buffer=False)
         for each in HELD_BACK:
             signal.signal(each, self._signalled)
@@ -90,7 +90,7 @@ class Server:
         *given, report = descriptors
         job = Job.from_bytes(data)
         self.prepare(job)
-        gc.freeze()  # objects that the collector never touches are not copied into each child
+        gc.freeze()  # pages of objects that the collector never touches are not copied into each child
         # Until the child has its own handlers, a signal to it would run those of the server.
         signal.pthread_sigmask(signal.SIG_BLOCK, HELD_BACK)
         try:
@@ -102,7 +102,7 @@ class Server:
         if pid == 0:
             os.close(report)
             for each in self._children.values():
-                # The reports of its siblings: a child that kept them open would hide the end of a sibling.
+                # Close the siblings' reports: a child that kept them open would hide the end of a sibling.
                 os.close(each)
             if len(given) > 4:
                 job = job._replace(arguments=[*job.arguments, given[4]])
@@ -128,12 +128,12 @@ class Server:
             if pid == 0:
                 return
             report = self._children.pop(pid, None)
-            if report is not None:  # else it is an orphan of a child
+            if report is not None:  # otherwise it is an orphan left by a child
                 report_exit(report, os.waitstatus_to_exitcode(status))
                 os.close(report)
 
     def _end_children(self, wake: int) -> None:
-        """End the children of a parent that is gone: nobody else could stop them."""
+        """End the children of a parent that has ended, since nobody else could stop them."""
         for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
             for pid in self._children:
                 os.kill(pid, number)  # not reaped yet, so the pid is still the child's

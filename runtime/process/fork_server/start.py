@@ -37,7 +37,7 @@ def become(birth: Birth) -> Callable[[], object]:
     os.chdir(job.cwd)
     os.environ.clear()
     os.environ.update(job.env)
-    time.tzset()  # the zone was read from the server's environment
+    time.tzset()  # the time zone was read from the server's environment
     _add_python_path(job.env.get("PYTHONPATH", ""))
     sys.argv = MAIN.argv = list(job.argv)
     MAIN.name = job.name
@@ -47,7 +47,7 @@ def become(birth: Birth) -> Callable[[], object]:
     _name(job.name)
     show_command(job.argv)
     random.seed()
-    if "numpy.random" in sys.modules:  # otherwise it seeds itself on import, which takes as long as all of this
+    if "numpy.random" in sys.modules:  # otherwise it seeds itself on import, which takes as long as all the rest
         sys.modules["numpy.random"].seed()
     sys.excepthook = _uncaught
     on_notice(lambda process, text: data_pipe.report("notice", text=text))
@@ -57,13 +57,13 @@ def become(birth: Birth) -> Callable[[], object]:
 
 
 def let_signals_in() -> None:
-    """Install the default handlers and unblock the signals, including those received meanwhile."""
+    """Install the default handlers and unblock the signals; those received meanwhile are delivered."""
     for each in HELD_BACK:
         signal.signal(each, signal.default_int_handler if each == signal.SIGINT else signal.SIG_DFL)
     try:
         signal.pthread_sigmask(signal.SIG_UNBLOCK, HELD_BACK)
     except KeyboardInterrupt as interrupt:
-        raise interrupt.with_traceback(None) from None  # it arrived before the program's first line
+        raise interrupt.with_traceback(None) from None  # the signal arrived before the program's first line
 
 
 def _take_streams(stdio: Sequence[int]) -> None:
@@ -76,7 +76,7 @@ def _take_streams(stdio: Sequence[int]) -> None:
 
 
 def _output(descriptor: int, errors: str) -> TextIO:
-    """Open a line-buffered stream though it is no terminal: a log shows lines when they are printed."""
+    """Open a line-buffered stream although it is not a terminal, so that a log shows lines when they are printed."""
     return os.fdopen(descriptor, "w", buffering=1, closefd=False, encoding="utf-8", errors=errors)
 
 
@@ -91,7 +91,7 @@ def _name(name: str) -> None:
         try:
             with open(f"/proc/self/{file}", "w") as writable:
                 writable.write(text)
-        except OSError:  # a system without it, or that forbids it
+        except OSError:  # not supported or not permitted by this system
             continue
 
 

@@ -1,4 +1,4 @@
-"""`signal.alarm` and `signal.setitimer` in a stepped run: the signal comes in virtual time."""
+"""`signal.alarm` and `signal.setitimer` in a stepped run: the signal arrives in virtual time."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Alarm:
     def setitimer(self, which: int, seconds: float, interval: float = 0.0, /) -> tuple[float, float]:
         """`signal.setitimer`."""
         if which != signal.ITIMER_REAL or seconds < 0 or interval < 0:
-            return self._real_setitimer(which, seconds, interval)  # processor time, or the interpreter's own error
+            return self._real_setitimer(which, seconds, interval)  # a timer of processor time, or an invalid call
         return self._set(round(seconds * 1e9), round(interval * 1e9))
 
     def getitimer(self, which: int, /) -> tuple[float, float]:

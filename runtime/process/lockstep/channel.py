@@ -1,8 +1,8 @@
 """Frames of plain data on the socket between the coordinator of a stepped run and one of its processes.
 
-To the process go *grants*: (now, horizon, operations). Back come *answers*: (now, due, operations, stalls). Times are
-steady times of the run in ns. An operation is a tuple whose first item is its name; all but `SIGNAL` are the
-middleware's. The first frame is a `Welcome`.
+The coordinator sends *grants*: (now, horizon, operations). The process sends *answers*: (now, due, operations, stalls).
+Times are the run's steady times in ns. An operation is a tuple whose first item is its name; all but `SIGNAL` belong to
+the middleware. The first frame is a `Welcome`.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 _LENGTH = struct.Struct("!I")
 _MAX_READ_BYTES = 1 << 18
 SIGNAL = "signal"
-"""The operation (`SIGNAL`, number): the process is sent a signal."""
+"""The operation (`SIGNAL`, number): delivers a signal to the process."""
 
 Operation = tuple[Any, ...]
 
@@ -27,9 +27,9 @@ class Welcome(NamedTuple):
     """System time (ns) at steady time 0."""
     stall_s: float
     seed: int
-    """For its random numbers."""
+    """The seed of its random number generators."""
     processors: list[int]
-    """The processors of the run; empty if it is not pinned."""
+    """The processors that the run is pinned to; empty if it is not pinned."""
 
 
 class Channel:
@@ -44,7 +44,7 @@ class Channel:
         return self._connection.fileno()
 
     def send(self, frame: Any) -> None:
-        """Send a frame; raises `OSError` if the other end is gone."""
+        """Send a frame; raises `OSError` if the other end is closed."""
         data = marshal.dumps(frame)
         self._connection.sendall(_LENGTH.pack(len(data)) + data)
 
@@ -59,7 +59,7 @@ class Channel:
                     return marshal.loads(rest[_LENGTH.size : end])
             try:
                 data = self._connection.recv(_MAX_READ_BYTES)
-            except ConnectionError:  # it was killed with something unread
+            except ConnectionError:  # the process was killed with unread data
                 return None
             if not data:
                 return None

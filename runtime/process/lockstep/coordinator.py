@@ -31,7 +31,7 @@ class Coordinator:
         return member
 
     def close(self) -> None:
-        """End the processes that still run, at the end of the run."""
+        """End the processes that are still running, at the end of the run."""
         for each in self._members:
             each.close()
 

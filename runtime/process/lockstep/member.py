@@ -1,7 +1,7 @@
-"""A process of a stepped run that another process coordinates: its threads take turns, in the coordinator's time.
+"""A process in a stepped run that another process coordinates: its threads take turns, in the coordinator's time.
 
-Its main thread and the threads that it starts are those of the program, with all that a process has. One thread more,
-the *steward*, is the driver of the process's own scheduler: it talks to the coordinator while all others wait.
+Its main thread and the threads that it starts belong to the program, which runs as in any process. One additional
+thread, the *steward*, drives the process's own scheduler: it talks to the coordinator while all others wait.
 """
 
 from __future__ import annotations
@@ -36,14 +36,14 @@ if TYPE_CHECKING:
     from ..clock_source import Wakeup
 
 COORDINATOR_GONE = 1
-"""Exit code of a process that can get no more turns, as its coordinator has ended."""
+"""Exit code of a process that gets no more turns because its coordinator has ended."""
 
 
 class Member:
-    """The part of this process in the run."""
+    """The part of this process in a stepped run."""
 
     def __init__(self, connection: socket.socket) -> None:
-        # As a program may close all descriptors that it knows of.
+        # A high number, as a program may close all descriptors that it knows of.
         self._channel = Channel(socket.socket(fileno=out_of_the_way(connection.detach())))
         self._outbox: list[Operation] = []
         self._published: Wakeup | None = None
@@ -52,16 +52,16 @@ class Member:
         self._paused: Wakeup | None = None
 
     def send(self, operation: Operation) -> None:
-        """Hand an operation over to the coordinator, at the end of this process's turn."""
+        """Pass an operation to the coordinator at the end of this process's turn."""
         self._outbox.append(operation)
         if self._published is not None:
             self._published.set()
 
     def join(self, take: Callable[[Operation], None], news: Callable[[], list[Operation]]) -> None:
-        """Take part from now on, with the calling thread as the program's main thread; returns when it has its turn.
+        """Join the run with the calling thread as the program's main thread; returns when that thread has its turn.
 
-        `take(operation)` is called with each operation that comes from the coordinator; `news()` returns those to be
-        handed over at the end of each turn beside what was sent.
+        `take(operation)` is called with each operation that comes from the coordinator; `news()` returns further
+        operations to send to it at the end of each turn.
         """
         self._take, self._news = take, news
         welcome = self._channel.receive()
@@ -88,7 +88,7 @@ class Member:
         self._published = clock.wakeup()
         self._main = ThreadState(MAIN, clock, threading.main_thread())
         if self._main.task is not None:
-            self._main.task.hold_clock()  # an import takes no virtual time
+            self._main.task.hold_clock()  # importing takes no virtual time
         self._wrap_calls()
         begun()
         try:
@@ -96,7 +96,7 @@ class Member:
                 self._run_turn(self._published)
         except OSError:  # the coordinator has ended
             os._exit(COORDINATOR_GONE)
-        except BaseException:  # without this thread all others would wait for a turn for ever
+        except BaseException:  # without this thread all others would wait for their turns for ever
             traceback.print_exc(file=sys.__stderr__)
             os._exit(COORDINATOR_GONE)
 
@@ -114,7 +114,7 @@ class Member:
             else:
                 self._take(each)
         published.clear()
-        # What happens before the horizon concerns this process alone, until it publishes something.
+        # Events before the horizon concern this process alone, until it publishes something.
         if horizon is not None and horizon > now and not self._outbox:
             published.wait(horizon - 1)
         clock.run_until(clock.steady_ns())
@@ -123,13 +123,13 @@ class Member:
         self._channel.send((clock.steady_ns(), clock.earliest_deadline(), outbox, stalls))
 
     def signal(self, number: int) -> None:
-        """Deliver a signal: a handler runs in the main thread, which is woken from any wait."""
+        """Deliver a signal; a handler runs in the main thread, which is woken from any wait."""
         handler = signal.getsignal(number)
         if not callable(handler):
             os.kill(os.getpid(), number)
         elif self._main.takes_turns:
             self._main.post(partial(self._handle, handler, number))
-        else:  # it blocks in something that the run does not see
+        else:  # the main thread blocks in a call that the run does not see
             signal.pthread_kill(self._main.ident, number)
 
     def _handle(self, handler: Callable[[int, Any], Any], number: int) -> None:
@@ -160,7 +160,7 @@ class Member:
         os.register_at_fork(after_in_child=self._leave)
 
     def _leave(self) -> None:
-        """In a fork of this process: it is no member of the run."""
+        """Leave the run in a fork of this process, which is not a member of it."""
         while self._undo:
             setattr(*self._undo.pop())
         uninstall_stepped_calls()

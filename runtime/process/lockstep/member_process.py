@@ -1,6 +1,6 @@
-"""A process of a user in the run that this process coordinates: it has its turns like a thread of this process.
+"""A user process in the run that this process coordinates: it takes turns like a thread of this process.
 
-In its turn it runs until all its threads wait. Its output is read meanwhile, and completely before the next turn.
+In its turn it runs until all its threads wait. Its output is read meanwhile, and to the end before the next turn.
 """
 
 from __future__ import annotations
@@ -38,11 +38,11 @@ class Peer(Protocol):
     """A process as the middleware sees it."""
 
     def handle(self, operation: Operation) -> None:
-        """Carry out an operation of the process."""
+        """Carry out an operation that the process has sent."""
         ...
 
     def leave(self) -> None:
-        """The process has ended."""
+        """Remove the process, which has ended."""
         ...
 
 
@@ -56,13 +56,13 @@ class Relay(Protocol):
 
 @dataclass
 class Reader:
-    """Takes what a process writes to one of its pipes."""
+    """Reads what a process writes to one of its pipes."""
 
     take: Callable[[bytes], None]
     end: Callable[[], None]
     at_once: bool
     held: list[bytes] = field(default_factory=list[bytes])
-    """The frames that are passed on at the end of the turn."""
+    """The data to be passed on at the end of the turn."""
 
 
 class MemberProcess:
@@ -72,7 +72,7 @@ class MemberProcess:
         self.clock = clock
         self.name = name
         self.number = number
-        """Unique in the run."""
+        """The number that identifies the process in the run."""
         self.notices: list[str] = []
         self.stderr = None
         self.pid = 0
@@ -82,18 +82,18 @@ class MemberProcess:
         self._inbox: list[Operation] = []
         self._wakeup = clock.wakeup()
         self._readers: dict[int, Reader] = {}
-        """Of the open pipes, by descriptor."""
+        """The readers of the open pipes, by descriptor."""
         self._pipes: list[Reader] = []
         self._poll = select.poll()
-        # The first to be looked at: what the process has written before its answer is then seen with the answer.
+        # Checked first, so that what the process wrote before its answer is read together with the answer.
         self._poll.register(own, select.POLLIN)
         self._peer = relay.add(self.deliver)
         self._over = False
         self.exit_code: int | None = None
-        """Set by one of the readers."""
+        """The exit code; set by one of the readers."""
 
     def start(self) -> None:
-        """Give the process its first turn, once a reader has set `pid`; it stops the clock until its first wait."""
+        """Give the process its first turn, once a reader has set `pid`; the clock stops until its first wait."""
         self.member_end.close()
         self._task = start_own_thread(self.clock, self._run)
         self._task.hold_clock()
@@ -101,17 +101,17 @@ class MemberProcess:
     def read(
         self, descriptor: int, take: Callable[[bytes], None], end: Callable[[], None], *, at_once: bool = False
     ) -> None:
-        """Pass on what the process writes to a pipe, and the pipe's end; owns the descriptor from now on.
+        """Pass on what the process writes to a pipe, and the pipe's end; takes ownership of the descriptor.
 
-        That happens at the end of each turn, in the order in which the pipes were given: how the process's writing and
-        the reading here overlap must not decide the order. With `at_once` it happens as it comes.
+        Data is passed on at the end of each turn, in the order in which the pipes were registered: how the writing and
+        the reading overlap must not decide the order. With `at_once` it is passed on as it arrives.
         """
         reader = self._readers[descriptor] = Reader(take, end, at_once)
         self._pipes.append(reader)
         self._poll.register(descriptor, select.POLLIN)
 
     def deliver(self, operation: Operation) -> None:
-        """Pass an operation to the process, in its next turn."""
+        """Send an operation to the process in its next turn."""
         self._inbox.append(operation)
         self._wakeup.set()
 
@@ -153,7 +153,7 @@ class MemberProcess:
             self._finish(task)
 
     def _turn(self, task: ScheduledTask) -> Any:
-        """Let the process run until all its threads wait; return its answer, None if it has ended instead."""
+        """Let the process run until all its threads wait; return its answer, or None if it has ended."""
         operations, self._inbox = self._inbox, []
         self._wakeup.clear()
         scheduler = task.scheduler
@@ -176,7 +176,7 @@ class MemberProcess:
             if not ready and not task.detached and (line := watch.blocked_in()):
                 self._go_on_without(task, line)
         if task.detached:
-            scheduler.wait(task, None, scheduler.now)  # others run: what it has published must wait for the turn
+            scheduler.wait(task, None, scheduler.now)  # others run, so what it has published must wait for its turn
         return answer
 
     def _go_on_without(self, task: ScheduledTask, line: str) -> None:
@@ -219,7 +219,7 @@ class MemberProcess:
                 each.held.clear()
 
     def _finish(self, task: ScheduledTask) -> None:
-        """Read the rest, until the exit code is there; what its child processes write later is lost."""
+        """Read the rest until the exit code arrives; what the child processes write later is lost."""
         self._poll.unregister(self._channel)
         self._channel.close()
         while self._readers and (self.exit_code is None or self._read_ready(0)):
@@ -228,14 +228,14 @@ class MemberProcess:
         for descriptor in list(self._readers):
             self._close(descriptor)
         self._pass_on()
-        # Its last output is handled before anybody hears that it has ended.
+        # Its last output is handled before anybody is notified that it has ended.
         task.scheduler.wait(task, None, task.scheduler.now)
         for each in self._pipes:
             each.end()
 
 
 class _Watch:
-    """Tells whether a process cannot answer: it is stopped, or C code of it holds the interpreter's lock for long.
+    """Detects that a process cannot answer: it is stopped, or its C code holds the GIL for a long time.
 
     A thread that blocks or computes otherwise is reported by the process's own watch.
     """
@@ -249,7 +249,7 @@ class _Watch:
         self._blocked = 0
 
     def blocked_in(self) -> str:
-        """Check again, at even intervals; return the line where it hangs, empty if it does not."""
+        """Check again, at even intervals; return the line in which the process hangs, empty if it does not."""
         reported = state_and_seconds(str(self._pid))
         if reported is None:
             return ""

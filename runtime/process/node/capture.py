@@ -9,11 +9,11 @@ from collections.abc import Callable
 from typing import Any
 
 Sink = Callable[[str], None]
-"""Receives one line with its newline (the last one may lack it), in the thread that wrote it. Must never block."""
+"""Receives one line with its newline (which the last line may lack), in the thread that wrote it. Must never block."""
 
 
 class LineCapture(io.TextIOBase):
-    """A text stream like `sys.stdout` that passes lines to a sink; lines stay whole whatever threads write."""
+    """A text stream like `sys.stdout` that passes lines to a sink; lines stay whole even if several threads write."""
 
     encoding = "utf-8"
     errors = "replace"
@@ -50,7 +50,7 @@ class LineCapture(io.TextIOBase):
         """Accept and ignore options: lines are always passed on at once, as UTF-8."""
 
     def end(self) -> None:
-        """Pass on an unfinished last line and close, when the process has ended."""
+        """When the process has ended, pass on an unfinished last line and close."""
         with self._lock:
             if self._partial and not self.closed:
                 self._sink(self._partial)
@@ -58,7 +58,7 @@ class LineCapture(io.TextIOBase):
             super().close()
 
     def mute(self) -> None:
-        """Close without passing anything on: a killed process prints no last words."""
+        """Close without passing anything on: a killed process prints nothing more."""
         with self._lock:
             self._partial = ""
         self.end()
@@ -91,7 +91,7 @@ NO_INPUT = _NoInput()
 
 
 class _ByteSide(io.BufferedIOBase):
-    """`sys.stdout.buffer`: bytes in, text out."""
+    """`sys.stdout.buffer`: accepts bytes and passes them on as text."""
 
     def __init__(self, text: LineCapture) -> None:
         self._text = text

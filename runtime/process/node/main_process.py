@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class MainProcess(NodeProcess):
-    """The process of all threads that no node process started; its signals are real ones."""
+    """The process of all threads that no node process has started; its signals are real."""
 
     def __init__(self, name: str) -> None:
         super().__init__(name, RealTime())
@@ -65,11 +65,11 @@ class MainProcess(NodeProcess):
             before(signum, frame)
 
     def end_with_main(self, pool: Pool) -> None:
-        """Shut a pool down after the main program, before the interpreter waits for threads, as with its own pools."""
+        """Shut a pool down after the main program, before the interpreter waits for threads, as for its own pools."""
         super().end_with_main(pool)
         if not self._ends_pools:
             self._ends_pools = True
-            with suppress(RuntimeError):  # the main program is over: a thread creates this pool
+            with suppress(RuntimeError):  # the main program has ended, and a thread creates this pool
                 threading._register_atexit(self._end_pools)  # pyright: ignore[reportAttributeAccessIssue, reportUnknownMemberType] -- as `concurrent.futures`
 
     def _end_pools(self) -> None:
@@ -79,13 +79,13 @@ class MainProcess(NodeProcess):
     def send_signal(self, signum: int) -> None:
         """Send the real process a real signal."""
         if hasattr(signal, "pthread_kill"):
-            signal.pthread_kill(threading.main_thread().ident or 0, signum)  # where Python handles signals
+            signal.pthread_kill(threading.main_thread().ident or 0, signum)  # where Python runs signal handlers
         else:
             os.kill(os.getpid(), signum)
 
     def die(self, code: int) -> None:
-        """Do nothing: the real process is not ended from within a run."""
+        """Do nothing: a run never ends the real process."""
 
     def start(self, *_arguments: Any, **_options: Any) -> None:
-        """Raise `RuntimeError`: it is already running."""
+        """Raise `RuntimeError`: the process is already running."""
         raise RuntimeError("the real process is already running")

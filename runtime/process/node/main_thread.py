@@ -33,12 +33,12 @@ class _Main:
         self._target: Callable[[], object] | None = target
 
     def __call__(self) -> None:
-        # The program's objects are released with the program, not with the thread object, which somebody may keep.
+        # The program's objects are released when the program ends, not with the thread object, which others may keep.
         target, self._target = self._target, None
         assert target is not None
         try:
             code = exit_code_of(target)
-        except BaseException:  # an interrupt during its last output
+        except BaseException:  # an interrupt while the last output is written
             code = SIGINT_EXIT
         if local.state is not None:
             local.state.ending = True
@@ -54,7 +54,7 @@ class _Main:
         try:
             while waited_for := [t for t, s in self._process.children.items() if not s.daemon and t.is_alive()]:
                 waited_for[0].join()
-        except BaseException as exception:  # a second Ctrl-C ends only the waiting
+        except BaseException as exception:  # a second Ctrl-C ends only this wait
             if not isinstance(exception, ProcessKilled):
                 print_exception(exception)
 
@@ -68,7 +68,7 @@ class _Main:
 
 
 def exit_code_of(target: Callable[[], object]) -> int:
-    """Run a callable and return the exit code of a Python process doing so; tracebacks go to its standard error."""
+    """Run a callable and return the exit code that a Python process would have; tracebacks go to its standard error."""
     try:
         target()
     except SystemExit as exception:

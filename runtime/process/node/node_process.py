@@ -24,7 +24,7 @@ from .thread_state import ProcessKilled, local
 if TYPE_CHECKING:
     from ..roles import NodeThread, Pool
 
-_pids = itertools.count((1 << 22) + 1)  # above Linux's highest pid, so that a stray kill() hits nobody
+_pids = itertools.count((1 << 22) + 1)  # above Linux's highest pid, so that a stray kill() reaches no process
 KILL_TIMEOUT_S = 0.5
 """How long (s) a killed process's threads may take to unwind before it counts as abandoned."""
 
@@ -107,18 +107,18 @@ class NodeProcess:
         self.send_signal(signal.SIGINT)
 
     def terminate(self) -> None:
-        """Send SIGTERM: runs hooks or its handler; without either it ends with -15."""
+        """Send SIGTERM: runs hooks or its handler; without either, the process ends with exit code -15."""
         self.send_signal(signal.SIGTERM)
 
     def deliver_signals(self) -> None:
-        """Let pending signals take effect first, if called from its main thread.
+        """Let pending signals take effect now, if called from the process's main thread.
 
         For code that has seen the effect of a hook: a real process would have run the handler by now.
         """
         state = local.state
         if state is None or state is not self.main_state:
             return
-        # A stepped run has one thread at work, so nothing can be pending; waiting would keep the turn.
+        # In a stepped run only one thread works at a time, so nothing can be pending; waiting would keep the turn.
         while self.signals.sending and not self.clock.stepped:
             unpatched.sleep(0.0005)
         state.deliver()
@@ -144,9 +144,10 @@ class NodeProcess:
     def on_interrupt(
         self, callback: Callable[[int], Any], signals: Iterable[int] = (signal.SIGINT, signal.SIGTERM)
     ) -> Callable[[], None]:
-        """Call `callback(signum)` before the handler of these signals, in the sender's thread with this `current()`.
+        """Call `callback(signum)` before the handler of these signals, in the sender's thread, with this process as
+        `current()`.
 
-        A hook for SIGTERM counts as its handler: the process goes on. Returns a function that removes the hook.
+        A hook for SIGTERM counts as its handler: the process continues. Returns a function that removes the hook.
         """
         return self.signals.add_hook(callback, (int(signum) for signum in signals))
 
@@ -163,15 +164,14 @@ class NodeProcess:
         return lambda: None
 
     def end_with_main(self, pool: Pool) -> None:
-        """When the main program is over, let a pool finish its submitted work and shut down, and wait for that."""
+        """When the main program has ended, let a pool finish its submitted work, shut it down, and wait for that."""
         self.pools.add(pool)
 
     def on_abandon(self, callback: Callable[[], Any]) -> Callable[[], None]:
-        """Call `callback()` when the process is over, however it ended, to leave the graph: its code may still be
-        running.
+        """Call `callback()` when the process has ended in any way, to leave the graph: its code may still be running.
 
-        Called at once if it is already over: a killed thread may get this far. All of these run before the first
-        `on_exit` callback. Returns a function that removes the callback.
+        Called at once if the process has already ended, as a killed thread may get this far. All of these run before
+        the first `on_exit` callback. Returns a function that removes the callback.
         """
         with self._exit_lock:
             over = self.exit_code is not None
@@ -186,7 +186,7 @@ class NodeProcess:
         return None if self.main_state is None else stack_frames.thread_line(self.main_state.ident)
 
     def thread_states(self) -> list[NodeThread]:
-        """Return its main thread and the threads it started, except those that have ended."""
+        """Return the main thread and the threads it started, except those that have ended."""
         main = [] if self.main_state is None else [self.main_state]
         return [state for state in (*main, *self.children.values()) if state.thread.is_alive()]
 
@@ -198,7 +198,7 @@ class NodeProcess:
         return None if running is None else self.cpu_of_ended_threads + running
 
     def guarded(self, callback: Callable[[], Any]) -> None:
-        """Call back and turn an exception into a notice, because ending or signalling the process must go on."""
+        """Call `callback`; turn an exception into a notice, because ending or signalling the process must go on."""
         try:
             callback()
         except Exception as exception:
@@ -226,7 +226,7 @@ class NodeProcess:
 
     def _break_off(self, states: Sequence[NodeThread]) -> None:
         left = [state for state in states if state.thread.is_alive()]
-        # A thread waiting for its turn raises by itself when that comes; raising in it now would break the order.
+        # A thread waiting for its turn raises by itself when the turn comes; raising in it now would break the order.
         if any(state.takes_turns for state in left):
             self.break_off_later(left)
             return
@@ -243,14 +243,14 @@ class NodeProcess:
                 notify(self, f"did not end when asked to, so it is abandoned. It hangs in {line}")
 
     def finish(self, code: int) -> None:
-        """Record the end of the process, once, and notify all."""
+        """Record the end of the process, once, and call all callbacks."""
         with self._exit_lock:
             if self.exit_code is not None:
                 return
             self.exit_code = code
         self.state = ProcessState.EXITED
         running.pop(self.pid, None)
-        # Whichever thread ends the process, `current()` in the callbacks is the one that has ended.
+        # Whichever thread ends the process, `current()` in the callbacks is the process that has ended.
         before, local.process = local.process, self
         try:
             for abandon in tuple(self._abandon_callbacks):

@@ -6,10 +6,10 @@ from enum import Enum
 
 
 class ProcessState(Enum):
-    """The stages from its creation to its end, and beyond for a thread that does not end."""
+    """The stages of a process from creation to end, and beyond if one of its threads does not end."""
 
     NEW = "new"
     RUNNING = "running"
     EXITED = "exited"
     ABANDONED = "abandoned"
-    """Killed, but a thread of it still runs; it has left the graph and its output is discarded."""
+    """Killed, but one of its threads still runs; it has left the graph and its output is discarded."""

@@ -1,4 +1,4 @@
-"""Signals of a node process: the effect of SIGINT, SIGTERM and others on a thread that looks like a process."""
+"""Signals of a node process: what SIGINT, SIGTERM and others do to a thread that looks like a process."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ..roles import CurrentProcess, Handler, NodeThread
 
 BUSY_TIMEOUT_S = 0.1
-"""How long (s) a busy thread may take to reach a wait before the exception is raised wherever it is."""
+"""How long (s) a busy thread may take to reach a wait before the exception is raised at any point of it."""
 
 SIGKILL = 9
 _IGNORED_BY_DEFAULT = frozenset(
@@ -89,7 +89,7 @@ class Signals:
     def run_hooks(self, signum: int) -> bool:
         """Call the hooks of a signal as this process; return whether there were any."""
         hooks = [hook for hook, signals in self._hooks if signum in signals]
-        # The sender is another thread, often of another process.
+        # The sender is another thread, often one of another process.
         before, local.process = local.process, self._process
         try:
             for hook in hooks:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 IMPORT_POLL_S = 0.005
-"""How long (s) until it is checked again whether a thread has finished importing."""
+"""Interval (s) between checks whether a thread has finished importing."""
 
 
 class ProcessKilled(BaseException):
@@ -26,10 +26,10 @@ class ProcessKilled(BaseException):
 
 
 class ThreadState:
-    """One thread of a node process, for those who want to wake it or raise something in it.
+    """A thread of a node process, which can be woken, or made to raise an exception.
 
-    A waiting thread is woken and raises by itself; a busy one is only interrupted by `throw`, so that an exception does
-    not hit the runtime's own work half-way.
+    A waiting thread is woken and raises by itself; only `throw` interrupts a busy one, so that no exception hits the
+    runtime's own work half-way.
     """
 
     __slots__ = (
@@ -65,7 +65,7 @@ class ThreadState:
         self.called = False
         """Whether anything is pending to be raised or run in this thread."""
         self.ending = False
-        """Whether its program is over: the rest is the runtime's own work, and nothing is raised in that."""
+        """Whether its program has ended: the rest is the runtime's own work, in which nothing is raised."""
         self._guard = allocate_lock()
         self._pending: deque[Callable[[], Any]] = deque()
         self._waker: Callable[[], None] | None = None
@@ -73,7 +73,7 @@ class ThreadState:
         self._starts = False
         """Whether the thread is just starting another one."""
         self._postponed: type[BaseException] | None = None
-        """What was thrown meanwhile."""
+        """The exception thrown meanwhile."""
 
     @property
     def waiting(self) -> bool:
@@ -86,7 +86,7 @@ class ThreadState:
         return self.task is not None and not self.task.detached
 
     def enter(self) -> None:
-        """Make the calling thread this one; in a stepped run, wait for its turn."""
+        """Make the calling thread this one, and in a stepped run wait for its turn."""
         self.ident = threading.get_ident()
         local.process = self.process
         local.state = self
@@ -98,21 +98,21 @@ class ThreadState:
     def leave(self) -> None:
         """End the thread's work: pass the turn on and wake those that join it."""
         if self.ident:
-            # The system discards the times of a thread that has ended.
+            # The system discards the processor times of a thread that has ended.
             self.process.cpu_of_ended_threads += time.thread_time()
         self.finished.set()
         if self.task is not None:
             self.task.leave()
 
     def post(self, action: Callable[[], Any]) -> None:
-        """Make the thread call `action` in its present or next wait, which raises what the action raises."""
+        """Make the thread call `action` in its current or next wait, which raises what the action raises."""
         with self._guard:
             self._pending.append(action)
             self.called = True
             self._wake()
 
     def kill(self) -> None:
-        """Make this wait and every later one of the thread raise `ProcessKilled`."""
+        """Make the thread's current wait and every later one raise `ProcessKilled`."""
         with self._guard:
             self.killed = self.called = True
             self._wake()
@@ -133,12 +133,12 @@ class ThreadState:
     def throw(self, exception: type[BaseException]) -> None:
         """Raise in the thread; in a busy one at its next bytecode, after any call into C code has returned.
 
-        The import machinery is allowed to finish: within it the exception could be lost, or leave a module's lock held
-        for ever, which all other node processes would wait for.
+        The import machinery is allowed to finish: an exception within it could be lost, or leave a module's lock held
+        for ever, blocking all other node processes.
         """
         with self._guard:
             if self.waiting:
-                # It raises by itself when woken: thrown, the exception would come at any point after the wait.
+                # It raises by itself when woken; a thrown exception would come at an arbitrary point after the wait.
                 self._pending.append(partial(_raise, exception))
                 self.called = True
                 self._wake()
@@ -155,10 +155,10 @@ class ThreadState:
                 ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(self.ident), ctypes.py_object(exception))
 
     def start_thread(self, thread: threading.Thread) -> None:
-        """Start another thread from this one, and raise what is thrown meanwhile when that one runs.
+        """Start another thread from this one; an exception thrown meanwhile is raised once the other thread runs.
 
-        Before Python 3.12 a new thread has its starter's identifier until it runs: it would get the exception and end
-        before its first line, and the starter would wait for it for ever.
+        Before Python 3.12 a new thread has its starter's identifier until it runs: the exception would end it before
+        its first line, and the starter would wait for it for ever.
         """
         try:
             with self._guard:
@@ -178,7 +178,7 @@ class ThreadState:
             self.waits += 1
         if self._thrown:
             self._thrown = False
-            # What was thrown while it was busy is raised here, not later in the middle of the wait.
+            # An exception thrown while it was busy is raised here, not later in the middle of the wait.
             _checkpoint()
         if self.called:
             self.deliver()
@@ -188,7 +188,7 @@ class ThreadState:
         self._waker = None
 
     def deliver(self) -> None:
-        """Run the posted actions, in this thread; raises what they raise."""
+        """Run the posted actions in this thread; raises what they raise."""
         while self.called:
             if self.killed:
                 raise ProcessKilled
@@ -204,7 +204,7 @@ def _raise(exception: type[BaseException]) -> None:
 
 
 def _checkpoint() -> None:
-    """Do nothing: calls are where the interpreter raises what `PyThreadState_SetAsyncExc` left."""
+    """Do nothing: the interpreter raises an exception left by `PyThreadState_SetAsyncExc` at a call."""
 
 
 class _ThreadLocals(threading.local):

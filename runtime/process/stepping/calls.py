@@ -1,4 +1,4 @@
-"""Calls wrapped during stepped runs: the `time` module returns virtual time, and new locks are those of the run."""
+"""Calls wrapped during stepped runs: the `time` module returns virtual time, and new locks belong to the run."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def _reading(name: str, read: Callable[[ClockSource], int]) -> tuple[Callable[[]
 
 
 def _broken_down(name: str) -> Callable[..., Any]:
-    """Return the wrapper of `time.localtime` and the like, which default to the virtual time."""
+    """Return the wrapper of `time.localtime` or a similar function, which defaults to the virtual time."""
     real_call = getattr(time, name)
 
     def wrapped(seconds: float | None = None, /) -> Any:
@@ -73,7 +73,7 @@ _guard = threading.Lock()
 
 
 def install_stepped_calls() -> None:
-    """Wrap these calls, until a matching number of `uninstall_stepped_calls`."""
+    """Wrap these calls, until `uninstall_stepped_calls` was called as often as this function."""
     global _users
     with _guard:
         _users += 1
@@ -84,7 +84,7 @@ def install_stepped_calls() -> None:
 
 
 def uninstall_stepped_calls() -> None:
-    """Restore the calls once no stepped run needs them."""
+    """Restore the calls when no stepped run needs them any more."""
     global _users
     with _guard:
         _users -= 1

@@ -32,7 +32,7 @@ class SteppedEventLoop(asyncio.SelectorEventLoop):
         return self._stepped_clock.steady_ns() * 1e-9
 
     def call_soon_threadsafe(self, callback: Callable[..., Any], *args: Any, context: Any = None) -> asyncio.Handle:
-        """Call back in the loop, which is woken; thread-safe."""
+        """Call `callback` in the loop, which is woken; thread-safe."""
         handle = super().call_soon_threadsafe(callback, *args, context=context)
         self._called.set()
         return handle
@@ -45,7 +45,7 @@ class _SteppedSelector(selectors.DefaultSelector):
         self._called = called
 
     def wake(self) -> None:
-        """End the present wait; thread-safe."""
+        """End the current wait; thread-safe."""
         self._called.set()
 
     def select(self, timeout: float | None = None) -> list[tuple[selectors.SelectorKey, int]]:
@@ -66,7 +66,7 @@ def new_event_loop() -> asyncio.AbstractEventLoop:
 
 
 def wraps() -> list[tuple[Any, str, Any]]:
-    """Return owner, name and replacement of the calls with which all event loops of stepped threads become stepped."""
+    """Return owner, name and replacement of the calls that make all event loops of stepped threads stepped."""
     real_init: Any = BaseSelectorEventLoop.__init__
     real_write: Any = getattr(BaseSelectorEventLoop, "_write_to_self")  # noqa: B009 -- private, yet all calls of other threads end there
 

@@ -1,4 +1,4 @@
-"""Locks of a stepped run: a thread that waits for one passes the turn on, which built-in locks cannot do."""
+"""Locks of a stepped run: a thread that waits for one passes the turn on, which it cannot do in a built-in lock."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ class SteppedLock:
             self._waiters.remove(turn)
 
     def _give_up(self, turn: Wakeup) -> None:
-        """Pass on a turn that came together with the exception that ended the wait."""
+        """Pass on a turn that was granted together with the exception that ended the wait."""
         self._withdraw(turn)
         if turn.is_set() and not self.locked():
             self._call_next()
@@ -78,7 +78,7 @@ class SteppedLock:
             self._waiters.popleft().set()
 
     def locked(self) -> bool:
-        """Whether someone has it."""
+        """Whether a thread holds it."""
         return self._lock.locked()
 
     __enter__ = acquire
@@ -87,7 +87,7 @@ class SteppedLock:
         self.release()
 
     def _at_fork_reinit(self) -> None:
-        """Free it in the child of a fork, which has none of the threads that held it or waited for it."""
+        """Release it in a forked child, where the threads that held it or waited for it do not exist."""
         self._lock._at_fork_reinit()
         self._waiters.clear()
 
@@ -95,8 +95,8 @@ class SteppedLock:
 class SteppedRLock(SteppedLock):
     """Like `threading.RLock`, for a stepped run.
 
-    The inner built-in lock is acquired and records its owner atomically: a finalizer of the same thread may run at any
-    time.
+    The inner built-in lock records its owner atomically when it is acquired, since a finalizer of the same thread may
+    run at any time.
     """
 
     __slots__ = ()
@@ -112,7 +112,7 @@ class SteppedRLock(SteppedLock):
             self._call_next()
 
     def locked(self) -> bool:
-        """Whether someone has it."""
+        """Whether a thread holds it."""
         if self._is_owned() or not self._lock.acquire(False):
             return True
         self._lock.release()
@@ -121,7 +121,7 @@ class SteppedRLock(SteppedLock):
     def _recursion_count(self) -> int:
         return self._lock._recursion_count()
 
-    # The methods that `threading.Condition` needs of its lock.
+    # The methods of its lock that `threading.Condition` needs.
 
     def _is_owned(self) -> bool:
         return self._lock._is_owned()
@@ -139,16 +139,16 @@ class SteppedRLock(SteppedLock):
 
 
 class Lock:
-    """`threading.Lock`: of the run in threads of a stepped run, else the built-in one."""
+    """`threading.Lock`: a lock of the run in the threads of a stepped run, otherwise the built-in one."""
 
     def __new__(cls) -> Any:
-        """A new lock for the calling thread."""
+        """Return a new lock for the calling thread."""
         return SteppedLock() if _in_stepped_run() else _RealLock()
 
 
 class RLock:
-    """`threading.RLock`: of the run in threads of a stepped run, else the built-in one."""
+    """`threading.RLock`: a lock of the run in the threads of a stepped run, otherwise the built-in one."""
 
     def __new__(cls) -> Any:
-        """A new lock for the calling thread."""
+        """Return a new lock for the calling thread."""
         return SteppedRLock() if _in_stepped_run() else _RealRLock()

@@ -1,7 +1,7 @@
-"""Keep a stepped run on one processor: its threads only take turns, and a turn passes 2 to 3 times faster there.
+"""Keeps a stepped run on one processor: its threads only take turns, and a turn passes 2 to 3 times faster that way.
 
-It is twice as fast again if the system lets a thread that wakes another one go on to its own wait: otherwise the woken
-thread interrupts it, finds the GIL taken, and sleeps again.
+It is twice as fast again if the system lets a thread that has woken another one continue to its own wait: otherwise the
+woken thread interrupts it, finds the GIL taken, and sleeps again.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def pin_thread() -> Callable[[], None]:
 
 def _let_wakers_go_on() -> Callable[[], None]:
     """Stop the calling thread from interrupting others when it is woken; returns a function that undoes it."""
-    if os.sched_getscheduler(0) != os.SCHED_OTHER:  # another policy was chosen
+    if os.sched_getscheduler(0) != os.SCHED_OTHER:  # another policy has been chosen
         return lambda: None
     try:
         os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
@@ -52,15 +52,15 @@ def _let_wakers_go_on() -> Callable[[], None]:
 def import_numpy() -> None:
     """Import `numpy` and `numpy.random` without starting BLAS threads for other processors.
 
-    Each of those spins for 30 to 100 ms before its first sleep, beside the imports that follow: a third of the time a
-    run takes to start. A number of threads set in the environment is kept.
+    Each of these threads spins for 30 to 100 ms before its first sleep, beside the imports that follow: a third of the
+    time that a run takes to start. A number of threads set in the environment is respected.
     """
     asked = os.environ.get(BLAS_THREADS)
     os.environ.setdefault(BLAS_THREADS, "1")
     try:
         importlib.import_module("numpy.random")
     finally:
-        if asked is None:  # programs started by a node get the original environment
+        if asked is None:  # programs that a node starts get the original environment
             os.environ.pop(BLAS_THREADS, None)
 
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def start_own_thread(clock: SteppedTime, program: Callable[[ScheduledTask], object]) -> ScheduledTask:
-    """Call `program(task)` in a new thread that is ready to run; the watch of the run leaves it alone."""
+    """Call `program(task)` in a new thread that is ready to run; the watchdog of the run ignores the thread."""
     task = clock.task(None)
 
     def run() -> None:

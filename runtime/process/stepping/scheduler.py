@@ -1,4 +1,4 @@
-"""The scheduler of a stepped run. The thread with the turn runs; when it waits, it hands it on in a fixed order.
+"""The scheduler of a stepped run. The thread with the turn runs; when it waits, it passes the turn on in a fixed order.
 
 Threads run in the order in which they became ready. When none is ready, time jumps to the earliest deadline, and the
 threads with that deadline become ready in order of creation.
@@ -18,16 +18,16 @@ if TYPE_CHECKING:
     from ..clock_source import WaitingThread
 
 LAST = 1 << 60
-"""The driver's rank, the last: it sees everything that happens up to the time until which it waits."""
+"""The driver's rank, the last one: it sees everything that happens up to the time until which it waits."""
 POLL_NS = 20_000
 """Cost of a wait that would not block (ns), so that a polling loop advances time."""
 INSTANT_WAITS = 50_000
-"""Number of waits at one instant after which each costs `POLL_NS`: nodes may keep waking each other for ever."""
+"""Number of waits at one instant after which each further one costs `POLL_NS`, as nodes may keep waking each other."""
 STALE_DEADLINES = 64
-"""Entries that the deadline queue may have beyond four per thread before those of ended waits are dropped."""
+"""How many entries, beyond four per thread, the deadline queue may have before those of ended waits are removed."""
 Note = TypeVar("Note")
 SIGNAL_CHECK_S = 0.2
-"""How often (s of wall time) a waiting driver checks for real signals: another thread may have received them."""
+"""How often (s of wall time) a waiting driver checks for real signals, which another thread may have received."""
 
 
 class Awaited(Protocol):
@@ -36,7 +36,7 @@ class Awaited(Protocol):
     flag: bool
     """Whether it is set."""
     waiters: list[ScheduledTask]
-    """In the order of their waits."""
+    """The waiting tasks, in the order of their waits."""
 
 
 class ScheduledTask:
@@ -63,7 +63,7 @@ class ScheduledTask:
         self.rank = rank
         self.state = state
         self.lock = allocate_lock()
-        # Held from the start: waiting for the turn is acquiring it again, granting the turn is releasing it.
+        # Held from the start: to wait for the turn is to acquire it again, to grant the turn is to release it.
         self.lock.acquire()
         self.wakeup: Awaited | None = None
         self.due: int | None = None
@@ -75,7 +75,7 @@ class ScheduledTask:
         self.ident = self.native_id = 0
 
     def take(self) -> None:
-        """Wait for the first turn; called in the thread that this task stands for."""
+        """Wait for the first turn; called in the thread that this task represents."""
         self.native_id = get_native_id()
         self.ident = get_ident()
         self.lock.acquire()
@@ -89,17 +89,15 @@ class ScheduledTask:
         self.scheduler.leave(self)
 
     def wake_thread(self) -> None:
-        """End the thread's present wait though it is neither set nor due."""
+        """End the thread's current wait, although its wakeup is not set and its deadline not reached."""
         self.scheduler.wake_thread(self)
 
     def is_due_at(self, deadline: int) -> bool:
-        """Whether its present wait ends at that time (ns), if nothing ends it before."""
+        """Whether its current wait ends at that time (ns) unless something ends it earlier."""
         return self.waiting and self.due == deadline
 
     def wait(self, wakeup: Awaited | None, deadline: int | None) -> bool:
-        """Yield to other threads until woken or due (ns); return whether woken. Raises what is pending for this
-        thread.
-        """
+        """Yield to other threads until woken or due (ns); return whether woken. Raises any pending exception."""
         state, scheduler = self.state, self.scheduler
         if state is None:
             return scheduler.wait(self, wakeup, deadline)
@@ -116,7 +114,7 @@ class ScheduledTask:
 
 
 class Scheduler:
-    """The scheduler: which thread runs, which are ready, which wait for what (the deadline queue), the time (ns)."""
+    """Schedules the threads of a run: which one runs, which are ready, which wait for what, and the time (ns)."""
 
     def __init__(self, now: int) -> None:
         self.now = now
@@ -125,7 +123,7 @@ class Scheduler:
         self.reads = 0
         self.tasks: dict[int, ScheduledTask] = {}
         self.starting: set[ScheduledTask] = set()
-        """Threads that have not reached their first wait and stop the clock until then."""
+        """Threads that have not reached their first wait; the clock stands still until they do."""
         self._guard = allocate_lock()
         self._ready: deque[ScheduledTask] = deque()
         self._deadlines: list[tuple[int, int, ScheduledTask]] = []
@@ -159,7 +157,7 @@ class Scheduler:
                 self._grant_next()
 
     def wait(self, task: ScheduledTask, wakeup: Awaited | None, deadline: int | None) -> bool:
-        """Pass the turn on; return True if the wakeup was set, False if due or roused."""
+        """Pass the turn on; return True if the wakeup was set, False if the wait was due or ended otherwise."""
         with self._guard:
             self.turns += 1
             self._instant_waits += 1
@@ -168,7 +166,7 @@ class Scheduler:
             if self._instant_waits > INSTANT_WAITS:
                 self.now += POLL_NS
             if wakeup is not None and wakeup.flag:
-                # A wakeup that is already set costs no turn; but a thread that only waited for such would let nobody
+                # A wakeup that is already set costs no turn; but a thread whose wakeups always are would let nobody
                 # else run.
                 if not task.detached and self._instant_waits <= INSTANT_WAITS:
                     return True
@@ -185,11 +183,11 @@ class Scheduler:
                 if task.rank != LAST:
                     task.lock.acquire()
                 else:
-                    # A signal received by another thread does not end an acquire here, though its handler runs in this
-                    # thread.
+                    # A signal received by another thread does not end an `acquire` here, although its handler runs in
+                    # this thread.
                     while not task.lock.acquire(True, SIGNAL_CHECK_S):
                         pass
-            except BaseException:  # a real signal's handler raised in the real main thread
+            except BaseException:  # the handler of a real signal raised in the real main thread
                 self._reclaim(task)
                 raise
         if task.waiting:
@@ -197,7 +195,7 @@ class Scheduler:
         return task.woken or (wakeup is not None and wakeup.flag)
 
     def _is_next(self, task: ScheduledTask, deadline: int) -> bool:
-        """Whether nothing happens before, or at the same time as, the end of the holder's wait."""
+        """Whether nothing happens before, or at the same time as, the end of the current thread's wait."""
         deadlines = self._deadlines
         return (
             not self._ready
@@ -207,7 +205,7 @@ class Scheduler:
         )
 
     def wait_outside(self, wakeup: Awaited, deadline: int | None) -> bool:
-        """Wait in a thread that never has the turn and runs beside the one that does."""
+        """Wait in a thread that never has the turn, but runs beside the one that has it."""
         with self._guard:
             if wakeup.flag:
                 return True
@@ -257,20 +255,20 @@ class Scheduler:
             return message
 
     def stop_waiting_for_starts(self) -> None:
-        """Let time go on although some threads have not reached their first wait."""
+        """Let time continue although some threads have not reached their first wait."""
         with self._guard:
             self.starting.clear()
             if self.holder is None:
                 self._grant_next()
 
     def advance_to(self, time_ns: int) -> None:
-        """Let time go on at once, for a run whose time is another's."""
+        """Advance to a time at once, for a run whose time another process determines."""
         if time_ns > self.now:
             self.now = time_ns
             self.reads = self._instant_waits = 0
 
     def earliest_deadline(self) -> int | None:
-        """Return the time (ns) at which the next thread other than the driver runs; None without a deadline."""
+        """Return the time (ns) at which the next thread other than the driver runs; None if there is no deadline."""
         with self._guard:
             if self._ready:
                 return self.now
@@ -278,7 +276,7 @@ class Scheduler:
             return min(due, default=None)
 
     def horizon(self) -> int | None:
-        """Return a time (ns) before which no thread but the holder runs; None if another one is ready."""
+        """Return a time (ns) before which no thread but the current one runs; None if another one is ready."""
         return self._deadlines[0][0] if self._deadlines and not self._ready and not self.starting else None
 
     def _enlist(self, task: ScheduledTask, wakeup: Awaited | None, deadline: int | None) -> None:
@@ -323,17 +321,17 @@ class Scheduler:
         while deadlines and (not ready or deadlines[0][0] <= self.now):
             deadline, rank, task = deadlines[0]
             if task.waiting and task.due == deadline:
-                # The driver comes after all others that are ready at this instant.
+                # The driver runs after all other threads that are ready at this instant.
                 if rank == LAST and ready and deadline == self.now:
                     break
                 if deadline > self.now:
-                    # The wall time that a start takes must not decide what happens before it.
+                    # The wall time that a start takes must not decide what happens before its end.
                     if self.starting:
                         break
                     self.now = deadline
                     self.reads = self._instant_waits = 0
                 self._make_ready(task)
-            # Woken before it was due, or served now: either way this entry is done.
+            # Woken before it was due, or served now: either way this entry is finished.
             heappop(deadlines)
             if task.in_heap == deadline:
                 task.in_heap = None

@@ -24,7 +24,7 @@ from .wakeup import SteppedWakeup
 DEFAULT_START_NS = 1_700_000_000_000_000_000
 """Default system time (ns since the epoch) at which a stepped run begins."""
 FREE_READS = 10_000
-"""Clock readings at one instant that are free; each further one costs `READ_NS`, for loops that busy-wait."""
+"""Number of clock readings at one instant that are free; each further one costs `READ_NS`, for busy-waiting loops."""
 READ_NS = 1_000
 _SO = "so that others run beside it and the run is not deterministic"
 BLOCKS = f"waits for something outside the stepped run, {_SO}. Wait with time.sleep, rclpy or threading instead"
@@ -77,15 +77,15 @@ class SteppedTime:
         SteppedWakeup(self._scheduler).wait(deadline_ns)
 
     def advance_to(self, steady_ns: int) -> None:
-        """Let time go on at once to that steady time (ns), unless it is already past."""
+        """Advance to that steady time (ns) at once, unless it is already past."""
         self._scheduler.advance_to(steady_ns)
 
     def earliest_deadline(self) -> int | None:
-        """Return the steady time (ns) at which the next thread runs, the driver aside; None if all wait for others."""
+        """Return the steady time (ns) at which the next thread but the driver runs; None if all wait for others."""
         return self._scheduler.earliest_deadline()
 
     def add_stalls(self, stalls: Sequence[str]) -> None:
-        """Take in lines where threads blocked, from a process that takes part in the run."""
+        """Add lines in which threads blocked, reported by a process that takes part in the run."""
         if stalls:
             self.deterministic = False
             self.stalls += stalls
@@ -107,7 +107,7 @@ class SteppedTime:
         self.run_until(self._scheduler.now + round(seconds * 1e9))
 
     def close(self) -> None:
-        """Kill what still runs, let it unwind, and restore the driver's thread."""
+        """Kill the threads that still run, let them unwind, and restore the driver's thread."""
         for task in tuple(self._scheduler.tasks.values()):
             if isinstance(task.state, ThreadState):
                 task.state.process.die(-SIGKILL)
@@ -132,9 +132,9 @@ def stepped(
     """Run the block in stepped time, driven by the calling thread, with `random` and `numpy.random` started from
     `seed`.
 
-    It applies to `MAIN` and the calling thread. With `virtual_main` the calling thread is treated like a node's: its
-    `time` module, sleeps, waits and new threads belong to the run. Without it only its clock queries do, which suits an
-    asyncio loop or a user interface.
+    It applies to `MAIN` and the calling thread. If `virtual_main` is true, the calling thread is treated like a node's:
+    its `time` module, sleeps, waits and new threads belong to the run. Otherwise only its clock queries do, which suits
+    an asyncio loop or a user interface.
     """
     install_virtual_process()
     clock = SteppedTime(start_system_ns, stall_s=stall_s)

@@ -1,1 +1,1 @@
-"""Per-node-process versions of what an interpreter has only once, by wrapping public functions."""
+"""Per-node-process versions of things an interpreter has only once, made by wrapping public functions."""

@@ -1,4 +1,4 @@
-"""Make threads started by a node process its own: wraps `Thread.start`, `join`, `is_alive` and the thread lists."""
+"""Give a node process the threads it starts: wraps `Thread.start`, `join`, `is_alive` and the thread lists."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def _state_of(thread: threading.Thread) -> ThreadState | None:
 
 
 def start_outside(thread: threading.Thread) -> None:
-    """Start a thread that belongs to the real process, whichever process calls."""
+    """Start a thread that belongs to the real process, whichever process calls this."""
     before, local.waits_on = local.waits_on, None  # `Thread.start` waits until the new thread runs
     try:
         if local.state is None:
@@ -45,7 +45,7 @@ def start_inside(
     state = ThreadState(process, clock, thread)
     inside = _Inside(state)
     thread.daemon = True
-    # Set on the object: `Thread.start` calls its `run`, even in a subclass.
+    # Set on the object, because `Thread.start` calls its `run`, even in a subclass.
     vars(thread)["run"] = inside
     vars(thread)[_STATE] = state
     if child:
@@ -53,14 +53,14 @@ def start_inside(
     else:
         process.main_state = state
         if state.task is not None:
-            # An import takes wall time and no virtual time: others would run ahead of the start.
+            # An import takes wall time but no virtual time: other threads would run ahead of the start.
             state.task.hold_clock()
     if not process.is_alive:
-        # Started by a process that has ended: it is to end before its first line.
+        # The process that starts the thread has ended: the thread must end before its first line.
         state.kill()
     try:
         start_outside(thread)
-    except RuntimeError:  # no more threads
+    except RuntimeError:  # the system allows no more threads
         inside.give_up()
         raise
     return state
@@ -83,7 +83,7 @@ class _Inside:
     def __call__(self) -> None:
         state = self._state
         self._restore()
-        vars(state.thread)["_daemonic"] = state.daemon  # what its own children inherit
+        vars(state.thread)["_daemonic"] = state.daemon  # its own children inherit it
         state.enter()
         try:
             self._guarded_run()
@@ -116,7 +116,7 @@ class _Inside:
 
 
 def _below_bootstrap(trace: TracebackType | None) -> TracebackType:
-    """Return the traceback as `threading` would show it, starting with its own frame that called `run`."""
+    """Return the traceback as `threading` would show it, starting with the frame of `threading` that called `run`."""
     frame = sys._getframe(3)  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
     return TracebackType(trace, frame, frame.f_lasti, frame.f_lineno)
 
@@ -137,12 +137,12 @@ def join(thread: threading.Thread, timeout: float | None = None) -> None:
         deadline = None if timeout is None else clock.steady_ns() + int(max(timeout, 0.0) * 1e9)
         if not state.finished.wait(deadline):
             return
-        timeout = None  # what remains of the thread is the interpreter's own short work
+        timeout = None  # the remaining work is the interpreter's own, and short
     unpatched.join_thread(thread, timeout)
 
 
 def is_alive(thread: threading.Thread) -> bool:
-    """`Thread.is_alive`: False once the node's part of the thread is over."""
+    """`Thread.is_alive`: False once the node's part of the thread has ended."""
     state = _state_of(thread)
     return (state is None or not state.finished.is_set()) and unpatched.is_thread_alive(thread)
 

@@ -21,7 +21,7 @@ def _text(value: object) -> str:
 
 
 class RoutingEnvironment(MutableMapping[str, str]):
-    """Reads and writes the environment of the calling thread's node process, else the real one."""
+    """Reads and writes the environment of the calling thread's node process, or the real one."""
 
     @staticmethod
     def _mapping() -> MutableMapping[str, str]:

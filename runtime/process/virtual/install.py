@@ -37,7 +37,8 @@ _guard = threading.Lock()
 
 
 def install_virtual_process() -> None:
-    """Wrap what node processes need; does nothing if already installed. The first `NodeProcess.start` calls it.
+    """Wrap the calls that node processes need; does nothing if already installed. The first `NodeProcess.start` calls
+    it.
 
     For code outside node processes the only effect is one more lookup per call.
     """
@@ -51,7 +52,7 @@ def install_virtual_process() -> None:
 
 
 def uninstall_virtual_process() -> None:
-    """Restore everything; only when no node process runs."""
+    """Restore everything; call it only when no node process runs."""
     with _guard:
         while _undo:
             _undo.pop()()
@@ -64,6 +65,6 @@ def _replace(owner: Any, name: str, replacement: Any) -> Callable[[], None]:
 
 
 def reinstall_stdio() -> None:
-    """Restore the routing standard streams after code has replaced them bypassing `sys`' properties."""
+    """Restore the routing standard streams after code has replaced them, bypassing the properties of `sys`."""
     if _undo:
         sys_module.reinstall()

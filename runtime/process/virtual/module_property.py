@@ -10,9 +10,9 @@ from ..node.thread_state import local
 
 
 def process_variable(name: str, of_process: Callable[[Any], Any]) -> property:
-    """Return a property: the module's own variable in the real process; in a node process its own value.
+    """Return a property: in the real process it is the module's own variable, in a node process a value of its own.
 
-    That is the value it has set, else `of_process(process)`.
+    That is the value that the node process has set, or `of_process(process)`.
     """
 
     def get(module: ModuleType) -> Any:
@@ -33,10 +33,10 @@ def process_variable(name: str, of_process: Callable[[Any], Any]) -> property:
 
 
 class _OfOneModule(type):
-    """Metaclass that makes the class of one module's properties equal `ModuleType` for users of `type(module)`.
+    """Metaclass that makes a class with one module's properties equal to `ModuleType` for users of `type(module)`.
 
-    The interpreter itself creates modules by `type(sys)(name)`: with the properties they would use that module's
-    variables as their own.
+    The interpreter itself creates modules by `type(sys)(name)`: with these properties, new modules would share that
+    module's variables.
     """
 
     def __new__(cls, name: str, bases: tuple[type, ...], members: dict[str, Any], **options: Any) -> Any:

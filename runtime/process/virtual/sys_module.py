@@ -1,6 +1,7 @@
 """`sys.argv` and the standard streams per node process, as properties of the class of `sys`.
 
-C code reads the streams from the module's dictionary, so it holds routing streams. Python code gets the properties.
+C code reads the streams from the module's dictionary, which therefore holds routing streams. Python code gets the
+properties.
 """
 
 from __future__ import annotations
@@ -15,19 +16,19 @@ from .module_property import VirtualModule, process_variable, replace_class
 
 
 class RoutingStream:
-    """A standard stream that routes each thread to the stream of its node process, all others to the real one."""
+    """A standard stream that routes each thread to the stream of its node process, or to the real one."""
 
     def __init__(self, name: str) -> None:
         self._name = name
         self._original = sys.__dict__[name]
         self.real = self._original
-        """The stream outside node processes."""
+        """The stream that is used outside node processes."""
 
     def target(self) -> Any:
         """Return the calling thread's stream."""
         process = local.process
         if process.main_state is not None:
-            # What the node has assigned to `sys.stdout` precedes its capture, as in a separate process.
+            # A stream that the node has assigned to `sys.stdout` precedes its capture, as in a separate process.
             stream = process.overrides.get(self._name) or getattr(process, self._name)
             if stream is not None:
                 return stream
@@ -48,13 +49,13 @@ class RoutingStream:
         return iter(self.target())
 
     def get(self) -> Any:
-        """Return the calling thread's `sys.stdout`: this stream, unless it was replaced."""
+        """Get the calling thread's `sys.stdout`: this stream, unless it was replaced."""
         if local.process.main_state is not None:
             return local.process.overrides.get(self._name, self)
         return self if self.real is self._original else self.real
 
     def replace(self, stream: Any) -> None:
-        """`sys.stdout = stream`, only for the calling thread's process."""
+        """Handle `sys.stdout = stream`, for the calling thread's process only."""
         if local.process.main_state is not None:
             local.process.overrides[self._name] = None if stream is self else stream
         else:
@@ -89,7 +90,7 @@ _add_properties(VirtualSys)
 
 
 def install() -> Callable[[], None]:
-    """Make the variables of `sys` per process; returns a function that undoes it."""
+    """Make the variables of `sys` specific to node processes; returns a function that undoes it."""
     streams = {name: RoutingStream(name) for name in _STREAMS}
     sys.__dict__.update(streams)
     restore_class = replace_class(sys, VirtualSys)

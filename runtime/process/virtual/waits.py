@@ -1,4 +1,4 @@
-"""`time.sleep`, `Condition.wait` and `queue.SimpleQueue` for node threads: signals end a wait, a stepped run sees it.
+"""`time.sleep`, `Condition.wait` and `queue.SimpleQueue` for node threads: signals end waits, stepped runs see them.
 
 `threading.Event`, `Semaphore`, `Barrier`, `Timer`, `queue.Queue` and `concurrent.futures` all wait in a `Condition`.
 """
@@ -67,7 +67,7 @@ def condition_wait(condition: Any, timeout: float | None = None) -> bool:
 
 
 class SimpleQueue:
-    """`queue.SimpleQueue` based on a condition, because the built-in one blocks where nobody can wake it."""
+    """`queue.SimpleQueue` based on a condition, because a thread that blocks in the built-in one cannot be woken."""
 
     def __new__(cls) -> Any:
         """Return a queue for the calling thread: the built-in one outside node processes."""

@@ -9,12 +9,12 @@ from types import FrameType
 from .. import stack_frames
 
 _DEBUGGERS = frozenset(("bdb", "pydevd"))
-"""Modules without which no thread can be stopped in a debugger; pydevd is the part of debugpy that stops threads."""
+"""Modules without which no debugger can have stopped a thread; pydevd is the part of debugpy that stops threads."""
 _PYDEVD_WAITS = frozenset(("do_wait_suspend", "_do_wait_suspend"))
 
 
 def line_in_debugger() -> str | None:
-    """Return the line at which a thread is stopped, as `/path/file.py:12, in function`; None if no thread is.
+    """Return the line at which a thread is stopped, as `/path/file.py:12, in function`; None if none is stopped.
 
     It is empty if the debugger shows an exception that has already left the user's code.
     """
@@ -32,9 +32,9 @@ def line_in_debugger() -> str | None:
 
 
 def _is_interaction(frame: FrameType, callee: FrameType | None) -> bool:
-    """Whether a debugger waits for its user in this frame: `callee` is the one that it has called."""
+    """Whether a debugger waits for its user in this frame: `callee` is the frame that it has called."""
     file, function = os.path.basename(frame.f_code.co_filename), frame.f_code.co_name
-    if file == "bdb.py":  # it calls `user_line` and the like of pdb, ipdb, pudb ... only where it stops
+    if file == "bdb.py":  # pdb, ipdb, pudb etc. call `user_line` and the like only where they stop
         return callee is not None and callee.f_code.co_name.startswith("user_")
     if file == "pdb.py":
         return function == "interaction"

@@ -1,4 +1,4 @@
-"""Detect from outside that a process hangs because C code holds the GIL, and in which line."""
+"""Detect from outside that a process hangs because C code holds the GIL, and name the line."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import NamedTuple
 from .. import stack_frames, unpatched
 
 NAME = "interpreter-stacks"
-"""Name of the in-memory file of a watched process."""
+"""Name of a watched process's in-memory file."""
 MIN_SWITCHES_PER_S = 4
 """Minimum number of times per second that a thread waiting for the GIL wakes: every 5 ms unless the machine is busy. A
 thread that only waits for a processor, or is frozen, does not wake.
@@ -25,12 +25,12 @@ _ESCAPE = re.compile(r"\\(?:x[0-9a-f]{2}|u[0-9a-f]{4}|U[0-9a-f]{8})")
 
 
 class Held(NamedTuple):
-    """The holder of the GIL."""
+    """The thread that holds the GIL."""
 
     ident: int
-    """The thread, as in `threading.get_ident`."""
+    """The thread's id, as from `threading.get_ident`."""
     line: str
-    """`/path/file.py:12, in function`; two that cannot be told apart are joined by ` or `."""
+    """`/path/file.py:12, in function`; if two lines cannot be told apart, both, joined by ` or `."""
 
 
 @dataclass
@@ -45,12 +45,12 @@ def voluntary_switches(process: int | str, thread: int) -> int | None:
     try:
         with open(f"/proc/{process}/task/{thread}/status", "rb") as file:
             return int(file.read().partition(b"\nvoluntary_ctxt_switches:")[2].split(maxsplit=1)[0])
-    except (OSError, ValueError, IndexError):  # it has ended, or the system has no such file
+    except (OSError, ValueError, IndexError):  # the process has ended, or the system has no such file
         return None
 
 
 def held_in_stacks(text: str, switches: int, now: float) -> Held | None:
-    """Determine from a watched process's file who holds the GIL, if anybody does.
+    """Determine from a watched process's file which thread holds the GIL, if any.
 
     `switches` are the voluntary switches of the thread named in the file; `now` is the monotonic time in s.
     """
@@ -88,7 +88,7 @@ def _line_of_user(thread: _Thread) -> tuple[str, str] | None:
 
 
 class GilHolder:
-    """One process, checked repeatedly."""
+    """Checks one process repeatedly."""
 
     def __init__(self, pid: int) -> None:
         self._pid = pid
@@ -104,7 +104,7 @@ class GilHolder:
             return ""
         text = _content(self._path)
         if text is None:
-            self._path = ""  # it was moved to another descriptor, unless the process has ended
+            self._path = ""  # the file was moved to another descriptor, unless the process has ended
             return ""
         thread = text.partition(" ")[0]
         switches = voluntary_switches(self._pid, int(thread)) if thread.isdecimal() else None
@@ -115,13 +115,14 @@ class GilHolder:
 def _content(path: str) -> str | None:
     """Return what a process has written to its file; None if there is no such file at that descriptor.
 
-    The process may have closed the descriptor and opened something else there: reading from a pipe could wait for ever.
+    The process may have closed the descriptor and opened something else under its number; reading from a pipe could
+    block.
     """
     try:
         descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
         with open(descriptor, encoding="ascii", errors="replace") as file:
             return file.read(1 << 20) if _is_stacks(f"/proc/self/fd/{descriptor}") else None
-    except OSError:  # it has ended, or closed its file
+    except OSError:  # the process has ended, or closed its file
         return None
 
 
@@ -135,6 +136,6 @@ def _file_of(pid: int) -> str:
         for name in os.listdir(folder):
             if _is_stacks(f"{folder}/{name}"):
                 return f"{folder}/{name}"
-    except OSError:  # it has ended, is another user's, or the system has no such folder
+    except OSError:  # the process has ended or is another user's, or the system has no such folder
         return ""
     return ""

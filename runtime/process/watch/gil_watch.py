@@ -1,7 +1,8 @@
-"""Detect that C code holds the GIL: then no other thread of this process runs, including ours.
+"""Detect that C code holds the GIL: then no other thread of this process runs, not even the runtime's.
 
-One thread of the interpreter (`faulthandler`) needs no GIL: when the beat here fails to come, it writes the stacks of
-all threads into an in-memory file. The next beat reads that; until then, other processes can (`gil_holder`).
+One thread of the interpreter (`faulthandler`) needs no GIL: when a heartbeat of this module is missing, that thread
+writes the stacks of all threads into an in-memory file. The next heartbeat reads the file; until then, other processes
+can (`gil_holder`).
 """
 
 from __future__ import annotations
@@ -17,13 +18,13 @@ from .. import unpatched
 from .gil_holder import NAME, held_in_stacks, voluntary_switches
 
 PERIOD_S = 0.5
-"""Wall time (s) between two beats."""
+"""Wall time (s) between two heartbeats."""
 WRITTEN_S = 1.25
-"""Wall time (s) after a beat at which the stacks are written if no other beat has come: the GIL is held for 1 s."""
+"""Wall time (s) after a heartbeat at which the stacks are written if no other has come: the GIL is held for 1 s."""
 FIRST_HEARTBEAT_TIMEOUT_S = 1.0
-"""Maximum wall time (s) that `begin` waits for the first beat: a GIL held before that beat is never detected."""
+"""Maximum wall time (s) that `begin` waits for the first heartbeat: a GIL held before it is never detected."""
 MIN_DESCRIPTOR = 1000
-"""Lowest number of the file's descriptor, if allowed: out of the way of programs that close all they know of."""
+"""Lowest descriptor number for the file, if allowed, out of reach of programs that close all they know of."""
 TEXT = (
     "has held the interpreter's lock for 1 s, in {}. No other thread of its process runs meanwhile: do it in smaller "
     "pieces, by a library that releases the lock, or in a process of its own"
@@ -31,7 +32,7 @@ TEXT = (
 
 
 class GilWatch:
-    """Reports, when the GIL is free again, which thread held it and in which line."""
+    """Reports which thread held the GIL, and in which line, when the GIL is free again."""
 
     def __init__(self, report: Callable[[int, str], None]) -> None:
         """`report(ident, text)` is called in a thread of the runtime."""
@@ -46,7 +47,7 @@ class GilWatch:
             return
         try:
             self._file = out_of_the_way(os.memfd_create(NAME))
-        except OSError:  # there are no more descriptors
+        except OSError:  # no more descriptors are available
             return
         self._made = _identity(self._file)
         faulthandler.dump_traceback_later = self._for_the_program
@@ -93,7 +94,7 @@ def _identity(descriptor: int) -> tuple[int, int]:
 
 
 def out_of_the_way(descriptor: int) -> int:
-    """Give a descriptor a high number, which programs that close all they know of leave alone; return that."""
+    """Move a descriptor to a high number, which programs that close all they know of leave alone; return it."""
     import fcntl
     import resource
 

@@ -1,4 +1,4 @@
-"""Detect that this process's main thread computes without ever waiting: its node receives nothing meanwhile."""
+"""Detect that this process's main thread computes without ever waiting, so that its node receives nothing."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from .processor_time import ran_and_waited
 PERIOD_S = 0.5
 """Wall time (s) between two checks."""
 WANTED_SHARE = 0.9
-"""Share of wall time, spent only running or waiting for a processor, from which a thread counts as computing."""
+"""Share of wall time spent running or waiting for a processor from which on a thread counts as computing."""
 REPORT_S = 1.0
-"""Processor time (s) used without a wait after which that is reported: on a busy machine a start may take seconds."""
+"""Processor time (s) without a wait after which a thread is reported; on a busy machine a start may take seconds."""
 
 
 class MainWatch:
-    """Reports in which line the main thread computes, once each time that begins, if the system tells such times."""
+    """Reports in which line the main thread computes, once each time it begins, if the system tells such times."""
 
     def __init__(self, report: Callable[[str], None]) -> None:
         self._report = report
@@ -26,14 +26,14 @@ class MainWatch:
         self._before = (0.0, 0.0, 0.0)
 
     def begin(self) -> None:
-        """Start watching until the process ends; to be called in the main thread."""
+        """Start watching until the process ends; call it in the main thread."""
         if self._times() is not None:
             self._before = (unpatched.monotonic(), *(self._times() or (0.0, 0.0)))
             unpatched.later(PERIOD_S, self._poll)
 
     @staticmethod
     def _times() -> tuple[float, float] | None:
-        return ran_and_waited(f"self/task/{os.getpid()}")  # the main thread has the process's id
+        return ran_and_waited(f"self/task/{os.getpid()}")  # the main thread's id is the process's
 
     def _poll(self) -> None:
         then, ran_then, waited_then = self._before

@@ -11,13 +11,13 @@ if TYPE_CHECKING:
 
 
 ENDED_STATES = ("Z", "X")
-"""Of a process that has ended and was not reaped yet."""
+"""States of a process that has ended but was not reaped yet."""
 
 
 def state_and_seconds(task: str) -> tuple[str, float] | None:
     """Return state (`R`, `S`, `D` ..., see proc(5)) and processor time (s) of `/proc/<task>`; None if unknown.
 
-    That is a process by its pid, or a thread.
+    `task` is a pid, or for a thread a path such as `self/task/123`.
     """
     try:
         with open(f"/proc/{task}/stat", "rb") as stat_file:

@@ -1,6 +1,6 @@
 """The watchdog of a stepped run: a thread that hangs while it holds the turn must not stop all others for ever.
 
-It checks at intervals of wall time, but decides by the state it finds, never by the time that has passed: see
+It checks at intervals of wall time, but decides by the state of the thread, never by the time that has passed: see
 `thread_work`.
 """
 
@@ -23,12 +23,12 @@ Report = Callable[["ScheduledTask", bool], Callable[[], None]]
 
 
 class StallWatch:
-    """Takes the turn from a thread that hangs, in a wait that the run does not see or in a computation."""
+    """Takes the turn from a thread that hangs, in a wait that the run does not see or in an endless computation."""
 
     def __init__(self, scheduler: Scheduler, stall_s: float, report: Report) -> None:
         """`report(task, busy)` is called before others continue; the function it returns is called once they can.
 
-        `stall_s`: how long (s) a thread must be blocked, and the unit of how long it may compute.
+        `stall_s` is how long (s) a thread must be blocked; how long it may compute is a multiple of that.
         """
         self._scheduler = scheduler
         self._stall_s = stall_s
@@ -52,7 +52,7 @@ class StallWatch:
             task, turns = turn = self._scheduler.holder, self._scheduler.turns
             if turn != self._turn:
                 self._turn = turn
-                # A new turn: what threads did in earlier ones says nothing.
+                # A new turn: what the threads did in earlier ones no longer matters.
                 self._works.clear()
             if task is not None:
                 self._inspect_holder(task, turns)
@@ -71,7 +71,7 @@ class StallWatch:
             report()
 
     def _inspect_starting(self) -> None:
-        """Let time go on if all nodes for whose start it stands still hang."""
+        """Let time continue if all nodes whose starts stop the clock hang."""
         works = [self._poll(task) for task in tuple(self._scheduler.starting)]
         if all(
             work is not None

@@ -1,7 +1,7 @@
 """Determine whether a thread makes progress, computes endlessly, or waits for something outside the run.
 
 Elapsed time does not tell: on a busy machine a thread that merely imports a library stalls for seconds. The operating
-system does (Linux, proc(5)): CPU time, whether the thread sleeps, where, and whether it woke.
+system (Linux, proc(5)) does: it reports CPU time, whether and where the thread sleeps, and whether it woke.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from .processor_time import state_and_seconds
 CHECKS_PER_STALL = 4
 """How many checks in a row must find a thread blocked before it counts as blocked."""
 SLOW_DISK_FACTOR = 30
-"""Factor on that number if the thread may be waiting for a slow disk, or if the system tells too little."""
+"""Factor applied to that number if the thread may be waiting for a slow disk, or if the system tells too little."""
 COMPUTING = 10
 """Processor time that a thread may use between two waits, in stalls."""
 IMPORTING = 60
-"""Processor time that it may use for importing libraries, in stalls."""
+"""Processor time that a thread may use for importing libraries, in stalls."""
 SLEEPING = "S"
 AT_WORK = ("R", "D")
 
@@ -39,7 +39,7 @@ class ThreadWork:
         self._factor = 1
 
     def poll(self) -> None:
-        """Check again; to be called at even intervals."""
+        """Check again; call it at even intervals."""
         importing = stack_frames.is_importing(self._ident)
         reported = state_and_seconds(self._task)
         state, seconds = reported or (SLEEPING, time.process_time())
@@ -56,11 +56,11 @@ class ThreadWork:
         self._blocked = self._blocked + 1 if blocked else 0
 
     def is_blocked(self, stalls: int = 1) -> bool:
-        """Whether it has been waiting in the kernel for that many stalls."""
+        """Whether the thread has been waiting in the kernel for that many stalls."""
         return self._blocked >= CHECKS_PER_STALL * self._factor * stalls
 
     def is_busy(self, stall_s: float, stalls: int = 1) -> bool:
-        """Whether it has computed for that many stalls of `stall_s` seconds, or imported for many more."""
+        """Whether the thread has computed for that many stalls of `stall_s` seconds, or imported for many more."""
         limit = COMPUTING * stall_s * stalls
         return self._computed >= limit or self._imported >= IMPORTING / COMPUTING * limit
 
@@ -68,7 +68,7 @@ class ThreadWork:
         """Whether a sleeping thread waits for something outside the run.
 
         A thread that waits for the GIL wakes every few ms, so one that has not woken waits for something else. A thread
-        that wakes and sleeps again, polling a device, is recognised by where it sleeps: locks are futexes.
+        that wakes and sleeps again, because it polls a device, is recognised by where it sleeps: locks are futexes.
         """
         switches, place = self._read("status").partition("\nvoluntary_ctxt_switches:")[2], self._read("wchan")
         still, self._switches = switches == self._switches, switches
@@ -77,7 +77,7 @@ class ThreadWork:
         return (still or not (on_lock or importing)) and not self._family_works()
 
     def _family_works(self) -> bool:
-        """Whether a child process of the thread, or a descendant, makes progress: then the thread waits for that."""
+        """Whether a child process or descendant of the thread makes progress; then the thread is waiting for it."""
         reported = [each for each in map(state_and_seconds, _descendants(self._task)) if each]
         before, self._family = self._family, sum(seconds for _, seconds in reported)
         return self._family != before or any(state in AT_WORK for state, _ in reported)
