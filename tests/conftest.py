@@ -1,4 +1,4 @@
-"""Shared by all tests: the embedded runtime answers to the ROS names, and no user setting leaks in."""
+"""Fixtures and hooks for all tests: the ROS names mean the embedded runtime, and no user setting leaks in."""
 
 import atexit
 import gc
@@ -24,7 +24,7 @@ pytest_plugins = ["second_tries"]
 TESTS = Path(__file__).absolute().parent
 
 ON_ROS = os.environ.get("BOT_CONSOLE_TESTS_ON") == "ros"
-"""Whether the ROS names are to mean what the machine has: for `-m ros`."""
+"""Whether the ROS names mean the packages of the machine, as `-m ros` needs."""
 
 if ON_ROS:
     console_needs.provide_missing()
@@ -33,12 +33,12 @@ else:
     for variable in ("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE"):
         os.environ.pop(variable, None)
 
-# Who starts the tests in the background lets them ignore these, and with them every program that a test starts.
+# A shell that starts the tests in the background ignores these signals, and every program of a test would inherit that.
 for number in (signal.SIGINT, *(getattr(signal, name) for name in ("SIGQUIT", "SIGHUP") if hasattr(signal, name))):
     if signal.getsignal(number) is signal.SIG_IGN:
         signal.signal(number, signal.default_int_handler if number is signal.SIGINT else signal.SIG_DFL)
 
-gc.set_threshold(50_000, 20, 50)  # most of what a test makes is gone by then; while collecting it saves a sixth
+gc.set_threshold(50_000, 20, 50)  # most objects are gone by then; saves a sixth of pytest's collection
 
 _sockets = tempfile.mkdtemp(prefix="bc-", dir="/tmp")
 _folders = itertools.count(1)
@@ -46,28 +46,28 @@ os.environ["BOT_CONSOLE_SOCKET_DIR"] = os.path.join(_sockets, "0")
 os.environ["BOT_CONSOLE_USER_DIR"] = os.path.join(_sockets, "0-user")
 atexit.register(shutil.rmtree, _sockets, ignore_errors=True)
 
-# Workers and programs of tests find compiled what pip or an earlier run has compiled, also where the environment says
-# that nothing compiled is to be kept: to compile all of it takes each worker as long as all else that it does at first.
+# Workers and programs of tests use the byte code that pip or an earlier run has compiled, even if the environment says
+# that none is to be kept: compiling everything takes each worker as long as the rest of its start.
 if os.environ.pop("PYTHONDONTWRITEBYTECODE", None):
     sys.dont_write_bytecode = False
 
-# The default run tries the same few examples each time, so that red means a change: HYPOTHESIS_PROFILE=explore tries
-# many others.
+# The default run tries the same few examples each time, so that a failure means a change: HYPOTHESIS_PROFILE=explore
+# tries many others.
 settings.register_profile("repeatable", derandomize=True, deadline=None, database=None, max_examples=25)
 settings.register_profile("explore", deadline=None, max_examples=1000)
 PROFILE = os.environ.get("HYPOTHESIS_PROFILE", "repeatable")
 settings.load_profile(PROFILE)
 if PROFILE == "repeatable":
-    # It would read all our sources for constants to try: a quarter of what it costs a worker to collect the tests, and
-    # other examples after each change.
+    # It would read all our sources for constants to try: that takes a quarter of the time in which a worker collects
+    # the tests, and gives other examples after each change.
     providers.is_local_module_file = lambda path: False
 
 
 @pytest.fixture(autouse=True)
 def socket_folder(monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
-    """A folder of the test's own in which its processes meet: none joins a system that runs on this machine.
+    """A separate socket folder for the test, so that none of its processes joins a system that runs on this machine.
 
-    Its path is short, as that of a socket must be, and it is made by who joins first.
+    Its path is short, as a socket's must be. The first process to join creates it.
     """
     name = os.path.join(_sockets, f"{next(_folders):x}")
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", name)
@@ -80,9 +80,10 @@ def socket_folder(monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
 
 @pytest.fixture
 def tmp_path(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder of the test's own, as that of pytest, which lists all earlier ones to find the next number.
+    """A separate folder for the test, like pytest's own fixture, which lists all earlier folders to find the next
+    number.
 
-    Its path is no longer than there, as some tests have sockets in it.
+    Its path is no longer than pytest's, since some tests put sockets into it.
     """
     name = re.sub(r"\W", "_", request.node.name)[:26]
     return tmp_path_factory.mktemp(f"{name}{next(_folders)}", numbered=False)
@@ -90,9 +91,9 @@ def tmp_path(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFa
 
 @pytest.fixture(autouse=True)
 def leaves_no_session(socket_folder: str) -> Iterator[None]:
-    """Close the sessions that a test opened in this process, which the next test would otherwise share.
+    """Close the sessions that a test opened in this process: the next test would share them otherwise.
 
-    A command that runs in a stepped system opens one, too.
+    A command in a stepped system opens one, too.
     """
     before = _shares_domains()
     yield
@@ -110,7 +111,7 @@ def leaves_no_session(socket_folder: str) -> Iterator[None]:
 
 
 def _shares_domains() -> bool:
-    """Whether contexts of this process share their domain with others or did; imports nothing that is not in use."""
+    """Whether contexts of this process share or have shared a domain with others; imports nothing that is unused."""
     chosen, shared = (
         sys.modules.get(f"bot_console.runtime.rmw.{name}") for name in ("middleware", "zenoh.domain.domain_bus")
     )
@@ -118,9 +119,9 @@ def _shares_domains() -> bool:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Refuse to test another source than this one.
+    """Refuse to test any other source than this one.
 
-    Each of several workers begins to read the tests at another file: what it compiles, the others find compiled.
+    Each worker begins to read the tests at a different file: what it compiles, the others find compiled.
     """
     worker = getattr(config, "workerinput", None)
     if worker is None and (different := difference(Path(console_needs.__file__).parents[3], TESTS.parent)):
@@ -133,7 +134,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 @pytest.hookimpl(wrapper=True)
 def pytest_collection() -> Iterator[None]:
-    """What is imported and collected stays: to look it through took a quarter of the time of a screen's test."""
+    """Freeze everything imported and collected: traversing it took a quarter of the time of a test with a screen."""
     gc.disable()
     try:
         return (yield)
@@ -143,13 +144,13 @@ def pytest_collection() -> Iterator[None]:
 
 
 def pytest_unconfigure() -> None:
-    """Freeze what the tests left behind: pytest ends with five full garbage collections."""
+    """Freeze what the tests left behind, since pytest ends with five full garbage collections."""
     gc.freeze()
 
 
 @pytest.fixture
 def notices() -> Iterator[list[str]]:
-    """What the runtime has told about its programs, in the order in which it was told."""
+    """The messages of the runtime about its programs, in order."""
     from bot_console.runtime.process import on_notice
 
     reported: list[str] = []
@@ -159,7 +160,8 @@ def notices() -> Iterator[list[str]]:
 
 
 def pytest_xdist_auto_num_workers() -> int:
-    """Two per processor for `-n auto`: half of its time a worker waits for a program, a screen or another thread."""
+    """Two workers per processor for `-n auto`: a worker waits half of its time for a program, a screen or another
+    thread."""
     return 2 * (os.cpu_count() or 1)
 
 
@@ -170,7 +172,7 @@ COMPUTING = ("pilot", "project", "property", "snapshot")
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """One order, however they were read.
+    """Order the tests independently of how they were read.
 
     Files that wait and files that compute alternate: workers that all wait at the same time leave processors idle, and
     many programs that start at the same time delay each other.
@@ -180,7 +182,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def _turns(files: Sequence[Path]) -> dict[Path, tuple[float, Path]]:
-    """What the files are sorted by: those of both kinds begin and end together, all others follow."""
+    """The sort key of each file: files of both kinds begin and end together, and all others follow."""
     folders = {each: each.relative_to(TESTS).parts[0] if each.is_relative_to(TESTS) else "" for each in files}
     turns = {each: (1.0, each) for each in files}
     for kind in (WAITING, COMPUTING):

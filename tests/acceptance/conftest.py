@@ -1,4 +1,4 @@
-"""Imports that programs of stepped runs would otherwise do.
+"""Imports modules that programs of stepped runs would otherwise import.
 
 A program that computes for a second of wall time without waiting counts as busy, and time goes on without it; on a
 loaded machine the first import of these modules takes that long.

@@ -1,4 +1,4 @@
-"""A command in a bad place says so in one line: a full disk, a deleted folder, an unwritable home."""
+"""A command that cannot work where it is says so in one line: a full disk, a deleted folder, an unwritable home."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from bot_console.tui.session.launch_host.proxy import HostedLauncher
 from launcher_bench import WAITS
 
 TIMEOUT_S = 240.0
-"""Seconds (wall) until a command that hangs fails its test."""
+"""Seconds of wall time after which a hanging command fails its test."""
 
 
 def command(words: list[str], folder: Path, **options: object) -> subprocess.CompletedProcess[str]:

@@ -137,7 +137,7 @@ def test_breakpoints_of_an_editor_stop_timer_and_callback_and_others_see_where(w
             assert where.endswith(f"node.py:{number}, in {function}")
             editor.request("continue", threadId=thread)
             assert eventually(lambda where=where: where not in debugger_lines(str(workspace / "5")).values())
-        editor.close()  # first: the adapter has the same output, and ends with the connection
+        editor.close()  # close this first: the adapter shares the output, and ends with the connection
         assert "went on" in program.communicate()[0]
     finally:
         program.kill()

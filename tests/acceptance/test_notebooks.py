@@ -55,7 +55,8 @@ class Kernel:
         self._client.wait_for_ready(timeout=TIMEOUT_S)
 
     def run(self, cell: str, interrupt_at: str = "") -> tuple[str, str]:
-        """What a cell prints, and the name of the exception that ends it; interrupted when it prints a text."""
+        """Run a cell; return its output and the name of the exception that ended it. It is interrupted when it prints a
+        text."""
         printed: list[str] = []
 
         def take(message: Mapping[str, Any]) -> None:
@@ -67,12 +68,12 @@ class Kernel:
         return "".join(printed), reply["content"].get("ename", "")
 
     def restart(self, *, now: bool) -> None:
-        """As the menu does; with `now` as after a kernel that does not answer."""
+        """Restart the kernel as the menu does; with `now`, as for a kernel that does not answer."""
         self._manager.restart_kernel(now=now)
         self._client.wait_for_ready(timeout=TIMEOUT_S)
 
     def end(self) -> None:
-        """Close the notebook."""
+        """Shut the kernel down, as closing the notebook does."""
         self._client.stop_channels()
         self._manager.shutdown_kernel(now=True)
         self._manager.cleanup_resources()
@@ -86,7 +87,7 @@ def env(tmp_path: Path) -> dict[str, str]:
 
 @pytest.fixture
 def kernel(env: dict[str, str]) -> Iterator[Kernel]:
-    folder = Path(tempfile.mkdtemp(prefix="bcn"))  # short: the paths of its sockets
+    folder = Path(tempfile.mkdtemp(prefix="bcn"))  # short, since its sockets are below it
     made = Kernel(env, folder)
     yield made
     made.end()

@@ -1,4 +1,4 @@
-"""Tests of a user, under plain pytest: alone in their domain, in real or stepped time."""
+"""A user's tests under plain pytest: isolated in their domain, in real or stepped time."""
 
 from __future__ import annotations
 
@@ -141,7 +141,7 @@ def workflow(name: str) -> Any:
 
 
 def scripts() -> dict[str, list[str]]:
-    """The commands of each workflow, a list for each shell that it starts."""
+    """The commands of each workflow, as a list for each shell that it starts."""
     steps = workflow("github")["jobs"]["test"]["steps"]
     return {
         "github": [each["run"] for each in steps if "run" in each],

@@ -1,4 +1,4 @@
-"""What the wheels of PyPI's rclpy put into the environment of each Python does not reach programs outside of theirs."""
+"""What PyPI's rclpy wheels put into the environment of each Python reaches no program outside that environment."""
 
 import os
 import subprocess
@@ -16,7 +16,7 @@ import os, sys
 os.environ["_ROS_WHEELS_BOOTSTRAP_COMPLETE"] = "1"
 os.environ["LD_LIBRARY_PATH"] = f"{sys.prefix}/lib:/env/site-packages/ros_rcl.libs:/mine"
 """
-"""What their `.pth` file does to every Python of its environment."""
+"""What the wheels' `.pth` file does to every Python of its environment."""
 SHOW = 'echo "guard=${_ROS_WHEELS_BOOTSTRAP_COMPLETE-none} path=$LD_LIBRARY_PATH"'
 NODE = f"import subprocess\nsubprocess.run(['sh', '-c', {SHOW!r}])\n"
 LAUNCH = f"""

@@ -1,8 +1,9 @@
-"""What keeping and recording cost: `python tests/benchmarks/bench_bags.py [SECONDS]`, JSON out. Linux; four minutes.
+"""The cost of keeping and recording: `python tests/benchmarks/bench_bags.py [SECONDS]`, JSON out. Linux; four minutes.
 
-The default robot and its console in a pseudo-terminal of 120x40: percent of a processor that console, nodes and
-simulator use together while nothing is kept, while the last minutes are kept (`Z`), and while all topics are recorded
-as well (`R`). Each is the mean of two alternating runs, and `more` is the difference to keeping nothing.
+Runs the default robot and its console in a pseudo-terminal of 120x40. Measures the percentage of a processor that
+console, nodes and simulator use together while nothing is kept, while the last minutes are kept (`Z`), and while all
+topics are recorded as well (`R`). Each is the mean of two alternating runs; `more` is the difference to keeping
+nothing.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """From an interpreter's start to a node's first message: `python tests/benchmarks/bench_first_message.py [ROUNDS]`.
 
-Plain `python3` in a set-up shell against `bot-console run`, in alternating rounds of one run; JSON out. `cpu_ms` is the
-processor time (user and system) of the process until it has received a message of its own, `wall_ms` the time on the
-clock, each the median; the ratios are of `python3` by `run`. `import_rclpy_cpu_ms` is the processor time of
-`import rclpy` alone, within the process. On a busy machine only processor times and ratios mean something.
+Compares plain `python3` in a set-up shell with `bot-console run`, in alternating rounds of one run; JSON out. `cpu_ms`
+is the CPU time (user and system) of the process until it has received one of its own messages, `wall_ms` the wall time,
+both as medians; ratios are `python3` divided by `run`. `import_rclpy_cpu_ms` is the CPU time of `import rclpy` alone,
+within the process. On a busy machine only CPU times and ratios are meaningful.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ IMPORT = "import time; before = time.process_time(); import rclpy; print((time.p
 
 
 def measured(line: Sequence[str], env: Mapping[str, str]) -> tuple[float, float]:
-    """The processor time and the time on the clock (ms) of a process."""
+    """CPU time and wall time (ms) of a process."""
     before, start = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
     subprocess.run(line, env=dict(env), check=True, capture_output=True)
     wall, after = time.perf_counter() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -65,7 +65,7 @@ def main(rounds: int) -> dict[str, object]:
             "python3": ([str(PYTHON), str(program)], plain_env),
             "run": ([str(home / "bin" / "bot-console"), "run", str(program)], run_env),
         }
-        for line, env in ways.values():  # byte code and files in memory
+        for line, env in ways.values():  # so that byte code and files are in memory
             measured(line, env)
         found = {name: [] for name in ways}
         imports = []

@@ -1,4 +1,4 @@
-"""What large launches cost: `python tests/benchmarks/bench_launch.py [--repeats N]`, JSON out.
+"""The cost of large launches: `python tests/benchmarks/bench_launch.py [--repeats N]`, JSON out.
 
 Each run is a launch in a separate process; its CPU seconds include the start of the interpreter, which `start` shows
 alone. `nodes` starts 200 nodes and stops them when all have reported that they are up: each must end cleanly.
@@ -98,7 +98,7 @@ def includes(folder: Path, ending: str, text: str, below: tuple[str, str]) -> Pa
 
 
 def written(path: Path, text: str) -> Path:
-    """The path of a file with this text."""
+    """Write a file; return its path."""
     path.write_text(text)
     return path
 
@@ -113,9 +113,7 @@ GOALS = {"nodes": 3.0, "includes_python": 5.0, "includes_xml": 5.0}
 
 
 def cpu_of_launch(make: Callable[[Path], Path], message: str, times: int) -> float:
-    """CPU seconds of a launch to its end; raises `RuntimeError` unless it succeeds and prints `message` so many
-    times.
-    """
+    """CPU seconds of a launch to its end; raises `RuntimeError` unless it succeeds and prints `message` so often."""
     with tempfile.TemporaryDirectory() as folder:
         path = make(Path(folder))
         environment = {**os.environ, "ROS_LOG_DIR": folder, "PYTHONDONTWRITEBYTECODE": "1"}

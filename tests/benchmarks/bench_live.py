@@ -1,10 +1,10 @@
-"""What the live system costs: `python tests/benchmarks/bench_live.py [--program BOT_CONSOLE ...]`, JSON lines.
+"""The cost of the live system: `python tests/benchmarks/bench_live.py [--program BOT_CONSOLE ...]`, JSON lines. Linux.
 
-Shares of a processor, of a program with all its processes, over some seconds each: the robot without a console, the
-robot with a console attached and that console (with the bytes per second that it sends and its memory), and a console
-with a robot of its own. `shares` are as measured; `normal` the same for a machine on which the plain Python loop
+Shares of a processor that a program uses with all its processes, over some seconds each: the robot without a console;
+the robot with a console attached, and that console (with the bytes per second that it sends and its memory); and a
+console with its own robot. `shares` are as measured; `normal` are converted to a machine on which the plain Python loop
 (`plain_loop.py`), timed before and after, takes as long as when the shares in the documentation were first measured.
-With several `--program`, such as `OTHER_CHECKOUT/.venv/bin/bot-console`, they alternate. Linux.
+With several `--program`, such as `OTHER_CHECKOUT/.venv/bin/bot-console`, they alternate.
 """
 
 from __future__ import annotations
@@ -33,18 +33,18 @@ SETTLE_S = 5.0
 
 
 def used_s(root: int) -> float:
-    """Processor time (s) of a process and its living descendants."""
+    """CPU time (s) of a process and its living descendants."""
     return cpu([*tree(root)])
 
 
 def memory_mb(root: int) -> float:
-    """Memory (MB) of a process and its descendants; what several share counts once."""
+    """Memory (MB) of a process and its descendants; shared memory counts once."""
     texts = (Path(f"/proc/{pid}/smaps_rollup").read_text() for pid in tree(root))
     return sum(int(each) for text in texts for each in re.findall(r"^Pss:\s+(\d+) kB", text, re.MULTILINE)) / 1000
 
 
 def shares(roots: Sequence[int], seconds: float, pause: Callable[[float], object]) -> list[float]:
-    """The share of a processor that each of some process trees uses meanwhile."""
+    """The share of a processor that each process tree uses meanwhile."""
     began, before = time.monotonic(), [used_s(each) for each in roots]
     pause(seconds)
     passed = time.monotonic() - began
@@ -52,7 +52,7 @@ def shares(roots: Sequence[int], seconds: float, pause: Callable[[float], object
 
 
 def opened(line: Sequence[str]) -> Terminal:
-    """A console in a terminal, once it shows the robot's nodes."""
+    """A console in a terminal, as soon as it shows the robot's nodes."""
     terminal = Terminal(line, SIZE)
     assert terminal.run(START_TIMEOUT_S, lambda: "robot_navigator" in terminal.text()), terminal.text()
     terminal.run(SETTLE_S)
@@ -60,7 +60,7 @@ def opened(line: Sequence[str]) -> Terminal:
 
 
 def in_background(program: Sequence[str], seconds: float) -> dict[str, float]:
-    """The robot alone, and with a console attached."""
+    """Measure the robot alone, and with a console attached."""
     started = subprocess.run([*program, "up", "--seed", "1"], check=True, capture_output=True, text=True)
     found = re.search(r"process (\d+)", started.stdout)
     assert found, started.stdout
@@ -81,7 +81,7 @@ def in_background(program: Sequence[str], seconds: float) -> dict[str, float]:
 
 
 def together(program: Sequence[str], seconds: float) -> dict[str, float]:
-    """A console with a robot of its own."""
+    """Measure a console with its own robot."""
     console = opened([*program, "--seed", "1"])
     try:
         (share,) = shares([console.pid], seconds, console.run)
@@ -91,7 +91,7 @@ def together(program: Sequence[str], seconds: float) -> dict[str, float]:
 
 
 def measured(program: Sequence[str], seconds: float) -> dict[str, Any]:
-    """All figures of a program, in folders of its own."""
+    """All figures of a program, in separate folders."""
     with tempfile.TemporaryDirectory(prefix="bl", dir="/tmp") as folder:
         places = {"XDG_STATE_HOME": "state", "XDG_CONFIG_HOME": "config", "BOT_CONSOLE_SOCKET_DIR": "s"}
         os.environ.update({name: os.path.join(folder, place) for name, place in places.items()})

@@ -1,7 +1,7 @@
-"""What the log costs: `python tests/benchmarks/bench_logs.py [RECORDS]`, JSON out.
+"""The cost of the log: `python tests/benchmarks/bench_logs.py [RECORDS]`, JSON out.
 
-Processor time in ms for so many records (default 1,000,000), medians with spread; the ratio is to one numpy pass over
-as many bytes as the texts have, so that machines can be compared. `goal` is for a million.
+CPU time in ms for RECORDS records (default 1,000,000), medians with spread. The ratio is to one numpy pass over as many
+bytes as the texts have, so that machines can be compared. `goal` is for a million records.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from bot_console.tui.console.model import LogFilter, Severity
 RUNS = 5
 GOALS = {"severity": 3, "rare word": 40, "rare regex": 100}
 MANY = 600
-"""The goal (ms) for filters with many hits."""
+"""The goal (ms) for filters with many matches."""
 FILTERS = {
     "severity": LogFilter(minimum=Severity.ERROR),
     "rare word": LogFilter(words="zebra"),

@@ -1,7 +1,7 @@
-"""What messages cost: `python tests/benchmarks/bench_messages.py [RUNS]`, JSON out.
+"""The cost of messages: `python tests/benchmarks/bench_messages.py [RUNS]`, JSON out.
 
-Processor time in microseconds, medians of several runs with spread; ratios are within one run. The floor for creating
-and copying is a plain object with as many attributes and sequences; the floor for CDR is the codec of rosbags.
+CPU time in microseconds, medians of several runs with spread; ratios are within one run. The floor for creating and
+copying is a plain object with as many attributes and sequences; the floor for CDR is the codec of rosbags.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
-"""What nodes in separate processes cost: `python tests/benchmarks/bench_own_processes.py [COUNT...]`, JSON out.
+"""The cost of nodes in separate processes: `python tests/benchmarks/bench_own_processes.py [COUNT...]`, JSON out.
 
-Each count is a `bot-console launch` of as many nodes, with a timer of 1 Hz each, in a separate domain: wall time until
-the last has reported that it is up (`ready_s`), processor time of all processes until then (`cpu_s`), unshared memory
-per node (`own_mb`), and the share of a processor that all of them use at rest, including threads (`idle_share`). Verbs
-are run meanwhile, with their wall and processor time (s, medians).
+Each COUNT is a `bot-console launch` of that many nodes, with a timer of 1 Hz each, in a separate domain. Measures the
+wall time until the last node has reported that it is up (`ready_s`), the CPU time of all processes until then
+(`cpu_s`), the unshared memory per node (`own_mb`), and the share of a processor that all of them use at rest, including
+threads (`idle_share`). Verbs are run meanwhile, with their wall and CPU time (s, medians).
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def tree(root: int) -> Iterator[int]:
 
 
 def cpu(pids: Sequence[int]) -> float:
-    """Processor time (s) of some processes."""
+    """CPU time (s) of some processes."""
     total = 0
     for pid in pids:
         fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
@@ -83,7 +83,7 @@ def own_mb(pid: int) -> float:
 
 
 def verb(words: Sequence[str]) -> tuple[float, float]:
-    """Wall and processor time (s) of a verb."""
+    """Wall and CPU time (s) of a verb."""
     before, began = resource.getrusage(resource.RUSAGE_CHILDREN), time.monotonic()
     subprocess.run([sys.executable, "-m", "bot_console.tui", *words], check=True, stdout=subprocess.DEVNULL)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -91,7 +91,7 @@ def verb(words: Sequence[str]) -> tuple[float, float]:
 
 
 def measured(count: int, folder: Path) -> dict[str, Any]:
-    """One launch."""
+    """Measure one launch."""
     node, file = folder / "node.py", folder / f"{count}.launch.py"
     node.write_text(NODE)
     file.write_text(LAUNCH.format(node=str(node), count=count))

@@ -1,7 +1,7 @@
-"""What parameters cost: `python tests/benchmarks/bench_parameters.py [RUNS]`, JSON out.
+"""The cost of parameters: `python tests/benchmarks/bench_parameters.py [RUNS]`, JSON out.
 
-Processor time in microseconds, medians of several runs with spread; ratios are within one run. The floor is the cost
-of creating and sending the messages of one change, without any rules.
+CPU time in microseconds, medians of several runs with spread; ratios are within one run. The floor is the cost of
+creating and sending the messages of one change, without any rules.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ def per_call(action: Callable[[int], Any], count: int) -> float:
 
 
 def floor_of_a_change() -> float:
-    """The results of the callback and of the call, and the event, created and copied as the bus copies them."""
+    """Create and copy, as the bus does, the results of the callback and of the call, and the event."""
 
     def make(number: int) -> None:
         SetParametersResult(successful=True)
@@ -86,9 +86,7 @@ def local_set(watched: bool) -> float:
 
 
 def together(count: int, heard: bool = False) -> float:
-    """`set_parameters_atomically` of `count` parameters, per parameter; if `heard`, another node receives each
-    event, too.
-    """
+    """`set_parameters_atomically` of `count` parameters, per parameter; if `heard`, another node receives events."""
     node = rclpy.create_node("together")
     for number in range(count):
         node.declare_parameter(f"p{number}", 0.0)
@@ -103,7 +101,7 @@ def together(count: int, heard: bool = False) -> float:
 
 
 def heard_together(node: Any, count: int) -> float:
-    """As `together`, with a subscription of another node to `/parameter_events`, served after each change."""
+    """Like `together`, with another node's subscription to `/parameter_events`, served after each change."""
     got: list[int] = []
     hearer, executor = rclpy.create_node("hearer"), SingleThreadedExecutor()
     executor.add_node(hearer)
@@ -157,7 +155,7 @@ def read() -> float:
 
 
 def parameter_file() -> float:
-    """Reading a file of many values and declaring them, per value."""
+    """Read a file of many values and declare them, per value."""
     lines = "".join(f"    group{number // 50}.p{number}: {number / 8}\n" for number in range(ENTRIES))
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "many.yaml"

@@ -1,16 +1,18 @@
-"""What messages cost between two processes: `python tests/benchmarks/bench_processes.py [COUNT]`, JSON out.
+"""The cost of messages between two processes: `python tests/benchmarks/bench_processes.py [COUNT]`, JSON out.
 
 Each kind of message goes through a bare Zenoh session and through rclpy, which serializes each one as CDR on this side
 and deserializes it on the other. Both are measured in the same run with nothing dropped (KEEP_ALL): messages/s until
-the last one has arrived, processor time per message of each process (us), and the round trip (us); medians of
-alternating rounds. The figures include all that rclpy does beyond the bare session: its executor's thread for
-receiving, and with KEEP_ALL a thread for sending, since publishers must not wait for readers.
-The bare session is used in three ways. `bare` sends bytes that are made once and reads nothing; it calls back as Zenoh
-does by default for a plain function, from a Python thread for everything that has arrived meanwhile. `written` does the
-same and also writes and reads the CDR of each message, as rclpy must. `direct` is `bare` with callbacks from Zenoh's
-own threads, as in rclpy's subscriptions. `share` is rclpy's throughput divided by theirs, `longer` its round trip
-divided by theirs; `ros_10` is rclpy with a depth of 10, as nodes use it, where nothing waits to be sent.
-A service call is given as the processor time of both sides (us, the median of ten times fifty).
+the last one has arrived, CPU time per message of each process (us), and the round trip (us); medians of alternating
+rounds. The figures include everything that rclpy does beyond the bare session: its executor's thread for receiving, and
+with KEEP_ALL a thread for sending, since publishers must not wait for readers.
+
+The bare session is used in three ways. `bare` sends bytes that are made once and reads nothing; as is Zenoh's default
+for a plain function, a Python thread calls back for everything that has arrived meanwhile. `written` also writes and
+reads the CDR of each message, as rclpy must. `direct` is `bare` with callbacks from Zenoh's own threads, as in rclpy's
+subscriptions. `share` is rclpy's throughput divided by theirs, `longer` its round trip divided by theirs; `ros_10` is
+rclpy with a depth of 10, as nodes use it, where nothing waits to be sent.
+
+A service call is given as the CPU time of both sides (us, the median of ten times fifty).
 """
 
 from __future__ import annotations
@@ -118,9 +120,11 @@ class Ros:
 
 
 def other(way: Bare | Ros, kinds: Sequence[str]) -> None:
-    """The other process: counts, sends back, adds. Each line it reads is a number of messages: once so many have
-    arrived, it prints how many did and its processor time (s). It is not queried meanwhile, which would slow the
-    slower way more.
+    """The other process: it counts, sends back, and adds.
+
+    Each line it reads is a number of messages: once that many have arrived, it prints how many did and its CPU time
+    (s). It
+    is not queried meanwhile, which would slow down the slower of the two ways more.
     """
     counts = [0]
     wanted = [0]
@@ -148,7 +152,7 @@ def other(way: Bare | Ros, kinds: Sequence[str]) -> None:
 
 
 class Other:
-    """The other process, as seen from here."""
+    """The other process, seen from this one."""
 
     def __init__(self, way: str) -> None:
         command = [sys.executable, __file__, "--other", way]
@@ -264,7 +268,7 @@ def main(count: int) -> None:
     for each in others.values():
         each.process.kill()
     shutil.rmtree(folder, ignore_errors=True)
-    os._exit(0)  # Like the verbs, without waiting for the sessions.
+    os._exit(0)  # As verbs do, without waiting for the sessions to close.
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
-"""What the rclpy core costs: `python tests/benchmarks/bench_rclpy.py [RUNS]`, JSON out.
+"""The cost of the rclpy core: `python tests/benchmarks/bench_rclpy.py [RUNS]`, JSON out.
 
-Each run is a separate process; medians and spread are over the runs. Processor time, except for latencies. `floor` is
-the same work in plain Python (copy the object, append it to a deque, notify a condition, call); `ratio` is to the
-floor of the same run.
+Each run is a separate process; medians and spread are over the runs. CPU time, except for latencies. `floor` is the
+same work in plain Python (copy the object, append it to a deque, notify a condition, call); `ratio` is to the floor of
+the same run.
 """
 
 from __future__ import annotations
@@ -135,7 +135,7 @@ def end(*nodes: Any) -> None:
 
 
 def latency() -> tuple[float, float]:
-    """p50 and p99 of wall time from publish to callback, in microseconds."""
+    """Median and 99th percentile of the wall time from publish to callback, in microseconds."""
     import rclpy
     from std_msgs.msg import Float64
 
@@ -190,7 +190,7 @@ def latency_between_threads() -> tuple[float, float]:
 
 
 def per_call(action: Callable[[], Any], count: int) -> float:
-    """Microseconds of processor time per call."""
+    """Microseconds of CPU time per call."""
     start = time.process_time()
     for _ in range(count):
         action()

@@ -1,15 +1,15 @@
 """Typing beside a busy rclpy: `REAL_PYTHON tests/benchmarks/bench_ros_keys.py [RUNS]`, JSON out. Linux.
 
-REAL_PYTHON has the project and an rclpy that is not ours, such as `pip install 'bot-console[ros-jazzy]'`. A robot in a
-process of its own logs 1,000 lines per second and publishes odometry, scans and 18 other topics at 50 Hz; a console
-attached to it (`attach --ros`) records the log, draws it, and follows the robot for panes that are not shown. Its own
-load includes the decoding of these messages by rclpy, which holds the interpreter. A run takes about a minute, most of
-it pauses between keys; stderr says which part of which run has begun.
+REAL_PYTHON has the project and a real rclpy, such as the one of `pip install 'bot-console[ros-jazzy]'`. A robot in a
+separate process logs 1,000 lines per second and publishes odometry, scans and 18 other topics at 50 Hz; a console
+attached to it (`attach --ros`) records the log, draws it, and follows the robot for panes that are not shown. Its load
+includes the decoding of these messages by rclpy, which holds the interpreter lock. A run takes about a minute, mostly
+pauses between keys; stderr says which part of which run has begun.
 
-quiet, busy    milliseconds from a press to the letter on the screen, in the search of the log: median, 95th percentile,
-               maximum; before and while the robot works
+quiet, busy    milliseconds from a press to the character on the screen, in the search of the log: median, 95th
+               percentile, maximum; before and while the robot works
 busy / quiet   their ratio within one run, for comparison between machines
-lost           keys without a letter within 5 s; after three of them the rest of the part is not typed
+lost           keys whose character does not appear within 5 s; after three of them the part is given up
 lines/s        log lines that the console has recorded: fewer than 1,000 where the machine is too busy for the robot
 load           processes that waited for a processor in the last minute, before the run: expect noise above 1
 """
@@ -36,7 +36,7 @@ CONSOLE = [sys.executable, "-m", "bot_console.tui", "attach", "--ros", "--pane",
 SIZE = (120, 40)
 TEXT = "abcdefghijklmnopqrstuvwxyz0123456789"
 TIMES = 3
-"""The text is typed so often in each part; each letter waits for the one before it and a pause."""
+"""How often the text is typed in each part; each character waits for the previous one and a pause."""
 PAUSE_S = 0.13
 START_TIMEOUT_S, KEY_TIMEOUT_S, SETTLE_S = 60.0, 5.0, 5.0
 MAX_LOST_KEYS = 3
@@ -112,7 +112,7 @@ def typed(terminal: Terminal) -> dict[str, float]:
 
 
 def recorded(terminal: Terminal) -> int:
-    """The number of lines in the console's log, as its pane says."""
+    """The number of lines in the console's log, as its pane shows it."""
     found = re.search(r" of ([\d,]+) ·", terminal.text())
     return int(found[1].replace(",", "")) if found else 0
 

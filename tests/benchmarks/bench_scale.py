@@ -1,7 +1,6 @@
-"""What grows with the system, and how: `python tests/benchmarks/bench_scale.py [CURVE ...]`, JSON out.
+"""How the cost grows with the system: `python tests/benchmarks/bench_scale.py [CURVE ...]`, JSON out.
 
-Processor time, the minimum of several runs; the `growth` of a curve is its last entry divided by its first, within one
-run.
+CPU time, the minimum of several runs; the `growth` of a curve is its last entry divided by its first, within one run.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ MILLI, MICRO = 1e3, 1e6
 
 
 def least(action: Callable[[], Any], count: int) -> float:
-    """Seconds of processor time per item of an action on `count` items, the minimum of several runs."""
+    """Seconds of CPU time per item of an action on `count` items, the minimum of several runs."""
     found: list[float] = []
     for _ in range(RUNS):
         start = time.process_time()
@@ -43,7 +42,7 @@ def least(action: Callable[[], Any], count: int) -> float:
 
 
 def set_atomically(count: int) -> float:
-    """Microseconds per parameter of a `set_parameters_atomically` whose event somebody receives."""
+    """Microseconds per parameter of a `set_parameters_atomically` whose event has a subscriber."""
     node, executor = rclpy.create_node("tuned"), SingleThreadedExecutor()
     node.declare_parameters("", [(f"p{number}", 0.0) for number in range(count)])
     node.create_subscription(ParameterEvent, "/parameter_events", lambda event: None, 10)
@@ -84,9 +83,7 @@ def fan_out(count: int) -> float:
 
 
 class Watched:
-    """`count` nodes with two publishers, two subscriptions and the usual services each, and the console's graph
-    poll.
-    """
+    """`count` nodes with two publishers, two subscriptions and the usual services each, and a console's graph poll."""
 
     def __init__(self, count: int) -> None:
         self.nodes = [rclpy.create_node(f"node{number}") for number in range(count)]
@@ -127,9 +124,7 @@ def poll_after_change(count: int) -> float:
 
 
 def parameters_read(count: int) -> float:
-    """Seconds of processor time until a new console has read 20 parameters of each node, including the nodes' own
-    time.
-    """
+    """Seconds of CPU time until a new console has read 20 parameters of each node, including the nodes' own time."""
     executor = SingleThreadedExecutor()
     nodes = [rclpy.create_node(f"node{number}") for number in range(count)]
     for node in nodes:

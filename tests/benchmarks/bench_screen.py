@@ -1,16 +1,16 @@
-"""What the screen costs: `python tests/benchmarks/bench_screen.py [RUNS]`, JSON out. Linux; five minutes a run.
+"""The cost of the screen: `python tests/benchmarks/bench_screen.py [RUNS]`, JSON out. Linux; five minutes a run.
 
-The console with its robot, and a screen of stock Textual widgets with the same kind of data beside it, each in a
-pseudo-terminal whose link can be slow. Medians of the runs as [median, least, most]; ratios are within one run.
+Runs the console with its robot, and a screen of stock Textual widgets with the same kind of data, each in a
+pseudo-terminal whose link can be slow. Medians of the runs as [median, minimum, maximum]; ratios are within one run.
 
-first      the first complete frame: its bytes, seconds and processor time (ms, all threads) until then, these beside
-           an app of one word; the processes that the console has started by then are not counted
+first      the first complete frame: bytes, seconds and CPU time (ms, all threads) until then, compared with an app of
+           one word; processes that the console has started by then are not counted
 start      seconds from the command until parameters, log and robot are on the screen; bytes sent until then
-live       bytes and frames per second, percent of a processor (the console's with robot, nodes and simulator in it)
+live       bytes and frames per second, percent of a processor (the console's includes robot, nodes and simulator)
 keys       milliseconds from a press to the changed screen; `lost` are not answered within 5 s
-drawing    percent of a processor that the thread that draws takes, in each pane, the robot under way
+drawing    percent of a processor that the drawing thread takes, in each pane, with a driving robot
 stall      a terminal that reads nothing for 10 s: seconds until the screen is up to date again, bytes that came late,
-           seconds that ending takes while it is stalled
+           seconds until the console ends while stalled
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What the simulation costs, in CPU time: LIDAR against one ray query per beam, steps, and a whole driving robot.
+"""CPU time of the simulation: LIDAR against one ray query per beam, steps, and a whole driving robot.
 
 Usage: python tests/benchmarks/bench_simulation.py [--repeats 5]. Prints one JSON object; ratios are within one run.
 """
@@ -29,7 +29,7 @@ BUDGET = 0.15
 
 
 def crowded(shapes: int) -> Simulation:
-    """A 10 m room with that many walls and pillars."""
+    """A 10 m room with `shapes` walls and pillars."""
     rng = np.random.default_rng(shapes)
     walls, circles = [], []
     for i in range(shapes - 4):

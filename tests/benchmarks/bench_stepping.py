@@ -1,7 +1,7 @@
-"""What turns, waits and starts of node processes cost: `python tests/benchmarks/bench_stepping.py [RUNS]`, JSON out.
+"""The cost of turns, waits and node processes: `python tests/benchmarks/bench_stepping.py [RUNS]`, JSON out.
 
-Processor time in microseconds unless a name says otherwise, medians of several runs with spread. The floor of a turn:
-two threads that wake each other with one lock each, on one processor like the stepped run.
+CPU time in microseconds unless a name says otherwise, medians of several runs with spread. The floor of a turn: two
+threads that wake each other with one lock each, on one processor like the stepped run.
 """
 
 from __future__ import annotations
@@ -119,7 +119,7 @@ def turn_in_real_time() -> float:
 
 
 def sleep_outside(wrapped: bool) -> float:
-    """`time.sleep(0)` in the real process, with and without the wrap."""
+    """`time.sleep(0)` in the real process, with and without the wrapper."""
     sleep = time.sleep if wrapped else unpatched.sleep
     assert local.waits_on is None
     start = cpu()

@@ -1,12 +1,12 @@
-"""From the byte in the terminal to the acknowledgement by the base that it is locked; JSON.
+"""Wall time from the byte in the terminal until the base acknowledges that it is locked, as JSON.
 
     python tests/benchmarks/bench_stopping.py [--presses 50] [--floods 5] [--busy 2] [--only logs plot]
         [--wanted-nice -10]
 
-A console attached to a live robot, in separate processes, driven over a pseudo-terminal; another process receives the
-base's answer. Wall time in ms: p50, p99 and the longest of so many presses of `!`, alone, beside loads and behind
-floods of input, and of the first key and of `q` in new consoles. `--wanted-nice` is the priority of everything that is
-measured, for shared machines; busy processes have the usual one.
+A console attached to a live robot, in separate processes, is driven over a pseudo-terminal; another process receives
+the base's answer. Wall time in ms: median, 99th percentile and maximum over all presses of `!`, alone, beside loads and
+behind floods of input, and of the first key and of `q` in new consoles. `--wanted-nice` is the priority of everything
+that is measured, for shared machines; busy processes have the usual one.
 """
 
 from __future__ import annotations
@@ -99,7 +99,7 @@ LOADS: dict[str, tuple[str, list[str]]] = {
     "1,000 messages/s plotted": (NUMBERS, ["4", "a", "/number/data", "\r"]),
     "endless regular expression": (LOGS, ["2", "/", "re:(.|\\w)*%%", "\r"]),
 }
-"""A program that makes the load, and keys that are pressed once it runs."""
+"""A program that makes the load, and the keys that are pressed once it runs."""
 PASTE = "\x1b[200~" + "text with a ! in it, " * 1500 + "\x1b[201~"
 MOVES = [f"\x1b[<35;{10 + at % 90};{5 + at % 30}M" for at in range(15_000)]
 WHEEL = ["\x1b[<65;60;20M"] * 2_000
@@ -110,7 +110,7 @@ FLOODS: dict[str, tuple[list[str], float, int]] = {
     "200 keys of all kinds": ([*"12345678?\x1bjkgG" * 14], 0.0, 0),
     "a paste of 30 kB": ([PASTE], 0.0, 0),
 }
-"""What is typed before the key, the seconds between two inputs, and after how many the terminal is resized."""
+"""The input before the key, the seconds between two inputs, and after how many of them the terminal is resized."""
 TIMEOUT_S = 60.0
 BETWEEN = 0.15
 """Seconds between two presses."""
@@ -138,7 +138,7 @@ class Base:
         return bool(self._last_message) and self._last_message[-1][1]
 
     def message_of(self, locked: bool, since: float) -> float | None:
-        """When it first reported that state after a moment; None if it has not."""
+        """When it first reported that state after `since`; None if it has not."""
         return next(
             (moment for moment, message in list(self._last_message) if moment >= since and message is locked), None
         )
@@ -167,7 +167,7 @@ def console(robot: LiveRobot) -> Iterator[Terminal]:
 
 
 def wait(true: Callable[[], Any], timeout_s: float = TIMEOUT_S) -> Any:
-    """The result of `true` once it is truthy; None if it does not become so."""
+    """Wait until `true` returns a truthy value, and return it; None after the timeout."""
     deadline = time.monotonic() + timeout_s
     while time.monotonic() < deadline:
         if found := true():
@@ -231,11 +231,12 @@ def flooded(robot: LiveRobot, base: Base, flood: str, count: int) -> dict[str, A
 
 
 def press(terminal: Terminal, base: Base, locked: bool, timeout_s: float = 10.0) -> tuple[float | None, int]:
-    """Press `!` until the base is as wanted; returns ms from the last press (None if it never was), and the extra
-    presses.
+    """Press `!` until the base is locked or released as wanted.
 
-    A console that has not received a stop's acknowledgement sends the stop again instead of releasing, so a
-    release may take a second press. A stop may not.
+    Returns the ms from the last press (None if the state was never reached) and the number of extra presses. A console
+    that
+    has not received a stop's acknowledgement sends the stop again instead of releasing, so a release may take a second
+    press. A stop may not.
     """
     for extra in range(1 if locked else 1 + MORE):
         began = time.monotonic()
@@ -247,7 +248,7 @@ def press(terminal: Terminal, base: Base, locked: bool, timeout_s: float = 10.0)
 
 
 def first_key_and_quit(robot: LiveRobot, count: int) -> dict[str, Any]:
-    """The first key of a new console, until its effect is on the screen, and `q`, until the process has ended."""
+    """Measure the first key of a new console until its effect is on the screen, and `q` until the process has ended."""
     first: list[float] = []
     last: list[float] = []
     for _ in range(count):
@@ -268,8 +269,9 @@ def first_key_and_quit(robot: LiveRobot, count: int) -> dict[str, Any]:
 def prefer(nice: int) -> None:
     """Set the priority of everything that this program starts from now on, session by session.
 
-    Linux shares processors among the sessions of terminals first (`sched_autogroup_enabled`), and every program here
-    has its own session, so that a priority within one would change nothing.
+    Linux first shares processors among the sessions of terminals (`sched_autogroup_enabled`), and every program here
+    has a
+    separate session, so a priority within one would change nothing.
     """
     os.nice(nice)
     known: set[str] = {str(os.getpid())}

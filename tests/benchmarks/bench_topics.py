@@ -1,7 +1,7 @@
-"""What the topics pane costs: `python tests/benchmarks/bench_topics.py [RUNS]`, JSON out. Linux; a minute a run.
+"""The cost of the topics pane: `python tests/benchmarks/bench_topics.py [RUNS]`, JSON out. Linux; a minute a run.
 
-A process with 300 topics, 50 of them at 100 Hz, and a console in a pseudo-terminal of 120x40, with the topics pane on
-the screen, and with another pane: percent of a processor, bytes per second, and the differences.
+A process with 300 topics, 50 of them at 100 Hz, and a console in a pseudo-terminal of 120x40, which shows the topics
+pane and then another pane: percent of a processor, bytes per second, and the differences.
 """
 
 from __future__ import annotations

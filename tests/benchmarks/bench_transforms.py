@@ -27,7 +27,7 @@ CHAIN = 4
 
 
 def message(at: float) -> Any:
-    """All frames at a time (s), each turning in its parent: chains of four."""
+    """All frames at a time (s), each turning in its parent, in chains of four."""
     turn = math.sin(at / 20), math.cos(at / 20)
     transforms = []
     for index in range(FRAMES):

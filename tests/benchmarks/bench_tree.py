@@ -1,8 +1,8 @@
-"""What thousands of parameters cost the screen: `python tests/benchmarks/bench_tree.py [RUNS]`, JSON out.
+"""The screen's cost of thousands of parameters: `python tests/benchmarks/bench_tree.py [RUNS]`, JSON out.
 
-Processor time in ms, medians of several runs with the maximum: the whole tree of 5,000 parameters of 200 nodes at once,
-a key in the filter, and one changed value, with the number of rows drawn for it. The app runs without a terminal.
-`idle_ms` is the cost of waiting for the screen when nothing has changed; the others include it.
+CPU time in ms, medians of several runs with the maximum: the whole tree of 5,000 parameters of 200 nodes at once, a key
+in the filter, and one changed value, with the number of rows drawn for it. The app runs without a terminal. `idle_ms`
+is the cost of waiting for the screen when nothing has changed; the others include it.
 """
 
 from __future__ import annotations
@@ -100,7 +100,7 @@ async def measure() -> dict[str, float]:
 
 def main(runs: int) -> None:
     """Print the medians."""
-    gc.freeze()  # As the program does.
+    gc.freeze()  # The program does the same.
     rows = [asyncio.run(measure()) for _ in range(runs)]
     found = {
         name: {

@@ -1,8 +1,8 @@
-"""What tuning costs: `python tests/benchmarks/bench_tune.py [--program BOT_CONSOLE ...]`, JSON lines.
+"""The cost of tuning: `python tests/benchmarks/bench_tune.py [--program BOT_CONSOLE ...]`, JSON lines.
 
-`cpu_s` is the processor time of one `bot-console tune` with all its processes, `loops` the same in units of a plain
-Python loop that is timed before and after it (`plain_loop.py`): that can be compared between machines and moments.
-`score` is the best setting's, which shows that two programs did the same work. With several `--program`, such as
+`cpu_s` is the CPU time of one `bot-console tune` with all its processes, `loops` the same in units of a plain Python
+loop that is timed before and after it (`plain_loop.py`), which can be compared between machines and moments. `score` is
+the best setting's, which shows that two programs did the same work. With several `--program`, such as
 `OTHER_CHECKOUT/.venv/bin/bot-console`, they alternate.
 """
 
@@ -23,13 +23,13 @@ TUNED = ("max_speed", "safety_distance", "turn_rate")
 
 
 def children_s() -> float:
-    """Processor time (s) of the children that have ended."""
+    """CPU time (s) of the child processes that have ended."""
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     return used.ru_utime + used.ru_stime
 
 
 def tune(program: list[str], runs: int, duration_s: float) -> dict[str, Any]:
-    """Tune once, in a folder, a domain and a state of its own."""
+    """Tune once, in a separate folder, domain and state folder."""
     words = ["tune", *TUNED, "--runs", str(runs), "--duration", str(duration_s), "--json"]
     with tempfile.TemporaryDirectory(prefix="bt", dir="/tmp") as folder:
         places = {"XDG_STATE_HOME": "state", "XDG_CONFIG_HOME": "config", "BOT_CONSOLE_USER_DIR": "user"}

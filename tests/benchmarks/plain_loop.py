@@ -1,4 +1,4 @@
-"""A plain Python loop as a unit of processor time, which makes figures of different machines and moments comparable."""
+"""A plain Python loop as a unit of CPU time, which makes figures of different machines and moments comparable."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ import time
 
 TURNS = 5_000_000
 REFERENCE_S = 0.37
-"""What the loop took on the machine on which the shares in the documentation were first measured."""
+"""Seconds that the loop took on the machine on which the shares in the documentation were first measured."""
 
 
 def loop_s() -> float:
-    """Processor time (s) of the loop."""
+    """CPU time (s) of the loop."""
     began, turns = time.process_time(), 0
     while turns < TURNS:
         turns += 1

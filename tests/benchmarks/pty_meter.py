@@ -1,4 +1,4 @@
-"""A program in a pseudo-terminal at the far end of a link, and its cost there. Linux."""
+"""A program in a pseudo-terminal at the far end of a link, and what it costs. Linux."""
 
 from __future__ import annotations
 
@@ -30,8 +30,11 @@ TICK = 0.002
 
 @dataclass(frozen=True)
 class Link:
-    """The link between program and terminal: `rate` in bytes per second (0: no limit), the bytes that may wait in
-    it, and `delay` in seconds, each way.
+    """The link between program and terminal.
+
+    `rate` is in bytes per second (0: no limit), `delay` in seconds, each way; the third field is the number of bytes
+    that
+    may wait in the link.
     """
 
     rate: float = 0.0
@@ -64,7 +67,7 @@ class Terminal:
         os.set_blocking(self._pty, False)
 
     def run(self, seconds: float, until: Callable[[], object] = lambda: False) -> bool:
-        """Let it run for so long, or until a condition holds; returns whether it did."""
+        """Let the program run for `seconds`, or until a condition holds; return whether it did."""
         end = time.monotonic() + seconds
         while not self.over and not until():
             now = time.monotonic()
@@ -82,7 +85,7 @@ class Terminal:
         return "\n".join(self.screen.lines()) if self.screen else ""
 
     def cpu(self) -> float:
-        """Processor time (s) of the program and its living descendants."""
+        """CPU time (s) of the program and its living descendants."""
         used: dict[int, int] = {}
         parents: dict[int, int] = {}
         for each in filter(str.isdigit, os.listdir("/proc")):
@@ -98,7 +101,7 @@ class Terminal:
         return sum(used.get(each, 0) for each in family) / os.sysconf("SC_CLK_TCK")
 
     def threads(self) -> dict[int, float]:
-        """Processor time (s) of each living thread, to the nanosecond; the drawing thread has the program's id."""
+        """CPU time (s) of each living thread, to the nanosecond; the drawing thread has the program's id."""
         found: dict[int, float] = {}
         for each in os.listdir(f"/proc/{self.pid}/task"):
             try:
@@ -109,7 +112,7 @@ class Terminal:
         return found
 
     def close(self, grace: float = 5.0) -> float:
-        """End it as a closing session does; returns the seconds until it was gone."""
+        """End the program as a closing session does; return the seconds until it was gone."""
         began = time.monotonic()
         os.kill(self.pid, signal.SIGTERM)
         while not os.waitpid(self.pid, os.WNOHANG)[0]:

@@ -1,4 +1,4 @@
-"""The figure of what grows, in one command: `python tests/benchmarks/scale_figure.py docs/images/scaling.svg`.
+"""Draws how the cost grows: `python tests/benchmarks/scale_figure.py docs/images/scaling.svg`.
 
 Measures every curve of `bench_scale.py` and `scale_of_screen.py` and draws them on logarithmic axes; prints the
 measurements as JSON. `--from FILE` draws the output of an earlier call. A dashed line is a stock widget with as many
@@ -41,7 +41,7 @@ TITLES = {
 
 @dataclass(frozen=True)
 class Scale:
-    """From a value to a pixel; the limits are whole powers of ten."""
+    """Maps a value to a pixel; the limits are whole powers of ten."""
 
     low: int
     high: int

@@ -1,6 +1,6 @@
-"""What grows on the screen, and how: `python tests/benchmarks/scale_of_screen.py [CURVE ...]`, JSON out.
+"""How the cost of the screen grows: `python tests/benchmarks/scale_of_screen.py [CURVE ...]`, JSON out.
 
-Processor time, the minimum of several runs. `stock` curves are Textual's widgets with as many rows: the cost of a
+CPU time, the minimum of several runs. `stock` curves are Textual's widgets with as many rows: the cost of a
 straightforward screen. Robots are simulators side by side in one process.
 """
 
@@ -56,7 +56,7 @@ Measure = Callable[[int], float]
 
 
 def least(action: Callable[[], Any]) -> float:
-    """Milliseconds of processor time of an action, the minimum of several runs."""
+    """Milliseconds of CPU time of an action, the minimum of several runs."""
     found: list[float] = []
     for _ in range(RUNS):
         start = time.process_time()
@@ -66,7 +66,7 @@ def least(action: Callable[[], Any]) -> float:
 
 
 async def shown(app: App[None], work: Callable[[], object]) -> float:
-    """Milliseconds of processor time from a change until the screen of 120x40 shows it."""
+    """Milliseconds of CPU time from a change until the screen of 120x40 shows it."""
     async with app.run_test(size=(120, 40)) as pilot:
         await pilot.pause()
         start = time.process_time()
@@ -146,7 +146,7 @@ def stock_table(count: int) -> float:
 
 
 def stock_log(count: int) -> float:
-    """Milliseconds to write lines to a stock log: it has no filter, so those that pass are written again."""
+    """Milliseconds to write lines to a stock log, which has no filter, so that all matching lines are written again."""
 
     async def measured() -> float:
         app = StockLog()

@@ -1,7 +1,7 @@
 """A straightforward screen: stock widgets of Textual over the same kind of data, ten times a second.
 
-A table of parameters, a picture of the world, a curve, a log, a sparkline and a status line. `K<n>#` in that line
-counts presses of `j`.
+It has a table of parameters, a picture of the world, a curve, a log, a sparkline and a status line. `K<n>#` in that
+line counts presses of `j`.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ BLANK = "\u2800"
 
 
 class StockScreen(App[None]):
-    """Everything is redrawn when it has changed, and sent at once."""
+    """Redraws everything that has changed, and sends it at once."""
 
     CSS = """
     Static, RichLog, DataTable { height: 1fr; }
@@ -86,8 +86,9 @@ class StockScreen(App[None]):
 
 
 def picture(width: int, height: int, filled: Callable[[float, float], bool]) -> Text:
-    """Braille characters for the filled parts, in coordinates from 0 to 1, with a colour for every character as shaders
-    have.
+    """Draw the filled parts as braille characters, with a colour for every character, as shaders have.
+
+    Coordinates are from 0 to 1.
     """
     text = Text()
     for row in range(height):

@@ -1,4 +1,4 @@
-"""The smallest Textual app: one word; it ends on request."""
+"""The smallest Textual app: it shows one word and ends on request."""
 
 from __future__ import annotations
 

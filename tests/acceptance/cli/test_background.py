@@ -1,4 +1,4 @@
-"""A robot in the background: started, found, not doubled, and ended, from separate terminals."""
+"""A robot in the background: started, found, not started twice, and ended, from separate terminals."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ def generate_launch_description():
 
 
 def process(launcher: CombinedLauncher) -> ProcessInfo | None:
-    """The one process."""
+    """The only process."""
     return next(iter(launcher.info().processes), None)
 
 

@@ -1,4 +1,4 @@
-"""`bot-console bag` with real processes: recorded from a robot, killed, read, played."""
+"""`bot-console bag` with real processes: bags are recorded from a robot, survive a kill, are read and played."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def grown(file: Path, size: int) -> bool:
 
 
 def test_topics_are_recorded_and_played(robot: Path) -> None:
-    for seconds in (1, 4, 16, 64, 256):  # On a busy machine a short recording ends before it has heard anything.
+    for seconds in (1, 4, 16, 64, 256):  # On a busy machine a short recording ends before it has received anything.
         shutil.rmtree(robot / "mine", ignore_errors=True)
         done = bag(robot, "record", "/odom", "/scan", "-o", "mine", "--duration", str(seconds))
         reported = bag(robot, "info", "mine")
@@ -76,7 +76,7 @@ def test_topics_are_recorded_and_played(robot: Path) -> None:
 
 
 def called(name: str, kind: str, request: str = "{}") -> str:
-    """The answer of a service of rosbag2."""
+    """Call a service of rosbag2; return its response."""
     return typed("service", "call", name, f"rosbag2_interfaces/srv/{kind}", request).stdout
 
 

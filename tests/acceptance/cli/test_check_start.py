@@ -1,4 +1,4 @@
-"""`check SCRIPT --start` carries out its steps on nodes of its own, in simulated time."""
+"""`check SCRIPT --start` runs its steps on separately started nodes, in simulated time."""
 
 from __future__ import annotations
 

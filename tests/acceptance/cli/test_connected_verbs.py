@@ -1,4 +1,4 @@
-"""Programs that `BOT_CONSOLE_CONNECT` makes clients of a router: what they report, and how they end."""
+"""Programs that become clients of a router through `BOT_CONSOLE_CONNECT`: what they report, and how they end."""
 
 from __future__ import annotations
 

@@ -51,7 +51,7 @@ scan.
 
 @pytest.fixture(scope="module")
 def user(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The user's folder: what is made once for a version is made once here."""
+    """The user's folder, shared by the tests, so that the stubs of the installed version are made only once."""
     return tmp_path_factory.mktemp("user")
 
 

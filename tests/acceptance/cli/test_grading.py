@@ -1,4 +1,4 @@
-"""`check WORKSPACE --course`: the reference solution passes, and a wrong variant fails in the row that it breaks."""
+"""`check WORKSPACE --course`: the reference solution passes, and each wrong variant fails in the row that it breaks."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ VARIANTS: list[tuple[str, str, str, tuple[str, ...]]] = [
     (LAUNCH, r"executable='safety_node'", "executable='safty_node'", (SYSTEM, DRIVES)),
     (LAUNCH, r"return LaunchDescription", "LaunchDescription", (SYSTEM, DRIVES)),
 ]
-"""File, pattern, replacement, and the rows that depend on it, of which the first has to fail."""
+"""File, pattern, replacement, and the rows that depend on it; the first of these has to fail."""
 
 
 def workspace(folder: Path) -> Path:
@@ -163,7 +163,7 @@ class Escape(NamedTuple):
 
 @pytest.fixture(scope="module")
 def escape(tmp_path_factory: pytest.TempPathFactory) -> Escape:
-    """One graded row for the tests that look at its consequences: it starts whole sandboxes."""
+    """One graded row for all tests that examine its effects, since it starts whole sandboxes."""
     place = tmp_path_factory.mktemp("escape")
     program = (
         "import os, socket, subprocess\n"

@@ -1,4 +1,4 @@
-"""Ctrl-C while a command is still importing its own parts ends it like any program: by the signal, without a word."""
+"""Ctrl-C while a command is still importing its modules ends it silently by the signal, like any other program."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ TIMEOUT_S = 240.0
 
 
 def interrupted(name: str, start: str, folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
-    """A command that gets a SIGINT when it begins to import a module."""
+    """Run a command that gets a SIGINT when it begins to import a module."""
     code = INTERRUPTED.format(name=f"bot_console.{name}", start=STARTS[start])
     return subprocess.run(
         [sys.executable, "-c", code, *words], cwd=folder, capture_output=True, text=True, timeout=TIMEOUT_S, check=False

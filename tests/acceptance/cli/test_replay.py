@@ -18,9 +18,9 @@ Words = Sequence[str]
 
 
 class Systems:
-    """The system that runs: for a row after which others need it as it then is, it goes on; others get a new one.
+    """Keeps a system running for rows that need the state which earlier rows have left; other rows get a new system.
 
-    To begin with the commands before each row would repeat those of a long file hundreds of times.
+    Repeating the commands before each row instead would run those of a long file hundreds of times.
     """
 
     def __init__(self) -> None:
@@ -42,7 +42,7 @@ class Systems:
         if not (changing and self._programs == row["system"] and self._history == before[:done]):
             self._begin(row, folder)
             done = 0
-        self._programs = []  # none goes on with it after a failure
+        self._programs = []  # no row continues with it after a failure
         for words in before[done:]:
             program = start(self._running, filled(words, folder))
             if program.process.wait(5.0) is None:
@@ -61,18 +61,18 @@ class Systems:
 
 
 def changing_commands(programs: Sequence[Words]) -> list[Words]:
-    """The commands that change a system in a way in which a later row needs it."""
+    """The commands that change a system in a way that a later row needs."""
     return [words for row in rows() if programs and row["system"] == programs for words in row["before"]]
 
 
 def start(running: System, words: Sequence[str]) -> Program:
-    """Start a program or a command by its words."""
+    """Start a program or a command from its arguments."""
     return running.python(*words[1:]) if words[0] == "python" else running.ros2(*words[1:])
 
 
 @pytest.fixture(scope="module")
 def systems() -> Iterator[Systems]:
-    """What the rows have left running."""
+    """The systems that rows have left running."""
     made = Systems()
     yield made
     made.close()

@@ -41,7 +41,7 @@ class Terminals:
             raise AssertionError("the programs have not come up")
 
     def ask(self, row: Row) -> tuple[str, str, int]:
-        """Run a command; returns its output in the form of the recordings, and its exit code."""
+        """Run a command; return its output in the form of the recordings, and its exit code."""
         out, err, code = self._run(row["argv"], row["stop_after_s"])
         return normal(out, self._folder), normal(err, self._folder), code
 
@@ -71,7 +71,7 @@ class Terminals:
 
 
 def in_order(of_system: Sequence[Row]) -> list[Row]:
-    """The rows in an order that leaves the system as each needs it: those that change it come last of their kind."""
+    """The rows, ordered so that each finds the system as it needs it: rows that change it come last of their kind."""
     changing = [words for row in of_system for words in row["before"]]
     return sorted(of_system, key=lambda row: (len(row["before"]), row["argv"] in changing))
 

@@ -1,4 +1,4 @@
-"""`up --serve` lets clients of a router in, and warns of the risk; `router` routes messages, or says why not."""
+"""`up --serve` admits clients of a router, and warns of the risk; `router` forwards messages, or says why it cannot."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def test_background_robot_is_reached_through_router_with_certificate_only(
     started = typed("up", "--serve", place, "--tls-ca", files.ca, *shown)
     try:
         assert started.returncode == 0, started.stderr
-        assert "WARNING" not in started.stderr  # It listens on loopback.
+        assert "WARNING" not in started.stderr  # The router listens on loopback.
         monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", f"{os.environ['BOT_CONSOLE_SOCKET_DIR']}x")
         capture = tmp_path / "robot.json"
         way = ("--connect", place, "--tls-ca", files.ca)

@@ -1,4 +1,4 @@
-"""Types that only another terminal's workspace has: requested from the node there, and compared with their hashes."""
+"""Types that only another terminal's workspace has: requested from its node, and compared with their hashes."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ DEFINITIONS = {
 
 @pytest.fixture
 def elsewhere(tmp_path: Path) -> Iterator[Path]:
-    """A folder beside the workspace with the packages, in which a node runs that uses them."""
+    """A folder with the packages, outside the workspace, and a node running in it that uses them."""
     source = tmp_path / "here" / "src"
     for name, text in DEFINITIONS.items():
         place = source / name

@@ -29,9 +29,9 @@ POLL_S = 0.02
 
 
 class Terminal:
-    """A program in a terminal of a given size, which ends with the block.
+    """A program in a terminal of a given size; it ends with the block.
 
-    A thread reads all that the program writes, so that a program is never blocked by a test that waits for another.
+    A thread reads everything that the program writes, so that the program never blocks while a test waits for another.
     """
 
     def __init__(self, words: Sequence[str], folder: Path, size: tuple[int, int] = (120, 40)) -> None:
@@ -64,7 +64,7 @@ class Terminal:
 
     @property
     def output(self) -> bytes:
-        """What the program has written; a test may forget what it no longer needs."""
+        """The output of the program; a test may discard what it no longer needs."""
         return self._output
 
     @output.setter
@@ -91,11 +91,11 @@ class Terminal:
             if ready:
                 try:
                     self._read_once()
-                except OSError:  # as Linux reports that nobody has the other end
+                except OSError:  # Linux reports in this way that nobody has the other end
                     return
 
     def _read_once(self) -> bool:
-        """Read what there is; whether there was something."""
+        """Read the available output; return whether there was any."""
         with self._reads:
             if self.master < 0 or not select.select([self.master], [], [], 0)[0]:
                 return False
@@ -125,7 +125,7 @@ class Terminal:
         return self._stacks.read_bytes()[self._stacks_before :].decode(errors="replace")
 
     def drain(self, seconds: float) -> None:
-        """Let a while pass, in which the program's output is read."""
+        """Let time pass while the program's output is read."""
         threading.Event().wait(seconds)
 
     def type(self, keys: str) -> None:
@@ -139,13 +139,13 @@ class Terminal:
         return int.from_bytes(fcntl.ioctl(self._slave, termios.FIONREAD, bytes(4)), sys.byteorder)
 
     def wait(self) -> int:
-        """The exit code, once the program has ended."""
+        """Wait for the end of the program; return its exit code."""
         self.read_until(lambda: self.process.poll() is not None, "the end of the program")
         self._read_rest()
         return self.process.returncode
 
     def is_usable(self) -> bool:
-        """Whether the program has left the alternate screen, shows the cursor and has restored the line settings."""
+        """Whether the program has left the alternate screen, shown the cursor and restored the line settings."""
         left = self.output.rfind(b"\x1b[?1049l") > self.output.rfind(b"\x1b[?1049h")
         shown = self.output.rfind(b"\x1b[?25h") > self.output.rfind(b"\x1b[?25l")
         return left and shown and self.modes() == self.settings[3]
@@ -155,7 +155,7 @@ class Terminal:
         return termios.tcgetattr(self._slave)[3]
 
     def processes(self) -> list[str]:
-        """The command lines of all processes that descend from this program, itself included."""
+        """The command lines of the program and all its descendants."""
         found: list[str] = []
         for each in Path("/proc").glob("[0-9]*"):
             with contextlib.suppress(OSError):

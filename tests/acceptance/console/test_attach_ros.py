@@ -1,4 +1,4 @@
-"""The console on a foreign ROS 2, through public interfaces alone: see `helpers/fakes/standin_ros.py`."""
+"""The console on a foreign ROS 2, through public interfaces alone: see `helpers/fakes/ros_installation.py`."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def sourced(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
 
 @pytest.fixture
 def program() -> str:
-    """The program of the robot."""
+    """The text of the robot's program."""
     return ROBOT.format(name="rover")
 
 
@@ -80,7 +80,7 @@ def program() -> str:
 def robot(
     sourced: dict[str, str], program: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[subprocess.Popen[bytes]]:
-    """A robot of that ROS 2, in its own process."""
+    """A robot of that ROS 2, in a separate process."""
     for name in ("PYTHONPATH", "ROS_DISTRO", "RMW_IMPLEMENTATION"):
         monkeypatch.setenv(name, sourced[name])
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")

@@ -1,4 +1,4 @@
-"""Everything marked `ros` on an rclpy that is not ours: a stand-in, used in the way that a machine with ROS 2 is."""
+"""Everything marked `ros` on a foreign rclpy: a stand-in, used as on a machine with ROS 2."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ if os.name == "nt":
 
 ROOT = Path(__file__).resolve().parents[3]
 NEED_A_REAL_ONE = ("live_recordings", "own_ros2", "exported_package", "public_programs", "which_rclpy")
-"""Suites about what a ROS 2 on the machine does and where it is: the stand-in is our own rclpy, in its own place."""
+"""Suites about the location and behaviour of a ROS 2 on the machine: the stand-in is only a copy of our own rclpy."""
 SOME = "refusal or commands or series_is_read"
 ONLY_XDIST = {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "PYTEST_PLUGINS": "xdist.plugin"}
-"""The only plug-in that it needs: the others take their time to import."""
+"""The only plug-in that the run needs: importing the others takes time."""
 
 
 def on_the_stand_in(folder: Path, *words: str, **variables: str) -> None:

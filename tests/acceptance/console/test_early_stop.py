@@ -1,7 +1,7 @@
 """The thread that reads the terminal notices a stop key, whatever comes before it and even if the screen hangs.
 
-A console on a scripted robot, in its own process and pseudo-terminal. The drawing thread hangs from the first frame
-on, so that whatever holds the robot is not that thread.
+A console on a scripted robot, in a separate process and pseudo-terminal. The drawing thread hangs from the first frame
+on, so that only another thread can hold the robot.
 """
 
 from __future__ import annotations
@@ -64,11 +64,11 @@ BEFORE = {
 }
 
 OFTEN = {"mouse moves": (), "nothing": pytest.mark.slow}
-"""What is tried before a change lands, in the default run or in that of the slow tests; each takes a console."""
+"""The inputs tried before a change lands, in the default run or among the slow tests; each takes a console."""
 
 
 class Console:
-    """The console in its terminal, and what was requested of the robot."""
+    """The console in its terminal, and the requests that the robot received."""
 
     def __init__(self, folder: Path) -> None:
         (folder / "program.py").write_text(PROGRAM)
@@ -77,7 +77,7 @@ class Console:
         self.terminal = Terminal([str(folder / "program.py"), str(HELPERS)], folder)
 
     def notes(self) -> list[str]:
-        """What has happened."""
+        """The notes written so far."""
         path = self.folder / "notes"
         return path.read_text().splitlines() if path.exists() else []
 

@@ -1,4 +1,4 @@
-"""However the console ends, the robot gets a zero velocity and the terminal is usable."""
+"""However the console ends, the robot gets a zero velocity and the terminal remains usable."""
 
 import os
 import signal
@@ -71,7 +71,7 @@ sys.exit(main(sys.argv[1:]))
 
 @pytest.fixture
 def console(tmp_path):
-    """The console on a launch file with a robot that drives."""
+    """A console on a launch file with a driving robot."""
     (tmp_path / "wheels.py").write_text(WHEELS.format(folder=tmp_path))
     (tmp_path / "one.launch.py").write_text(LAUNCH.format(folder=tmp_path))
     (tmp_path / "program.py").write_text(CRASH.format(folder=tmp_path))
@@ -94,11 +94,11 @@ CODES = {"q": 0, "ctrl-c": 0, "SIGTERM": 143, "SIGHUP": 129, "SIGINT": 130, "SIG
 
 
 OFTEN = ("crash",)
-"""What the default run tries, besides `q` (below) and SIGHUP (a terminal that vanishes); each takes a console."""
+"""The cases of the default run, besides `q` and SIGHUP, which have separate tests below; each takes a console."""
 
 
 def some(values, often):
-    """All of them as parameters; those that are not in `often` are marked for `-m soak`."""
+    """All values as parameters; those not in `often` are marked for `-m soak`."""
     return [pytest.param(each, marks=() if each in often else pytest.mark.soak) for each in values]
 
 

@@ -1,6 +1,6 @@
-"""Each kind of faulty node in its own process, beside a robot: all others go on, and the fault is reported.
+"""Each kind of faulty node in a separate process, beside a robot: all others go on, and the fault is reported.
 
-One launch host with our robot system and a good node for all tests of this file, as a console has it.
+All tests of this file share one launch host with our robot system and a good node, as a console has it.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ class System:
     folder: Path
 
     def start(self, programs: Mapping[str, str]) -> None:
-        """Run programs, by name and text, as nodes, until each has reported that it is up."""
+        """Run programs, given by name and text, as nodes until each has reported that it is up."""
         for name, text in programs.items():
             file = self.folder / f"{name}.py"
             file.write_text(text)
@@ -57,7 +57,7 @@ class System:
             self.until(lambda name=name: self.heard(name, "up"), f"{name} is up")
 
     def named(self, name: str) -> ProcessInfo:
-        """The process of a name; the newest, if a test has restarted it."""
+        """The process of that name; the newest, if a test has restarted it."""
         return next(each for each in reversed(self.launcher.info().processes) if each.label.startswith(name))
 
     def heard(self, name: str, text: str) -> Any:
@@ -128,7 +128,7 @@ ENDS: Mapping[str, tuple[str, ProcessState, int, str]] = {
         "MemoryError",
     ),
 }
-"""What a node does to itself, and what is shown then: its state, its exit code and a part of its problem."""
+"""What a node does to itself, and what is shown then: state, exit code and a part of the problem's text."""
 
 
 @pytest.mark.slow
@@ -181,12 +181,13 @@ ENDLESS = {
     "closes": "os.closerange(0, 3)\ntime.sleep(1000)\n",
     "deaf": "import signal\nfor each in (2, 15):\n    signal.signal(each, signal.SIG_IGN)\ntime.sleep(1000)\n",
 }
-"""Other things that never end by themselves."""
+"""Other programs that never end by themselves."""
 
 
 CLOSES_ALL = "os.closerange(0, 256)\ntime.sleep(1000)\n"
-"""A node that closes descriptors of the middleware, too. Zenoh aborts if one of its threads is about to wait on them;
-if all of them wait already, the node goes on.
+"""A node that closes descriptors of the middleware, too.
+
+Zenoh aborts if one of its threads is about to wait on them; if all of them are already waiting, the node goes on.
 """
 
 

@@ -1,4 +1,4 @@
-"""A launch host in its own process: what it starts, reports and ends, and the consequences of its death."""
+"""A launch host in a separate process: what it starts, reports and ends, and what happens when it dies."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Hosted:
         )
 
     def launch(self, *actions: str, **programs: str) -> Any:
-        """Launch these programs, by name, and actions; returns the answer."""
+        """Launch programs, given by name, and actions; return the answer."""
         nodes: list[str] = []
         for name, text in programs.items():
             path = self.folder / f"{name}.py"
@@ -68,7 +68,7 @@ class Hosted:
         )
 
     def up(self, name: str) -> Any:
-        """Wait for the first line of a program; returns its process."""
+        """Wait for the first line of a program; return its process."""
         self.until(lambda: any(label.startswith(name) and text == "up" for _, label, text in self.printed))
         return self.named(name)
 

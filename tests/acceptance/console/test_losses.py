@@ -1,4 +1,4 @@
-"""A robot that loses its operator stands until a person hands it back; judged by the odometry that a witness sees.
+"""A robot that loses its operator stands until a person hands it back; a witness judges this by the odometry.
 
 The default run kills a program that steers, in stepped time: `robot/test_emergency_stop.py`.
 """

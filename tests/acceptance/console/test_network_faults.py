@@ -29,7 +29,7 @@ PERIOD = 0.1
 
 
 class FarRig(RosRig):
-    """The robot at its router, the console behind a link that tests can disturb."""
+    """The robot at its router, and the console behind a link that tests can disturb."""
 
     def __init__(self, folder: Path) -> None:
         self.place = Serving((f"tcp/127.0.0.1:{free_port()}",))
@@ -52,12 +52,12 @@ class FarRig(RosRig):
             choose_middleware(local_bus)
 
     def driving(self, ended: threading.Event) -> None:
-        """Hold a key: a command ten times a second, as the pane does."""
+        """Hold a key: send a command ten times a second, as the pane does."""
         while not ended.wait(PERIOD):
             self.console.drive.move(0.5, 0.0)
 
     def publish_long(self) -> Publisher:
-        """A publisher of the robot for long messages."""
+        """Make a publisher of the robot for long messages."""
         return self._node.create_publisher(String, "/long", QoSProfile(depth=10))
 
     def close(self) -> None:
@@ -79,7 +79,7 @@ def far(tmp_path: Path) -> Iterator[FarRig]:
 
 @pytest.fixture
 def key(far: FarRig) -> Iterator[threading.Event]:
-    """A key that is held until the event is set, by a separate thread."""
+    """A key that a separate thread holds until the event is set."""
     ended = threading.Event()
     thread = threading.Thread(target=far.driving, args=(ended,))
     thread.start()
@@ -102,7 +102,7 @@ def test_cut_link_is_reported_and_the_robot_does_not_move_when_it_returns(
         reported.append(far.console.snapshot().link.silent_s)
         assert reported[-1] >= reported[-2], (
             "an answer over a link that is cut"
-        )  # As when Zenoh gives up on it, after 10 s.
+        )  # Zenoh gives up on it in the same way, after 10 s.
         return reported[-1] >= seconds
 
     until(silent, "the silence")
@@ -125,7 +125,7 @@ def test_robot_driven_before_a_long_loss_gets_a_zero_when_the_link_returns(
     monkeypatch.setattr("rigs.TIMEOUT_S", 40.0)
     far.wire.cut()
     until(lambda: far.console.snapshot().link.silent_s >= 15, "that Zenoh has given the link up, and what waited in it")
-    key.set()  # As the disarmed pane does.
+    key.set()  # The disarmed pane does the same.
     before = len(far.received)
     far.wire.restore()
     until(lambda: far.console.snapshot() and len(far.received) > before, "a command")
@@ -173,7 +173,7 @@ def test_everything_works_with_300_ms_delay_and_held_segments(far: FarRig) -> No
     far.console.drive.stop(True)
     stopped, count = time.monotonic(), len(far.received)
     until(lambda: far.received[-1] == (0.0, 0.0) and len(far.received) > count, "the stop")
-    assert time.monotonic() - stopped < 3.0  # One way, a held segment, and what a busy machine takes.
+    assert time.monotonic() - stopped < 3.0  # The delay one way, a held segment, and the slowness of a busy machine.
     far.show_text(Severity.WARN, "still here")
     until(lambda: far.console.snapshot().logs.counts.get(Severity.WARN, 0) >= 1, "the log")
 
@@ -182,10 +182,10 @@ def test_over_a_slow_link_robot_stands_after_dead_man_time_and_a_round_trip(far:
     far.wire.delay, far.wire.hold, far.wire.held_share = 0.15, 0.5, 0.02
     steering, tick = Steering(deadman=1.0), threading.Event()
     steering.arm(time.monotonic())
-    steering.steer(1, 0, 10, time.monotonic())  # The last key that is pressed.
+    steering.steer(1, 0, 10, time.monotonic())  # The last key press.
 
     def stands() -> bool:
-        """Send as the pane does, ten times a second."""
+        """Send velocities as the pane does, ten times a second; return whether the robot stands."""
         tick.wait(PERIOD)
         command = steering.command(time.monotonic())
         if command is not None:

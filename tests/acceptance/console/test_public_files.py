@@ -21,7 +21,7 @@ from rigs import TIMEOUT_S, until
 FILES = sorted((Path(__file__).parents[2] / "unit/tui/console/parameters/public").glob("*.yaml"))
 DOMAINS = itertools.count(8300)
 SPACE_TAKER = "/some_node"
-"""The node that a wildcard stands for."""
+"""The node that takes the place of a wildcard."""
 
 Values = Mapping[str, Mapping[str, Value]]
 
@@ -37,7 +37,7 @@ def values_of(path: Path) -> dict[str, dict[str, Value]]:
 
 
 def other(value: Value) -> Value:
-    """Another value of the same type."""
+    """A different value of the same type."""
     if isinstance(value, bool):
         return not value
     if isinstance(value, tuple):
@@ -50,7 +50,7 @@ def plain(value: object) -> object:
 
 
 class Package:
-    """Nodes that declare the parameters of a file with other values, and a console."""
+    """Nodes that declare the parameters of a file with different values, and a console."""
 
     def __init__(self, values: Values, domain: int) -> None:
         self._context = Context()
@@ -71,7 +71,7 @@ class Package:
             self._executor.spin()
 
     def values(self) -> dict[tuple[str, str], object]:
-        """The values of all parameters that the nodes declare themselves."""
+        """The values of all parameters that the nodes themselves declare."""
         given = ("use_sim_time", "start_type_description_service")
         return {
             (full, name): plain(each.value)
@@ -134,7 +134,7 @@ def _all_read(console: RosConsole, values: Values) -> Mapping[str, object]:
 def _saved_with_one_line_changed(path: Path, copy: Path, console: RosConsole, values: Values) -> None:
     node = next(iter(values))
     if node == SPACE_TAKER:
-        return  # It is saved in its own section, since the wildcard applies to other nodes too.
+        return  # It is saved in a separate section, since the wildcard applies to other nodes too.
     name, value = next((name, value) for name, value in values[node].items() if isinstance(value, (int, float)))
     copy.write_text(path.read_text())
     assert all(each.accepted for each in console.parameters.set(node, {name: other(value)}).result(TIMEOUT_S))

@@ -25,7 +25,7 @@ def test_robot_is_not_driven_until_its_safety_monitor_is_back_and_released(
     assert console.wait_ready(TIMEOUT_S)
 
     def speed() -> float:
-        """The robot's speed in m/s, while the person keeps requesting 0.8."""
+        """The robot's speed (m/s) while the person keeps requesting 0.8."""
         console.drive.move(0.8, 0.0)
         actual = console.snapshot().drive.actual
         return actual[0] if actual else 0.0

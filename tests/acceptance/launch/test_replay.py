@@ -58,7 +58,7 @@ def recorded() -> list[dict[str, Any]]:
 
 
 def replayed(tmp_path: Path, *which: str) -> set[str]:
-    """The ids of the cases whose replay equals the recording, or that need the course if it is missing."""
+    """Replay cases; return the ids of those that equal the recording, or that need the course where it is missing."""
     report = tmp_path / "report.json"
     words = ["--command", COMMAND, *which, "--jobs", "2", "--json", str(report), "--timeout", "90"]
     words += ["--course", COURSE] if COURSE else []

@@ -1,4 +1,4 @@
-"""A student for each test, whose terminals are closed at its end."""
+"""A student for each test; the student's terminals are closed at its end."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from helpers.student import Student
 
 @pytest.fixture
 def student(tmp_path: Path) -> Iterator[Callable[..., Student]]:
-    """Makes a student who opens a course, in a copy of a workspace if there is one."""
+    """A function that makes a student who opens a course, in a copy of a workspace if one is given."""
     at_work: list[Student] = []
 
     def open_course(course: Path, workspace: Path | None = None) -> Student:

@@ -1,4 +1,4 @@
-"""The course of the documentation's examples has no mistake, and is done from its text alone."""
+"""The example course of the documentation has no mistake, and can be completed from its text alone."""
 
 from __future__ import annotations
 

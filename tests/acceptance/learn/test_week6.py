@@ -1,7 +1,7 @@
-"""The course week6, done as a student does it: files, three shells, and the console in a fourth terminal.
+"""The course week6, completed as by a student: files, three shells, and the console in a fourth terminal.
 
-Before each step its deed is left out, and most steps see a typical mistake first; the lesson's text has to answer both.
-After each deed exactly the steps whose deeds were done are done.
+Before each step its action is left out, and most steps get a typical mistake first; the lesson's text has to answer
+both. After each action exactly the steps whose actions were carried out are done.
 """
 
 from __future__ import annotations
@@ -461,7 +461,7 @@ def chapter_15(at: Student) -> None:
 
 
 def arrange(at: Student, keys: str) -> None:
-    """Arrange the panes by some keys. What is typed right after Esc would be a key with Alt."""
+    """Arrange the panes with some keys, separately from Esc: a key right after Esc would be a key with Alt."""
     at.console.type("V")
     at.shows("w Save")
     at.console.type(keys)
@@ -491,7 +491,7 @@ def chapter_16(at: Student) -> None:
 
 
 def scripts(at: Student, *names: str) -> None:
-    """Write the console scripts of `setup.py`."""
+    """Write the console scripts into `setup.py`."""
     path = at.workspace / PACKAGE / "setup.py"
     lines = "".join(f"            '{each} = intelligent_robot.{each}:main',\n" for each in names)
     text = re.sub(r"('console_scripts': \[\n).*?( +\],)", rf"\1{lines}\2", path.read_text("utf-8"), flags=re.DOTALL)
@@ -617,7 +617,7 @@ def chapter_21(at: Student) -> None:
 
 
 def chapter_22(at: Student) -> None:
-    """The bonus challenges: each with a program of the student's own."""
+    """The bonus challenges, each with one of the student's own programs."""
     one, two, three = at.shells
     made = ["robot_node", *student_robot.OTHERS]
 
@@ -736,12 +736,12 @@ CHAPTERS = {
     22: chapter_22,
 }
 KEPT, FIRST = os.environ.get("BOT_CONSOLE_WALK", ""), int(os.environ.get("BOT_CONSOLE_WALK_FROM", "1"))
-"""A folder that gets a copy of the workspace before each chapter, and the chapter to begin with, in such a copy."""
+"""A folder that gets a copy of the workspace before each chapter, and the chapter to begin with in such a copy."""
 SIMULATOR = "bot-console launch bot_console_robot simulator.launch.py"
 
 
 def begin(at: Student, number: int) -> None:
-    """Start what the chapters before have left running."""
+    """Start what the earlier chapters have left running."""
     one, two, three = at.shells
     if number in range(2, 6):
         one.start("bot-console run src/simple_robot.py")

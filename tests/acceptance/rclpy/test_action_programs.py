@@ -11,7 +11,7 @@ PROGRAMS = Path(__file__).parent / "programs"
 
 
 def message(program: Program) -> list[tuple[int, str]]:
-    """What a program logged, with the time (s) since the start of the run."""
+    """The messages that a program logged, with the time (s) since the start of the run."""
     lines = re.findall(r"\[INFO\] \[(\d+)\.\d+\] \[\w+\]: (.*)", program.stderr)
     return [(int(seconds) - 1_700_000_000, text) for seconds, text in lines]
 

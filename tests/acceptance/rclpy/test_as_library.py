@@ -1,4 +1,4 @@
-"""rclpy in a program that is not ours: signals, exit functions, logging and asyncio, as rclpy 7.1.5 does on ROS 2."""
+"""rclpy in foreign programs: signals, exit functions, logging and asyncio behave as with rclpy 7.1.5 on ROS 2."""
 
 from __future__ import annotations
 
@@ -126,14 +126,14 @@ class Prompt:
         return text.removesuffix(">>> ").replace("\r", "")
 
     def type(self, line: str) -> str:
-        """What the interpreter prints for a line."""
+        """Type a line; return what the interpreter prints."""
         os.write(self._terminal, f"{line}\n".encode())
         return self._shown().split("\n", 1)[1]
 
     def interrupt(self) -> str:
-        """What it prints for Ctrl-C.
+        """Press Ctrl-C; return what the interpreter prints.
 
-        Python prints the prompt before it waits for a key, and a signal in between is seen only with the next key.
+        Python prints the prompt before it waits for a key, and notices a signal in between only with the next key.
         """
         while self._state() != "S":
             pass
@@ -141,7 +141,7 @@ class Prompt:
         return self._shown()
 
     def _state(self) -> str:
-        """The state of its main thread: `S` while it waits; also without `/proc`."""
+        """The state of its main thread: `S` while it waits, and where there is no `/proc`."""
         stat = Path(f"/proc/{self.process.pid}/stat")
         return stat.read_text().rpartition(")")[2].split()[0] if stat.exists() else "S"
 

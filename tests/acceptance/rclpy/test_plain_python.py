@@ -1,4 +1,4 @@
-"""Programs print the same under `python3`, in a shell that was set up, as under `bot-console run`."""
+"""Programs print the same under `python3` in a shell that was set up, and under `bot-console run`."""
 
 from __future__ import annotations
 
@@ -54,19 +54,22 @@ future = client.list_parameters(prefixes=[])
 rclpy.spin_until_future_complete(node, future)
 print(sorted(future.result().result.names))
 """
-"""A node that answers it spins: a signal then interrupts it there, and not while it logs."""
+"""A node whose answer shows that a program spins: a signal then interrupts it there, and not while it logs."""
 OTHERS_END = "others end"
 IN_ANY_ORDER = (
     "fibonacci", "single_goal", "lifecycle", "callback_groups two", "callback_groups reentrant", "spins_in_threads",
 )  # fmt: skip
-"""Programs with lines whose order is a matter of time: an action's first feedback may arrive before its response,
-messages come from two topics, and callbacks run in several threads.
+"""Programs with lines whose order depends on timing.
+
+An action's first feedback may arrive before its response, messages come from two topics, and callbacks run in several
+threads.
 """
 
 
 class Line(NamedTuple):
-    """A command line after `run` or `python3`, and when it is interrupted: a pattern in its output, or when all others
-    are done; with an empty one it ends by itself.
+    """The arguments after `run` or `python3`, and when to interrupt the program.
+
+    That is a pattern in its output, or the end of all other programs; with an empty pattern it ends by itself.
     """
 
     words: str
@@ -79,7 +82,7 @@ def demo(module: str, function: str) -> str:
 
 
 def some(values: Sequence[Any], *marks: pytest.MarkDecorator) -> list[Any]:
-    """The first one with these marks, the others for the long run."""
+    """The values as parameters: the first with these marks, the others for the soak run."""
     return [pytest.param(each, marks=pytest.mark.soak if n else marks) for n, each in enumerate(values)]
 
 
@@ -157,8 +160,9 @@ class Running:
             each.join()
 
     def shown(self, in_order: bool) -> dict[str, object]:
-        """What a person sees, without numbers and the frames of tracebacks, and each line once: how often it comes is a
-        matter of time, where the program is interrupted.
+        """What a person sees, without numbers and the frames of tracebacks, and each line only once.
+
+        How often a line appears depends on when the program is interrupted.
         """
         lines = {name: re.sub(r"\d+", "#", text).splitlines() for name, text in self.output.items()}
         once = {name: list(dict.fromkeys(each for each in lines[name] if each[:2] != "  ")) for name in lines}
@@ -212,7 +216,7 @@ def compare(cast: Sequence[Line], home: Path, tmp_path: Path) -> None:
     (tmp_path / "b").mkdir(mode=0o700)
     ours = {**environment(home), "BOT_CONSOLE_SOCKET_DIR": str(tmp_path / "a"), "ROS_DOMAIN_ID": "0"}
     plain = {**set_up(home), "BOT_CONSOLE_SOCKET_DIR": str(tmp_path / "b"), "ROS_DOMAIN_ID": "0"}
-    # Else Python keeps what is printed to a pipe until the program ends, and nobody sees when to interrupt it.
+    # Otherwise Python buffers what is printed to a pipe until the program ends, and nobody sees when to interrupt it.
     ours["PYTHONUNBUFFERED"] = plain["PYTHONUNBUFFERED"] = "1"
     shown = play(cast, ["env", "bot-console", "run"], ours, tmp_path)
     assert play(cast, [str(PYTHON)], plain, tmp_path) == shown

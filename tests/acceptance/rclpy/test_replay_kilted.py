@@ -19,7 +19,7 @@ SETUP = "from bot_console.runtime.importer import install; install()"
 KILTED: dict[str, Any] = json.loads((LIVE / "kilted.json").read_text("utf-8"))
 """The outcomes of Kilted that differ from Jazzy's, by id."""
 KEPT: dict[str, str] = yaml.safe_load((LIVE / "kilted_kept.yaml").read_text("utf-8"))
-"""The cases that are not followed, with the reason."""
+"""The cases in which Kilted is not followed, with the reason."""
 
 
 def test_cases_end_as_on_kilted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

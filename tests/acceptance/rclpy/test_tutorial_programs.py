@@ -13,17 +13,17 @@ START = 1_700_000_000
 
 
 def start(running: System, name: str, *words: str) -> Program:
-    """Start one of the programs beside this file."""
+    """Start a program from the folder beside this file."""
     return running.python(str(PROGRAMS / f"{name}.py"), *words)
 
 
 def message(program: Program) -> list[str]:
-    """What a program logged."""
+    """The messages that a program logged."""
     return [text for _, text in when(program)]
 
 
 def when(program: Program) -> list[tuple[float, str]]:
-    """What a program logged, with the time (s) since the start of the run."""
+    """The messages that a program logged, with the time (s) since the start of the run."""
     lines = re.findall(r"\[(?:INFO|WARN)\] \[(\d+)\.(\d)\d+\] \[[\w.]+\]: (.*)", program.stderr)
     return [(int(seconds) - START + int(tenths) / 10, text) for seconds, tenths, text in lines]
 

@@ -13,7 +13,7 @@ TIMEOUT_S = 900.0
 
 
 def headless(folder: Any, *words: str, command: tuple[str, ...] = ()) -> dict[str, Any]:
-    """The report of `bot-console [COMMAND] --headless --fast WORDS`, run in a folder; the log is under `log`."""
+    """Run `bot-console [COMMAND] --headless --fast WORDS` in a folder; return its report, with the log under `log`."""
     environment = {**os.environ, "ROS_HOME": str(folder)}
     done = typed(*command, "--headless", "--fast", *words, cwd=folder, env=environment)
     assert done.returncode == 0, done.stderr[-3000:]

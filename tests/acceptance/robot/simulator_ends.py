@@ -1,4 +1,4 @@
-"""Starts, resets and ends simulated robots in every way in one program, which survives all of them or crashes.
+"""Starts, resets and ends simulated robots in every way in one program, which survives all of this or crashes.
 
 Usage: python simulator_ends.py ROUNDS SEED. Prints how many of each kind there were, as JSON, and ends while the last
 robots still drive, as a console that is quit does.
@@ -37,7 +37,7 @@ KINDS = ("interrupt", "terminate", "kill", "stop", "reset", "world", "kill while
 
 
 class Person:
-    """Drives a robot into walls and requests resets, in its own domain."""
+    """Drives a robot into walls and requests resets, in a separate domain."""
 
     def __init__(self, domain: int) -> None:
         self._context = Context()
@@ -56,7 +56,7 @@ class Person:
         self._commands.publish(command)
 
     def wait(self) -> None:
-        """Wait until the simulator serves."""
+        """Wait until the simulator offers its services."""
         assert self._resets.wait_for_service(TIMEOUT_S), "the simulator has not come up"
 
     def reset(self, *, wait: bool = True) -> None:
@@ -82,7 +82,7 @@ class Person:
 
 
 class Kept:
-    """Holds a simulation in a reference cycle, as a node does, so that only the collector frees it."""
+    """Keeps a simulation in a reference cycle, as a node does, so that only the garbage collector frees it."""
 
     def __init__(self, simulation: Simulation) -> None:
         self.simulation = simulation
@@ -99,20 +99,20 @@ def churn() -> None:
 
 
 def play_churn(chance: random.Random) -> None:
-    """Interrupt it, most likely while it collects."""
+    """Run the churning node and interrupt it, most likely while it collects garbage."""
     for _ in range(8):
         process = NodeProcess("churn")
         process.start(churn, stdout=_drop, stderr=_drop)
         threading.Event().wait(chance.uniform(0.03, 0.06))
         for _ in range(100):
-            process.interrupt()  # The interpreter drops an interrupt that comes while it finalizes an object.
+            process.interrupt()  # The interpreter drops an interrupt that arrives while it finalizes an object.
             if process.wait(0.3) is not None:
                 break
         assert not process.is_alive, process.line()
 
 
 def start(domain: int) -> NodeProcess:
-    """A simulator as a launch would start it."""
+    """Start a simulator as a launch would."""
     process = NodeProcess("simulator")
     words = ["simulator", "--ros-args", "-p", f"world:={WORLDS[domain % len(WORLDS)]}"]
     process.start(simulator_node.main, argv=words, env={"ROS_DOMAIN_ID": str(domain)}, stdout=_drop, stderr=_drop)
@@ -124,7 +124,7 @@ def _drop(_: str) -> None:
 
 
 def play(kind: str, domain: int, chance: random.Random) -> None:
-    """One start, a little driving, and one end."""
+    """Start a simulator, drive a little, and end it in one way."""
     if kind == "worlds come and go":
         return play_churn(chance)
     process, person = start(domain), Person(domain)
@@ -146,9 +146,7 @@ def play(kind: str, domain: int, chance: random.Random) -> None:
 
 
 def main(rounds: int, seed: int) -> None:
-    """Play, four at a time, while every thread collects garbage all the time, so that ends coincide with
-    collections.
-    """
+    """Play rounds, four at a time, while every thread collects garbage all the time, so that the two coincide."""
     gc.set_threshold(30, 2, 2)
     done: Counter[str] = Counter()
     rest = list(range(rounds))

@@ -30,11 +30,11 @@ NODES = {
 """The composed executables and their nodes."""
 LOCKS = {"safety_node": "/safety_monitor", "simulator_node": "/simulator"}
 MOVING, STANDING = 0.2, 0.02
-"""Speeds (m/s) of a robot that drives, and that odometry may show at rest."""
+"""Speeds (m/s) above which the robot drives, and below which odometry counts as at rest."""
 MESSAGES = 20
 """Messages of each node that arrive while another node hangs."""
 TIMEOUT_S = 240.0
-"""Seconds for what a machine without load does in one."""
+"""Timeout in seconds; an idle machine needs one second."""
 
 
 @pytest.fixture
@@ -66,7 +66,7 @@ def test_each_node_is_killed_and_restarted_alone(running: System) -> None:
 
 @pytest.mark.parametrize("ended", LOCKS)
 def test_if_one_lock_ends_the_other_holds(running: System, ended: str) -> None:
-    """The robot that is left, or restarted, stands although somebody drives its base."""
+    """The remaining or restarted robot stands although somebody drives its base."""
     speeds: list[float] = []
     programs = {name: running.executable(PACKAGE, name) for name in LOCKS}
     running.compose("driver", driver, ["driver"])
@@ -87,7 +87,7 @@ def test_if_one_lock_ends_the_other_holds(running: System, ended: str) -> None:
 
 
 def driver() -> None:
-    """A program that drives the base, without asking the safety monitor."""
+    """A program that drives the base directly, without the safety monitor."""
     rclpy.init()
     node = rclpy.create_node("driver")
     publisher = node.create_publisher(Twist, "cmd_vel", 10)
@@ -140,7 +140,7 @@ def spinning(make: Callable[[Any], object]) -> Callable[[], None]:
 
 
 def test_callback_that_hangs_delays_neither_monitor_nor_simulator() -> None:
-    """Live: each composed executable has an executor thread of its own."""
+    """In real time: each composed executable has a separate executor thread."""
     count, hanging, release = Counted(), threading.Event(), threading.Event()
 
     def hang(_scan: LaserScan) -> None:

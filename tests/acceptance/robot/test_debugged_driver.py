@@ -1,4 +1,4 @@
-"""A robot stands while the node that commands it is stopped at a breakpoint, and drives on with it."""
+"""A robot stands while the node that commands it is stopped at a breakpoint, and drives on when the node continues."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ def tick():
 
 node.create_timer""",
 }
-"""What makes the driver stop at a breakpoint once there is a file of that name."""
+"""Replacements that make the driver stop at a breakpoint once a certain file exists."""
 
 
 class DrivenRobot(LiveRobot):
-    """A base and a safety monitor, commanded by nobody but one program."""
+    """A base and a safety monitor, commanded by a single program."""
 
     def start(self) -> None:
         """Start the base, the monitor and the program."""

@@ -1,4 +1,4 @@
-"""ALL STOP holds the robot, whoever publishes velocities and whichever node ended; judged by a witness's odometry."""
+"""ALL STOP holds the robot, whoever publishes velocities and whichever node has ended; a witness judges by odometry."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from systems import Program, System, kill_composed, system
 
 ROOT = Path(__file__).resolve().parents[3]
 MOVING, STANDING = 0.2, 0.02
-"""Speeds (m/s) of a robot that drives, and that odometry may show at rest."""
+"""Speeds (m/s) above which the robot drives, and below which odometry counts as at rest."""
 BRAKING = 0.5
-"""Seconds in which it comes to rest."""
+"""Seconds within which the robot comes to rest."""
 
 WITNESS = """
 import rclpy
@@ -86,22 +86,22 @@ class Bench:
         self.run(3.0)
 
     def run(self, seconds: float) -> list[float]:
-        """Let time pass; returns the speeds that the witness saw."""
+        """Let time pass; return the speeds that the witness saw."""
         seen = len(self._witness.stdout)
         self._running.run(seconds)
         return [abs(float(each)) for each in self._witness.stdout[seen:].split()]
 
     def drives(self, seconds: float = 3.0) -> bool:
-        """Whether it drives within so many seconds."""
+        """Whether the robot drives within this many seconds."""
         return max(self.run(seconds)) > MOVING
 
     def stands(self, seconds: float = 4.0) -> bool:
-        """Whether it comes to rest and stays so."""
+        """Whether the robot comes to rest and stays at rest."""
         self.run(BRAKING)
         return max(self.run(seconds)) < STANDING
 
     def call(self, service: str) -> str:
-        """The answer of a service."""
+        """Call a service; return its message."""
         return self._running.ask("service", "call", service, "std_srvs/srv/Trigger").stdout
 
     def command(self, verb: str, *words: str) -> Program:

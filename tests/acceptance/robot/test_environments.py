@@ -18,7 +18,7 @@ GUIDE = Path(__file__).resolve().parents[3] / "docs" / "environments.md"
 
 @pytest.fixture(scope="module")
 def runs(tmp_path_factory):
-    """Reports by profile, one per seed, of two simulated minutes."""
+    """Reports of two simulated minutes, by profile, one per seed."""
     folder = tmp_path_factory.mktemp("profiles")
     return {
         name: [headless(folder, "--profile", name, "--duration", "120", "--seed", seed) for seed in SEEDS]
@@ -63,7 +63,7 @@ def test_runs_are_deterministic(runs, name):
 
 
 def test_environment_guide_states_the_measured_figures(runs):
-    """Within what another processor's floating point may change in a chaotic run."""
+    """Within the tolerance that another processor's floating point may need in a chaotic run."""
     row = r"^\| (\w+) \| (\d) \| ([\d.]+) \| ([\d.]+) \| (\d+) \| (\d+) \|$"
     rows = re.findall(row, GUIDE.read_text(encoding="utf-8"), re.MULTILINE)
     assert {(name, seed) for name, seed, *_ in rows} == {(name, seed) for name in PROFILES for seed in SEEDS}

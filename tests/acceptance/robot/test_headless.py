@@ -1,4 +1,4 @@
-"""Headless runs: bit-for-bit reproducible, and clear about what they cannot do."""
+"""Headless runs are reproducible bit for bit, and say clearly what they cannot do."""
 
 import json
 import signal
@@ -18,7 +18,7 @@ from headless import TIMEOUT_S, headless
 
 @pytest.fixture(scope="module")
 def runs(tmp_path_factory):
-    """Two runs with one seed, one with another."""
+    """Two runs with one seed, and one with another."""
     folder = tmp_path_factory.mktemp("runs")
     return [headless(folder, "--duration", "12", "--seed", seed) for seed in ("5", "5", "6")]
 

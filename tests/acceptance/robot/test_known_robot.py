@@ -1,4 +1,4 @@
-"""The simulated robot as programs written for other robots expect it: frames, signals, goals, names."""
+"""The simulated robot offers what programs written for other robots expect: frames, signals, goals, names."""
 
 from __future__ import annotations
 

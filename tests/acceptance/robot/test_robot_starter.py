@@ -40,7 +40,7 @@ BESIDE = "the simulated robot runs beside it"
 
 
 def write(folder, *entities):
-    """A launch file of nodes; `driver` stands for the one of that name, other entities for themselves."""
+    """Write a launch file of nodes; `driver` stands for the node of that name, other entities are used as they are."""
     for name, endpoints in NODES.items():
         (folder / f"{name}.py").write_text(NODE.format(name=name, endpoints=endpoints))
     actions = [f"Node(executable={str(folder / each)!r} + '.py')" if each in NODES else each for each in entities]
@@ -179,7 +179,7 @@ print("given by", looks[-1], flush=True)
 )
 def test_run_and_launch_verbs_start_no_robot(tmp_path, monkeypatch, words, givers):
     monkeypatch.setenv("ROS_HOME", str(tmp_path))
-    max_looks = 10**6 if givers else 30  # what is to come may take its time
+    max_looks = 10**6 if givers else 30  # a delayed start may take its time
     (tmp_path / "asks.py").write_text(ASKS.replace("MAX_LOOKS", str(max_looks)))
     node = "Node(executable='./asks.py', output='screen')"
     (tmp_path / "asks.launch.py").write_text(LAUNCH.format(entities=f"[{node}]"))

@@ -15,7 +15,7 @@ KINDS = 8
 
 
 def ends(rounds: int, seed: int, timeout_s: float) -> None:
-    """Run the program; a segmentation fault is an exit code of -11."""
+    """Run the program; an exit code of -11 means a segmentation fault."""
     line = [sys.executable, "-X", "faulthandler", str(PROGRAM), str(rounds), str(seed)]
     environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
     done = subprocess.run(line, env=environment, capture_output=True, text=True, timeout=timeout_s, check=False)

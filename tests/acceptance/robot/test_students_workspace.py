@@ -33,7 +33,7 @@ if __name__ == '__main__':
 """
 NAMES = ("intelligent_robot", "bot_console_robot")
 OFTEN = [pytest.param(NAMES[0], marks=pytest.mark.soak), NAMES[1]]
-"""Only our robot's own name runs in the default run, since it is the likelier source of mix-ups."""
+"""Only our robot's own name is in the default run, since it is the likelier source of mix-ups."""
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-"""The console in headless Chromium: by keyboard, by mouse and by touch, and what happens when the browser is gone."""
+"""The console in headless Chromium: by keyboard, by mouse and by touch, and after the browser has gone."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ ABOVE_STOP = (
     " <= document.getElementById('stop').getBoundingClientRect().top"
 )
 PICTURES = os.environ.get("BOT_CONSOLE_TESTS_PICTURES", "")
-"""A folder in which to keep pictures of the screen, to be looked at."""
+"""A folder in which pictures of the screen are kept for a person to look at."""
 
 
 class Tab:
-    """A page with the console, and what its terminal shows."""
+    """A page with the console, and the text of its terminal."""
 
     def __init__(self, page: Page) -> None:
         self.page = page
@@ -57,7 +57,7 @@ class Tab:
         return self._screen.lines()
 
     async def place_of(self, text: str) -> tuple[float, float]:
-        """Where in the window the middle of a text is."""
+        """The position in the window of the middle of a text."""
         y, line = next((y, line) for y, line in enumerate(self.lines()) if text in line)
         cell = await self.page.value(
             "(({width, height}) => [width, height])(document.querySelector('.xterm-screen').getBoundingClientRect())"
@@ -72,7 +72,7 @@ class Tab:
 
 @contextmanager
 def serving(*words: str) -> Iterator[tuple[str, int]]:
-    """`bot-console serve` on a free port: its address, and its process."""
+    """`bot-console serve` on a free port; yields its address and its process id."""
     line = [sys.executable, "-m", "bot_console.tui", "serve", "--port", "0", *words]
     with subprocess.Popen(line, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None
@@ -91,13 +91,13 @@ def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 @pytest.fixture
 def watched() -> Iterator[tuple[str, int]]:
-    """A server of consoles that watch."""
+    """A server of read-only consoles."""
     with serving() as place:
         yield place
 
 
 def consoles_of(process: int) -> list[int]:
-    """The consoles that a server runs; a Linux kernel lists the children of a thread."""
+    """The process ids of a server's consoles; a Linux kernel lists the children of a thread."""
     return [int(each) for each in Path(f"/proc/{process}/task/{process}/children").read_text().split()]
 
 

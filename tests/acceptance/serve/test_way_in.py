@@ -1,4 +1,4 @@
-"""Who gets into `bot-console serve`: token, cookie, Host and Origin; what the page loads; how a session ends."""
+"""Access to `bot-console serve`: token, cookie, Host and Origin; what the page loads; how a session ends."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The first commands of the ROS 2 tutorials, without turtles."""
+"""The first commands of the ROS 2 tutorials, except for turtlesim."""
 
 from __future__ import annotations
 

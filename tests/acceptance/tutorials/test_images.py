@@ -22,7 +22,7 @@ def running() -> Iterator[System]:
 
 @pytest.fixture
 def codec(monkeypatch: pytest.MonkeyPatch) -> None:
-    """An OpenCV whose JPEG is the bytes of one row of pixels."""
+    """A stand-in for OpenCV: its JPEG consists of the bytes of one row of pixels."""
     fake = ModuleType("cv2")
     fake.__spec__ = sys.__spec__
     fake.IMREAD_UNCHANGED = -1  # type: ignore[attr-defined] -- a stand-in for a module

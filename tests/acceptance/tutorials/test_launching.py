@@ -1,4 +1,4 @@
-"""Launch files as the tutorials build them up: two simulators, a mimic between them, arguments, events and timers.
+"""Launch files of the tutorials: two simulators, a mimic between them, arguments, events and timers.
 
 Also a project of several files in all three languages, with namespaces, parameter files and an added frame.
 """

@@ -1,4 +1,4 @@
-"""Transforms between programs: one looks them up for others, which query it like their own buffer."""
+"""Transforms between programs: one program offers its buffer to others, which query it like their own."""
 
 from __future__ import annotations
 

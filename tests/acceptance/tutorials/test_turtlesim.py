@@ -1,4 +1,4 @@
-"""The turtle tutorials, as a person types them."""
+"""The turtlesim tutorials, as a person types them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Leads the talker through its states by its services, as a launch script or supervisor would."""
+"""Takes the talker through its states by its services, as a launch script or supervisor would."""
 
 import rclpy
 from lifecycle_msgs.msg import Transition

@@ -1,4 +1,4 @@
-"""A new goal aborts the one before it: the pattern of the single-goal server."""
+"""A server that aborts its goal when a new one arrives: the pattern of the single-goal server."""
 
 import contextlib
 import threading
