@@ -1,4 +1,4 @@
-"""A pane around a list: its filter, the matches, and how many rows of how many are shown."""
+"""The base of panes with a list: the filter, moving between matches, and the number of rows shown."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ class ListPane(Pane, Narrowed):
     SCOPES: ClassVar[tuple[str, ...]] = ("find", "narrowed", "list")
 
     _query = Query()
-    """The filter, as it was understood."""
+    """The parsed filter."""
 
     @property
     def mode(self) -> Mode:
-        """While a filter narrows the list, the keys that clear it and go on."""
+        """While a filter narrows the list, the mode with the keys that clear it and move between matches."""
         return FILTERED if self.words else NO_MODE
 
     def set_filter(self, words: str) -> None:
@@ -37,12 +37,12 @@ class ListPane(Pane, Narrowed):
         self.keys_changed()
 
     def filter_is(self, words: str) -> None:
-        """Show the rows that pass."""
+        """Show the rows that pass the filter."""
         self._query = parse(words)
         self._arrange()
 
     def _arrange(self) -> None:
-        """Show what passes `_query`."""
+        """Show the rows that pass `_query`."""
         raise NotImplementedError
 
     def ask_words(self, line: Line) -> None:
@@ -62,7 +62,7 @@ class ListPane(Pane, Narrowed):
         return rows.cursor < rows.row_count() and rows.matches(rows.cursor, parse(words))
 
     def report_filter(self, shown: int, every: int, *more: str) -> None:
-        """Show the filter and the number of matches in the frame, and then what else narrows the list."""
+        """Show the filter, `more` texts on what narrows the list, and the number of matches in the bottom border."""
         narrowed = (f"/{self.words}" if self.words else "", *more)
         counts = f"{shown} of {every}" if any(narrowed) else ""
         self.caption("  ".join(each for each in (*narrowed, counts) if each))

@@ -36,18 +36,18 @@ class Pane(LazyParts):
     """A pane of the console.
 
     The app calls `show` with each new snapshot while the pane is visible, and once with the newest one when it becomes
-    visible; a hidden pane does nothing. A pane keeps view state only (cursor, filter, scroll): what it shows is in the
-    snapshot, what it wants done it asks of `console`.
+    visible; a hidden pane does nothing. A pane keeps view state only (cursor, filter, scroll): it reads what it shows
+    from the snapshot, and acts through `console`.
     """
 
     TITLE: ClassVar[str] = ""
     HELP: ClassVar[str | None] = ""
     """What the pane is for, in a few lines; the keys are listed from the key table."""
     _only_edge = False
-    """Whether what is drawn next is the lower edge of the frame alone."""
+    """Whether the next refresh needs to redraw only the bottom border."""
 
     SCOPES: ClassVar[tuple[str, ...]] = ("list",)
-    """Scopes of the key table that act in the pane, beside the one of its own."""
+    """Scopes of the key table that apply in the pane, besides its own."""
 
     class PlotWanted(Message):
         """Requests a plot of a path."""
@@ -72,7 +72,7 @@ class Pane(LazyParts):
             self.line = line
 
     class PaneWanted(Message):
-        """Requests something to be shown in another pane."""
+        """Requests that another pane is shown, and goes to a name in it."""
 
         def __init__(self, pane: str, name: str) -> None:
             super().__init__()
@@ -90,7 +90,7 @@ class Pane(LazyParts):
             self.names = names
 
     class TuningWanted(Message):
-        """Requests settings to be tried in simulated runs; `take` gets the one that the user chooses."""
+        """Requests that settings are tried in simulated runs; `take` is called with the one that the user chooses."""
 
         def __init__(self, specification: TuningSpecification, take: Callable[[Setting], None]) -> None:
             super().__init__()
@@ -114,12 +114,12 @@ class Pane(LazyParts):
 
     @property
     def scopes(self) -> tuple[str, ...]:
-        """The scopes of the key table that act in the pane, its own first."""
+        """The scopes of the key table that apply in the pane, its own first."""
         return (self.id or "", *self.SCOPES)
 
     @property
     def key_words(self) -> Mapping[str, str]:
-        """Descriptions of keys, by their ids, that differ from the key table now; empty for keys without an effect."""
+        """Key descriptions, by action id, that now differ from the key table; empty for keys without an effect."""
         return {}
 
     @property
@@ -128,7 +128,7 @@ class Pane(LazyParts):
         return NO_MODE
 
     def keys_changed(self) -> None:
-        """Take note that `mode` or `key_words` may have changed."""
+        """Post `KeysChanged` if `mode` or `key_words` have changed; call it whenever they may have."""
         now = (self.mode, self.key_words)
         if now != (self._mode, self._key_words):
             self._mode, self._key_words = now
@@ -136,16 +136,16 @@ class Pane(LazyParts):
 
     @property
     def host(self) -> App[object]:
-        """The app, with the type that Textual's own property leaves open."""
+        """The app, with a type that Textual's own property leaves unknown."""
         return self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic
 
     @property
     def state_store(self) -> StateStore:
-        """The storage of what panes keep from run to run."""
+        """The storage for the state that panes keep from run to run."""
         return getattr(self.host, "state_store", None) or MemoryStore()
 
     def caption(self, text: str) -> None:
-        """Write into the lower edge of the frame."""
+        """Show a text in the bottom border."""
         if text == self._caption:
             return
         self._caption = text
@@ -156,7 +156,7 @@ class Pane(LazyParts):
             self._only_edge = False
 
     def refresh(self: P, *regions: Region, repaint: bool = True, layout: bool = False, recompose: bool = False) -> P:
-        """Refresh like Textual, but only the edge if just the caption has changed."""
+        """Refresh like Textual, but only the bottom border if just the caption has changed."""
         size = self.outer_size
         if self._only_edge and size:
             left, top = self.content_offset
@@ -168,29 +168,30 @@ class Pane(LazyParts):
         raise NotImplementedError
 
     def observe(self, snapshot: ConsoleSnapshot) -> None:
-        """Learn from a new snapshot what must not be missed, also while hidden; called before `show`."""
+        """Record what must not be missed in a new snapshot; called before `show`, even while hidden."""
 
     def tick(self) -> None:
-        """Ten times a second, also while hidden: what does not come with a snapshot, such as samples and time-outs."""
+        """Process samples, timeouts and the like, which no snapshot brings; called at 10 Hz, even while hidden."""
 
     def may_change(self) -> bool:
-        """Whether this console changes anything; says why not, before a person answers questions in vain."""
+        """Whether this console may change anything; if not, notifies why, before the user answers questions in vain."""
         why = self.console.snapshot().capabilities.change
         if why:
             self.notify(why, severity="warning", markup=False)
         return not why
 
     def ask(self, question: Question[Any]) -> None:
-        """Ask the person something: a line at the foot of the pane, what needs more room over all panes."""
+        """Ask the user a question: a `Line` at the bottom of the pane, any other on a screen of its own."""
         if isinstance(question, Line):
             self.query_one(Prompt).ask(question)
         else:
             self.host.push_screen(screen_for(question))
 
     def ask_file(self, label: str, name: str, write: Callable[[Path], Answer], *, replaces: bool = True) -> None:
-        """Ask for a file to write, and again where it would replace one; then tell what came of it.
+        """Ask for a file to write, with a confirmation if it would be replaced; then report the result.
 
-        `write` gives what to tell, or raises `NotSaved`; with `replaces` false it changes parts of a file only.
+        `write` returns the answer to report, or raises `NotSaved`. With `replaces` false, it never replaces a file, so
+        nothing is confirmed.
         """
 
         def save(path: Path) -> None:
@@ -210,47 +211,47 @@ class Pane(LazyParts):
         self.ask(file_line(label, name, named))
 
     def report(self, answer: Answer) -> None:
-        """Say what came of something that was asked for."""
+        """Notify the user of the answer to a request."""
         if answer.text:
             self.notify(answer.text, severity="information" if answer.ok else "error", markup=False)
 
     def report_later(self, answer: Future[Answer]) -> None:
-        """Say what came of it, as soon as that is known."""
+        """Notify the user of the answer to a request as soon as it arrives."""
         answer.add_done_callback(lambda done: self.host.call_later(self.report, answer_of(done)))
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
-        """No key of the pane acts while something is typed in it."""
+        """Disable the keys of the pane while a prompt in it is open."""
         return not (self.has_parts and open_prompt(self) is not None) and super().check_action(action, parameters)
 
     def on_mount(self) -> None:
-        """Follow the moment that is looked at."""
+        """Follow the time cursor."""
         self.time_cursor.follow(self)
 
     def on_unmount(self) -> None:
-        """Follow it no more."""
+        """Stop following the time cursor."""
         self.time_cursor.leave(self)
 
     def time_moved(self, stamp: int | None) -> None:
-        """Somebody chose another moment (ns since the epoch; None: now) to look at; also told while hidden."""
+        """Show the moment (ns since the epoch; None: now) to which the time cursor moved; called even while hidden."""
 
     def go_to(self, name: str) -> None:
-        """Go to a node or a topic, as soon as it is there; the pane has just been shown."""
+        """Go to a node or a topic, as soon as it exists; called right after the pane was shown."""
 
     def expect(self, wanted: Sequence[str]) -> None:
-        """Show topics or paths instead of what the pane shows by itself, each as soon as it is there."""
+        """Show these topics or paths, each as soon as it exists, instead of what the pane shows by default."""
 
     def steer_on(self, topic: str, rate: float | None) -> None:
-        """Steer on a topic and at a rate (Hz), where the pane steers."""
+        """Steer on a topic at a rate (Hz), if the pane steers."""
 
     def detach(self) -> None:
-        """Stop whatever must not go on without the pane; called when it ends by a fault."""
+        """Stop whatever must not go on without the pane; called when a fault has ended it."""
 
     def next_part(self, step: int) -> bool:
-        """Give the keyboard to the part of the pane `step` after the one that has it; False where there is none."""
+        """Focus the part of the pane `step` after the focused one; returns whether there is one."""
         return False
 
     def take_focus(self) -> None:
-        """Take the keyboard, for a question that is open, else for what the pane shows."""
+        """Focus the open prompt, or if there is none, the content of the pane."""
         prompt = open_prompt(self) if self.has_parts else None
         if prompt is not None:
             prompt.take_focus()
@@ -258,5 +259,5 @@ class Pane(LazyParts):
             self.focus_target()
 
     def focus_target(self) -> None:
-        """Take the keyboard for what the pane shows: focus the part of the pane that the keys are for."""
+        """Focus the part of the pane that handles its keys."""
         next((each for each in self.query(Widget) if each.focusable), self).focus()

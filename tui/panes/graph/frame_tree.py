@@ -19,14 +19,14 @@ class FrameRow:
     depth: int
     frame: Frame | None = None
     by: str = ""
-    """Who tells of it."""
+    """The nodes that publish it."""
     trouble: str = ""
     age: float | None = None
-    """Seconds since it was told."""
+    """Seconds since it was last published; None for a root or a static transform."""
 
 
 def rows(info: Frames, clock: float, query: Query) -> list[FrameRow]:
-    """All frames, depth first; with a filter, those that pass and their ancestors."""
+    """All frames, depth first; with a filter, the frames that pass and their ancestors."""
     below: dict[str, list[Frame]] = {}
     for each in info.frames:
         below.setdefault(each.parent, []).append(each)
@@ -80,7 +80,7 @@ def _wrong(info: Frames, clock: float) -> dict[str, str]:
 
 
 def summary(row: FrameRow | None, info: Frames) -> str:
-    """One line on a frame."""
+    """Describe a frame in one line."""
     if row is None:
         return info.problem or ("Nothing matches." if info.frames else "No transforms have been received yet.")
     if row.frame is None:

@@ -1,4 +1,4 @@
-"""The frames of tf2 in place of the picture: a tree of rows, updated while it is visible."""
+"""The tf2 frames, shown instead of the drawing: a tree of rows, updated while it is visible."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class FramesView(Container):
         self._rows.focus()
 
     def poll(self, sensors: Sensors, clock: float, *, seen: bool) -> None:
-        """Subscribe while it is open and visible; update it when due."""
+        """Watch the frames while the list is open and visible, and update it when due."""
         wanted = self.open and seen
         if self._watched_by is not (sensors if wanted else None):  # a different one after a reconnection
             self._watched_by = sensors if wanted else None
@@ -68,7 +68,7 @@ class FramesView(Container):
         self._rows.exchange(rows(self._info, clock, self._query))
 
     def filter_by(self, words: str) -> None:
-        """Show the frames that pass, and their ancestors."""
+        """Show the frames that pass the filter, and their ancestors."""
         self._query, self._words = parse(words), words
         if self.open:
             self._arrange(self._polled)
@@ -84,7 +84,7 @@ class FramesView(Container):
 
     @property
     def caption(self) -> str:
-        """The numbers of frames and of findings."""
+        """The filter, and the numbers of transforms and findings."""
         info = self._info
         parts = ["frames of tf2", f"/{self._words}" if self._words else ""]
         parts += [counted(len(info.frames), "transform") if info.frames else ""]
@@ -94,7 +94,7 @@ class FramesView(Container):
 
     @property
     def summary(self) -> str:
-        """A line on the frame at the cursor."""
+        """A one-line description of the frame at the cursor."""
         return sanitize(summary(self._rows.current, self._info))
 
     def anomalies(self, clock: float) -> Sequence[Option]:

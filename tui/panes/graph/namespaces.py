@@ -1,4 +1,4 @@
-"""The ids of what is drawn, and namespaces as boxes: the contents of a folded one are a single item. Pure."""
+"""The ids of drawn items, and folded namespaces, each of which is drawn as a single box. Pure."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from bot_console.tui.text.namespaces import outermost
 
 TOPIC, SERVICE, ACTION = "topic:", "service:", "action:"
 LINKS = (TOPIC, SERVICE, ACTION)
-"""How the ids of items begin that stand between nodes."""
+"""Prefixes of the ids of items that link nodes."""
 SPACE = "namespace:"
-"""Begins the id of a box that stands for all nodes of a namespace."""
+"""Prefix of the id of a box that represents all nodes of a namespace."""
 MAX_UNFOLDED_NODES = 40
-"""With more nodes, namespaces are folded until a person unfolds them."""
+"""With more nodes than this, namespaces are folded until the user unfolds them."""
 
 
 def is_link(item: str) -> bool:
@@ -26,12 +26,12 @@ def namespace_of(node: str) -> str:
 
 
 def folds_of(nodes: Sequence[str]) -> frozenset[str]:
-    """The namespaces that are folded until a person says otherwise: the outermost ones of many nodes."""
+    """The namespaces that are folded by default: the outermost ones if there are many nodes, otherwise none."""
     return outermost(nodes) if len(nodes) > MAX_UNFOLDED_NODES else frozenset()
 
 
 def unfolded(folded: frozenset[str], space: str, nodes: Iterable[str]) -> frozenset[str]:
-    """The namespaces that are folded once one is not: those in it, if it has many nodes."""
+    """The folded namespaces after unfolding `space`: if it has many nodes, the namespaces inside are folded instead."""
     inside = [each for each in nodes if each.startswith(f"{space}/")]
     return folded - {space} | (outermost(inside, space) if len(inside) > MAX_UNFOLDED_NODES else frozenset[str]())
 

@@ -1,4 +1,4 @@
-"""Texts below the drawing and in its frame: what is drawn, dead ends, and the selected item. Pure."""
+"""Texts below the drawing and in its border: what is drawn, dead ends, and the selected item. Pure."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ EMPTY = Placeholder(
 )
 UNSENT, UNHEARD = "No publisher ", "No subscriber"
 INDENT_CELLS = 7
-"""Cells of `sends` and `reads`, with the blanks around them."""
+"""Cells of `sends` or `reads` with the blanks behind it."""
 
 
 def caption(info: GraphInfo, found: Shown, view: GraphView, words: str) -> str:
-    """A summary of the drawing, for the lower edge of the frame."""
+    """A summary of the drawing, for the bottom border of the pane."""
     parts = [view.mode.value]
     if info.nodes:
         parts.append(counted(sum(1 for each in info.nodes if not view.hides_name(each.name)), "node"))
@@ -43,7 +43,7 @@ def caption(info: GraphInfo, found: Shown, view: GraphView, words: str) -> str:
 
 
 def summary_of(info: GraphInfo, found: Shown, view: GraphView, item: str) -> str:
-    """One line on an item of the drawing; a line stands for all that is on it."""
+    """Describe an item of the drawing in one line; a connecting line is described by everything on it."""
     links = found.bundles.links.get(item)
     if links is None:
         return summary(info, item, view.hides_name)
@@ -66,7 +66,7 @@ def item_notes(
     width: int,
     maximum: int,
 ) -> list[str]:
-    """Everything about the ends of an item, in at most so many lines."""
+    """The endpoints of an item and their nodes, in at most `maximum` lines of `width` cells."""
     links = found.bundles.links.get(item)
     if item.startswith(SPACE):
         return _space_notes(snapshot, view, item.removeprefix(SPACE), rates, width, maximum)
@@ -76,7 +76,10 @@ def item_notes(
 
 
 def dead_ends(found: Shown, width: int) -> list[str]:
-    """One line for what nobody publishes or serves, one for what nobody subscribes to or calls; named where it fits."""
+    """One line for items that nobody publishes or serves, one for those that nobody subscribes to or calls.
+
+    As many items are named as fit; the others are counted.
+    """
     return [
         named(title, [each.partition(":")[2] for each in items], width)
         for title, items in ((UNSENT, found.unsent), (UNHEARD, found.unheard))
@@ -85,7 +88,7 @@ def dead_ends(found: Shown, width: int) -> list[str]:
 
 
 def legend(found: Shown, width: int) -> str:
-    """The meaning of the marks in a flow chart, as far as there are any and they fit."""
+    """The meaning of the marks that occur in a flow chart, as far as it fits in `width` cells."""
     chart = found.bundles.chart
     loops = [box.loop for box in chart.boxes if box.loop]
     words = [word for link in chart.links for word in link.words]
@@ -103,7 +106,7 @@ def legend(found: Shown, width: int) -> str:
 
 
 def named(title: str, names: Sequence[str], width: int) -> str:
-    """The title and as many names as fit; the others as a number."""
+    """The title and as many names as fit in `width` cells; the others are counted."""
     words = _folded(names)
     text = f"{title}{GAP}{GAP.join(word for word, _ in words)}"
     shown = len(words)
@@ -116,7 +119,7 @@ def named(title: str, names: Sequence[str], width: int) -> str:
 
 
 def _folded(names: Iterable[str]) -> list[tuple[str, int]]:
-    """The names without the leading slash; several of one namespace as one word. Each with how many it stands for."""
+    """The names without the leading slash, several in one namespace as one word; each with the number it represents."""
     known = sorted(names)
     spaces = Counter(each.rpartition("/")[0] for each in known)
     words: dict[str, int] = {}
@@ -130,8 +133,8 @@ def _folded(names: Iterable[str]) -> list[tuple[str, int]]:
 def _node_notes(
     snapshot: ConsoleSnapshot, view: GraphView, name: str, rates: Mapping[str, str], width: int, maximum: int
 ) -> list[str]:
-    """The topics that a node sends and reads, and to and from whom, in at most so many lines; empty without room or
-    node.
+    """The topics that a node publishes and subscribes to, with the nodes at their other ends, in at most `maximum`
+    lines; empty if there is no such node or no room.
     """
     info = snapshot.graph
     node = node_of(info, name)
@@ -147,8 +150,8 @@ def _node_notes(
 def _space_notes(
     snapshot: ConsoleSnapshot, view: GraphView, space: str, rates: Mapping[str, str], width: int, maximum: int
 ) -> list[str]:
-    """The topics that lead out of a namespace and into it, then those that each of its nodes sends and reads, in at
-    most so many lines; empty without room.
+    """The topics that lead out of and into a namespace, then the topics of each of its nodes, in at most `maximum`
+    lines; empty if it has no visible node or there is no room.
     """
     info = snapshot.graph
     nodes = [each for each in info.nodes if each.name.startswith(f"{space}/") and not each.hidden]
@@ -177,12 +180,12 @@ def _member_line(node: NodeInfo, view: GraphView, space: str, longest: int, widt
 
 
 def _below(topic: str, space: str) -> str:
-    """The name of a topic; of one in the namespace the rest of it."""
+    """The name of a topic, relative to the namespace if it is inside."""
     return topic.removeprefix(f"{space}/")
 
 
 def _head(snapshot: ConsoleSnapshot, name: str, nodes: Sequence[NodeInfo]) -> str:
-    """The name of a node or of a namespace, with its nodes, processes, parameters and services."""
+    """The name of a node or a namespace, with the numbers of its nodes, processes, parameters and services."""
     names = {each.name for each in nodes}
     processes = [each.label for each in snapshot.launch.processes if names & set(each.nodes)]
     trees = [snapshot.parameters[each] for each in names if each in snapshot.parameters]
@@ -194,7 +197,7 @@ def _head(snapshot: ConsoleSnapshot, name: str, nodes: Sequence[NodeInfo]) -> st
 
 
 def _fitted(head: str, lines: Sequence[str], width: int, maximum: int, how: str) -> list[str]:
-    """A heading and lines, in at most so many lines; `how` says how to see the others."""
+    """The heading and the lines, at most `maximum` in all; `how` tells the user how to see the others."""
     if len(lines) > maximum - 1:
         left = len(lines) - maximum + 2
         lines = [*lines[: maximum - 2], f"{' ' * INDENT_CELLS}{left} more lines: {how}"] if maximum > 2 else []
@@ -212,9 +215,9 @@ def _ends(
     publishing: bool,
     inside: Collection[str] = (),
 ) -> list[str]:
-    """The topics of one direction with the nodes at their other ends, as words that fill lines.
+    """The topics of one direction, each with the nodes at its other end, several per line where they fit.
 
-    A topic between nodes that are all `inside` is left out; those that the view hides are counted.
+    Topics whose other ends are all `inside` are left out; topics that the view hides are counted.
     """
     words: list[str] = []
     lonely: list[str] = []
@@ -248,7 +251,7 @@ def _ends(
 
 
 def _link_notes(info: GraphInfo, links: Iterable[str], rates: Mapping[str, str], width: int, maximum: int) -> list[str]:
-    """The topics of a line with their ends, in at most so many lines."""
+    """The topics, services and actions on a connecting line, with their nodes, in at most `maximum` lines."""
     lines: list[str] = []
     for link in links:
         name = link.partition(":")[2]

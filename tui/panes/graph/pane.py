@@ -59,7 +59,7 @@ from textual.app import ComposeResult
 
 
 class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOverride] # Textual's HELP
-    """Who talks to whom."""
+    """The nodes, and the topics, services and actions between them."""
 
     TITLE = "Graph"
     HELP = (
@@ -77,7 +77,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
     BINDINGS = keymap.bindings("graph")
 
     clock: Callable[[], float] = staticmethod(time.monotonic)
-    """Seconds of a steady clock; tests give one that they step."""
+    """A monotonic clock (s); tests replace it with one that they step."""
     SCOPES: ClassVar[tuple[str, ...]] = ("find", "narrowed", "diagram")
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
@@ -89,10 +89,10 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self._snapshot = ConsoleSnapshot()
         self._focus_history = FocusHistory()
         self._folds: frozenset[str] | None = None
-        """Namespaces that a person has folded; None: as it seems best."""
+        """The namespaces that the user has folded; None: the default, which depends on the number of nodes."""
         self._rates = Rates()
         self._asking_by: Sensors | None = None
-        """Who finds out which nodes do not answer."""
+        """The sensors port of the console that probes the nodes for liveness; None while nothing does."""
 
     def on_mount(self) -> None:
         """Restore the view of the last run."""
@@ -145,7 +145,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             return
         folded = self._folds if self._folds is not None else folds_of(self._visible)
         self._view = replace(self._view, folded=folded, focus=self._focus_history.now)
-        # Topics as boxes of their own: names are cut where it does not fit otherwise.
+        # If topics are items of their own, names are shortened when the drawing does not fit with full ones.
         for short in (False, True) if self._view.mode in (Mode.ACTIVE, Mode.ALL) else (False,):
             self._view = replace(self._view, short=short)
             self._shown = shown(info, self._view, self._rates.shown(self._measures))
@@ -170,7 +170,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
 
     @property
     def _measures(self) -> bool:
-        """Whether rates are shown: as a person has chosen, else in a flow chart that has room for them."""
+        """Whether rates are shown: as the user has chosen, by default in a flow chart that has room for them."""
         picture, wanted = self._picture, self._rates.wanted
         room = self._view.mode is Mode.FLOW and picture.outer_size.width >= MIN_WIDE_COLUMNS and not picture.is_large
         return room if wanted is None else wanted
@@ -189,11 +189,11 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self.console.sensors.watch_frames(False)
 
     def on_diagram_view_resized(self) -> None:
-        """Choose again what fits."""
+        """Draw again: what fits has changed."""
         self._draw()
 
     def _report(self) -> None:
-        """Describe the selected item, and what is omitted."""
+        """Update the caption, and describe the selected item or frame."""
         if self._frames.open:
             self.caption(self._frames.caption)
             self.query_one("#graph-status", StaticText).show_text(self._frames.summary)
@@ -206,7 +206,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self._report_more()
 
     def _report_dead_ends(self) -> None:
-        """Count what has one end only; where it fits, name it."""
+        """List the topics, services and actions that lack one end, as far as they fit, below the drawing."""
         words = self.query_one("#graph-dead-ends", StaticText)
         lines = dead_ends(self._shown, max(1, self.content_size.width - 2))
         words.display = bool(lines) and not self._frames.open
@@ -228,7 +228,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self._report()
 
     def action_mode(self) -> None:
-        """The next mode."""
+        """Switch to the next mode."""
         modes = list(Mode)
         self._view = replace(self._view, mode=modes[(modes.index(self._view.mode) + 1) % len(modes)])
         self._draw()
@@ -246,7 +246,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         return completed(text, self._info or GraphInfo())
 
     def filter_is(self, words: str) -> None:
-        """Draw the items that pass, and those linked to them."""
+        """Draw the items that pass the filter, and the items linked to them."""
         self._frames.filter_by(words)
         self._view = replace(self._view, query=parse(words, lists=True))
         self._draw()
@@ -272,7 +272,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self._picture.action_turn()
 
     def action_detail(self) -> None:
-        """List all details of the selected item, to navigate from; unfold a box."""
+        """List all details of the selected item, each leading to its subject; unfold a folded namespace."""
         if self._frames.open:
             self._frames.show_facts(self.host, self.clock())
             return
@@ -321,7 +321,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             self.post_message(self.LineWanted(f"ros2 interface show {where.removeprefix(TYPE)}"))
 
     def _go_to_item(self, item: str) -> None:
-        """Select an item, or the line on which it stands; one that is not drawn becomes the focus."""
+        """Select an item, or the line that carries it; an item that is not drawn becomes the focus."""
         lines = self._shown.bundles.links
         item = next((line for line, links in lines.items() if item in links), item)
         if item not in self._picture.places:
@@ -338,7 +338,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self._go_to_item(name if node_of(info, name) or not any(ends_of(info, name)) else TOPIC + name)
 
     def action_focus(self) -> None:
-        """Draw only what is linked to the selected item, with one more hop each time."""
+        """Draw only what is linked to the selected item; each further call adds a hop."""
         item = self._picture.selected
         if item:
             self._focus_history.go(self._shown.bundles.links.get(item, (item,))[0])
@@ -376,13 +376,13 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self._draw()
 
     def action_rates(self) -> None:
-        """Switch the rates on the topics on or off."""
+        """Turn the rates beside the topics on or off."""
         self._rates.wanted = not self._measures
         self.tick()
         self._draw()
 
     def action_transition(self) -> None:
-        """Ask for a transition of the selected lifecycle node."""
+        """Ask which transition the selected lifecycle node should make."""
         ask_transition(self, self._info or GraphInfo(), (self._picture.selected,))
 
     def action_frames(self) -> None:

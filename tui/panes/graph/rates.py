@@ -1,4 +1,4 @@
-"""The rates that are written on the lines, measured only while somebody sees them."""
+"""The rates that are written beside topics, measured only while they are visible."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bot_console.tui.text.figures import coarse_rate, steady
 RATE_POLL_S = 2.0
 READER = "graph"
 IDLE = "idle"
-"""Stands for a rate of 0, which also a topic has that is published once and kept for whoever comes later."""
+"""Shown instead of a rate of 0, which is normal for a topic that is published once (transient local)."""
 
 
 class Rates:
@@ -19,13 +19,13 @@ class Rates:
 
     def __init__(self) -> None:
         self.wanted: bool | None = None
-        """Whether a person wants rates; None: where there is room for them."""
+        """Whether the user wants rates; None: where there is room for them."""
         self.texts: Mapping[str, str] = {}
         self._rates: dict[str, float | None] = {}
         self._polled = 0.0
 
     def shown(self, on: bool) -> Mapping[str, str]:
-        """The texts, or none."""
+        """The texts if rates are on, otherwise nothing."""
         return self.texts if on else {}
 
     def poll(self, traffic: Topics, topics: Sequence[str], now: float) -> bool:
@@ -47,6 +47,6 @@ class Rates:
             traffic.measure([], READER)
 
     def _steady(self, topic: str, measure: Measure) -> float | None:
-        """The rate to show: each change of its text may move lines of the picture, so no provisional one is shown."""
+        """The rate to show. As each new text may move lines of the drawing, provisional rates are ignored."""
         before = self._rates.get(topic)
         return before if measure.provisional else steady(before, measure.rate)

@@ -24,7 +24,7 @@ MAX_LENGTH, SHORT = 40, 16
 
 
 class Mode(Enum):
-    """The modes of drawing, by rqt_graph's names where it has them; in the order in which a key goes through them."""
+    """The drawing modes in the order in which `m` cycles through them, with rqt_graph's names where it has them."""
 
     FLOW = "Flow"
     NODES = "Nodes only"
@@ -40,9 +40,9 @@ class GraphView:
     mode: Mode = Mode.FLOW
     query: Query = field(default_factory=Query)
     hides: tuple[str, ...] = TOOL_NAMES
-    """Patterns of the names of topics and nodes that are left out, such as `/camera/*`."""
+    """Patterns of the names of topics and nodes that are not drawn, such as `/camera/*`."""
     debug: bool = False
-    """Whether what `hides` names, and what ROS hides, is drawn, too."""
+    """Whether names that `hides` matches or that ROS hides are drawn, too."""
     dead_sinks: bool = True
     leaves: bool = True
     services: bool = False
@@ -53,45 +53,45 @@ class GraphView:
     short: bool = False
     """Whether names are cut to their last token."""
     whole: bool = False
-    """Whether names are never cut, however long: in a file there is room."""
+    """Whether names are never shortened, as in an exported file."""
 
     def hides_name(self, name: str) -> bool:
-        """Whether a node or a topic of that name is left out."""
+        """Whether a node or a topic with this name is not drawn."""
         return not self.debug and is_hidden(name, self.hides)
 
 
 @dataclass(frozen=True)
 class Shown:
-    """The graph to draw, the topics without a publisher or a subscriber, and how many are omitted."""
+    """The graph to draw, the topics without a publisher or a subscriber, and how many topics are left out."""
 
     graph: Digraph
     dead_ends: frozenset[str] = frozenset()
     faults: frozenset[tuple[str, str]] = frozenset()
-    """Edges on which nothing arrives, since the QoS of their ends does not match."""
+    """Edges on which no messages arrive, because the QoS of their ends does not match."""
 
     silent: frozenset[str] = frozenset()
     """Nodes that do not answer, or whose process is frozen."""
 
     bundles: Bundles = field(default_factory=Bundles)
-    """The same as a flow chart, in that mode."""
+    """The graph as a flow chart; filled in mode Flow only."""
 
     listing: Listing = field(default_factory=Listing)
-    """The same as a list, in that mode."""
+    """The graph as a list; filled in mode List only."""
 
     unsent: tuple[str, ...] = ()
-    """Items that nobody publishes or serves; filled in the mode Flow alone, which does not draw them."""
+    """Items that nobody publishes or serves; filled in mode Flow only, which does not draw them."""
 
     unheard: tuple[str, ...] = ()
-    """Items that nobody subscribes to or calls."""
+    """Items that nobody subscribes to or calls; filled in mode Flow only."""
 
     links_drawn: int = 0
-    """Topics, and services and actions where they are wanted, in the drawing."""
+    """Number of topics in the drawing, including services and actions if these are shown."""
 
     links_there: int = 0
-    """Those that are not hidden, whether they pass the filter or not."""
+    """Number of links that are not hidden, whether they pass the filter or not."""
 
     links_hidden: int = 0
-    """Those that the view hides."""
+    """Number of links that the view hides."""
 
     @property
     def topics_drawn(self) -> list[str]:
@@ -101,7 +101,7 @@ class Shown:
 
     @property
     def content(self) -> Digraph | Chart | Listing:
-        """What is laid out."""
+        """The chart, list or graph to lay out."""
         return self.bundles.chart if self.bundles.chart.boxes else self.listing if self.listing.entries else self.graph
 
 
@@ -164,7 +164,7 @@ def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingPr
 
 
 def _listing(info: GraphInfo, names: set[str], ids: set[str], view: GraphView) -> Listing:
-    """The connections, then the nodes that have none."""
+    """The connections, followed by the nodes that have none."""
     nodes = tuple(each for each in info.nodes if each.name in names)
     kinds = ("topic", "service", "action") if view.services else ("topic",)
     every = connections(replace(info, nodes=nodes), kinds)

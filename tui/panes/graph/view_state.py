@@ -15,7 +15,7 @@ SWITCHES = ("debug", "dead_sinks", "leaves", "services")
 
 @dataclass(frozen=True)
 class ViewState:
-    """The user's choices, without those that the pane makes by itself."""
+    """The user's choices, without those that the pane makes automatically."""
 
     view: GraphView = field(default_factory=GraphView)
     folds: frozenset[str] | None = None
@@ -23,7 +23,7 @@ class ViewState:
 
     @property
     def data(self) -> dict[str, object]:
-        """As plain data."""
+        """The choices as plain data."""
         return {
             **{each: getattr(self.view, each) for each in SWITCHES},
             "mode": self.view.mode.name,

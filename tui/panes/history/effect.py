@@ -8,20 +8,20 @@ from dataclasses import dataclass
 from math import isfinite
 
 BEFORE_S = 1.0
-"""Seconds before a change, and at the end of what follows it, over which a speed is averaged."""
+"""The speed is averaged over this many seconds before a change, and at the end of the time watched after it."""
 WATCH_S = 4.0
-"""Seconds after a change in which the robot gets to another speed."""
+"""Seconds for which the speed is watched after a change."""
 MAX_SPEEDS = 100
-"""Speeds that are kept: more than arrive in those seconds."""
+"""Maximum number of speeds kept: more than arrive while a change is watched."""
 MIN_STEP_MPS = 0.05
-"""Difference of speeds (m/s) that is worth a word; simulated odometry trembles by less."""
+"""Smallest difference of speeds (m/s) that is reported; the noise of simulated odometry is below it."""
 REACHED_SHARE = 0.1
-"""The new speed is reached within this share of the step."""
+"""The new speed counts as reached when the difference is below this share of the step."""
 
 
 @dataclass(frozen=True)
 class _Watch:
-    """Changes that were made at one moment (s), and the speed (m/s) before them."""
+    """Changes made at the same moment (s), and the speed (m/s) before them."""
 
     changes: Collection[int]
     began: float
@@ -29,9 +29,9 @@ class _Watch:
 
 
 class Effects:
-    """Follows the speed of the robot around changes; times in s of one clock.
+    """Compares the robot's speed before and after each change; all times are in s of the same clock.
 
-    The speed may have changed for another reason, such as an obstacle, so it is called what came after.
+    The speed may have changed for another reason, such as an obstacle, so the text claims no cause.
     """
 
     def __init__(self) -> None:
@@ -40,11 +40,11 @@ class Effects:
         self._found: dict[int, str] = {}
 
     def of(self, change: int) -> str:
-        """The effect of a change, by its number; empty if the speed stayed, or is not known yet."""
+        """The effect of the change with this number; empty if the speed stayed the same, or is not known yet."""
         return self._found.get(change, "")
 
     def observe(self, speed: float | None, now: float) -> bool:
-        """Take in a speed; whether more is known of a change."""
+        """Record a speed; returns whether the effect of a change has become known."""
         if speed is None or not isfinite(speed):
             self._speeds.clear()
             self._watch = None
@@ -53,7 +53,7 @@ class Effects:
         return self._watch is not None and now - self._watch.began >= WATCH_S and self._finish(now)
 
     def changed(self, changes: Collection[int], now: float) -> None:
-        """Values were changed, by their numbers; what came after earlier ones ends here."""
+        """Start to watch the changes with these numbers; ends the watch of earlier ones."""
         self._finish(now)
         before = self._mean(now - BEFORE_S, now)
         self._watch = None if before is None else _Watch(tuple(changes), now, before)

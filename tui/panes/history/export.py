@@ -1,4 +1,4 @@
-"""Exports the history: as a table, as data for programs, or as a script that repeats the changes."""
+"""Exports the history as CSV, as YAML, or as a script that repeats the changes."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ COLUMNS = ("time", "node", "parameter", "old", "new", "who", "accepted", "reason
 
 
 def export(path: Path, changes: Sequence[Change]) -> int:
-    """Write changes, oldest first, in the form that the name's ending says; gives how many.
+    """Write changes, oldest first, in the format of the file name's suffix; returns how many were written.
 
-    Raises `NotSaved`, also for an ending that means no form.
+    Raises `NotSaved`, also for an unknown suffix.
     """
     form = FORMS.get(path.suffix.lower())
     if form is None:
@@ -68,7 +68,7 @@ def as_yaml(changes: Sequence[Change]) -> str:
 
 
 def as_script(changes: Sequence[Change]) -> str:
-    """`ros2 param set` lines that make the accepted changes again; what was not set stands as a comment."""
+    """`ros2 param set` lines that repeat the accepted changes; refused changes are comments."""
     lines = ["#!/bin/sh", "# Parameter changes, oldest first, as they were made."]
     for each in changes:
         lines.append(f"# {moment(each.stamp)} {_one_line(who(each))}")
@@ -88,7 +88,7 @@ FORMS: dict[str, Callable[[Sequence[Change]], str]] = {
 
 
 def _one_line(text: str) -> str:
-    """A text that cannot leave the comment it stands in."""
+    """The text on one line, so that it cannot break out of a comment."""
     return " ".join(text.split()) if text.isprintable() else shlex.quote(" ".join(text.split()))
 
 

@@ -1,4 +1,4 @@
-"""The history pane: every parameter change and refusal, of this run and earlier ones, with a way back."""
+"""The history pane: every parameter change and refusal, of this run and earlier ones; changes can be reverted."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ from rich.text import Text
 from textual.app import ComposeResult
 
 ALL = -(10**9)
-"""A number before the first change of all runs."""
+"""A sequence number before the first change of all runs."""
 MAX_NAMED_VALUES = 12
-"""Values that a question names one by one."""
+"""Maximum number of values that a question lists."""
 
 EMPTY = Placeholder(
     "Every change of a parameter is listed here, whoever made it, with a way back.",
@@ -74,12 +74,12 @@ class HistoryPane(ListPane):
         self._problem = ""
         self._effects = Effects()
         self._seen: int | None = None
-        """The number after the last change that was seen; None before the first snapshot."""
+        """The end of the journal in the last snapshot; None before the first one."""
         self._opened: set[tuple[str, int]] = set()
-        """The sets whose changes are listed."""
+        """The keys of the sets whose changes are listed."""
 
     def compose(self) -> ComposeResult:
-        """A line of time, the changes, what is known of the one at the cursor, a prompt."""
+        """A timeline, the changes, details of the one at the cursor, and a prompt."""
         yield Picture(id="history-strip")
         yield ChangeRows(self._effects.of)
         yield StaticText(id="history-detail")
@@ -90,11 +90,11 @@ class HistoryPane(ListPane):
         return self.query_one(ChangeRows)
 
     def focus_target(self) -> None:
-        """The changes take the keys."""
+        """Focus the list of changes."""
         self._list.focus()
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Take in what is new in the journal."""
+        """Update the list if the journal has changed."""
         problem, self._problem = self._problem, snapshot.problem
         if snapshot.journal is not self._journal or snapshot.problem != problem:
             new = snapshot.journal
@@ -104,7 +104,7 @@ class HistoryPane(ListPane):
             self._arrange()
 
     def observe(self, snapshot: ConsoleSnapshot) -> None:
-        """Follow the speed of the robot around changes, also while hidden."""
+        """Track the robot's speed before and after changes, even while hidden."""
         now, actual, end = self.clock(), snapshot.drive.actual, snapshot.journal.end
         is_news = self._effects.observe(None if actual is None else actual[0], now)
         if self._seen is not None and end > self._seen:
@@ -117,7 +117,7 @@ class HistoryPane(ListPane):
             self._describe()
 
     def _arrange(self) -> None:
-        """Show what passes the filter."""
+        """Show the changes that pass the filter."""
         shown = [each for each in reversed(self._every) if self._wanted(each)]
         self._list.exchange(grouped(shown, self._opened, self._is_unsafe))
         more = ("refused" if self._only_refused else "", self._journal.problem)
@@ -147,17 +147,17 @@ class HistoryPane(ListPane):
         self.query_one("#history-detail", StaticText).show_or_hide(text)
 
     def on_resize(self) -> None:
-        """Draw the line of time for the new width."""
+        """Draw the timeline for the new width."""
         self._describe()
 
     @property
     def _current(self) -> Change | None:
-        """The change at the cursor; the last one of a set."""
+        """The change at the cursor; for a set, its newest change."""
         row = self._list.current
         return row.newest if isinstance(row, ChangeSet) else row
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
-        """Another change: tell of it, and look at its moment."""
+        """Describe the change at the cursor, and move the time cursor to it."""
         event.stop()
         self._describe()
         change = self._current
@@ -165,7 +165,7 @@ class HistoryPane(ListPane):
             self.time_cursor.move(change.stamp, self)
 
     def time_moved(self, stamp: int | None) -> None:
-        """Another pane looks at a moment: go to the last change before it."""
+        """Go to the last change before the moment to which another pane has moved the time cursor."""
         if stamp is None or self.is_ending:
             return
         before = (index for index, each in enumerate(self._list.rows) if each.stamp <= stamp)
@@ -174,7 +174,7 @@ class HistoryPane(ListPane):
             self._list.cursor = at
 
     def action_clear_filter(self) -> None:
-        """Look at now again; or else show everything."""
+        """Return the time cursor to now; if it is there already, show all changes."""
         if self.time_cursor.stamp is not None:
             self.time_cursor.move(None, self)
         else:
@@ -182,7 +182,7 @@ class HistoryPane(ListPane):
             self.set_filter("")
 
     def action_refused(self) -> None:
-        """Only refusals, or all."""
+        """Switch between showing refusals only and all changes."""
         self._only_refused = not self._only_refused
         self._arrange()
 
@@ -194,7 +194,7 @@ class HistoryPane(ListPane):
             self._ask(values_at(self._every, change), f"Go back to {moment}, {change.node} {change.name}?")
 
     def action_open(self) -> None:
-        """List the changes of a set, or no longer."""
+        """List or hide the changes of the set at the cursor."""
         row = self._list.current
         if isinstance(row, ChangeSet):
             self._fold(row, row.opened)
@@ -215,12 +215,12 @@ class HistoryPane(ListPane):
             self._list.cursor = next(at for at, each in enumerate(self._list.rows) if self._list.key(each) == row.key)
 
     def action_before(self) -> None:
-        """Put the value before one change back, after a question where that takes from the robot's safety."""
+        """Restore the value from before the change at the cursor, or the values from before a set, after a question."""
         row, change = self._list.current, self._current
         if change is None:
             return
         if isinstance(row, ChangeSet):
-            # The oldest change of a value comes last, so that its old value stays.
+            # A set lists the newest change first, so the oldest value of each parameter wins.
             olds = {(each.node, each.name): each.old for each in row.changes if each.accepted and each.old is not None}
             self._ask(olds, f"Put {counted(len(olds), 'value')} back?")
             return
@@ -277,7 +277,7 @@ class HistoryPane(ListPane):
             self.post_message(self.PlotWanted(f"{change.node}:{change.name}"))
 
     def action_copy(self) -> None:
-        """Copy the command that makes the change, through the terminal (OSC 52)."""
+        """Copy the command that repeats the change to the clipboard, through the terminal (OSC 52)."""
         change = self._current
         if change is not None:
             row = self._list.current
@@ -286,7 +286,7 @@ class HistoryPane(ListPane):
             self.notify(text, title="Copied")
 
     def action_export(self) -> None:
-        """Ask where what is shown goes."""
+        """Ask for the file to which the shown changes are exported."""
         self.ask_file(f"export to ({' '.join(FORMS)})", "history.csv", self._export)
 
     def _export(self, path: Path) -> Answer:

@@ -19,10 +19,10 @@ class Return:
 
 
 def values_at(changes: Sequence[Change], row: Change) -> dict[tuple[str, str], Value]:
-    """The values of parameters right after a change, oldest change first, of those that its run had set or set later.
-    Values that other runs have set are left out.
+    """The values right after the change `row` of all parameters that its run has changed, before it or later.
 
-    Nothing is said of what other runs have set: nodes that were started again have begun with their start values.
+    `changes` are oldest first. Parameters that only other runs have changed are left out: nodes that were restarted
+    since then began with their start values.
     """
     then: dict[tuple[str, str], Value] = {}
     for each in (each for each in changes if each.accepted and each.run == row.run):
@@ -37,8 +37,8 @@ def values_at(changes: Sequence[Change], row: Change) -> dict[tuple[str, str], V
 def returns(
     then: Mapping[tuple[str, str], Value], trees: Mapping[str, ParameterTree]
 ) -> tuple[list[Return], list[str]]:
-    """The values that have to be set for that, and those that cannot be, in words: a node that has left, a parameter
-    that is no more.
+    """The values to set in order to get the values in `then`, and texts about those that cannot be set because the
+    node or the parameter no longer exists.
     """
     found: list[Return] = []
     missing: list[str] = []

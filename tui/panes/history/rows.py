@@ -32,36 +32,36 @@ MARKS = {"": " ", "refused": "✗", "not set": "?"}
 """The mark before an entry, by its verdict."""
 GAP = "  "
 MAX_NODE_CELLS, MAX_NAME_CELLS, MAX_VALUES_CELLS = 18, 24, 22
-"""Cells that node, name and values take at most."""
+"""Maximum cells of the node, the name and the values."""
 MAX_SPARED_CELLS = 8
-"""Cells that each of them gives at most where the line is short of them."""
+"""Maximum cells by which each of these columns shrinks where a row is too narrow."""
 TAIL_CELLS = 16
-"""Cells that are kept for who, or why not."""
+"""Cells reserved for the source of a change, or the reason of a refusal."""
 MOMENT_CELLS, MARK_CELLS = 12, 2
 BARS_CELLS = 4
-"""Cells of the old and the new value as bars, with a gap; left out first."""
+"""Cells of the old and the new value as bars, with a gap; the first column to be left out."""
 INDENT = "  "
 """The text before the name of a change of an open set."""
 MIN_CELLS_WITH_NODE = 70
-"""Below so many cells no node is named in a row; what is known of the row at the cursor names it."""
+"""Minimum cells of a row that names the node; in narrower panes only the details at the cursor do."""
 
 
 def who(change: Change) -> str:
-    """Who has asked for a change, and what it was a part of."""
+    """Who made a change, and the operation it was part of."""
     if change.source is ChangeSource.OTHER and change.by:
-        return change.by  # more is known of it
+        return change.by  # more precise than "another program or the node"
     return f"{WHO[change.source]} {change.by}".rstrip()
 
 
 def words(change: Change) -> str:
-    """The words that a filter looks at, besides the node."""
+    """The text that a filter searches, besides the node."""
     verdict = verdict_of_change(change) or "taken"
     values = f"{value_text(change.old)} {value_text(change.new)}"
     return f"{change.name} {values} {who(change)} {verdict} {change.reason}"
 
 
 def day_text(stamp: int) -> str:
-    """Date and time of a change of an earlier run, in local time."""
+    """Date and time (local) without the year, as shown for changes of earlier runs."""
     return time.strftime("%m-%d %H:%M", time.localtime(stamp // 10**9))
 
 
@@ -70,19 +70,19 @@ def _moment(change: Change) -> str:
 
 
 def changed_text(change: Change) -> str:
-    """From what to what."""
+    """The old and the new value of a change."""
     return f"{sanitize(value_text(change.old))} → {sanitize(value_text(change.new))}"
 
 
 def command(change: Change, value: Value) -> str:
-    """The `ros2` line that gives the parameter a value."""
+    """The `ros2` command line that sets the parameter of a change to a value."""
     of_bytes = isinstance(value, tuple) and any(isinstance(each, bytes) for each in value)
     kind = Kind.BYTE_ARRAY if of_bytes else Kind.NOT_SET
     return command_of(ParameterInfo(change.node, change.name, kind, value), value)
 
 
 def details(change: Change, effect: str) -> Text:
-    """All that is known of a change."""
+    """Everything known about a change."""
     text = Text(no_wrap=False, overflow="fold")
     if not change.accepted:
         verdict = f"{value_text(change.new)} was {verdict_of_change(change)}: {change.reason}"
@@ -96,7 +96,7 @@ def details(change: Change, effect: str) -> Text:
 
 
 def set_text(row: ChangeSet) -> str:
-    """How many values a set has, and what is to be known of them."""
+    """The number of values in a set, and how many of them are less safe or were not set."""
     refused = sum(not each.accepted for each in row.changes)
     text = counted(len(row.changes), "value")
     text += f", {row.unsafe} less safe" if row.unsafe else ""
@@ -104,7 +104,7 @@ def set_text(row: ChangeSet) -> str:
 
 
 def set_details(row: ChangeSet) -> Text:
-    """Which values a set has changed."""
+    """Everything known about a set: its source, its times, and the names of its parameters."""
     text = Text(no_wrap=False, overflow="fold")
     begin, end = clock_text(row.changes[-1].stamp), clock_text(row.stamp)
     text.append(f"{sanitize(who(row.newest))}  {set_text(row)}\n", "bold")
@@ -114,22 +114,22 @@ def set_details(row: ChangeSet) -> Text:
 
 
 class ChangeRows(ItemList[HistoryRow]):
-    """Changes, and sets of changes, the newest first."""
+    """Changes and sets of changes, newest first."""
 
     def __init__(self, effect: Callable[[int], str]) -> None:
-        """`effect`: what came after the change with a number."""
+        """Create the list; `effect` returns a text on what followed the change with a number, or an empty one."""
         super().__init__()
         self._effect = effect
         self._node = self._name = self._values = 0
         self._members: frozenset[int] = frozenset()
-        """The changes that stand below their set."""
+        """The numbers of the changes that are listed below their set."""
 
     def key(self, item: HistoryRow) -> object:
-        """A change is itself, wherever it stands."""
+        """The key of a set, or the number of a change, wherever it is listed."""
         return item.key if isinstance(item, ChangeSet) else item.seq
 
     def exchange(self, rows: Sequence[HistoryRow], *, stay: bool = True) -> None:
-        """Show other changes; the cursor stays on its own, or on the newest where it was there."""
+        """Show these rows; the cursor stays on its row, or on the newest one if it was there."""
         before = self._node, self._name, self._values
         single = [each for each in rows if not isinstance(each, ChangeSet)]
         sets = [each for each in rows if isinstance(each, ChangeSet)]
@@ -148,7 +148,7 @@ class ChangeRows(ItemList[HistoryRow]):
         return any(query.matches(words(each), each.node) for each in changes_of(self.rows[index]))
 
     def _widths(self, width: int) -> tuple[int, int, int]:
-        """The cells of node, name and values; no node in a narrow pane."""
+        """The cells of node, name and values in a row of `width` cells; a narrow row has no node."""
         node = self._node if width >= MIN_CELLS_WITH_NODE else 0
         taken = MOMENT_CELLS + MARK_CELLS + sum(each + len(GAP) for each in (node, self._name, self._values) if each)
         missing = max(0, taken + TAIL_CELLS - width)
@@ -160,7 +160,7 @@ class ChangeRows(ItemList[HistoryRow]):
         return found[0], found[2], found[1]
 
     def _bars(self, change: Change, width: int) -> list[Segment]:
-        """The old and the new value as bars, where there is room."""
+        """The old and the new value as bars, if there is room."""
         taken = MOMENT_CELLS + MARK_CELLS + sum(each + len(GAP) for each in self._widths(width) if each)
         if width < taken + BARS_CELLS + 2 * TAIL_CELLS:
             return []
@@ -182,7 +182,7 @@ class ChangeRows(ItemList[HistoryRow]):
         ]
 
     def _after(self, change: Change, room: int) -> list[Segment]:
-        """The effect of a change, where there is room for all of it."""
+        """The effect of a change, if all of it fits into `room` cells."""
         text = self._effect(change.seq)
         fits = text and cell_len(text) + len(GAP) <= room
         return [Segment(f"{GAP}{text}", self.row_style("good"))] if fits else []

@@ -9,33 +9,33 @@ from typing import TypeAlias
 from bot_console.tui.console.model import Change, ChangeSource
 
 MAX_GAP_NS = 1_000_000_000
-"""Nanoseconds between two neighbours of a set at most."""
+"""Maximum nanoseconds between two consecutive changes of a set."""
 ALWAYS_SETS = (ChangeSource.HISTORY, ChangeSource.UNDO, ChangeSource.REDO, ChangeSource.ROLLBACK)
-"""Sources that set several values at once without a name for it."""
+"""Sources whose changes are grouped although the operation has no name."""
 
 
 @dataclass(frozen=True)
 class ChangeSet:
-    """Changes that were made together, the newest first."""
+    """Changes that were made together, newest first."""
 
     changes: tuple[Change, ...]
     unsafe: int = 0
-    """How many of them made the robot less safe."""
+    """Number of changes that made the robot less safe."""
     opened: bool = False
 
     @property
     def stamp(self) -> int:
-        """When the last of them was made (ns since the epoch)."""
+        """When the newest change was made (ns since the epoch)."""
         return self.changes[0].stamp
 
     @property
     def newest(self) -> Change:
-        """The last of them."""
+        """The newest change."""
         return self.changes[0]
 
     @property
     def key(self) -> tuple[str, int]:
-        """Its identity, also while changes are added to it."""
+        """The identity of the set, which stays the same while changes are added."""
         return "set", self.changes[-1].seq
 
 
@@ -45,7 +45,7 @@ HistoryRow: TypeAlias = "Change | ChangeSet"
 def grouped(
     changes: Iterable[Change], opened: Collection[tuple[str, int]], is_unsafe: Callable[[Change], bool]
 ) -> tuple[HistoryRow, ...]:
-    """The rows for changes, the newest first: one for each set, followed by its changes if it is open."""
+    """Group changes (newest first) into rows: one for each set, followed by its changes if it is open."""
     rows: list[HistoryRow] = []
     for run in _runs(changes):
         if len(run) < 2:
@@ -78,7 +78,7 @@ def _runs(changes: Iterable[Change]) -> list[list[Change]]:
 
 
 def _together(newer: Change, older: Change) -> bool:
-    """Whether two neighbours were made by one operation."""
+    """Whether two consecutive changes were made by the same operation."""
     operations = [(each.source, each.by, each.run, each.seq < 0) for each in (newer, older)]
     named = bool(newer.by) or newer.source in ALWAYS_SETS
     return named and operations[0] == operations[1] and 0 <= newer.stamp - older.stamp <= MAX_GAP_NS

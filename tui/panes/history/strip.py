@@ -1,4 +1,4 @@
-"""The changes of the history on a line of time. Pure."""
+"""The changes of the history on a timeline. Pure."""
 
 from __future__ import annotations
 
@@ -10,12 +10,15 @@ from bot_console.tui.text.refusals import verdict_of_change
 from bot_console.tui.widgets.picture import Line, Piece, joined
 
 MIN_CELLS = 12
-"""Cells of the line of time; on less, none is drawn."""
+"""Minimum cells of the timeline; if there is less room, it is not drawn."""
 CHANGED, REFUSED, CHOSEN = "▲", "✗", "◆"
 
 
 def time_strip(rows: Sequence[HistoryRow], chosen: HistoryRow | None, width: int) -> Line:
-    """A mark for each row of the run of the chosen one, or of the newest, between its first and its last change."""
+    """Draw a timeline from the first to the last change of one run, with a mark for each row.
+
+    The run is that of the chosen row, or of the newest one.
+    """
     if not rows:
         return ()
     run = changes_of(chosen or rows[0])[0].run

@@ -1,4 +1,4 @@
-"""Pixels as text: coloured half-blocks, two pixels per cell, or letters for greys; and the cost of a change. Pure."""
+"""Pixels as text: coloured half-blocks (two pixels per cell) or characters for greys, and what these cost. Pure."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from bot_console.tui.widgets.picture import Line, merged_line
 Pixels = npt.NDArray[np.uint8]
 
 COLOUR_LEVELS = 16
-"""Steps of each colour that are told apart: fewer colours make longer runs of the same one, and so fewer bytes."""
+"""Levels of each colour channel: fewer colours make longer runs of the same one, and so fewer bytes."""
 MAX_NOISE = 14
-"""A pixel that differs by less than this in every colour is left as it is shown, so that noise costs nothing."""
+"""A pixel is not redrawn while every colour differs by less than this plus one level, so that noise costs nothing."""
 RAMP = " .:-=+*#%@"
-"""Letters from black to white, for screens without colours or without half-blocks."""
+"""Characters from black to white, for terminals without colours or half-blocks."""
 COLOUR_BYTES, CHARACTER_BYTES = 18, 3
-"""Bytes of a change of one of the two colours of a cell, and of a half-block."""
+"""Bytes to change one of the two colours of a cell, and of a half-block character."""
 
 
 def pixels_of(picture: Picture) -> Pixels:
@@ -29,7 +29,7 @@ def pixels_of(picture: Picture) -> Pixels:
 
 
 def steady(new: Pixels, shown: Pixels | None) -> Pixels:
-    """What to show: pixels that are about as they were stay exactly so; the others in few colours."""
+    """The pixels to show: those that have hardly changed stay exactly the same, the others get reduced colours."""
     few = (new // (256 // COLOUR_LEVELS) * (255 // (COLOUR_LEVELS - 1))).astype(np.uint8)
     if shown is None or shown.shape != new.shape:
         return few
@@ -38,7 +38,7 @@ def steady(new: Pixels, shown: Pixels | None) -> Pixels:
 
 
 def half_blocks(pixels: Pixels, width: int, height: int) -> list[Line]:
-    """Lines of half-blocks, in the middle of so many cells."""
+    """Lines of half-blocks, centred in `width` x `height` cells."""
     packed = pixels.astype(np.uint32) @ np.array([1 << 16, 1 << 8, 1], np.uint32)
     lines = [
         merged_line([_cell(*pair) for pair in zip(top, below, strict=True)])
@@ -48,7 +48,7 @@ def half_blocks(pixels: Pixels, width: int, height: int) -> list[Line]:
 
 
 def characters(pixels: Pixels, width: int, height: int) -> list[Line]:
-    """Lines of letters, in the middle of so many cells."""
+    """Lines of grey-scale characters, centred in `width` x `height` cells."""
     light = pixels.astype(np.float32) @ np.array([0.299, 0.587, 0.114], np.float32)
     places = ((light[::2] + light[1::2]) / 2 / 256 * len(RAMP)).astype(int)
     lines: list[Line] = [(("".join(RAMP[each] for each in row), ""),) for row in places.tolist()]
@@ -56,7 +56,7 @@ def characters(pixels: Pixels, width: int, height: int) -> list[Line]:
 
 
 def cost(new: Pixels, shown: Pixels | None, *, coloured: bool) -> int:
-    """About how many bytes the terminal needs to show other pixels."""
+    """Estimate how many bytes it takes to show the pixels `new` where `shown` is on the screen."""
     same = shown is not None and shown.shape == new.shape
     changed = (new != shown).any(axis=2) if same and shown is not None else np.ones(new.shape[:2], bool)
     cells = changed[::2] | changed[1::2]

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 BUDGET_BYTES_PER_S = 5000.0
-"""Bytes per second for pictures, in the mean."""
+"""Average bytes per second for pictures."""
 MAX_PICTURES_PER_S, MIN_PICTURES_PER_S = 10.0, 0.125
-"""Pictures per second."""
+"""Range of the limit (pictures per second)."""
 
 
 class FrameLimit:
@@ -13,21 +13,21 @@ class FrameLimit:
 
     def __init__(self, rate: float = 2.0) -> None:
         self.rate = rate
-        """Pictures per second at most."""
+        """Maximum pictures per second."""
         self._next = float("-inf")
 
     def change(self, factor: float) -> None:
-        """More pictures per second, or fewer."""
+        """Multiply the limit by a factor."""
         self.rate = min(MAX_PICTURES_PER_S, max(MIN_PICTURES_PER_S, self.rate * factor))
 
     def due(self, now: float) -> bool:
-        """Whether one may be drawn now (s)."""
+        """Whether a picture may be drawn at time `now` (s)."""
         return now >= self._next
 
     def drawn(self, now: float, size: int) -> None:
-        """One of so many bytes was drawn; what it took beyond its share is waited for."""
+        """Record that a picture of `size` bytes was drawn; a large one delays the next."""
         self._next = now + max(1.0 / self.rate, size / BUDGET_BYTES_PER_S)
 
     def wait(self, now: float) -> float:
-        """Seconds until the next one."""
+        """Seconds until the next picture may be drawn."""
         return max(0.0, self._next - now)

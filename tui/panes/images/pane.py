@@ -1,4 +1,4 @@
-"""The images pane: a camera's picture in half-blocks or letters, within what the terminal can take."""
+"""The images pane: a camera's picture in half-blocks or characters, at a rate that the terminal can take."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ EMPTY = Placeholder(
 
 
 class ImageView(Picture, can_focus=True):
-    """Shows the picture; takes the keys of the pane."""
+    """Shows the picture; has the keyboard focus of the pane."""
 
     def on_click(self, event: Click) -> None:
-        """A click takes the keyboard."""
+        """Take the focus."""
         self.focus()
 
 
@@ -49,7 +49,7 @@ class ImagesPane(Pane):
     BINDINGS = keymap.bindings("images")
 
     clock: Callable[[], float] = staticmethod(time.monotonic)
-    """Seconds of a steady clock; tests give one that they step."""
+    """A monotonic clock (s); tests replace it with one that they step."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
@@ -64,7 +64,7 @@ class ImagesPane(Pane):
         self._frozen = self._once = self._as_characters = False
 
     def compose(self) -> ComposeResult:
-        """A line on the picture, the picture, a prompt."""
+        """A line that describes the picture, the picture, and a prompt."""
         yield StaticText(id="images-head")
         yield ImageView(id="images-view")
         yield Prompt(id="images-prompt")
@@ -74,11 +74,11 @@ class ImagesPane(Pane):
         return self.query_one(ImageView)
 
     def focus_target(self) -> None:
-        """The picture takes the keys."""
+        """Focus the picture."""
         self._view.focus()
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Take the first topic there is, until a person chooses."""
+        """Show the first image topic until the user chooses another one."""
         self._graph, self._problem = snapshot.graph, snapshot.problem
         if not self._topic:
             self._topic = next(iter(self._topics()), "")
@@ -88,7 +88,7 @@ class ImagesPane(Pane):
         return [each.name for each in self._graph.topics if IMAGE in each.types or COMPRESSED in each.types]
 
     def tick(self) -> None:
-        """Draw what is new when its time has come; while hidden nothing is received."""
+        """Draw a new picture when the limit allows it; while hidden, receive nothing."""
         if self.display:
             self._poll()
         elif self._asked[0]:
@@ -101,13 +101,13 @@ class ImagesPane(Pane):
 
     @property
     def _slow(self) -> bool:
-        """Whether the terminal does not keep up with what is drawn already."""
+        """Whether the terminal has not caught up with what was drawn before."""
         gate = getattr(self.host, "gate", None)
         return bool(gate is not None and gate.held_back)
 
     @property
     def _characters(self) -> bool:
-        """Whether greys stand for colours."""
+        """Whether the picture is drawn as grey-scale characters."""
         return self._as_characters or self.host.no_color or bool(getattr(self.host, "plain", False))
 
     def _poll(self) -> None:
@@ -164,7 +164,7 @@ class ImagesPane(Pane):
         return f"at most {self._frame_limit.rate:g} a second"
 
     def on_picture_resized(self, event: Picture.Resized) -> None:
-        """Another size: the picture is wanted for that."""
+        """Request the picture in the new size."""
         event.stop()
         self._shown = self._drawn = None
         if self.display:
@@ -196,7 +196,7 @@ class ImagesPane(Pane):
             self._choose(topics[(at + 1) % len(topics)])
 
     def action_freeze(self) -> None:
-        """Freeze, or go on; on a slow link: take one picture."""
+        """Freeze or resume; on a slow link, fetch one picture."""
         if self._slow:
             self._once = True
         else:
@@ -204,24 +204,24 @@ class ImagesPane(Pane):
         self._poll()
 
     def action_letters(self) -> None:
-        """Letters in the place of colours, or no more."""
+        """Switch between grey-scale characters and colours."""
         self._as_characters = not self._as_characters
         self._shown = None
         self._once = True
         self._poll()
 
     def action_rate(self, factor: float) -> None:
-        """More pictures per second, or fewer."""
+        """Multiply the maximum number of pictures per second by a factor."""
         self._frame_limit.change(factor)
         self._show_text()
 
     def action_copy(self) -> None:
-        """Copy the `ros2` command that shows how often images come."""
+        """Copy the `ros2` command that measures the rate of the images."""
         if self._topic:
             text = f"ros2 topic hz {self._topic}"
             self.host.copy_to_clipboard(text)
             self.notify(text, title="Copied")
 
     def detach(self) -> None:
-        """Receive nothing any more."""
+        """Stop receiving images."""
         self.console.sensors.watch_image("", 0, 0)

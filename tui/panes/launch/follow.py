@@ -10,23 +10,23 @@ from bot_console.tui.console.model import LogRecord, LogState, ProcessInfo, Seve
 from bot_console.tui.text.cadence import is_due
 
 CPU_SAMPLE_S = 2.0
-"""Seconds between two samples of the CPU usage that is drawn."""
+"""Seconds between two samples of the CPU usage."""
 CPU_SAMPLES = 8
-"""Samples that are drawn, one per cell."""
+"""Number of samples drawn, one per cell."""
 MAX_LINES = 50
-"""The newest lines that are kept of a process."""
+"""Maximum number of lines kept per process."""
 MAX_RECORDS = 2_000
-"""Log records that are read at once; the rest follows with the next snapshot."""
+"""Maximum number of log records read at once; the rest follows with the next snapshot."""
 MAX_BACKLOG = 20_000
-"""Log records that are read at most from before the pane was opened, or while it was hidden."""
+"""Maximum number of log records read from the time before the pane was opened, or while it was hidden."""
 
 
 @dataclass(frozen=True)
 class OutputLine:
-    """A line of the log, and how often it came one after another."""
+    """A line of the log, and how often it was repeated in a row."""
 
     record: LogRecord
-    """The newest of them."""
+    """The newest of the repeated records."""
     count: int = 1
 
 
@@ -35,29 +35,29 @@ class Followed:
     """The measurements of one process."""
 
     cpu: deque[float] = field(default_factory=lambda: deque[float](maxlen=CPU_SAMPLES))
-    """Shares of one CPU, the newest last."""
+    """Samples of CPU usage (1.0 is one full CPU), newest last."""
     warnings: int = 0
     errors: int = 0
     lines: deque[OutputLine] = field(default_factory=lambda: deque[OutputLine](maxlen=MAX_LINES))
 
 
 class Follower:
-    """Gathers from snapshots and from the log; what is hidden costs nothing but the samples of CPU usage."""
+    """Gathers measurements from snapshots and the log; while the pane is hidden, only CPU usage is sampled."""
 
     def __init__(self) -> None:
         self._known: dict[str, Followed] = {}
         self._by_logger: dict[str, str] = {}
-        """The key of the process that logs or prints under a name."""
+        """The key of the process that logs or prints under each name."""
         self._processes: object = None
         self._sampled = float("-inf")
         self._cursor = 0
 
     def of(self, key: str) -> Followed:
-        """The measurements of a process; nothing for one that has just appeared."""
+        """The measurements of the process with a key; empty for one that has just appeared."""
         return self._known.get(key) or Followed()
 
     def know(self, processes: tuple[ProcessInfo, ...]) -> None:
-        """Learn which processes there are, and how they call themselves in the log."""
+        """Update the known processes, and the names under which they log."""
         if processes is self._processes:
             return
         self._processes = processes
@@ -66,7 +66,7 @@ class Follower:
         self._by_logger = {**{each.label: each.key for each in processes}, **names}
 
     def sample(self, processes: Iterable[ProcessInfo], now: float) -> bool:
-        """Add the CPU usage of each process if it is time (s); whether it was."""
+        """Sample the CPU usage of each process if a sample is due at `now` (s); returns whether it was."""
         if not is_due(self._sampled, now, CPU_SAMPLE_S):
             return False
         self._sampled = now
@@ -76,7 +76,7 @@ class Follower:
         return True
 
     def read(self, state: LogState, record: Callable[[int], LogRecord | None]) -> bool:
-        """Read new records of the log; whether any was of a process."""
+        """Read new log records; returns whether any came from a known process."""
         if self._cursor > state.end:  # another log
             self._cursor = 0
         begin = max(self._cursor, state.first, state.end - MAX_BACKLOG)
@@ -100,7 +100,7 @@ class Follower:
         followed.warnings += record.severity == Severity.WARN
 
     def key_of(self, logger: str) -> str:
-        """The process that logs or prints under a name, or under one that it begins with; empty if none is known."""
+        """The process that logs or prints under a name or a parent logger of it; empty if none is known."""
         return _longest(logger, self._by_logger)
 
 

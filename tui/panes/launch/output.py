@@ -1,4 +1,4 @@
-"""What the process at the cursor, or those of the group there, have logged and printed last."""
+"""The newest log and output lines of the process at the cursor, or of the processes of the group there."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ class ProcessOutput(Picture):
     def __init__(self, *, id: str | None = None) -> None:
         super().__init__(id=id)
         self._drawn: object = None
-        """What the lines were drawn from."""
+        """The input of the last drawing, which is repeated only if this changes."""
         self._place: object = None
         self._first = 0
         """The number of the log record in the first line."""
 
     def show_lines(self, name: str, lines: Iterable[OutputLine], *, named: bool) -> None:
-        """Show the newest lines; `named`: each with the node or process that it is from."""
+        """Show the newest lines; with `named`, each line names the node or process that it is from."""
         place = name, self.size.width, max(0, self.size.height - 1)
         newest = self._in_room(sorted(lines, key=lambda each: each.record.seq), place)
         drawn = place, newest[-1].record.seq if newest else -1
@@ -43,9 +43,10 @@ class ProcessOutput(Picture):
         self.set_lines([head, *shown, *blank])
 
     def _in_room(self, lines: list[OutputLine], place: tuple[str, int, int]) -> list[OutputLine]:
-        """The lines that have room.
+        """The lines that fit.
 
-        Once it is full, a third of it becomes free: to move all lines up with each new one would draw them all again.
+        When the room is used up, a third of it is freed at once: moving all lines up with each new one would redraw
+        all of them every time.
         """
         room = place[2]
         is_another_log = bool(lines) and lines[-1].record.seq < self._first
@@ -61,7 +62,7 @@ class ProcessOutput(Picture):
 
 
 def _text(line: OutputLine, width: int, *, named: bool) -> str:
-    """A line of the log with how often it came; `named`: with the node or process that it is from."""
+    """A line of the log with its number of repeats; with `named`, also with the node or process that it is from."""
     record = line.record
     mark = SEVERITY_CHARACTERS.get(record.severity, " ")
     who = f"{sanitize(record.node)}  " if named else ""

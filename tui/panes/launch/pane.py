@@ -45,13 +45,13 @@ from textual.app import ComposeResult
 MAX_EVENTS = 4
 """Launch events shown below the tree."""
 MAX_EVENTS_IN_FEW_ROWS, MIN_ROWS_FOR_ALL_EVENTS = 2, 30
-"""Launch events in a pane with fewer rows than that."""
+"""Launch events shown if the pane has fewer rows than `MIN_ROWS_FOR_ALL_EVENTS`."""
 MIN_ROWS_FOR_OUTPUT = 19
-"""Rows of the pane from which on the output of the process at the cursor has room."""
+"""Minimum rows of the pane to show the output of the process at the cursor."""
 
 ALIVE = (ProcessState.RUNNING, ProcessState.STARTING, ProcessState.STOPPING)
 NEWS_S = 2.0
-"""Seconds between two readings of output and usage of processes; a line after such a silence is shown at once."""
+"""Minimum seconds between two updates of output and usage; a line after that much silence is shown at once."""
 
 EMPTY = Placeholder(
     "Processes that launch files started, with keys to stop and start each: none was launched yet.",
@@ -72,7 +72,7 @@ class LaunchPane(ListPane):
     BINDINGS = keymap.bindings("launch")
 
     wall_clock: Callable[[], int] = staticmethod(time.time_ns)
-    """Time in ns since the epoch; tests give one that they step."""
+    """Time in ns since the epoch; tests replace it with a clock that they step."""
     clock: Callable[[], float] = staticmethod(time.monotonic)
     """A monotonic clock (s), replaced in tests."""
 
@@ -90,7 +90,7 @@ class LaunchPane(ListPane):
         self._news_at = self._lines_at = float("-inf")
 
     def compose(self) -> ComposeResult:
-        """The tree, a line on the process at the cursor, the newest events."""
+        """The tree, the status and the output of the process at the cursor, the newest events, and a prompt."""
         yield ProcessRows(self._follower)
         yield StaticText(id="launch-status")
         yield ProcessOutput(id="launch-output")
@@ -109,11 +109,11 @@ class LaunchPane(ListPane):
             self._list.cursor = at
 
     def focus_target(self) -> None:
-        """The tree takes the keys."""
+        """Focus the tree."""
         self._list.focus()
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Draw the processes anew when they are another object."""
+        """Redraw the processes if they are a different object."""
         why_not = snapshot.capabilities.launch or (
             "" if self.console.launcher else "this console was started without a launcher"
         )
@@ -126,7 +126,7 @@ class LaunchPane(ListPane):
             self._info, self._why_not, self._problem = state
             self._arrange()
             self._show_output()
-        self.observe(snapshot)  # which is not called before the first parts are made
+        self.observe(snapshot)  # the console does not call it before the first parts are made
         self._has_lines |= self._follower.read(snapshot.logs, self.console.logs.record)
         self._show_news()
 
@@ -139,7 +139,7 @@ class LaunchPane(ListPane):
         self._has_usage |= self._follower.sample(processes, self.clock())
 
     def _show_news(self) -> None:
-        """Show what the processes have printed and used since the last time, at most every `NEWS_S`."""
+        """Show what the processes have printed and used since the last update, at most every `NEWS_S`."""
         now = self.clock()
         after_silence = self._has_lines and now - self._lines_at >= NEWS_S
         if after_silence or ((self._has_lines or self._has_usage) and is_due(self._news_at, now, NEWS_S)):
@@ -150,7 +150,7 @@ class LaunchPane(ListPane):
             self._show_output()
 
     def _show_output(self) -> None:
-        """Show the newest lines of the process, or of those of the group, at the cursor."""
+        """Show the newest lines of the process at the cursor, or of the processes of the group there."""
         row, info = self._list.current, self._info or LaunchInfo()
         inside = [each.key for each in info.processes if row and _belongs(each, row.group)]
         keys = [row.process.key] if row and row.process else inside
@@ -211,7 +211,7 @@ class LaunchPane(ListPane):
         status.set_class(bool(text) and text == info.problem, "wrong")
 
     def _about(self, process: ProcessInfo) -> str:
-        """How a process ended, or what is wrong with it, or its nodes."""
+        """Describe a process: how it ended, what is wrong with it, or which nodes it has."""
         ending = ending_text(process, self.wall_clock())
         name = process.nodes[0] if len(process.nodes) == 1 else process.label
         if ending:
@@ -224,7 +224,7 @@ class LaunchPane(ListPane):
         return process.problem or about
 
     def tick(self) -> None:
-        """Show what has waited, and how long ago the process at the cursor has ended."""
+        """Show output that is due, and how long ago the process at the cursor ended."""
         if not self.display:
             return
         self._show_news()
@@ -233,24 +233,24 @@ class LaunchPane(ListPane):
             self._report()
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
-        """Tell of the process at the cursor, and no more of a launch that failed before."""
+        """Describe the process at the cursor; the problem of an earlier launch counts as read."""
         event.stop()
         self._read = (self._info or LaunchInfo()).problem
         self._report()
         self._show_output()
 
     def on_resize(self) -> None:
-        """No events where there is little room, and no output where there is not much."""
+        """Hide the events, and the output, if the pane is too low for them."""
         self.set_class(self.size.height < 12, "short")
         self._make_room()
 
     def _make_room(self) -> None:
-        """Give the rows that the tree leaves free to what its processes print."""
+        """Show the output if there are processes and the pane is high enough."""
         info = self._info or LaunchInfo()
         self.set_class(self.size.height >= MIN_ROWS_FOR_OUTPUT and bool(info.processes), "with-output")
 
     def action_fold(self, closed: bool) -> None:
-        """Close or open the group at the cursor."""
+        """Fold or unfold the group at the cursor."""
         row = self._list.current
         if row is None:
             return
@@ -263,7 +263,7 @@ class LaunchPane(ListPane):
             self._list.cursor = next(heads, 0)
 
     def action_detail(self) -> None:
-        """Show all about the process; open or close a group."""
+        """Show everything about the process at the cursor; fold or unfold a group."""
         row = self._list.current
         if row is None:
             return
@@ -273,7 +273,7 @@ class LaunchPane(ListPane):
             self.host.push_screen(FactsScreen(row.process.label, facts(row.process, self._info or LaunchInfo())))
 
     def action_timeline(self) -> None:
-        """All launch events, the newest first; one of them is the moment to look at."""
+        """List all launch events, newest first; choosing one moves the time cursor to it."""
         events = {str(each.seq): each for each in reversed((self._info or LaunchInfo()).timeline)}
 
         def poll(seq: str) -> None:
@@ -286,7 +286,7 @@ class LaunchPane(ListPane):
         self.ask(Choice("Launch events", poll, find=find, hint=hint, empty=empty))
 
     def action_do(self, verb: str) -> None:
-        """Start, stop, restart or kill what is at the cursor."""
+        """Start, stop, restart or kill the process or group at the cursor."""
         row = self._list.current
         if row is None or self.console.launcher is None or not self.may_change():
             return
@@ -309,7 +309,7 @@ class LaunchPane(ListPane):
             self._do(verb, chosen)
 
     def _controlled(self, row: Row) -> list[ProcessInfo]:
-        """The processes of a row, without those that only another terminal can start and stop; says so if all are."""
+        """The processes of a row that this console can start and stop; notifies if it controls none of them."""
         info = self._info or LaunchInfo()
         every = [row.process] if row.process else [each for each in info.processes if _belongs(each, row.group)]
         chosen = [each for each in every if not each.started_by]
@@ -324,7 +324,7 @@ class LaunchPane(ListPane):
             answer.add_done_callback(lambda done: self.host.call_later(self._answered, done))
 
     def _ended(self, verb: str, processes: Sequence[ProcessInfo]) -> str:
-        """Why a verb makes no sense any more: none of its processes is there, or has anything left to stop."""
+        """Why a verb has become pointless, as all of its processes have ended; otherwise empty."""
         now = {each.key: each for each in self.console.snapshot().launch.processes}
         if any(each.key in now and not is_pointless(verb, now[each.key]) for each in processes):
             return ""
@@ -337,7 +337,7 @@ class LaunchPane(ListPane):
             self.report(answer)
 
     def action_policy(self) -> None:
-        """Restart what is at the cursor whenever it fails; if all of that is so already, no longer."""
+        """Restart the processes at the cursor whenever they fail; if that is on for all of them, turn it off."""
         row, launcher = self._list.current, self.console.launcher
         if row is None or launcher is None or not self.may_change():
             return
@@ -349,7 +349,7 @@ class LaunchPane(ListPane):
             self.report_later(change(each.key))
 
     def action_transition(self) -> None:
-        """Ask for a transition of the lifecycle nodes at the cursor."""
+        """Ask which transition the lifecycle nodes at the cursor should make."""
         row = self._list.current
         info = self._info or LaunchInfo()
         chosen = [each for each in info.processes if row and (each == row.process or not row.process)]
@@ -365,7 +365,7 @@ class LaunchPane(ListPane):
         self.ask_file("write a launch file for what runs", "live.launch.py", write, replaces=False)
 
     def action_open(self) -> None:
-        """Choose a launch file, fill in its arguments, run it."""
+        """Ask for a launch file and its arguments, then launch it."""
         if self.console.launcher is None or self._why_not:
             self.notify(self._why_not or "There is no launcher.", severity="warning", markup=False)
             return
@@ -387,7 +387,7 @@ class LaunchPane(ListPane):
         self.run_worker(self._ask(path), exclusive=True, group="launch", exit_on_error=False)
 
     async def _ask(self, path: str) -> None:
-        """Read the arguments beside the event loop: a launch file is a program."""
+        """Read the arguments in a thread, as a launch file is a program that may take its time, then ask for them."""
         launcher = self.console.launcher
         if launcher is None:
             return
@@ -415,12 +415,12 @@ class LaunchPane(ListPane):
 
 
 def _why_no_file(files: Sequence[str], path: str) -> str:
-    """Why a path that was typed cannot be a launch file; empty if it can, or if it is one of the known files."""
+    """Why a typed path is no launch file; empty if it is an existing file or one of the known ones."""
     return "" if path in files or Path(path).is_file() else f"There is no file {sanitize(path)}."
 
 
 def files_for(files: Sequence[str], typed: str) -> Sequence[Option]:
-    """The launch files that the typed words match; where none does, what was typed is a path."""
+    """The launch files that match the typed words; if none does, the typed text is taken as a path."""
     try:
         query = parse(typed)
     except ValueError:
@@ -434,7 +434,7 @@ def files_for(files: Sequence[str], typed: str) -> Sequence[Option]:
 def is_pointless(verb: str, process: ProcessInfo) -> bool:
     """Whether a verb on a whole group has nothing to do for one of its processes.
 
-    One that is stopping can be started: it starts as soon as it has ended.
+    Starting a process that is stopping is not pointless: it starts as soon as it has ended.
     """
     if process.state is ProcessState.MISSING:
         return True
@@ -453,7 +453,7 @@ def event_text(event: LaunchEvent) -> str:
 
 
 def facts(process: ProcessInfo, info: LaunchInfo) -> list[tuple[str, list[str]]]:
-    """Everything known of a process."""
+    """Everything known about a process."""
     no_pid = "in the launch host" if process.state in ALIVE else "none"
     state = process.state.value + ("" if process.exit_code is None else f", last exit code {process.exit_code}")
     known = [f"state     {state}", f"pid       {process.pid or no_pid}", f"restarts  {process.restarts}"]
@@ -471,7 +471,7 @@ def facts(process: ProcessInfo, info: LaunchInfo) -> list[tuple[str, list[str]]]
 
 
 def restart_text(process: ProcessInfo) -> str:
-    """When a process is started again by itself."""
+    """When a process is restarted automatically."""
     if process.program is not None and process.program.respawn:
         return "whenever it ends (respawn in its launch file)"
     return process.restart_policy or "never"

@@ -26,11 +26,11 @@ STATES = {
 }
 
 MIN_CELLS_FOR_WORDS = 110
-"""Cells of a row from which on errors and warnings are written out."""
+"""Minimum cells of a row that writes `error` and `warning` out."""
 MIN_CELLS_FOR_NODES = 90
-"""Cells of a row from which on the nodes of a process have room."""
+"""Minimum cells of a row that names the nodes of a process."""
 MIN_CELLS_FOR_TRACE = 84
-"""Cells of a row from which on the CPU usage over time has room."""
+"""Minimum cells of a row that shows the CPU usage over time."""
 STATE_AND_PID_CELLS = 20
 """Cells of the columns after the name that are always visible."""
 RESTARTS_CELLS = 5
@@ -54,7 +54,7 @@ class Row:
 
 
 def rows(info: LaunchInfo, folded: Collection[tuple[str, ...]] = ()) -> list[Row]:
-    """The tree, with groups in the order of their first process; a launch file without processes has a row too."""
+    """The rows of the tree, with groups in the order of their first processes."""
     found: list[Row] = []
     seen: set[tuple[str, ...]] = set()
     by_group: dict[tuple[str, ...], list[ProcessInfo]] = {}
@@ -100,7 +100,7 @@ def _gathered(followed: Followed, width: int) -> tuple[str, str, str]:
 
 
 def _counts(followed: Followed, width: int) -> tuple[str, str]:
-    """The numbers of errors and of warnings, in words where there is room."""
+    """The numbers of errors and of warnings, with the words written out if there is room."""
 
     def text(number: int, word: str) -> str:
         return (
@@ -119,12 +119,12 @@ def _node_words(process: ProcessInfo) -> str:
 
 
 def _cells_of_counts(*counts: str) -> int:
-    """The cells of numbers of errors and of warnings, each with a gap before it."""
+    """The cells of these numbers of errors and warnings, each with a gap before it."""
     return sum(2 + len(each) for each in counts if each)
 
 
 def short_names(nodes: Sequence[str]) -> Sequence[str]:
-    """Node names; several of one namespace without it, which then stands in front of them once."""
+    """Node names; if all are in the same namespace, the namespace once and then the names without it."""
     spaces = {each.rpartition("/")[0] for each in nodes}
     if len(nodes) < 2 or len(spaces) > 1 or not (space := spaces.pop()):
         return nodes
@@ -141,12 +141,12 @@ class ProcessRows(ItemList[Row]):
         super().__init__()
         self._follower = follower
         self._drawn: dict[str, tuple[str, str, str]] = {}
-        """The follower's part of the rows, by the key of the process."""
+        """The parts of the rows that come from the follower, as drawn, by the key of the process."""
         self._counts = 0
-        """Cells that the numbers of errors and warnings last took."""
+        """Cells of the numbers of errors and warnings when they were last drawn."""
 
     def follow(self) -> None:
-        """Redraw the rows for which the follower has gathered something new; all, if a column becomes wider."""
+        """Redraw the rows with new measurements, or all rows if the width of a column changes."""
         width = self.across
         counts = self._count_cells(width)
         if counts != self._counts:
@@ -197,7 +197,7 @@ class ProcessRows(ItemList[Row]):
         end = exit_code.ljust(len(usage)) if not usage.strip() else exit_code + usage
         used = names + STATE_AND_PID_CELLS + RESTARTS_CELLS + cell_len(end) + count_cells
         if problem and used + cell_len(nodes + problem) > width:
-            # Where the row is too short, it stands in place of empty columns and of what follows.
+            # In a row that is too narrow, the problem replaces empty columns and everything after them.
             end, nodes, problem = (end if usage.strip() else exit_code) + problem, "", ""
         columns.append(end)
         plain = None if process.state is ProcessState.RUNNING else self.row_style(style)
@@ -217,19 +217,19 @@ class ProcessRows(ItemList[Row]):
         ]
 
     def _count_cells(self, width: int) -> int:
-        """Cells of the numbers of errors and warnings, so that the names of nodes stand in a column."""
+        """Cells to reserve for the numbers of errors and warnings, so that node names are aligned."""
         every = (_counts(self._follower.of(each.process.key), width) for each in self.rows if each.process)
         return max((_cells_of_counts(*each) for each in every), default=0)
 
     def _states(self, process: ProcessInfo) -> str:
-        """The states of its lifecycle nodes."""
+        """The states of the lifecycle nodes of a running process."""
         if process.state is not ProcessState.RUNNING:
             return ""
         return "".join(f"  {sanitize(self.lifecycle[each])}" for each in process.nodes if each in self.lifecycle)
 
     def _usage(self, process: ProcessInfo, trace: str, width: int, room: int) -> list[str]:
-        """CPU and memory, as far as there is room (cells); blanks where only other processes have them, so that what
-        follows stands in columns.
+        """CPU and memory as far as they fit into `room` cells; blank if only other processes have them, so that the
+        columns are aligned.
         """
         every = [each.process for each in self.rows if each.process is not None]
         columns: list[str] = []
@@ -244,7 +244,7 @@ class ProcessRows(ItemList[Row]):
         return [each.ljust(cells) for each, cells, fits in zip(columns, widths, fitting, strict=False) if fits]
 
     def _names(self, width: int) -> int:
-        """Cells of the name column: what the longest name needs, if state and process id still fit."""
+        """Cells of the name column: as many as the longest name needs, if state and process id still fit."""
         labels = ((each.depth, each.process.label) for each in self.rows if each.process is not None)
         longest = max((2 * depth + 2 + cell_len(sanitize(label)) for depth, label in labels), default=0)
         return max(14, min(longest, width - STATE_AND_PID_CELLS))

@@ -1,4 +1,4 @@
-"""The lesson pane: the step of a course, what to write or to type for it, and what it waits for."""
+"""The lesson pane: the step of a course, what to write or type for it, and the conditions it waits for."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from textual.app import ComposeResult
 from textual.containers import VerticalScroll
 
 TICKS_PER_POLL = 5
-"""Ticks (of 0.1 s) between two polls of what has happened."""
+"""Ticks (of 0.1 s) between two checks of the lesson's conditions."""
 SHORT_ROWS = 2
-"""Rows of the pane up to which it shows two lines."""
+"""Maximum rows of a pane that shows only two lines of the step."""
 LISTING_SHARE = 3
-"""A listing before other ones takes a third of the rows: what follows it should be visible, too."""
+"""A listing that others follow takes at most a third of the rows, so that the next one is visible, too."""
 FRAME_COLUMNS = 5
 """Columns of the pane beside its text: borders, padding and scroll bar."""
 
@@ -51,7 +51,7 @@ class LessonPane(Pane):
 
     @classmethod
     def of(cls, lesson: Lesson) -> type[LessonPane]:
-        """The pane class of a lesson, as the table of panes wants one."""
+        """Create a pane class for a lesson: the table of panes needs a class."""
         return type("LessonPane", (cls,), {"LESSON": lesson, "__doc__": cls.__doc__})
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
@@ -60,13 +60,13 @@ class LessonPane(Pane):
         self._ticks = 0
         self._after = 0
         self._shown: tuple[LessonView, int, int] | None = None
-        """The step as it is drawn, for so many columns and rows."""
+        """The step that is drawn, and the columns and rows it is drawn for."""
         self._copied = -1, -1
-        """The number of the step, and which of its listings was copied last."""
+        """The number of the step, and the index of the listing of it that was copied last."""
         self._layouts_before: frozenset[str] | None = None
-        """The layouts that there were when the lesson was opened; None before it is."""
+        """The layouts that existed when the lesson was opened; None before that."""
         self._steered = False
-        """Whether keys have driven the robot, however short."""
+        """Whether the robot has been driven with keys, however briefly."""
 
     def compose(self) -> ComposeResult:
         """The whole step, or two lines of it."""
@@ -80,11 +80,11 @@ class LessonPane(Pane):
         self._draw()
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Draw the step. What has happened is polled by `tick`, since lessons go on while the pane is hidden."""
+        """Draw the step. `tick` checks the lesson's conditions, since a lesson goes on while its pane is hidden."""
         self._draw()
 
     def tick(self) -> None:
-        """Let the lesson take in what has happened, and say which steps are done."""
+        """Let the lesson check its conditions, and notify of the steps that are done."""
         self._steered = self._steered or self._steers()
         self._ticks += 1
         if self._ticks % TICKS_PER_POLL:
@@ -138,7 +138,7 @@ class LessonPane(Pane):
         self._draw()
 
     def action_copy(self) -> None:
-        """Copy what is to be typed or written to the clipboard; of several, the next one each time."""
+        """Copy the listing to type or write to the clipboard; if there are several, the next one each time."""
         view = self._lesson.view()
         if not view.snippets:
             self.notify("This step has nothing to copy.", severity="warning")
@@ -161,7 +161,7 @@ class LessonPane(Pane):
 
 
 def text_of(view: LessonView, columns: int = 0, rows: int = 0) -> Text:
-    """The whole step; where columns and rows are given, long lines and listings are cut for them."""
+    """The whole step; with `columns`, long lines are wrapped, and with `rows`, long listings are shortened."""
     text = Text()
     text.append(f"{sanitize(view.chapter)}\n", "dim")
     text.append(f"{view.number}/{view.total} {sanitize(view.title)}{'  ✓ done' if view.is_done else ''}\n\n", "bold")
@@ -189,7 +189,7 @@ def _paragraphs(view: LessonView) -> list[str]:
 
 
 def wrapped(line: str, columns: int) -> list[str]:
-    """A line of a listing in pieces that fit; each but the last ends with `…`, and each but the first is indented."""
+    """Wrap a line of a listing; each piece but the last ends with `…`, and each but the first is indented further."""
     own = line[: len(line) - len(line.lstrip())]
     if columns < len(own) + 12 or len(line) <= columns:
         return [line]
@@ -199,17 +199,17 @@ def wrapped(line: str, columns: int) -> list[str]:
 
 
 def lines_of(view: LessonView, columns: int = 0) -> Text:
-    """The step on two lines: what it is and waits for, and what to type or to write.
+    """The step on two lines: its title and the condition it waits for, then what to type or write.
 
-    What it waits for goes first: where that does not fit into the columns, it takes the place of the step's title, and
-    where it needs two lines, also of what to type.
+    The condition matters most: if it does not fit into the columns, the title is left out, and if it then needs two
+    lines, what to type is left out, too.
     """
     waiting = sanitize(next((text for held, text in view.waits if not held), "done; n goes on"))
     head, title = f"{view.number}/{view.total}", f" {sanitize(view.title)}"
     if 0 < columns < len(f"{head}{title}  {waiting}"):
         title = ""
         if len(lines := textwrap.wrap(f"{head}  {waiting}", columns)) > 1:
-            # What is left for the second line may be longer than it: it then ends with an ellipsis.
+            # The rest may be longer than the second line, which then ends with an ellipsis.
             return Text.assemble((head, "bold"), f"{lines[0]}\n{' '.join(lines[1:])}".removeprefix(head))
     text = Text.assemble((f"{head}{title}", "bold"), f"  {waiting}\n")
     parts = [path or body.strip().replace("\n", " · ") for path, body in view.snippets]

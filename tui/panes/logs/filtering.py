@@ -1,4 +1,4 @@
-"""Which part of the log is shown: filter, rules, folding; all of it can be suspended and resumed."""
+"""What narrows the log: filter, rules and folding; filter and rules can be suspended and resumed."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ class Filtering:
     minimum: Severity = Severity.UNSET
     only_highlighted: bool = False
     folded: bool = True
-    """Whether equal lines in a row are one."""
+    """Whether consecutive equal lines are shown as one."""
     off: bool = field(default=False)
     """Whether the filter is suspended; the choices are kept."""
 
     def which(self) -> LogFilter:
-        """The filter."""
+        """The filter that results from the choices."""
         if self.off:
             return LogFilter(folded=self.folded)
         only = self.rules.highlighted if self.only_highlighted else ()
@@ -51,7 +51,7 @@ class Filtering:
         self.words, self.minimum, self.only_highlighted, self.off = "", Severity.UNSET, False, False
 
     def texts(self) -> list[str]:
-        """Descriptions of what narrows the log."""
+        """Descriptions of everything that narrows the log."""
         hidden = len(self.rules.hidden)
         parts = [
             f"/{self.words}" if self.words else "",

@@ -1,4 +1,4 @@
-"""The levels of all nodes' loggers, set live: lines that are not logged need not be hidden."""
+"""The screen that shows and sets the levels of all nodes' loggers: lines that are not logged need not be hidden."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class LevelRows(ItemList[LoggerLevel]):
 
 
 class LevelsScreen(DimmedScreen):
-    """Asks every node with logger services, and shows the answers so far."""
+    """Asks every node with logger services for its levels, and shows the answers as they arrive."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("levels")]
     DEFAULT_CSS = """
@@ -98,7 +98,7 @@ class LevelsScreen(DimmedScreen):
         answer.add_done_callback(lambda done: self._host.call_later(self._came, node, done))
 
     def _came(self, node: str, done: Future[tuple[LoggerLevel, ...]]) -> None:
-        if not self.is_running:  # the screen was closed meanwhile
+        if not self.is_running:  # the screen was closed in the meantime
             return
         error = done.exception()
         if error is not None:

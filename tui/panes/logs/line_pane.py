@@ -47,7 +47,7 @@ class LinePane(ListPane):
             self.post_message(self.EditWanted(record.file, record.line))
 
     def action_before(self) -> None:
-        """List what happened just before the line, to go to one of the events."""
+        """List the events just before the line; choosing one goes to it."""
         record = self._list.record
         if record is None:
             return

@@ -24,7 +24,7 @@ class MatchSearch:
 
     @property
     def under_way(self) -> bool:
-        """Whether a step waits for the search."""
+        """Whether a step is waiting for the result of the search."""
         return self._wanted is not None
 
     def seek(self, which: LogFilter, at: int, step: int) -> None:

@@ -13,7 +13,7 @@ from rich.text import Text
 
 
 class LogMessageScreen(Overlay):
-    """Shows one log line with all that is known of it."""
+    """Shows one log line with everything known about it."""
 
     def __init__(self, record: LogRecord) -> None:
         super().__init__("Message")

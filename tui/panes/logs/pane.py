@@ -40,9 +40,9 @@ EMPTY = Placeholder(
     (("8", "Start nodes"), ("O", "Read a saved log"), ("?", "Help")),
 )
 COMPACT_LINES = 6
-"""Lines of the pane below which all of them show the log."""
+"""Minimum height (lines) at which the pane has a status line below the log; otherwise it is in the border."""
 STRIP_LINES = 16
-"""Lines of the pane from which on some show when warnings and errors came."""
+"""Minimum height (lines) at which the pane shows when warnings and errors were logged."""
 
 
 class LogsPane(LinePane):
@@ -71,11 +71,13 @@ class LogsPane(LinePane):
         self._found: LogFindings | None = None
         self._match_search = MatchSearch(self._view_of)
         self._sought_for = ""
-        """The aim of the search, in words."""
+        """The target of the search, as shown to the user."""
         self._searched_for: int | None = None
-        """The record that was gone to by what was looked for: to stand on it is to read, not to follow."""
+        """The number of the record found by a search: with the cursor on it the user reads, so the log is not followed,
+        even if it is the newest.
+        """
         self._moment: int | None = None
-        """The moment to go to as soon as its lines are there."""
+        """The moment (ns since the epoch) to go to as soon as its lines have been found."""
         self._followed_to = 0
         """The number of the first record that arrived after the newest line was last followed."""
         self._strip = SeverityStrip()
@@ -84,14 +86,14 @@ class LogsPane(LinePane):
         return self._source.view(which, before)
 
     def compose(self) -> ComposeResult:
-        """When warnings came, the lines, what is filtered, a prompt."""
+        """The strip of warnings and errors, the lines, the status, and a prompt."""
         yield Picture(id="log-strip")
         yield LogRows(self._source, self._filtering.rules, self._names)
         yield StaticText(id="log-status")
         yield Prompt(id="log-prompt")
 
     def on_mount(self) -> None:
-        """Read the rules that a person has made."""
+        """Read the user's rules."""
         super().on_mount()
         rules = self._filtering.rules
         rules.read()
@@ -99,22 +101,22 @@ class LogsPane(LinePane):
             self.notify(each, severity="warning")
 
     def on_unmount(self) -> None:
-        """Read no file any more."""
+        """Close the log file, if one is open."""
         super().on_unmount()
         self._source.close()
 
     def focus_target(self) -> None:
-        """The lines take the keys."""
+        """Focus the lines."""
         self._list.focus()
 
     def observe(self, snapshot: ConsoleSnapshot) -> None:
-        """Learn the names of nodes: one may leave before it is shown; note when warnings and errors come."""
+        """Learn node names, as a node may leave before its lines are shown, and count new warnings and errors."""
         self._strip.take(snapshot.logs.counts, self.clock())
         if self._names.learn(snapshot.graph) and self.has_parts:
             self._list.refresh()
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Take in what is new in the log."""
+        """Show what is new in the log."""
         self.observe(snapshot)
         state = self._source.state if self._source.name else snapshot.logs
         if state is self._state:
@@ -124,7 +126,7 @@ class LogsPane(LinePane):
         self._report()
 
     def tick(self) -> None:
-        """Take in what the search has found meanwhile, and what a file has more."""
+        """Show what the search has found since the last tick, and new lines of a file."""
         if not self.display:
             return
         self._draw_strip()
@@ -136,7 +138,7 @@ class LogsPane(LinePane):
             self._report()
 
     def _take_in(self) -> bool:
-        """Show what was found; lines of the filter before stay until the search has something to show."""
+        """Show the lines found; the lines of the previous filter stay until there is something to show."""
         if self._view is None:
             self._view = self._source.view(self._filtering.which())
         found = self._view.poll()
@@ -156,7 +158,7 @@ class LogsPane(LinePane):
         rows.scroll_to(y=max(0, rows.row_count() - rows.size.height), animate=False, force=True)
 
     def time_moved(self, stamp: int | None) -> None:
-        """Go to the last line before a moment, as soon as it is there; follow the newest line again at None."""
+        """Go to the last line before a moment as soon as it is found; for None, follow the newest line again."""
         self._moment = stamp
         if self.is_ending:
             return
@@ -176,7 +178,7 @@ class LogsPane(LinePane):
             self._moment = None
 
     def _search(self) -> None:
-        """Filter anew, over everything that is kept."""
+        """Search all stored lines with the current filter."""
         self._view = self._source.view(self._filtering.which(), self._view)
         self._found = None
         self._take_in()
@@ -184,7 +186,7 @@ class LogsPane(LinePane):
         self._report()
 
     def _draw_strip(self) -> None:
-        """Show when warnings and errors of the running system came, where there is room."""
+        """Show when warnings and errors of the running system were logged, if there is room."""
         strip, now, width = self.query_one("#log-strip", Picture), self.clock(), self.content_size.width
         if not self._strip.is_changed(
             now, width, is_shown := self.size.height >= STRIP_LINES and not self._source.name
@@ -196,7 +198,7 @@ class LogsPane(LinePane):
         strip.set_lines(lines)
 
     def _report(self) -> None:
-        """Say what is shown of how much, by severity."""
+        """Update the status text."""
         problem = self._found.problem if self._found else ""
         if self._following and self._found:
             self._followed_to = self._found.end
@@ -206,7 +208,7 @@ class LogsPane(LinePane):
         self.query_one("#log-status", StaticText).show_or_hide(text)
 
     def on_resize(self) -> None:
-        """Where there is little room, write what is shown into the frame."""
+        """Move the status text into the border if the pane is low."""
         compact = 0 < self.size.height < COMPACT_LINES
         if compact is not self.has_class("compact"):
             self.set_class(compact, "compact")
@@ -217,7 +219,7 @@ class LogsPane(LinePane):
     def status_text(self) -> str:
         """The line below the log; empty as long as there is nothing to count."""
         state, counts = self._state, self._state.counts
-        # What was found may be newer than the snapshot: lines come all the time.
+        # The search may have seen newer lines than the snapshot.
         end = max(state.end, self._found.end if self._found else 0)
         if end == state.first and not state.dropped and not self._filtering.texts():
             return ""
@@ -251,29 +253,29 @@ class LogsPane(LinePane):
             self._report()
 
     def action_follow(self) -> None:
-        """Follow the newest line, or stop that."""
+        """Follow the newest line, or stop following it."""
         self._following, self._searched_for = not self._following, None
         if self._following:
             self._to_end()
         self._report()
 
     def action_warnings(self) -> None:
-        """Warnings and worse, or everything."""
+        """Switch between warnings and worse, and everything."""
         self._filtering.warnings()
         self._search()
 
     def action_level(self) -> None:
-        """The next minimum severity."""
+        """Switch to the next minimum severity."""
         self._filtering.next_level()
         self._search()
 
     def action_fold(self) -> None:
-        """Show each of several equal lines, or them as one."""
+        """Switch between folding consecutive equal lines and showing each of them."""
         self._filtering.folded = not self._filtering.folded
         self._search()
 
     def action_suspend_filters(self) -> None:
-        """Show everything for now, or put the filters back."""
+        """Suspend the filters, or restore them."""
         filtering = self._filtering
         if not filtering.off and not filtering.texts():
             self.notify("Nothing is filtered; / filters, x hides lines like this one.")
@@ -282,7 +284,7 @@ class LogsPane(LinePane):
         self._search()
 
     def action_only_highlighted(self) -> None:
-        """Only what a rule highlights, or everything."""
+        """Switch between highlighted lines only and everything."""
         filtering = self._filtering
         if not filtering.only_highlighted and not filtering.rules.highlighted:
             self.notify("No rule highlights anything; + highlights lines like this one.")
@@ -291,12 +293,12 @@ class LogsPane(LinePane):
         self._search()
 
     def filter_is(self, words: str) -> None:
-        """Show the lines that pass."""
+        """Show the lines that pass the filter."""
         self._filtering.words, self._filtering.off = words, False
         self._search()
 
     def action_clear_filter(self) -> None:
-        """Look at now again; or else take words and severity away."""
+        """Return the time cursor to now; if it is there already, clear words and severity."""
         if self.time_cursor.stamp is not None:
             self.time_cursor.move(None, self)
             self.time_moved(None)
@@ -306,7 +308,7 @@ class LogsPane(LinePane):
         super().action_clear_filter()
 
     def action_alike(self, hide: bool) -> None:
-        """Ask what lines like the one at the cursor have in common; hide or highlight those from now on."""
+        """Ask what lines like the one at the cursor have in common, and add a rule that hides or highlights them."""
         record = self._list.record
         if record is None:
             return
@@ -322,38 +324,38 @@ class LogsPane(LinePane):
         self.notify(problem or did, severity="warning" if problem else "information")
 
     def action_rules(self) -> None:
-        """Show and change what is hidden and what stands out."""
+        """Open the screen that edits the rules."""
         self.host.push_screen(RulesScreen(self._filtering.rules, self._search))
 
     def action_levels(self) -> None:
-        """Show the levels of loggers, to set them."""
+        """Open the screen that shows and sets logger levels."""
         self.host.push_screen(LevelsScreen(self.console, self.console.snapshot().graph))
 
     def stands_on_match(self, words: str) -> bool:
-        """Every line that is shown matches the filter."""
+        """True: every line shown matches the filter."""
         return True
 
     def action_search(self) -> None:
-        """Ask for words to go to; nothing is hidden."""
+        """Ask for words to search for; nothing is hidden."""
         self.ask(Line("search", self._search_for, text=self._sought, check=wrong_filter))
 
     def _search_for(self, words: str) -> None:
-        """Go to the newest match where the newest line is followed, else to the next one."""
+        """Go to the newest match if the newest line is followed, otherwise to the next one."""
         if words:
             self._sought = words
             self.find(words, -1 if self._following else 1)
 
     def find(self, words: str, step: int) -> bool:
-        """The next line shown that matches, found over the whole log beside the screen."""
+        """Search the whole log in the background for the next shown line that matches; always returns True."""
         return self._seek(words, Severity.UNSET, step)
 
     def action_next_error(self) -> None:
-        """To the next error, from the top again after the last."""
+        """Go to the next error; after the last one, start again from the top."""
         self._seek("", Severity.ERROR, 1)
 
     def _seek(self, words: str, minimum: Severity, step: int) -> bool:
         rows = self._list
-        # Seen from the end of the log upwards the line at the cursor is a match like others.
+        # When searching upwards from the end of the log, the line at the cursor may be the match.
         whole = step < 0 and self._following
         at = rows.number(rows.cursor) + whole if step > 0 or whole else rows.first_of_row()
         self._sought_for = words or "errors"
@@ -363,7 +365,7 @@ class LogsPane(LinePane):
         return True
 
     def _go_on(self) -> bool:
-        """Go to what was looked for, as soon as it is found."""
+        """Go to the line that the search has found; returns whether the search has ended."""
         target = self._match_search.poll()
         if target is None:
             return False
@@ -375,7 +377,7 @@ class LogsPane(LinePane):
         return True
 
     def action_open_file(self) -> None:
-        """Ask for a saved log, or go back from one to what runs."""
+        """Ask for a saved log to read; if one is shown, go back to the log of the running system."""
         if self._source.name:
             self._read(LiveLog(self.console))
         else:
@@ -388,7 +390,7 @@ class LogsPane(LinePane):
             self.notify(str(error), severity="error")
 
     def _read(self, source: LogSource) -> None:
-        """Show another log; the filter stays."""
+        """Show another log with the same filter."""
         self._source.close()
         self._source = self._list.source = source
         self.border_title = f"Logs of {sanitize(Path(source.name).name)} · O goes back" if source.name else self.TITLE
@@ -406,7 +408,7 @@ class LogsPane(LinePane):
         self._search()
 
     def action_save(self) -> None:
-        """Ask where to save."""
+        """Ask for the file to save the shown lines to."""
         self.ask_file("save these lines to", "log.txt", self._save)
 
     def _save(self, path: Path) -> Answer:

@@ -1,4 +1,4 @@
-"""Draws log lines."""
+"""The rows of the log pane."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ NODE_CELLS, WIDE_NODE_CELLS, PLACE_CELLS = 18, 22, 26
 """Cells of a node's name, of a name if there is more room, and of the source location."""
 
 MIN_CELLS_WITH_PLACE, MAX_EXTRA_NODE_CELLS = 150, 20
-"""Width in cells from which lines show the source location, and how many of the cells beyond that node names may
+"""Minimum width (cells) of lines that show the source location, and how many of the cells beyond it node names may
 use.
 """
 MARK = "▌"
-"""Precedes the text of a highlighted line: not every terminal has colours."""
+"""Precedes the text of a highlighted line, as not every terminal has colours."""
 
 
 class LogRows(RowList):
@@ -84,11 +84,11 @@ class LogRows(RowList):
         ]
 
     def first_of_row(self) -> int:
-        """The number of the first record after those above the cursor; a row may stand for several equal records."""
+        """The number of the first record in the row at the cursor, which may represent several equal records."""
         return self.number(self.cursor - 1) + 1 if self.cursor else 0
 
     def show_nothing(self) -> None:
-        """Start again with another log."""
+        """Remove all lines, before another log is shown."""
         self.numbers = None
         self.set_reactive(RowList.cursor, 0)
         self.rows_changed()
@@ -126,11 +126,10 @@ class LogRows(RowList):
 def line_text(
     record: LogRecord, node: str, width: int, longest: int = 0, count: int = 1, *, marked: bool = False
 ) -> str:
-    """A record on one line: without the time if there is little room, with its source location if there is much.
+    """A record on one line; a narrow line omits the time, a wide one adds the source location.
 
-    Of a long node name, the end is kept. With much room, names get the width (cells) of the `longest` one.
-
-    `count` is the number of equal records that the line stands for, `marked` whether a rule highlights it.
+    Long node names keep their ends; in a wide line, names get as many cells as the `longest` one needs. `count` is the
+    number of equal records that the line represents, `marked` whether a rule highlights it.
     """
     time = f"{clock_text(record.stamp)} " if width >= 70 else ""
     room = (

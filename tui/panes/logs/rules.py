@@ -24,7 +24,7 @@ HEAD = f"""\
 
 @dataclass(frozen=True)
 class Rule:
-    """Hides matching lines, or shows them in a colour."""
+    """A rule that hides matching lines, or shows them in a colour."""
 
     words: str
     colour: str = ""
@@ -58,7 +58,7 @@ class RuleBook:
         self.rules: tuple[Rule, ...] = ()
         self.problems: list[str] = []
         self._strange: list[str] = []
-        """Lines that are no valid rules; they stay in the file, since the user may have meant something."""
+        """Invalid lines of the file; they are written back, so that a typo does not lose a rule."""
         self._marks: tuple[tuple[Query, str], ...] = ()
 
     def read(self) -> None:
@@ -81,7 +81,7 @@ class RuleBook:
         self._take(found)
 
     def change(self, rules: Sequence[Rule]) -> str:
-        """Replace and store the rules; returns why they could not be stored, else an empty text."""
+        """Replace and store the rules; returns why they could not be stored, or an empty text."""
         self._take(rules)
         lines = [HEAD, *(f"{each.text}\n" for each in rules), *(f"{each}\n" for each in self._strange)]
         try:
@@ -91,7 +91,7 @@ class RuleBook:
         return ""
 
     def add(self, words: str, *, hide: bool) -> tuple[Rule, str]:
-        """Add a rule, in an unused colour if there is one; also returns the message of `change`."""
+        """Add a rule, in the least used colour if it highlights; returns it with the message of `change`."""
         used = [each.colour for each in self.rules]
         colour = "" if hide else min(COLOURS, key=used.count)
         rule = Rule(words, colour)

@@ -1,4 +1,4 @@
-"""The screen for editing log rules: switch them on and off, change and delete them."""
+"""The screen for editing log rules: add, change and delete them, and turn them on and off."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ class RulesScreen(DimmedScreen):
         self._report(problem)
 
     def action_switch(self) -> None:
-        """Disable or enable the rule."""
+        """Turn the rule at the cursor on or off."""
         rule = self._list.current
         if rule is not None:
             self._exchange(rule, replace(rule, on=not rule.on))
@@ -115,7 +115,7 @@ class RulesScreen(DimmedScreen):
             self._ask("words", rule.words, lambda words: self._exchange(rule, replace(rule, words=words)))
 
     def action_add(self) -> None:
-        """Ask for the filter of a new rule, which highlights."""
+        """Ask for the filter of a new rule that highlights lines."""
 
         def add(words: str) -> None:
             _, problem = self._book.add(words, hide=False)

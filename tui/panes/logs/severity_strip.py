@@ -1,4 +1,4 @@
-"""When warnings and errors came: a bar for every few seconds, above the log. Pure."""
+"""The strip above the log that shows when warnings and errors were logged: a bar for every few seconds. Pure."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from bot_console.tui.text.bars import bars
 from bot_console.tui.widgets.picture import Line
 
 BAR_S = 5.0
-"""Seconds of a bar."""
+"""Seconds that a bar represents."""
 MAX_BARS = 400
 FIGURE = 7
 """Cells of the number behind the bars."""
 ROWS = ((Severity.ERROR, (Severity.ERROR, Severity.FATAL), "error"), (Severity.WARN, (Severity.WARN,), "warn"))
-"""The rows of the strip: their name, the severities that they count, their style."""
+"""The rows of the strip: name, severities counted, style."""
 
 
 class SeverityStrip:
-    """How many lines of a severity came in each span of time, by the clock of who asks."""
+    """Counts the lines of a severity that were logged in each span of time, by the clock of the caller."""
 
     def __init__(self) -> None:
         self._seen: Mapping[Severity, int] = {}
@@ -28,7 +28,7 @@ class SeverityStrip:
         self._drawn: tuple[object, ...] = ()
 
     def take(self, counts: Mapping[Severity, int], now: float) -> None:
-        """Count what was logged since the last call as logged now (s); fewer lines than before are another log."""
+        """Count the lines since the last call as logged at `now` (s); if there are fewer than before, start over."""
         before: Mapping[Severity, int] = self._seen
         if any(counts.get(each, 0) < count for each, count in before.items()):
             before = dict[Severity, int]()
@@ -42,13 +42,13 @@ class SeverityStrip:
                 del spans[min(spans)]
 
     def is_changed(self, now: float, width: int, is_shown: bool) -> bool:
-        """Whether anything is to be drawn otherwise than at the last call; while nothing is shown, nothing changes."""
+        """Whether the strip has to be redrawn since the last call; never while it stays hidden."""
         drawn = (int(now // BAR_S), width, _by_row(self._seen)) if is_shown else ()
         before, self._drawn = self._drawn, drawn
         return drawn != before
 
     def lines(self, now: float, width: int) -> list[Line]:
-        """A row for each severity that came at all, the newest bar last."""
+        """A line for each severity that has been logged, the newest bar last."""
         last, count = int(now // BAR_S), max(0, width - FIGURE - 3)
         found: list[Line] = []
         for (name, _, style), total in zip(ROWS, _by_row(self._seen), strict=True):
@@ -60,5 +60,5 @@ class SeverityStrip:
 
 
 def _by_row(counts: Mapping[Severity, int]) -> list[int]:
-    """How many lines there are for each row."""
+    """The number of log lines that each row of the strip counts."""
     return [sum(counts.get(each, 0) for each in severities) for _, severities, _ in ROWS]

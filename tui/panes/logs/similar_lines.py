@@ -13,15 +13,13 @@ ANY_NUMBER = r"[-+.\d]+"
 
 
 def options_like(record: LogRecord, node: str, typed: str) -> list[Option]:
-    """The criteria for similar lines that contain what was typed."""
+    """The criteria for similar lines, narrowed to those that contain the typed text."""
     options = [Option(what, words, words) for what, words in similarities(record, node)]
     return [each for each in options if typed.lower() in f"{each.title} {each.about}".lower()]
 
 
 def similarities(record: LogRecord, node: str) -> Iterator[tuple[str, str]]:
-    """Short descriptions of what similar lines share, each with the filter that finds them; `node` is the node's
-    name.
-    """
+    """Descriptions of what similar lines have in common, each with the filter that finds them; `node` is the name."""
     level = record.severity.name.lower()
     of_node = f"node:{_quoted(f'={node}')}" if node else ""
     if of_node:
@@ -38,7 +36,7 @@ def similarities(record: LogRecord, node: str) -> Iterator[tuple[str, str]]:
 
 
 def _quoted(text: str) -> str:
-    """A quoted word of the filter grammar; it ends before the first quotation mark."""
+    """The text as a word of the filter grammar, quoted if needed, and cut before the first quotation mark."""
     plain = text.partition('"')[0]
     return f'"{plain}"' if re.search(r"\s", plain) else plain
 

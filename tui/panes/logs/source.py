@@ -1,4 +1,4 @@
-"""The system's log as the pane reads it."""
+"""The log of the running system as a source for the log pane."""
 
 from __future__ import annotations
 

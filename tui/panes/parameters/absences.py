@@ -1,4 +1,4 @@
-"""The pane's texts about nodes whose parameters are gone, or that are in the graph but do not answer."""
+"""Texts of the parameter pane about nodes that have left, or that are in the graph but do not answer."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ LEFT_SHOWN_S = 30.0
 
 
 class Absences:
-    """Follows snapshots; times are those of a monotonic clock (s)."""
+    """Tracks the nodes that have left or do not answer, by a monotonic clock (s)."""
 
     def __init__(self) -> None:
         self._left: dict[str, float] = {}
-        """Nodes that have left, and when."""
+        """The nodes that have left, and when."""
         self._of: Mapping[str, ParameterTree] = {}
         self._trees: Mapping[str, ParameterTree] = {}
         self._endings: Mapping[str, str] = {}
-        """How nodes without parameters have ended."""
+        """How the processes of nodes without parameters ended."""
         self.reported = ""
-        """The text that is on the screen."""
+        """The text that is shown."""
 
     def trees(self, snapshot: ConsoleSnapshot, now: int) -> Mapping[str, ParameterTree]:
-        """The parameters of all nodes, and nodes whose process is known to have ended; `now` is in ns since the epoch.
+        """The parameters of all nodes, also of nodes whose process has ended; `now` is in ns since the epoch.
 
-        The same objects while nothing changes.
+        Returns the same object while nothing changes.
         """
         found = endings_of_nodes(snapshot.launch.processes, now) if snapshot.launch.processes else {}
         endings = {name: text for name, text in found.items() if name not in snapshot.parameters}
@@ -40,20 +40,20 @@ class Absences:
         return self._trees
 
     def note(self, before: ConsoleSnapshot, snapshot: ConsoleSnapshot, now: float) -> None:
-        """Note the nodes whose parameters are gone, unless they are only out of sight behind a silent link."""
+        """Record the nodes whose parameters are gone, unless the link is silent and they may still be running."""
         if before.parameters is not snapshot.parameters and not snapshot.link.silent_s:
             for name in before.parameters.keys() - snapshot.parameters.keys():
                 self._left[name] = now
 
     def text(self, snapshot: ConsoleSnapshot, now: float) -> str:
-        """Which nodes have left lately, and which do not answer; empty if none, or if it is the link that is silent."""
+        """Describe the nodes that left recently or do not answer; empty if there are none or the link is silent."""
         if snapshot.link.silent_s:
             return ""
         trees, graph = snapshot.parameters, snapshot.graph
         self._left = {name: at for name, at in self._left.items() if now - at < LEFT_SHOWN_S and name not in trees}
         debugged = trees.keys() & {name for name, _ in graph.debugged}
         silent = trees.keys() & {*graph.silent, *(name for name, _ in graph.frozen)} - debugged
-        left = self._left.keys() - self._endings.keys()  # the others have a row that says how they ended
+        left = self._left.keys() - self._endings.keys()  # the others have rows that say how they ended
         parts = (
             (left, "has left", "have left"),
             (silent, "does not answer", "do not answer"),

@@ -1,6 +1,6 @@
 """The column widths of the parameter pane: names get room before values, and values before descriptions.
 
-A few names that are much longer than all others do not cost every row its slider: they run over their column.
+A few names that are much longer than the others overflow their column, rather than cost every row its slider.
 """
 
 from __future__ import annotations
@@ -17,41 +17,41 @@ from bot_console.tui.text.value_text import value_text
 from rich.cells import cell_len
 
 BAR_CELLS, MIN_BAR_CELLS = 12, 6
-"""Cells of the slider where there is room, and where there is little."""
+"""Maximum and minimum cells of a slider."""
 
 FEW = 10
-"""One name in so many may be longer than its column, if the sliders have room then."""
+"""One name in this many may be longer than its column, if that leaves room for the sliders."""
 
 MARKS_CELLS = 2
 """Cells of the marks before a name."""
 GAP_CELLS, END_CELLS = 2, 1
-"""Cells between columns, and behind a slider."""
+"""Cells between columns, and after a slider."""
 
 MIN_VALUE_CELLS = 8
-"""Cells that a value has at least."""
+"""Minimum cells of a value."""
 
 MIN_NAME = 8
-"""Cells that names have at least, wherever the user moves their edge."""
+"""Minimum cells of the name column, wherever the user moves its edge."""
 
 MIN_DESCRIPTION_CELLS = 20
-"""A description has at least these cells, or none."""
+"""Minimum cells of a description; if there is less room, it is left out."""
 
 
 @dataclass(frozen=True)
 class Measures:
-    """The measures that the rows need, in cells: the longest name with its indentation, the longest number that has a
+    """The cells that the rows need: for the longest name with its indentation, and for the longest number with a
     slider.
     """
 
     name: int = 0
     number: int = MIN_VALUE_CELLS
     max_names: int = 0
-    """The longest name but for a few; 0: that of all."""
+    """The longest name apart from the few that may overflow; 0 if there are no names."""
 
 
 @dataclass(frozen=True)
 class Columns:
-    """Cells of each column behind the mark; 0: the column is left out."""
+    """Cells of each column after the marks; 0 if the column is left out."""
 
     name: int
     value: int
@@ -60,7 +60,7 @@ class Columns:
 
 
 def measured(rows: Sequence[Row]) -> Measures:
-    """Measure the rows; numbers in steps of two cells, so that the columns stand while a value moves."""
+    """Measure the rows; numbers are rounded up to two cells, so that the columns rarely move when a value changes."""
     names: list[int] = []
     number = MIN_VALUE_CELLS
     for row in rows:
@@ -86,7 +86,7 @@ def _cells(name: str) -> int:
 
 @lru_cache(maxsize=20_000, typed=True)
 def _number_cells(value: Value, description: str) -> int:
-    """Cells of a value and its unit; thousands are asked for at each key of a filter, and few are new."""
+    """Cells of a value and its unit; cached, as each key typed into a filter measures thousands of mostly old ones."""
     unit = unit_in_description(description)
     return cell_len(value_text(value)) + (cell_len(unit) + 1 if unit else 0)
 
@@ -100,17 +100,17 @@ def shown_value(row: Row) -> str:
 
 
 def name_column(row: Row, own: Columns, width: int, split: int = 0) -> int:
-    """Cells that a row's name takes: its column, or more where it is one of the few that run over it.
+    """Cells of a row's name: the column, or more for one of the few names that overflow it.
 
-    In a column whose width the user has set, none runs over it.
+    If the user has set the width of the column, no name overflows it.
     """
     return own.name if split else max(own.name, min(name_cells(row), width - MARKS_CELLS - GAP_CELLS - MIN_VALUE_CELLS))
 
 
 def columns(need: Measures, width: int, split: int = 0) -> Columns:
-    """Share a width (cells): the names take what the longest needs, or all but a few, and leave a value its place.
+    """Divide `width` cells: the names get what the longest needs, or all but a few, but leave room for a value.
 
-    `split` is by how many cells the user has moved the edge between names and values.
+    `split` is the number of cells by which the user has moved the edge between names and values.
     """
     room = width - MARKS_CELLS
     name = max(1, min(need.name, room - GAP_CELLS - MIN_VALUE_CELLS))

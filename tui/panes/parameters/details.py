@@ -49,7 +49,7 @@ def details(
 
 
 def _default(parameter: ParameterInfo) -> str:
-    """The declared value and where it was declared; else the first value seen, if it differs from the present one."""
+    """The declared value and where it was declared; if unknown, the start value where it has changed since."""
     value = sanitize(value_text(parameter.default))
     if parameter.declared_at:
         return f"declared {value} in {sanitize(short_place(parameter.declared_at))}"

@@ -1,4 +1,4 @@
-"""Changing values in the parameter pane: typed, stepped, with a slider, staged, or as one of two sets."""
+"""Editing in the parameter pane: typing and stepping values, sliders, marking edits, comparing two sets, tuning."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ REFUSED = Mode(
 
 
 class EditPane(ListPane):
-    """A pane around a tree of parameters in which values are changed."""
+    """The base of the parameter pane: the actions that change values."""
 
     def __init__(self, *args: object, **kwargs: object) -> None:
         super().__init__(*args, **kwargs)  # type: ignore[arg-type] -- handed on as they are
@@ -47,7 +47,7 @@ class EditPane(ListPane):
 
     @property
     def mode(self) -> Mode:
-        """Marking values, a refused value at the cursor, or a filter."""
+        """The mode for marked values, for a refused value at the cursor, or for a filter."""
         parameter, staging = self._at(), self.edits.staging
         marked = parameter is not None and (parameter.node, parameter.name) in staging.marked
         if staging.marking or staging.marked:
@@ -112,14 +112,14 @@ class EditPane(ListPane):
         )
 
     def _may_edit(self, parameter: ParameterInfo) -> bool:
-        """Whether its value can be changed from here; says why not, before a person types one in vain."""
+        """Whether the value can be changed from here; if not, notifies why, before the user types one in vain."""
         if parameter.read_only:
             text = f"{parameter.name} is read-only: a parameter file sets it when {parameter.node} starts."
             self.notify(sanitize(text), severity="warning", markup=False)
         return not parameter.read_only and self.may_change()
 
     def _switch(self, parameter: ParameterInfo, now: bool, then: bool) -> None:
-        """Set a boolean; one that makes the robot less safe only after a question, as one key would switch it."""
+        """Set a boolean; as a single key does this, ask first if it makes the robot less safe."""
         unsafe = takes_safety(parameter, now, then)
         if not unsafe or self.edits.staging.marking:
             self.edits.set(parameter, then)
@@ -134,7 +134,7 @@ class EditPane(ListPane):
         )
 
     def _gone(self, parameter: ParameterInfo) -> str:
-        """Why a parameter cannot be set any more."""
+        """Why a parameter can no longer be set; empty if it can."""
         tree = self.console.snapshot().parameters.get(parameter.node)
         if tree is None:
             return f"{parameter.node} has left; {parameter.name} was not set."
@@ -147,7 +147,7 @@ class EditPane(ListPane):
             self.edits.set(parameter, editing.typed_value(text, parameter))
 
     def _report_failure(self, error: str, outcomes: Sequence[SetOutcome]) -> None:
-        """Say why values were not sent, or which of those that were sent together was refused."""
+        """Notify why values were not sent, or which of several sent together was refused."""
         text = error or of_many(outcomes)
         if text:
             self.notify(text, severity="error", markup=False)
@@ -166,7 +166,7 @@ class EditPane(ListPane):
         return (row.node, row.parameter.name if row.parameter else "") if row else ("", "")
 
     def action_nudge(self, steps: int) -> None:
-        """Move a number by its step, or by a hundredth of its range."""
+        """Move a number by `steps` of its step, or of a hundredth of its range."""
         parameter = self._at()
         value = editing.stepped(parameter, self.edits.now(parameter), steps) if parameter else None
         if parameter is not None and value is not None:
@@ -184,7 +184,7 @@ class EditPane(ListPane):
             self.edits.set(parameter, value)
 
     def on_parameter_rows_slid(self, event: ParameterRows.Slid) -> None:
-        """The slider was clicked."""
+        """Set the value at which the slider was clicked."""
         event.stop()
         value = editing.at_share(event.parameter, event.share)
         if value is not None:
@@ -196,13 +196,13 @@ class EditPane(ListPane):
         self.action_edit()
 
     def action_reset(self) -> None:
-        """Reset to the default."""
+        """Reset the value at the cursor to its default."""
         parameter = self._at()
         if parameter is not None and self.edits.now(parameter) != parameter.default and parameter.default is not None:
             self.edits.set(parameter, parameter.default)
 
     def action_stage(self) -> None:
-        """Switch between marking edits and sending them."""
+        """Switch between marking edits and sending them at once."""
         self.edits.stage()
 
     def action_apply(self) -> None:
@@ -226,7 +226,7 @@ class EditPane(ListPane):
             self.notify("Mark values with m first: they become set B, and what is now is set A.")
 
     def action_tune(self) -> None:
-        """Ask for ranges, score and runs, then tune the marked parameters, or else this one."""
+        """Ask for ranges, score and runs, then tune the marked parameters, or else the one at the cursor."""
         if getattr(self.host, "tuner", None) is None:
             self.notify(NO_TUNER, severity="warning")
             return

@@ -14,7 +14,7 @@ from bot_console.tui.text.typed_units import factor, split_unit
 
 NUMBERS = (Kind.INTEGER, Kind.DOUBLE)
 INTEGER_ENDS = (-(2**63), 2**63 - 1)
-"""The least and the greatest integer that a parameter can hold."""
+"""The smallest and the largest integer that a parameter can hold."""
 
 
 def label(parameter: ParameterInfo) -> str:

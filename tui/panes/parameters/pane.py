@@ -36,16 +36,16 @@ WAITING = Placeholder(
     (("8", "Start nodes"), ("7", "Profiles: values to start from"), ("?", "Help")),
 )
 COMPACT_LINES = 12
-"""Lines of the pane below which it shows no more than the parameters that matter most."""
+"""Minimum height (lines) at which the pane shows the whole tree; a lower one lists the parameters that matter most."""
 STATE_NAME = "parameters"
 MIN_DETAIL_LINES = 3
-"""Lines of detail that every parameter has: what it is for, its facts, its command."""
+"""Lines of detail that every parameter has: its description, facts and command."""
 
 FLASH_S = 1.0
-"""Seconds that a value is shown as one that has just changed."""
+"""Seconds for which a changed value is highlighted."""
 
 SHARE = 3
-"""The detail takes at most this part of the pane's height."""
+"""The details take at most a third of the pane's height."""
 
 
 class ParametersPane(EditPane):
@@ -61,7 +61,7 @@ class ParametersPane(EditPane):
     BINDINGS = keymap.bindings("parameters")
 
     wall_clock: Callable[[], int] = staticmethod(time.time_ns)
-    """Time in ns since the epoch; tests give one that they step."""
+    """Time in ns since the epoch; tests replace it with a clock that they step."""
 
     def __init__(self, *args: object, **kwargs: object) -> None:
         super().__init__(*args, **kwargs)  # type: ignore[arg-type] -- handed on as they are
@@ -72,19 +72,19 @@ class ParametersPane(EditPane):
         self._expected = ""
         self._at_cursor: At | None = None
         self._chosen = False
-        """Whether the cursor was moved; until then it is on the parameter that matters most, whatever nodes come."""
+        """Whether the user has moved the cursor; until then it stays on the parameter that matters most."""
 
         self._folds_itself = True
-        """Whether a large tree is folded as its nodes come: until the user folds, opens or filters something."""
+        """Whether a large tree folds itself as nodes appear: until the user folds, unfolds or filters something."""
         self._absences = Absences()
         self._shown: Mapping[str, ParameterTree] = {}
-        """The trees that the rows were made of."""
+        """The parameter trees from which the rows were made."""
         self._asking_by: object = None
         self._left: At | None = None
-        """The row at the cursor at the end of the last run, until it is there again or a person moves."""
+        """The row at the cursor at the end of the last run, until it reappears or the user moves the cursor."""
 
     def on_mount(self) -> None:
-        """Open, filter and select what was so at the end of the last run; a preselected node comes before that."""
+        """Restore folds, filter and cursor of the last run, unless a node was preselected."""
         left = left_of(self.state_store.get(STATE_NAME))
         if left is not None and not self._expected:
             self._left = left.at
@@ -94,22 +94,22 @@ class ParametersPane(EditPane):
             self._arrange()
 
     def on_unmount(self) -> None:
-        """Keep how the tree is left."""
+        """Save folds, filter and cursor for the next run."""
         at = self._left or self._at_cursor
         self.state_store.put(STATE_NAME, Left(self.words, self._view, at, self._table.split).data)
 
     def compose(self) -> ComposeResult:
-        """The tree, what is known of the parameter at the cursor, and a prompt."""
+        """The tree, details of the parameter at the cursor, and a prompt."""
         yield self._table
         yield StaticText(id="parameter-detail")
         yield Prompt(id="parameter-prompt")
 
     def focus_target(self) -> None:
-        """The tree takes the keys."""
+        """Focus the tree."""
         self._list.focus()
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Draw the parameters anew when they are another object."""
+        """Redraw the parameters if they are a different object."""
         before, self._snapshot = self._snapshot, snapshot
         self._absences.note(before, snapshot, self.edits.clock())
         if snapshot.journal is not before.journal and self.edits.observe(snapshot.journal):
@@ -119,7 +119,7 @@ class ParametersPane(EditPane):
             self._arrange()
 
     def _trees_now(self) -> Mapping[str, ParameterTree]:
-        """The parameters of all nodes, those that have ended included."""
+        """The parameters of all nodes, including nodes that have ended."""
         return self._absences.trees(self._snapshot, self.wall_clock())
 
     def _watch_nodes(self, on: bool) -> None:
@@ -130,13 +130,13 @@ class ParametersPane(EditPane):
             self.console.graph.watch_nodes(on, "parameters")
 
     def detach(self) -> None:
-        """Probe no longer."""
+        """Stop probing."""
         self._watch_nodes(False)
 
     def tick(self) -> None:
-        """Let values that have changed stop flashing, and say which are waited for."""
+        """End highlights that are over, and update what waits for an answer."""
         shown = self._table
-        if not shown.is_attached:  # at the end, when the screen is taken apart
+        if not shown.is_attached:  # while the app exits and the screen is taken apart
             return
         self._watch_nodes(self.display)
         if self.display and self._trees_now() is not self._shown:
@@ -155,13 +155,13 @@ class ParametersPane(EditPane):
                 shown.row_changed(index)
 
     def redraw_marks(self) -> None:
-        """Draw what is marked and refused, and tell of it."""
+        """Redraw marks and refusals, and update the caption and the details."""
         self._list.refresh()
         self._report_counts()
         self._describe()
 
     def go_to(self, name: str) -> None:
-        """Go to a node, as soon as it is there; how the tree was left in the last run is no hindrance."""
+        """Go to a node as soon as it exists; this overrides the folds and the filter restored from the last run."""
         self._expected = name
         if not self._chosen:
             self._left, self.words, self._view = None, "", View()
@@ -176,7 +176,7 @@ class ParametersPane(EditPane):
             shown.cursor = found
 
     def _arrange(self) -> None:
-        """Make the rows, keep the cursor on its parameter, draw what differs."""
+        """Make the rows, keep the cursor on its parameter, and draw what has changed."""
         shown, old = self._list, self._list.rows
         self._shown = self._trees_now()
         if self._folds_itself:
@@ -197,7 +197,7 @@ class ParametersPane(EditPane):
         self._describe()
 
     def _fold_at_start(self) -> None:
-        """Fold a large tree, except for the row where the cursor was, and the node that is expected."""
+        """Fold a large tree, except around the row where the cursor was and the node that is expected."""
         folded = folds_at_start(self._shown)
         for node, name in ((self._left[0], self._left[1]) if self._left else ("", ""), (self._expected, "")):
             folded = opened(folded, node, name) if node else folded
@@ -212,7 +212,7 @@ class ParametersPane(EditPane):
             self._list.cursor = found
 
     def _report_counts(self) -> None:
-        found = sum(row.count for row in self._list.rows if row.depth == 0)  # each counts all that is below it
+        found = sum(row.count for row in self._list.rows if row.depth == 0)  # each counts everything below it
         self._absences.reported = self._absences.text(self._snapshot, self.edits.clock())
         staged = "  ".join(filter(None, (self.edits.staging.caption(), sanitize(self._absences.reported))))
         if self._view.filtering:
@@ -230,7 +230,7 @@ class ParametersPane(EditPane):
             self._list.flashing[key] = self.edits.clock() + FLASH_S
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
-        """Tell of the parameter at the cursor."""
+        """Describe the parameter at the cursor."""
         event.stop()
         self._chosen = self._chosen or event.by_person
         self._left = None if event.by_person else self._left
@@ -238,7 +238,7 @@ class ParametersPane(EditPane):
         self._describe()
 
     def on_resize(self) -> None:
-        """Show only what matters where there is little room, without the details."""
+        """In a low pane, list only the parameters that matter most, without the details."""
         compact = 0 < self.size.height < COMPACT_LINES
         if compact is not self.has_class("compact"):
             self.set_class(compact, "compact")
@@ -246,7 +246,7 @@ class ParametersPane(EditPane):
         self.call_after_refresh(self._describe)
 
     def _describe(self) -> None:
-        """Say what is known, in as many lines as it needs."""
+        """Describe the row at the cursor, in as many lines as that needs, up to a maximum."""
         self.keys_changed()
         self._list.show_placeholder(self._placeholder())
         words, text = self.query_one("#parameter-detail", StaticText), self._details(self._list.current)
@@ -278,31 +278,31 @@ class ParametersPane(EditPane):
         return details(row.parameter, edits.refused.get(key), staged, marks, late)
 
     def action_clear_filter(self) -> None:
-        """Take the filter away, or else a refusal at the cursor; what is marked stays marked."""
+        """Clear the filter; without one, dismiss the refusal at the cursor. Marked values stay marked."""
         if self.words or not self.dismiss_refusal():
             super().action_clear_filter()
 
     def action_undo(self) -> None:
-        """Undo the last change made here."""
+        """Undo the last change made in this console."""
         self.report_later(self.console.parameters.undo())
 
     def action_redo(self) -> None:
-        """Redo."""
+        """Redo the change that was undone last."""
         self.report_later(self.console.parameters.redo())
 
     def filter_is(self, words: str) -> None:
-        """Show the parameters that pass; the cursor goes to one that is called like the last word."""
+        """Show the parameters that pass the filter; the cursor goes to one whose name is the last word."""
         self._change_view(replace(self._view, query=parse(words), folded_matches=frozenset()))
         at = namesake(self._list.rows, words.rpartition(" ")[2], self._list.cursor)
         if at is not None:
             self._list.choose(at)
 
     def action_toggle_changed(self) -> None:
-        """Only what differs from its default, or all."""
+        """Switch between parameters that differ from their defaults and all parameters."""
         self._change_view(replace(self._view, only_changed=not self._view.only_changed, folded_matches=frozenset()))
 
     def _change_view(self, view: View) -> None:
-        """Show something else; the parameter at the cursor, which a filter has found, is seen without it, too."""
+        """Change the view; when a filter is cleared, unfold the parameter at the cursor so that it stays visible."""
         parameter = self._at()
         if parameter is not None and not view.filtering and self._view.filtering:
             view = replace(view, folded=opened(view.folded, parameter.node, parameter.name))
@@ -310,12 +310,12 @@ class ParametersPane(EditPane):
         self._arrange()
 
     def action_toggle_built_in(self) -> None:
-        """Built-in parameters too, or not."""
+        """Show or hide the built-in parameters."""
         self._view = replace(self._view, built_in=not self._view.built_in)
         self._arrange()
 
     def action_fold(self, closed: bool) -> None:
-        """Close or open what stands at the cursor: a namespace, a node, a group; or close what it stands in."""
+        """Fold or unfold the namespace, node or group at the cursor; folding anything else folds its parent."""
         shown = self._list
         row = shown.current
         if row is None or (not closed and not row.fold):
@@ -329,13 +329,13 @@ class ParametersPane(EditPane):
         self._close(set(self._view.closed) - {fold} | ({fold} if closed else set[str]()))
 
     def _close(self, folded: Collection[str]) -> None:
-        """Close these and no others; what is closed among the matches of a filter is another matter than the tree."""
+        """Fold exactly these rows; the matches of a filter are folded independently of the unfiltered tree."""
         which = "folded_matches" if self._view.filtering else "folded"
         self._view, self._folds_itself = replace(self._view, **{which: frozenset(folded)}), False
         self._arrange()
 
     def action_fold_all(self) -> None:
-        """Close all nodes, or open everything."""
+        """Fold all nodes, or if any row is folded, unfold everything."""
         self._close(() if self._view.closed else self._snapshot.parameters)
 
     def action_split(self, cells: int) -> None:
@@ -343,7 +343,7 @@ class ParametersPane(EditPane):
         self._table.move_split(cells)
 
     def action_plot(self) -> None:
-        """Plot this parameter."""
+        """Plot the parameter at the cursor."""
         parameter = self._at()
         if parameter is not None:
             self.post_message(self.PlotWanted(f"{parameter.node}:{parameter.name}"))
@@ -359,7 +359,7 @@ class ParametersPane(EditPane):
         self.notify(text, title="Copied", markup=False)
 
     def action_copy_part(self) -> None:
-        """Ask which part to copy: of a parameter the name, the value or the node, of a node its name."""
+        """Copy the name of the node at the cursor; for a parameter, ask whether to copy its name, value or node."""
         row = self._list.current
         if row is None:
             return
@@ -374,7 +374,7 @@ class ParametersPane(EditPane):
         self.ask(Choice("Copy", lambda chosen: self._copy(parts[chosen]), find=find))
 
     def action_save(self) -> None:
-        """Ask what to save, then where."""
+        """Ask which parameters to save, then to which file."""
         row = self._list.current
         shown = list(dict.fromkeys(each.node for each in self._list.rows if each.parameter or not each.name))
         shown = [each for each in shown if each in self._snapshot.parameters]

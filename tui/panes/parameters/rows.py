@@ -18,7 +18,7 @@ BUILT_IN_PREFIX = "qos_overrides."
 _SEPARATOR = re.compile(r"[./]")
 
 
-# not frozen: thousands are made at each key of a filter, and frozen instances take longer to create
+# Not frozen: each key typed into a filter makes thousands, and frozen instances take longer to create.
 @dataclass(slots=True)
 class Row:
     """A line of the tree: a namespace, a node, a group or a parameter, at an indentation level of `depth`."""
@@ -32,16 +32,16 @@ class Row:
     count: int = 0
     folded: bool = False
     fold: str = ""
-    """The name by which the row is folded; empty for a parameter."""
+    """The id by which the row is folded; empty for a parameter."""
     title: str = ""
     """The label of a namespace or node below its namespace."""
     ended: bool = False
-    """Whether it is a node that has ended; the problem says how."""
+    """Whether the row is a node that has ended; `problem` says how."""
 
 
 @dataclass(frozen=True)
 class View:
-    """The user's choice of the parameters to be seen."""
+    """Which parameters the user has chosen to see."""
 
     query: Query = field(default_factory=Query)
     only_changed: bool = False
@@ -50,15 +50,14 @@ class View:
     """The rows that are folded while no filter is active."""
 
     folded_matches: Collection[str] = frozenset()
-    """The rows that were folded since the filter was set; its matches are visible however the tree was folded before.
-    """
+    """The rows that have been folded since the filter was set; it shows its matches however the tree was folded."""
 
     essential: bool = False
-    """Whether, without a filter, only the parameters that decide how the robot drives are shown, in a flat list."""
+    """Whether to show only the parameters that decide how the robot drives, as a flat list, if there is no filter."""
 
     @property
     def filtering(self) -> bool:
-        """Whether only some parameters are shown: those that match a filter, or that differ."""
+        """Whether the parameters are narrowed to those that match a filter or have changed."""
         return bool(self.query.terms) or self.only_changed
 
     @property
@@ -68,7 +67,7 @@ class View:
 
 
 def opened(folded: Collection[str], node: str, name: str) -> frozenset[str]:
-    """The rows that stay folded when a parameter is made visible: all but its namespaces, node and groups."""
+    """The rows that stay folded after a parameter was made visible: all but its namespaces, node and groups."""
 
     def holds(fold: str) -> bool:
         if fold.startswith(f"{node}:"):
@@ -79,11 +78,11 @@ def opened(folded: Collection[str], node: str, name: str) -> frozenset[str]:
 
 
 MAX_OPEN_NODES = 14
-"""Nodes of a tree that starts open; with more of them it starts folded."""
+"""Maximum nodes of a tree that starts unfolded; a larger one starts folded."""
 
 
 def folds_at_start(nodes: Iterable[str]) -> frozenset[str]:
-    """The rows that are folded in a tree that nobody has folded or opened yet."""
+    """The rows that are folded before the user has folded or unfolded anything."""
     names = tuple(nodes)
     if len(names) <= MAX_OPEN_NODES:
         return frozenset()
@@ -152,7 +151,7 @@ class TreeRows:
         return made
 
     def _rows_below(self, name: str, parameters: list[ParameterInfo], depth: int, folded: Collection[str]) -> list[Row]:
-        """The rows of these parameters; reused if a new filter passes the same ones."""
+        """The rows of these parameters; the same list again if a new filter passes the same parameters."""
         known = self._below.get(name)
         if known and known[0] == parameters and known[1] == depth and known[2] == folded:
             return known[3]
@@ -162,9 +161,9 @@ class TreeRows:
 
 
 def essential_rows(trees: Mapping[str, ParameterTree]) -> list[Row]:
-    """The parameters that decide how the robot drives; where none does, numbers with a range, else all parameters.
+    """The parameters that decide how the robot drives; if there are none, numbers with a range; otherwise all of them.
 
-    Those in a group, such as the limits of a simulated base, come after the plain ones.
+    Parameters in a group, such as the limits of a simulated base, follow the others.
     """
     found = [each for tree in trees.values() for each in tree.parameters if not _is_built_in(each.name)]
     ranked = [(rank, each) for each in found if (rank := importance(each)) is not None and rank <= DISTANCE]
@@ -175,12 +174,12 @@ def essential_rows(trees: Mapping[str, ParameterTree]) -> list[Row]:
 
 
 def _name_among(parameter: ParameterInfo, names: Mapping[str, int]) -> str:
-    """The name of a parameter; with its node where several nodes have one of that name."""
+    """The name of a parameter; with its node if several nodes have a parameter of that name."""
     return parameter.name if names[parameter.name] == 1 else f"{parameter.name} {parameter.node.removeprefix('/')}"
 
 
 def worth_changing(found: Sequence[Row]) -> int:
-    """The row that the cursor begins on: the parameter that matters most, else the first one, else the first row."""
+    """The row where the cursor starts: the parameter that matters most, else the first one, else the first row."""
     parameters = [(at, row.parameter) for at, row in enumerate(found) if row.parameter is not None]
     ranked = [(rank, at) for at, each in parameters if (rank := importance(each)) is not None]
     return min(ranked)[1] if ranked else parameters[0][0] if parameters else 0
@@ -206,7 +205,7 @@ def _spaces(nodes: tuple[str, ...]) -> dict[str, tuple[str, ...]]:
     found: dict[str, tuple[str, ...]] = {}
     for node in nodes:
         spaces = [space for space in _above(node) if counts[space] > 1]
-        # Of namespaces with the same nodes, the innermost one is shown.
+        # Of nested namespaces with the same nodes, only the innermost is shown.
         found[node] = tuple(
             each for at, each in enumerate(spaces) if at + 1 == len(spaces) or counts[spaces[at + 1]] < counts[each]
         )
@@ -229,7 +228,7 @@ class _Sorted:
         self._own = [at for at, each in enumerate(self._parameters) if not _is_built_in(each.name)]
 
     def count(self, view: View) -> int:
-        """The number of parameters to filter, with or without those that every node has."""
+        """The number of parameters to filter, with or without the built-in ones."""
         return len(self._parameters if view.built_in else self._own)
 
     def passing(self, view: View) -> list[ParameterInfo]:
@@ -263,9 +262,10 @@ def _is_built_in(name: str) -> bool:
 
 
 def namesake(found: Sequence[Row], name: str, cursor: int) -> int | None:
-    """The row of the parameter with exactly this name, or with it as the last level: at the cursor, else the first.
+    """The row of a parameter with exactly this name, or else with it as the last level; None if there is none.
 
-    A filter also shows rows that merely mention the words; someone who types a whole name means that parameter.
+    Of several, the one at the cursor is preferred, then the first. A filter also shows rows that merely mention the
+    words; a user who types a whole name means that parameter.
     """
     called = [at for at, each in enumerate(found) if each.name.endswith(name) and each.parameter] if name else []
     full = {at: each.parameter.name for at in called if (each := found[at]).parameter}
@@ -299,7 +299,7 @@ def _order(name: str) -> tuple[tuple[bool, NaturalKey], ...]:
 def _below(
     node: str, parameters: Sequence[ParameterInfo], level: int, depth: int, folded: Collection[str]
 ) -> Iterator[Row]:
-    """Rows of parameters with common first levels; at least two that share another level get a group row."""
+    """The rows of parameters that share their first `level` levels; two or more that share the next one get a group."""
     at = 0
     while at < len(parameters):
         first = parameters[at]
@@ -317,7 +317,7 @@ def _below(
 
 
 def _group(node: str, group: Sequence[ParameterInfo], level: int, depth: int, folded: Collection[str]) -> Iterator[Row]:
-    """A group with one or more common levels."""
+    """The row of a group whose parameters share one or more levels, and the rows below it."""
     parts = _parts(group[0].name)
     deepest = level + 1
     while len(parts) > deepest + 1 and all(_shares(each, parts, deepest) for each in group):

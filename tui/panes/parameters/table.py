@@ -1,4 +1,4 @@
-"""Draws the rows of the parameter pane: name, value, slider, and description or reason of a refusal."""
+"""The table of the parameter pane: name, value, slider, and the description or the reason of a refusal."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from textual.events import Click, MouseDown, MouseMove, MouseUp
 from textual.message import Message
 
 READ_ONLY = "read only"
-"""Beside a value that cannot be set, where there is room for the whole note."""
+"""Shown beside a value that cannot be set, if all of it fits."""
 
 
 class ParameterRows(ItemList[Row]):
@@ -53,15 +53,15 @@ class ParameterRows(ItemList[Row]):
         super().__init__()
         self._edits = edits
         self.flashing: dict[tuple[str, str], float] = {}
-        """Values that have just changed, with the time (s) until which they are highlighted."""
+        """The values that have just changed, with the times (s) until which they are highlighted."""
 
         self._measures = Measures()
         self.split = 0
-        """By how many cells the user has moved the edge between names and values."""
+        """The number of cells by which the user has moved the edge between names and values."""
         self._dragged = False
 
     def move_split(self, cells: int) -> None:
-        """Move the edge between names and values, as far as it goes."""
+        """Move the edge between names and values, unless it is at its limit."""
         own = columns(self._measures, self.across, self.split)
         moved = columns(self._measures, self.across, self.split + cells)
         if moved.name != own.name:
@@ -69,20 +69,20 @@ class ParameterRows(ItemList[Row]):
             self.refresh()
 
     def on_mouse_down(self, event: MouseDown) -> None:
-        """Take hold of the edge between names and values."""
+        """Start dragging the edge between names and values."""
         edge = MARKS_CELLS + columns(self._measures, self.across, self.split).name
         self._dragged = edge <= event.x < edge + GAP_CELLS and 0 <= event.y + self.scroll_offset.y < self.row_count()
         if self._dragged:
             self.capture_mouse()
 
     def on_mouse_move(self, event: MouseMove) -> None:
-        """Move the edge with the mouse."""
+        """Drag the edge."""
         if self._dragged and self.app.mouse_captured is self:  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
             edge = MARKS_CELLS + columns(self._measures, self.across, self.split).name
             self.move_split(event.x - edge)
 
     def on_mouse_up(self, event: MouseUp) -> None:
-        """Let go of the edge."""
+        """Stop dragging the edge."""
         self.release_mouse()
 
     @property
@@ -95,14 +95,14 @@ class ParameterRows(ItemList[Row]):
         return item.node, item.name, item.parameter.name if item.parameter else ""
 
     def exchange(self, rows: Sequence[Row], *, stay: bool = True) -> None:
-        """Show other rows; where the columns have moved all of them are drawn."""
+        """Show these rows; if the columns have moved, redraw all of them."""
         before, self._measures = self._measures, measured(rows)
         super().exchange(rows, stay=stay)
         if self._measures != before:
             self.refresh()
 
     def matches(self, index: int, query: Query) -> bool:
-        """Whether a parameter matches a filter; its node and its group are no matches."""
+        """Whether the row is a parameter that matches a filter; nodes and groups never do."""
         parameter = self.rows[index].parameter
         return parameter is not None and matches(parameter, query)
 
@@ -143,7 +143,7 @@ class ParameterRows(ItemList[Row]):
             waits = f"… {sanitize(value_text(late[key]))}: not answered yet" if key in late else ""
             note = waits or (beside_row(refused) if refused else "")
             cells = min(own.value, left)
-            if left - cells - GAP_CELLS < len(note):  # the column is as wide as the longest value, which is another one
+            if left - cells - GAP_CELLS < len(note):  # the column may be wider than this value needs
                 cells = min(cells, len(value))
             output = Segment(cut(note, max(0, left - cells - GAP_CELLS)), self.row_style("warn" if waits else "error"))
             return [*segments, Segment(cut(value, cells, pad=True) + " " * GAP_CELLS), output]
@@ -165,22 +165,22 @@ class ParameterRows(ItemList[Row]):
         return segments
 
     def signs(self, parameter: ParameterInfo) -> tuple[tuple[str, bool], ...]:
-        """The marks of a parameter, each with whether it has it."""
+        """The two marks before a parameter, each with whether it is drawn."""
         key = (parameter.node, parameter.name)
         from_elsewhere = parameter.origin.startswith(SET_BY[ChangeSource.OTHER])
         first = ("•", True) if parameter.changed else ("◦", key in self._edits.moved)
         return (first, ("*", True) if key in self._edits.unsaved else ("~", from_elsewhere))
 
     def _value(self, value: str, column: int, left: int, parameter: ParameterInfo, more: bool) -> Segment:
-        """A value in its column if something stands beside it and it fits, else in all the room there is."""
+        """A value in its column if more follows and it fits; otherwise in all the room that is left."""
         text = cut(value, column, pad=True) if more and len(value) <= column else cut(value, left)
         if (parameter.node, parameter.name) in self.flashing:
             return Segment(text, self.row_style("good") + Style(reverse=True))
         return Segment(text, self.row_style("dim") if parameter.read_only else None)
 
     def on_click(self, event: Click) -> None:
-        """A click chooses the row; on the slider it sets the value, on what is chosen it opens or edits."""
-        event.prevent_default()  # what any other list does
+        """Select the clicked row; set the value on its slider; post `Pressed` if the row was selected already."""
+        event.prevent_default()  # the handler of other lists
         index = event.y + self.scroll_offset.y
         if not 0 <= index < self.row_count():
             return
@@ -203,7 +203,7 @@ class ParameterRows(ItemList[Row]):
 
 
 def bar(parameter: ParameterInfo, cells: int) -> str:
-    """Where a number stands in its range, as a slider of some cells."""
+    """A slider of `cells` cells that shows where a number is in its range; empty without a finite range."""
     limits, value = parameter.range, parameter.value
     if limits is None or not limits.finite or isinstance(value, (bool, str, tuple)) or value is None:
         return ""

@@ -14,11 +14,11 @@ from bot_console.tui.widgets.prompt.question import Option
 
 KINDS = {Kind.BOOL: "bool", Kind.INTEGER: "integer", Kind.DOUBLE: "double"}
 MAX_COMPLETIONS = 50
-"""Completions that are offered at most."""
+"""Maximum number of completions offered."""
 
 
 def tunable_of(parameter: ParameterInfo) -> Tunable | None:
-    """A parameter as what is tuned; None where it is no number or boolean, or cannot be set."""
+    """The tunable for a parameter; None if it is not a number or boolean, or cannot be set."""
     kind, value = KINDS.get(parameter.kind), parameter.value
     if kind is None or parameter.read_only or not isinstance(value, (bool, int, float)):
         return None
@@ -29,7 +29,7 @@ def tunable_of(parameter: ParameterInfo) -> Tunable | None:
 
 
 def ranges_text(tunables: Sequence[Tunable]) -> str:
-    """Tunables as they are typed, with their ranges where they have one."""
+    """Tunables as the user would type them, with their ranges if they have one."""
     return " ".join(
         each.label
         if each.kind == "bool" or not math.isfinite(each.low)
@@ -48,7 +48,7 @@ def wrong_ranges(known: Sequence[Tunable], text: str) -> str:
 
 
 def scores(plottable: Sequence[str], typed: str) -> list[Option]:
-    """Ready scores, what was typed where it is a formula, and how it may go on."""
+    """The options for a typed score: predefined scores, the text itself if it is a formula, and completions."""
     found = [
         Option(name, f"{what}: {formula}")
         for name, (formula, what) in READY.items()
@@ -77,7 +77,7 @@ def _completions(plottable: Sequence[str], typed: str) -> list[Option]:
 
 
 def numbers(text: str) -> tuple[int, float]:
-    """Runs, and simulated s of each, of `60 30`; raises `ValueError`."""
+    """Parse the number of runs and the simulated seconds of each, such as `60 30`; raises `ValueError`."""
     words = text.split()
     try:
         runs, seconds = int(words[0]), float(words[1]) if len(words) > 1 else 60.0
@@ -91,7 +91,7 @@ def numbers(text: str) -> tuple[int, float]:
 def specification_of(
     tunables: Sequence[Tunable], score: str, text: str, trees: Mapping[str, ParameterTree]
 ) -> TuningSpecification:
-    """The question for the system as it runs; raises `ValueError`."""
+    """The tuning specification, based on the values of the running system; raises `ValueError`."""
     runs, seconds = numbers(text)
     return TuningSpecification(
         tuple(tunables), parse_score(score), runs=runs, duration=seconds, base=running_values(trees)
@@ -99,7 +99,7 @@ def specification_of(
 
 
 def running_values(trees: Mapping[str, ParameterTree]) -> dict[str, dict[str, Any]]:
-    """The values of the nodes of the running system, as far as a run can be given them."""
+    """The values of the running system's nodes, as far as a simulated run can be started with them."""
     values: dict[str, dict[str, Any]] = {}
     for tree in trees.values():
         for each in tree.parameters if "/_" not in tree.node else ():

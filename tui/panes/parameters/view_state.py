@@ -1,4 +1,4 @@
-"""The view state of the parameter tree (open, filtered, selected) as plain data for the next start. Pure."""
+"""The view state of the parameter tree (folds, filter, cursor) as plain data, kept for the next start. Pure."""
 
 from __future__ import annotations
 
@@ -11,33 +11,33 @@ from bot_console.tui.files.state_store import texts_in
 from bot_console.tui.panes.parameters.rows import View
 
 At = tuple[str, str, str]
-"""A row: its node, its name in the tree, its parameter."""
+"""The key of a row: its node, its name in the tree, and the name of its parameter."""
 MAX_FOLDS = 5000
-"""Folds that are kept."""
+"""Maximum number of folds kept."""
 MAX_SPLIT = 500
-"""Cells by which an edge can have been moved."""
+"""Maximum cells by which the edge can have been moved."""
 
 
 @dataclass(frozen=True)
 class Left:
-    """The filter's words, the view that they belong to, and the row at the cursor."""
+    """The state of the tree when the console was left: the filter, the view, and the row at the cursor."""
 
     words: str
     view: View
     at: At | None = None
     split: int = 0
-    """By how many cells the edge between names and values was moved."""
+    """The number of cells by which the edge between names and values was moved."""
 
     @property
     def data(self) -> dict[str, object]:
-        """As plain data; what is as in a first run is left out."""
+        """The state as plain data, without defaults."""
         found: dict[str, object] = {"filter": self.words, "changed": self.view.only_changed}
         found |= {"split": self.split, "built_in": self.view.built_in, "closed": sorted(self.view.folded)[:MAX_FOLDS]}
         return {key: each for key, each in found.items() if each} | ({"at": list(self.at)} if self.at else {})
 
 
 def left_of(data: object) -> Left | None:
-    """How it was left; None where that is not known, or where its filter is none any more."""
+    """Restore the state; None if `data` is no state, or its filter is no longer valid."""
     if not isinstance(data, Mapping):
         return None
     given = cast("Mapping[str, Any]", data)

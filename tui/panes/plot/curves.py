@@ -12,9 +12,9 @@ from bot_console.tui.text.expression.tree import is_parameter
 
 Array = npt.NDArray[np.float64]
 MAX_SAMPLES = 20_000
-"""Samples of one curve that are kept."""
+"""Maximum number of samples kept per curve."""
 ROOM = MAX_SAMPLES + MAX_SAMPLES // 4
-"""Samples for which memory is taken at once: arrays that grow by a few samples at a time leave holes behind them."""
+"""Samples for which memory is allocated at once: arrays that grow a few samples at a time fragment the memory."""
 
 
 def _empty() -> Array:
@@ -23,7 +23,7 @@ def _empty() -> Array:
 
 @dataclass
 class Curve:
-    """A plotted path and its samples; `problem` says why none come."""
+    """A plotted path and its samples; `problem` says why there are none."""
 
     path: str
     colour: int = 0
@@ -37,9 +37,9 @@ class Curve:
     """Whether it is measured on the right axis."""
     thresholds: tuple[Threshold, ...] = ()
     by_header: bool = False
-    """Whether samples lie where their headers say, instead of where they came."""
+    """Whether samples are placed by the times in their headers instead of their arrival times."""
     _room: Array = field(default_factory=lambda: np.zeros((3, 0)), repr=False, compare=False)
-    """The arrays that times, values and headers are parts of; what lies behind their end is free."""
+    """The allocated arrays, of which times, values and headers are slices; everything after `_end` is free."""
     _end: int = field(default=0, repr=False, compare=False)
 
     @property
@@ -59,7 +59,7 @@ class Curve:
         return float(times[-1]) if len(times) else None
 
     def samples(self) -> tuple[Array, Array]:
-        """All times, rising, and values."""
+        """All times, ascending, and values."""
         if not self.by_header or len(self.headers) != len(self.times):
             return self.times, self.values
         times = np.where(np.isfinite(self.headers), self.headers, self.times)
@@ -75,7 +75,7 @@ class Curve:
         return float(values[place]) if place >= 0 else None
 
     def take_in(self, plots: Plots) -> bool:
-        """Fetch new samples; whether there were any."""
+        """Fetch new samples; returns whether there were any, or the problem has changed."""
         samples = plots.samples(self.path, self.cursor)
         changed = self.problem != samples.problem or samples.cursor != self.cursor
         self.cursor, self.problem = samples.cursor, samples.problem
@@ -85,7 +85,7 @@ class Curve:
         return changed
 
     def _add(self, new: Array) -> None:
-        """Add samples behind the last; what somebody holds of the earlier ones stays as it is."""
+        """Append samples; slices of earlier samples that callers hold stay valid."""
         kept, count = min(len(self.times), MAX_SAMPLES - new.shape[1]), new.shape[1]
         first = len(self.times) - kept
         if self._end + count > self._room.shape[1]:
@@ -98,7 +98,7 @@ class Curve:
         self.times, self.values, self.headers = self._room[:, self._end - kept - count : self._end]
 
     def clear(self) -> None:
-        """Forget the samples, but for the newest value of a parameter, which still holds."""
+        """Discard the samples, except for the newest value of a parameter, which still holds."""
         first = len(self.times) - min(1 if self.steps else 0, len(self.times))
         self.times, self.values, self.headers = self.times[first:], self.values[first:], self.headers[first:]
 
@@ -114,7 +114,7 @@ class Curve:
 
 
 def stepped(times: Array, values: Array, end: float) -> tuple[Array, Array]:
-    """Steps: each value holds until the next one, the last one until the end."""
+    """Turn samples into steps: each value holds until the next one, the last one until `end`."""
     moments = np.repeat(times, 2)[1:]
     held = np.repeat(values, 2)[:-1]
     return np.append(moments, max(end, float(times[-1]))), np.append(held, values[-1])
@@ -122,14 +122,14 @@ def stepped(times: Array, values: Array, end: float) -> tuple[Array, Array]:
 
 @dataclass(frozen=True)
 class Reach:
-    """The lowest and highest value of each column of dots; NaN where there is nothing."""
+    """The lowest and highest value in each column of dots; NaN where there is none."""
 
     low: Array
     high: Array
 
 
 def reach(times: Array, values: Array, start: float, end: float, columns: int) -> Reach:
-    """Reduce a polyline to what each column of dots has to show, so that drawing costs the same for any length."""
+    """Reduce a polyline to the range of each column of dots, so that drawing costs the same for any length."""
     low, high = np.full(columns, np.nan), np.full(columns, np.nan)
     if len(times) == 0 or end <= start:
         return Reach(low, high)

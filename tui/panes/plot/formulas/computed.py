@@ -11,7 +11,7 @@ from bot_console.tui.panes.plot.formulas.formula import Formula, Held
 
 
 class Computed(Curve):
-    """An expression over curves. It keeps no samples: what is seen is worked out of what they have."""
+    """An expression over curves. It stores no samples: its values are computed from theirs when they are needed."""
 
     def __init__(self, formula: Formula, colour: int, parts: Mapping[str, Curve]) -> None:
         super().__init__(formula.text, colour)
@@ -20,7 +20,7 @@ class Computed(Curve):
 
     @property
     def steps(self) -> bool:
-        """Whether all of it are parameters."""
+        """Whether the expression contains parameters only."""
         return not self._formula.lead
 
     @property
@@ -37,7 +37,7 @@ class Computed(Curve):
         return max(ends, default=None)
 
     def take_in(self, plots: Plots) -> bool:
-        """Nothing is fetched, the parts are; whether they have changed."""
+        """Fetch nothing, as the parts are fetched separately; returns whether they have changed."""
         cursor = sum(each.cursor for each in self._parts.values())
         problem = next((each.problem for each in self._parts.values() if each.problem), "")
         changed = (cursor, problem) != (self.cursor, self.problem)
@@ -49,13 +49,13 @@ class Computed(Curve):
         return self._formula.values(self._known())
 
     def at(self, time: float) -> float | None:
-        """The value that was the newest one at a time."""
+        """The value that was the newest one at a time; None before the first."""
         times, values = self._formula.values(self._known(), time, time)
         place = int(np.searchsorted(times, time, side="right")) - 1
         return float(values[place]) if place >= 0 else None
 
     def clear(self) -> None:
-        """Nothing is kept here."""
+        """Do nothing: no samples are stored here."""
 
     def between(self, start: float, end: float) -> tuple[Array, Array]:
         """The polyline from `start` to `end` (s)."""
