@@ -1,4 +1,4 @@
-"""Each promise is kept by the scripted system and by real ones, whichever way their nodes are connected."""
+"""Runs each contract on the scripted system and on real ones, however their nodes are connected."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ WAYS = [
 ]
 """Networks are mostly tested in `tests/unit/rmw/zenoh` and `acceptance/console/test_network_faults.py`.
 
-The last one is for machines with a ROS 2: `BOT_CONSOLE_TESTS_ON=ros pytest -m ros tests/contract`.
+The last rig is for machines with a ROS 2: `BOT_CONSOLE_TESTS_ON=ros pytest -m ros tests/contract`.
 """
 
 HERE = Path(__file__).parent
@@ -29,7 +29,7 @@ OURS = {
     "test_seals.py": "the seals that our middleware adds to messages",
     "test_two_processes.py": "two processes that meet over our middleware",
 }
-"""Files that test features of our runtime only, with the reason why they are skipped on another rclpy."""
+"""Files that test only features of our runtime, with the reason why they are skipped on another rclpy."""
 
 
 class OfOurs(pytest.Module):
@@ -48,12 +48,12 @@ def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> 
 
 
 ONCE = ("mesh", "hosted", "attached")
-"""Ways on which the default run tries only the first of several values: they say nothing about the way."""
+"""Rigs on which the default run tries only the first of several values: the values do not depend on the rig."""
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what the default run leaves to that of the slow tests."""
+    """Mark the tests that the default run leaves to the run of the slow tests."""
     begun: set[tuple[Path, str, str]] = set()
     for each in items:
         if isinstance(each, pytest.Function) and each.path.parent == HERE and hasattr(each, "callspec"):

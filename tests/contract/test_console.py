@@ -1,4 +1,4 @@
-"""What `Console` promises apart from parameters: snapshots, logs, series, driving, commands, and its end."""
+"""The contract of `Console`, except for parameters: snapshots, logs, series, driving, commands, and closing."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ SEVERITIES = (Severity.INFO, Severity.WARN, Severity.ERROR, Severity.FATAL)
 
 
 def seqs(rig: Rig, which: LogFilter | None = None, after: int = 0, limit: int | None = None) -> list[int]:
-    """Numbers of the robot's records."""
+    """The numbers of the robot's log records."""
     return list(rig.console.logs.matching(which or LogFilter(words="node:robot"), after, limit))
 
 
 def publish_all(rig: Rig) -> list[int]:
-    """Let the robot log one line of each severity; returns their numbers."""
+    """Let the robot log one line of each severity; return their numbers."""
     for severity in SEVERITIES:
         rig.show_text(severity, f"it is {severity.name}")
     until(lambda: len(seqs(rig)) == len(SEVERITIES), "four records")

@@ -1,4 +1,4 @@
-"""Content filters keep the same messages here and on the live rclpy that has them (Kilted; Jazzy since 7.1.8)."""
+"""Content filters keep the same messages here and on a live rclpy that has them (Kilted; Jazzy since 7.1.8)."""
 
 from __future__ import annotations
 
@@ -97,7 +97,8 @@ def node() -> Iterator[Node]:
 
 @pytest.fixture
 def filtered(node: Node, request: pytest.FixtureRequest) -> Callable[..., Any]:
-    """Make a subscription with its list of what it received, and what publishes the messages of a kind to it."""
+    """A function that makes a filtered subscription; it returns the list of received messages and a publishing
+    function."""
 
     def make(kind: Any, *wanted: Any, **options: Any) -> tuple[Any, list[Any], Callable[[], list[Any]]]:
         message_type, messages, shown = kind
@@ -119,7 +120,7 @@ def filtered(node: Node, request: pytest.FixtureRequest) -> Callable[..., Any]:
             end.publish(String())
             while None not in received:
                 rclpy.spin_once(node, timeout_sec=1.0)
-            for _ in range(2 * len(messages) + 2):  # the end may overtake what is still to be served
+            for _ in range(2 * len(messages) + 2):  # the end may overtake messages that are still to be processed
                 rclpy.spin_once(node, timeout_sec=0.0 if WAY == "embedded" else 0.02)
             return [each if isinstance(each, bytes) else shown(each) for each in received if each is not None]
 

@@ -1,4 +1,4 @@
-"""The exported package on an rclpy that is not ours: its nodes run with each profile, and a stop outlives its locks."""
+"""The exported package on a foreign rclpy: its nodes run with each profile, and a stop outlives its locks."""
 
 from __future__ import annotations
 

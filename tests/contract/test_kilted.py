@@ -1,4 +1,4 @@
-"""`--distro kilted` and `BOT_CONSOLE_DISTRO` give the answers of the real rclpy of Kilted."""
+"""`--distro kilted` and `BOT_CONSOLE_DISTRO` give the results of the real rclpy of Kilted."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rigs import is_embedded_rclpy
 
 PROGRAM = str(LIVE / "kilted_answers.py")
 RECORDED = LIVE / "kilted_answers.txt"
-"""What the program prints on the rclpy 9.1.2 of PyPI."""
+"""The output of the program on the rclpy 9.1.2 of PyPI."""
 OURS = str(Path(sys.executable).with_name("bot-console"))
 
 

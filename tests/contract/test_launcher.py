@@ -1,4 +1,5 @@
-"""What `Launcher` promises: files, arguments, launches, each process started, stopped, restarted and killed."""
+"""The contract of `Launcher`: files, arguments, launches, and processes that are started, stopped, restarted and
+killed."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ PEER = Path(__file__).resolve().parents[1] / "helpers" / "processes" / "sdk_peer
 
 
 def beside(socket: Path) -> dict[str, str]:
-    """The environment in which the other one connects to our socket, and neither listens nor scouts."""
+    """The environment in which the other implementation connects to our socket, and neither listens nor scouts."""
     settings = {
         "mode": '"peer"',
         "connect/endpoints": f'["unixsock-stream/{socket}"]',

@@ -1,4 +1,4 @@
-"""Our `ros2` verbs on an rclpy that is not ours, as typed after `:` where the machine has no `ros2`."""
+"""Our `ros2` verbs on a foreign rclpy, as typed after `:` where the machine has no `ros2`."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def test_bag_is_played_into_the_ros2_of_this_machine(peer: None, tmp_path: Path)
     line = [sys.executable, "-m", "bot_console.tui", "bag", "play", str(tmp_path / "bag"), "--ros", "--rate", "10"]
     with (tmp_path / "heard").open("w") as heard:
         hears = subprocess.Popen([sys.executable, "-c", HEARS], stdout=heard)
-        # In a loop: how long two processes take to find each other is up to the middleware.
+        # In a loop: how long two processes take to find each other depends on the middleware.
         player = subprocess.Popen([*line, "--loop", "--disable-keyboard-controls"])
     try:
         until(lambda: "word " in (tmp_path / "heard").read_text(), "a message of the bag")
@@ -119,7 +119,7 @@ def test_verb_works_without_an_installed_ros2(peer: None, line: str, printed: st
         print(output)
         return printed in output
 
-    # Each process discovers the graph anew, and on a busy machine it may print before it has found the node.
+    # Each process discovers the graph from the start, and on a busy machine it may print before it has found the node.
     until(is_printed, repr(printed))
 
 

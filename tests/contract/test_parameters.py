@@ -1,4 +1,4 @@
-"""What `Console` promises about parameters: listed, described, set, refused with the reason, undone, in profiles."""
+"""The contract of `Console` for parameters: listed, described, set, refused with the reason, undone, in profiles."""
 
 from __future__ import annotations
 
@@ -158,7 +158,7 @@ def test_values_of_two_nodes_are_set_together_and_reverted_by_one_undo(rig: Rig)
 
 @pytest.mark.parametrize("rule", ["descriptor", "callback"])
 def test_values_refused_by_one_node_are_set_on_none(rig: Rig, rule: str) -> None:
-    """The robot is asked after the arm, in the order of the request; nobody knows its callback's rule beforehand."""
+    """The robot is asked after the arm, in the order of the request; nobody knows its callback's rule in advance."""
     if rule == "callback":
         rig.forbid_speed()
     outcomes = rig.console.parameters.set_all(

@@ -1,7 +1,7 @@
 """A hundred small programs, as in tutorials and examples, end here as on the real rclpy of Jazzy.
 
-`live/programs.json` has what they print, log and end with there; `live/programs.yaml` lists those that differ here, and
-why. `python tools/compare_programs.py REAL_PYTHON` runs both side by side.
+`live/programs.json` has their output, log lines and exit codes there; `live/programs.yaml` lists the programs that
+differ here, and why. `python tools/compare_programs.py REAL_PYTHON` runs both side by side.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from helpers.recorded.programs import differing, names, outcome, recorded
 from rigs import is_embedded_rclpy
 
 DEFAULT_RUN, EACH_CHANGE = 60, 20
-"""Of so many programs one is in the default run, and one runs with `-m slow`; the others run with `-m soak`."""
+"""One in 60 programs is in the default run, one in 20 runs with `-m slow`, and the others with `-m soak`."""
 OURS = [str(Path(sys.executable).with_name("bot-console")), "run"]
 ADDED_IN_3_13 = " and no __dict__ for setting new attributes"
 """What Python 3.13 appends to a message of the interpreter."""
@@ -24,7 +24,7 @@ pytestmark = pytest.mark.timeout(180)
 
 
 def programs() -> list[object]:
-    """All names, with the marks of the run that each is in."""
+    """The names of all programs, with the mark of the run to which each belongs."""
     shares = ((DEFAULT_RUN, ()), (EACH_CHANGE, pytest.mark.slow), (1, pytest.mark.soak))
     return [
         pytest.param(each, marks=next(marks for share, marks in shares if number % share == 0))

@@ -1,6 +1,6 @@
-"""What each pane's backend sees of one scene is what was recorded with our runtime, wherever the scene is played.
+"""The backend of each pane sees the same of one scene as was recorded with our runtime, wherever the scene is played.
 
-With BOT_CONSOLE_TESTS_RECORD=FOLDER, what was seen is also written there, for comparison with `recorded/`.
+With BOT_CONSOLE_TESTS_RECORD=FOLDER, the result is also written there, for comparison with `recorded/`.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A session is reopened underneath an unaware node: no call raises, and afterwards everything works as before."""
+"""A session is reopened without its node noticing: no call raises, and afterwards everything works as before."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def session_of(here: Here) -> MeshSession:
 
 
 def while_reopened(here: Here, call: Callable[[], None], times: int = TIMES) -> None:
-    """Repeat a call in this thread while the session is reopened in another, each at least `times` times.
+    """Repeat a call in this thread while another thread reopens the session, each at least `times` times.
 
     How long either takes depends on the machine.
     """
@@ -47,7 +47,7 @@ def while_reopened(here: Here, call: Callable[[], None], times: int = TIMES) -> 
         nonlocal opened
         try:
             while opened < times or called < times:
-                with suppress(SessionError):  # the closed one still holds its socket: the watch tries again, too
+                with suppress(SessionError):  # the closed session still holds its socket: the watch tries again, too
                     session_of(here).rejoin(lambda folder: True)
                     opened += 1
         finally:
@@ -121,7 +121,7 @@ def test_requests_and_reliable_messages_sent_meanwhile_arrive(here: Here) -> Non
     session, join = session_of(here), session_of(here)._join
 
     def joining(folder: str) -> None:
-        """Between the closing of the old session and the opening of the new one."""
+        """The state between closing the old session and opening the new one."""
         asked.append(pull.call_async(Trigger.Request()))
         show_text.publish(String(data="meanwhile"))
         join(folder)

@@ -1,6 +1,6 @@
-"""A node that was killed leaves the parameters at the end of its lease, and is in them again once it is restarted.
+"""A killed node leaves the parameters at the end of its lease, and returns to them once it is restarted.
 
-A process that was only stopped, or unreachable, for longer than its lease is another matter: `tests/soak/leases.py`.
+`tests/soak/leases.py` tests the other case: a process that was only stopped or unreachable for longer than its lease.
 """
 
 from __future__ import annotations
@@ -51,7 +51,7 @@ LEASE = """<?xml version="1.0" encoding="UTF-8" ?>
   </discovery_config></builtin></rtps></participant>
 </profiles>
 """
-"""Fast DDS itself waits for 20 s."""
+"""A lease shorter than the 20 s of Fast DDS."""
 
 
 @contextmanager

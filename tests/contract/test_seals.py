@@ -1,6 +1,4 @@
-"""Everything sent to other processes carries a seal, by which a receiver can tell a truncated message from a whole
-one.
-"""
+"""Everything sent to other processes carries a seal, by which a receiver recognises truncated messages."""
 
 import os
 import threading

@@ -1,4 +1,4 @@
-"""What rclpy promises holds between two processes; the module shares one system."""
+"""The guarantees of rclpy hold between two processes; all tests of this module share one system."""
 
 import pytest
 from example_interfaces.action import Fibonacci

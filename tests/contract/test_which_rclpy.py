@@ -1,4 +1,4 @@
-"""With the rclpy of PyPI in the environment of a set-up shell: who uses which, and what `doctor` reports."""
+"""With PyPI's rclpy in the environment of a set-up shell: which program uses which rclpy, and what `doctor` reports."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def shell(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
 
 @pytest.fixture(scope="module")
 def talker(shell: dict[str, str]) -> Iterator[str]:
-    """The file of the rclpy of a node that plain `python3` runs."""
+    """A node run by plain `python3`; yields the file from which its rclpy comes."""
     line = ["python3", "-c", TALKER]
     with subprocess.Popen(line, env=shell, stdout=subprocess.PIPE, text=True) as process:
         assert process.stdout is not None

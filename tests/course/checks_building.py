@@ -1,4 +1,4 @@
-"""Building the workspace, where the page says `colcon build`: changes of a source take effect at once."""
+"""Building the workspace where the page says `colcon build`: changes of a source take effect at once."""
 
 from __future__ import annotations
 

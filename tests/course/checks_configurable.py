@@ -48,7 +48,7 @@ def safety_is_switched(page: Page, row: Row) -> None:
 
 
 def after_a_scan(page: Page, nearest: float) -> str:
-    """`linear.x` of the robot's answer to a scan."""
+    """`linear.x` of the robot's response to a scan."""
     echo = page.start("ros2 topic echo /cmd_vel --once --field linear.x")
     page.ask(f"ros2 topic pub --once /scan sensor_msgs/msg/LaserScan '{{ranges: [3.0, {nearest}]}}'")
     return echo.stdout.splitlines()[0]
@@ -96,7 +96,7 @@ def the_value_is_set(page: Page, row: Row) -> None:
 
 @row(51)
 def dump_has_no_such_option(page: Page, row: Row) -> None:
-    """As in real ROS 2 of today (N6); without it the parameters are printed."""
+    """As in current ROS 2 (N6); without the option the parameters are printed."""
     starts(page, 47)
     answer = page.ask(row.command)
     assert answer.exit == 2
@@ -106,7 +106,7 @@ def dump_has_no_such_option(page: Page, row: Row) -> None:
 
 @row(52)
 def the_file_loads(page: Page, row: Row) -> None:
-    """The name that the node does not declare is ignored (N7)."""
+    """A name that the node does not declare is ignored (N7)."""
     starts(page, 53)
     stated = {"max_speed": "2.0", "safety_distance": "0.6", "detection_threshold": "120", "enable_safety": "True"}
     assert {name: page.value(NODE, name) for name in stated} == stated

@@ -22,7 +22,7 @@ def as_printed(page: Page, seconds: float = 0.5) -> Program:
 
 
 def repaired(page: Page) -> Program:
-    """The listing, with `Parameter` imported from where it is meant to come from (N13)."""
+    """The listing, with `Parameter` imported from the intended module (N13)."""
     text = (COURSE / "nodes" / "dynamic_robot.py").read_text("utf-8")
     wrong = "from rcl_interfaces.msg import SetParametersResult, Parameter\n"
     right = "from rcl_interfaces.msg import SetParametersResult\nfrom rclpy.parameter import Parameter\n"

@@ -87,7 +87,7 @@ def without_the_executables_that_are_not_printed_it_says_which_is_missing(page: 
 
 @row(75, 76, 77, 78, complete=True)
 def the_three_nodes_are_listed(page: Page, row: Row) -> None:
-    """In the order of names, not of the page (N9)."""
+    """In alphabetical order, not in the page's (N9)."""
     launched(page, page.row(74).command)
     listed = page.ask(page.row(75).command).stdout.split()
     assert row.number == 75 or row.command in listed

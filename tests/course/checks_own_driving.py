@@ -31,7 +31,7 @@ for distance in {distances}:
 node.destroy_node()
 rclpy.shutdown()"""
 FREE, NEAR = 8.0, 0.2
-"""Distances (m) ahead that count as open space, and as an obstacle, with every setting."""
+"""Distances (m) ahead that count, whatever the settings, as open space and as an obstacle."""
 
 
 class Answer(NamedTuple):
@@ -127,7 +127,7 @@ STAMP = re.compile(r"\[(\d{10}\.\d{9})\] \[robot_navigator\]: (.*)$", re.MULTILI
 
 @row(302, 332, own=True, alike=True)
 def each_change_is_logged_with_its_time(page: Page, row: Row) -> None:
-    """Once each, and not if refused; the robot gets a change every 1.5 s."""
+    """Each change is logged once, and not at all if refused; the robot gets a change every 1.5 s."""
     started = start(page, "robot_navigator")
     for name, (value, _) in CHANGES.items():
         put(page, name, value)
@@ -147,7 +147,7 @@ AT_START = {"enable_stamped_cmd_vel": "True", "model": "turtlebot4"}
 
 @row(342, own=True, slow=True)
 def each_parameter_can_be_set(page: Page, row: Row) -> None:
-    """To a value that it does not have yet."""
+    """Each parameter is set to a value that it does not have yet."""
     read_only = {**AT_START, "stop_file": str(page.scratch / "stops.json")}
     for name in NODES:
         program = start(page, name)
@@ -173,7 +173,7 @@ def parameters(page: Page, node: str) -> dict[str, Any]:
 
 
 def another(page: Page, node: str, name: str, value: Any) -> Any:
-    """Another valid value of the parameter."""
+    """A different valid value of the parameter."""
     if isinstance(value, bool):
         return not value
     if isinstance(value, (int, float)):

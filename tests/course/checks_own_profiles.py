@@ -1,4 +1,4 @@
-"""The bundled profiles and launch files, judged by what the robot does with them."""
+"""The bundled profiles and launch files, judged by how the robot behaves with them."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def manner(page: Page, name: str) -> Manner:
 
 
 def faster(page: Page, one: str, other: str) -> bool:
-    """In open space, and in its world."""
+    """Whether one profile is faster than another, in open space and in its own world."""
     quick, slow = manner(page, one), manner(page, other)
     return quick.speed > slow.speed and quick.driven > slow.driven
 
@@ -130,7 +130,7 @@ def all_nodes_load_the_one_file(page: Page, row: Row) -> None:
 
 @row(334, own=True)
 def each_environment_has_its_configuration(page: Page, row: Row) -> None:
-    """Settings and world, by the argument of the launch file for environments."""
+    """Settings and world, selected by the argument of the environment launch file."""
     for environment in ("warehouse", "competition"):
         launch = launched(page, f"ros2 launch intelligent_robot environment_launch.py environment:={environment}")
         sections = {node: each["ros__parameters"] for node, each in profile(page, environment)[1].items()}
@@ -144,7 +144,7 @@ def each_environment_has_its_configuration(page: Page, row: Row) -> None:
 
 @row(336, own=True)
 def arguments_change_the_launch(page: Page, row: Row) -> None:
-    """Profile, seed, world and navigator; wrong ones are refused with the choices."""
+    """Profile, seed, world and navigator; wrong values are refused with the choices."""
     shown = page.ask(f"{LAUNCH} --show-args").stdout
     assert all(f"    '{each}':\n" in shown for each in ("profile", "config_file", "seed", "world", "navigator"))
     launch = system(page, "profile:=outdoor seed:=23 world:=warehouse navigator:=false use_sim_time:=true")

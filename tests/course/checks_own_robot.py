@@ -84,7 +84,7 @@ def each_profile_loads(page: Page, row: Row) -> None:
 
 
 _loaded: set[str] = set()
-"""Profiles that an earlier row of this run has loaded."""
+"""The profiles that earlier rows of this run have loaded."""
 
 
 def profile_loads(page: Page, name: str) -> None:

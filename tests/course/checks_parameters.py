@@ -52,7 +52,7 @@ def an_example_of_each_type_has_that_type(page: Page, row: Row) -> None:
 
 
 def starts_as_printed(page: Page, name: str, period: float, **parameters: str) -> Program:
-    """A listing runs for two periods (s) of its timer; its parameters have these values."""
+    """Run a listing for two periods (s) of its timer; its parameters have these values."""
     robot = page.node_file(f"{name}.py", seconds=2 * period + 0.1)
     for parameter, value in parameters.items():
         assert page.value("/simple_robot", parameter) == value

@@ -13,7 +13,7 @@ from course.table import row
 from processes.typed import typed
 
 PROFILES = {"indoor": (1.0, 0.5), "outdoor": (2.0, 1.0), "warehouse": (1.4, 0.7), "competition": (3.0, 0.4)}
-"""Speed (m/s) and safety distance (m) that a student may choose: the page asks for higher, medium, least."""
+"""Speed (m/s) and safety distance (m) that a student may choose: the page asks for higher, medium and lowest."""
 
 
 _reports: dict[str, dict[str, Any]] = {}
@@ -21,7 +21,7 @@ _reports: dict[str, dict[str, Any]] = {}
 
 
 def drive(folder: Path, config: Path) -> dict[str, Any]:
-    """The report of a minute with the student's launch file and one configuration, driven once for all rows."""
+    """The report of a minute with the student's launch file and one configuration, run once for all rows."""
     text = config.read_text("utf-8")
     if text not in _reports:
         _reports[text] = driven(folder, config)

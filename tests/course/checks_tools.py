@@ -1,4 +1,4 @@
-"""Chapter 4 as far as it is about nodes, and the troubleshooting pages."""
+"""The parts of chapter 4 that are about nodes, and the troubleshooting pages."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def a_wild_speed_is_an_error(page: Page, row: Row) -> None:
 
 @row(361, own=True)
 def the_package_that_is_not_there_is_reported(page: Page, row: Row) -> None:
-    """`ros2 run` prints only that line, `ros2 launch` adds more (N25); once the package exists, the lines start it."""
+    """`ros2 run` prints only that line, `ros2 launch` adds more (N25); once the package exists, both lines start it."""
     stated, commands = row.command.partition(": ")[2], (page.row(13).command, page.row(65).command)
     ran, launched = (page.ask(each) for each in commands)
     assert (ran.stderr, ran.stdout, ran.exit) == (f"{stated}\n", "", 1)
@@ -101,7 +101,7 @@ rclpy.init()
 rclpy.spin(Robot())"""
 PARTS = {370: "declare", 371: "callback", 372: "update", 373: "use"}
 INSTEAD = {370: "pass", 371: "pass", 372: "pass", 373: "twist.linear.x = 1.0"}
-"""What stands in place of a forgotten part: nothing, or a number instead of the member."""
+"""What replaces a forgotten part: nothing, or a number instead of the member."""
 
 
 def driven(page: Page) -> str:
@@ -109,7 +109,7 @@ def driven(page: Page) -> str:
 
 
 def change(page: Page, left_out: int) -> tuple[str, str, str]:
-    """The robot's speed before a change to 2.5 m/s, the answer to that, and the speed afterwards."""
+    """The robot's speed before a change to 2.5 m/s, the response to the change, and the speed afterwards."""
     parts = {part: INSTEAD[each] if each == left_out else page.row(each).command for each, part in PARTS.items()}
     robot = page.python(FOUR.format(**parts))
     before = driven(page)

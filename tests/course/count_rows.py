@@ -1,7 +1,7 @@
 """Prints how many rows of the course page the tests covered, and how many were skipped for which reason.
 
-Reads the JUnit files of the default run and of the others after it, which rows may name tests of; run as the last step
-of the checks: `python tests/course/count_rows.py junit.xml junit-slow.xml`.
+Reads the JUnit files of the default run and of any further runs, since rows may name tests of those; it is the last
+step of the checks: `python tests/course/count_rows.py junit.xml junit-slow.xml`.
 """
 
 import sys
@@ -11,9 +11,7 @@ from collections.abc import Iterable, Sequence
 
 
 def main(paths: Sequence[str]) -> str:
-    """Print one line, and one for each reason; returns what is wrong with the tests that rows name, or an empty
-    text.
-    """
+    """Print one line, and one for each reason; return what is wrong with the tests that rows name, or an empty text."""
     tests = [each for path in paths for each in ElementTree.parse(path).iter("testcase")]
     cases = [each for each in tests if (each.get("name") or "").startswith("test_row_of_the_course_holds[C")]
     skipped = [each.find("skipped") for each in cases]

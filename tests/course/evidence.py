@@ -1,7 +1,7 @@
-"""Which test shows a row about the console's screens: most of chapter 4 by keyboard, with the page's own nodes.
+"""The tests that show rows about the console's screens: most of chapter 4 by keyboard, with the page's own nodes.
 
-The row checks that the test exists and that each change runs it; `count_rows.py`, at the end of the checks, that it was
-run and passed.
+The check of the row verifies that the test exists and runs for each change; `count_rows.py`, at the end of the checks,
+verifies that it ran and passed.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 LATER = re.compile(r"mark\.soak\b")
-"""The mark of tests from which the rows are not counted, since not each change runs them."""
+"""The mark of tests that do not count for rows, since they do not run for each change."""
 CHAPTER, PARAMETERS = "tests/pilot/stories/test_chapter_4.py", "tests/pilot/panes/test_parameters_pane.py"
 LOGS, PLOT = "tests/pilot/panes/test_logs_pane.py", "tests/pilot/panes/test_plot_pane.py"
 TUNED = f"{CHAPTER}::test_step_1_the_speed_is_tuned_while_the_robot_runs"
@@ -60,11 +60,11 @@ _SHOWN: tuple[tuple[str, Iterable[int]], ...] = (
     ),
 )
 SHOWN: dict[int, str] = {number: test for test, numbers in _SHOWN for number in numbers}
-"""The ids of tests, as pytest writes them, by the number of the row."""
+"""The ids of tests, as pytest writes them, by row number."""
 
 
 def is_there(test: str) -> bool:
-    """Whether a file contains the test of that id that each change runs, not always skipped."""
+    """Whether a file contains the test of that id, neither left to the soak run nor always skipped."""
     path, _, name = test.partition("::")
     return name in _tests(ROOT / path)
 
@@ -86,6 +86,6 @@ def _is_left_out(decorator: ast.expr) -> bool:
 
 
 def _is_later(mark: ast.expr) -> bool:
-    """Whether a mark leaves a whole test to the soak tests; that of a parameter keeps the other parameters in."""
+    """Whether a mark leaves a whole test to the soak run; a mark on one parameter does not affect the others."""
     text = ast.unparse(mark)
     return "parametrize" not in text and LATER.search(text) is not None

@@ -1,4 +1,4 @@
-"""The answer to the page's practice exercise."""
+"""A solution of the page's practice exercise."""
 
 import rclpy
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor

@@ -1,4 +1,4 @@
-"""The page's workspace, made of its unchanged listings, and a running system in which its commands are run."""
+"""The page's workspace with its unchanged listings, and a running system in which its commands are run."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ script_dir=$base/lib/{name}
 [install]
 install_scripts=$base/lib/{name}
 """
-"""As `ros2 pkg create` writes it; the page does not print it."""
+"""The file that `ros2 pkg create` writes; the page does not print it."""
 DATA_FILES_ROW = 81
 LOG = re.compile(r"^(?:\[\w+-\d+\] )?\[(\w+)\] \[\d{10}\.\d{9}\] \[([^\]]+)\]: (.*)$")
 STATED = re.compile(r"^\[(\w+)\] (?:\[([^\]]+)\]: )?(.*)$")
@@ -64,14 +64,14 @@ def logs(program: Program) -> list[PrintedText]:
 
 
 def stated(text: str) -> PrintedText:
-    """A log line as the page prints it."""
+    """Parse a log line as the page prints it."""
     match = STATED.match(text)
     assert match, f"{text!r} is no log line"
     return PrintedText(match[1], match[2] or "", match[3])
 
 
 def message_of(program: Program, line: PrintedText) -> int:
-    """How often a program has logged a line; a line without a logger matches any."""
+    """Count how often a program has logged a line; a line without a logger matches any logger."""
     return sum(each == (line.severity, line.logger or each.logger, line.message) for each in logs(program))
 
 
@@ -88,7 +88,7 @@ class Page:
         return rows()[number]
 
     def start(self, command: str, seconds: float = 0.5) -> Program:
-        """Start what a command line names and let it run for `seconds`."""
+        """Start the program of a command line and let it run for `seconds`."""
         program = self._start(command)
         self._system.run(seconds)
         return program
@@ -149,7 +149,7 @@ class Page:
 
 @contextmanager
 def page(folder: Path, scratch: Path, *, own: bool = False) -> Iterator[Page]:
-    """A system in the page's workspace; with `own`, in an empty one, so that our own robot is found."""
+    """A system in the page's workspace; with `own`, in an empty workspace, so that our own robot is found."""
     before = discover.workspace()
     discover.use(discover.Workspace([] if own else [folder / "src"]))
     try:
@@ -172,7 +172,7 @@ NOT_PRINTED = {
 
 
 def make_workspace(folder: Path, *, complete: bool = False) -> Path:
-    """`src/my_package`, `src/intelligent_robot` with the page's files as they are; `complete` adds substitutes (N8)."""
+    """Create `src/my_package` and `src/intelligent_robot` with the page's files; `complete` adds substitutes (N8)."""
     _package(folder / "src" / "my_package", sorted((COURSE / "nodes").glob("*.py")))
     names = sorted(each.stem for each in (COURSE / "nodes").glob("*.py"))
     names += NOT_PRINTED["my_package"] if complete else ()

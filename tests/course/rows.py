@@ -1,4 +1,4 @@
-"""The numbered rows of the course page's checks: what each states, and the short texts that it quotes."""
+"""The numbered rows of the course page's checks: the statement of each, and the short texts that it quotes."""
 
 from __future__ import annotations
 

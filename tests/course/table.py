@@ -1,6 +1,4 @@
-"""Which check covers which row: registered by the checks themselves; rows without a check are listed here with a
-reason.
-"""
+"""Which check covers which row: checks register themselves; rows without a check are listed here with a reason."""
 
 from __future__ import annotations
 
@@ -16,7 +14,7 @@ OWN: set[int] = set()
 COMPLETE: set[int] = set()
 """Rows that are checked with substitutes for the executables that the page does not print (N8)."""
 ALIKE: set[int] = set()
-"""Rows whose check does the same for each of its rows: once it has passed, it is not repeated."""
+"""Rows that share one check, which does the same for each: once it has passed, it is not repeated."""
 SLOW: set[int] = set()
 """Rows that are not checked in the default run."""
 
@@ -26,7 +24,7 @@ def row(
 ) -> Callable[[Check], Check]:
     """Register a function as the check of these rows, and choose the workspace: as printed, completed, or ours.
 
-    With `alike` it does the same for all of them. With `slow` they are not checked in the default run.
+    With `alike` the check does the same for all rows. With `slow` the rows are not checked in the default run.
     """
 
     def add(check: Check) -> Check:
@@ -68,7 +66,7 @@ UNCHECKED: tuple[tuple[Iterable[int], str], ...] = (
     (rows_from(355, 360), AIM),
     (rows_from(379, 385), AIM),
 )
-"""Rows without a check, and why; a check takes precedence over an entry here."""
+"""Rows without a check, and why; a registered check takes precedence."""
 
 
 def reason(number: int) -> str:

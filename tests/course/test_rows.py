@@ -1,4 +1,4 @@
-"""Each row of the course page's checks: run and compared, or skipped with the reason."""
+"""Each row of the course page's checks is run and compared, or skipped with the reason."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def workspace(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def complete(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The page's workspace with substitutes for what it does not print."""
+    """The page's workspace with substitutes for the files that it does not print."""
     return make_workspace(tmp_path_factory.mktemp("complete"), complete=True)
 
 

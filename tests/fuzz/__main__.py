@@ -1,8 +1,8 @@
-"""Feeds every parser with mutated inputs: `python tests/fuzz [--inputs 1000000] [--seed 1] [--only filter]`.
+"""Feeds mutated inputs to every parser: `python tests/fuzz [--inputs 1000000] [--seed 1] [--only filter]`.
 
-An input is a finding if it causes anything but a refusal, or takes longer than five seconds of processor time. Prints
-JSON: for each parser the number of inputs and the time they took, and the findings with the shortest input of each. The
-same seed gives the same inputs. The exit code is 1 if there are findings.
+An input is a finding if it causes anything but a refusal, or takes longer than five seconds of CPU time. Prints JSON:
+for each parser the number of inputs and the time they took, and the findings with the shortest input of each. The same
+seed gives the same inputs. The exit code is 1 if there are findings.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from targets import targets
 
 
 def run(inputs: int, seed: int, only: Sequence[str] = ()) -> dict[str, Any]:
-    """Feed all parsers, or those whose names contain one of some words, with `inputs` inputs in total."""
+    """Feed all parsers, or those whose names contain one of the words in `only`, with `inputs` inputs in total."""
     from bot_console.runtime.importer import install
 
     install()

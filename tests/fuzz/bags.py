@@ -1,4 +1,4 @@
-"""Parsers of recordings: each function feeds a text to one of them, in place of bytes if the file is not text."""
+"""Parsers of recordings: each function feeds a text to one of them, as bytes where the file is not text."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def node() -> Any:
 
 
 def control_bag(suffix: str) -> Callable[[str], None]:
-    """Nothing in a recording is played that controls a robot, and nothing in it releases a stop."""
+    """Check that playing a recording neither moves a robot nor releases a stop."""
 
     def run(text: str) -> None:
         from bot_console.tui.console.bags.definitions import class_of
@@ -75,7 +75,7 @@ def control_bag(suffix: str) -> Callable[[str], None]:
 
 
 def held_through(recorded: Iterable[bytes]) -> None:
-    """Feed a held lock what was recorded, as requests and as states of the other lock."""
+    """Feed recorded messages to a lock that holds a robot, as requests and as states of the other lock."""
     from bot_console_robot.safety.latch import STOP, Latch, Request
     from bot_console_robot.safety.stop_messages import request_of, state_of
     from diagnostic_msgs.msg import DiagnosticStatus
@@ -96,7 +96,7 @@ def held_through(recorded: Iterable[bytes]) -> None:
 
 
 def control_seeds(storage: str) -> Callable[[], Sequence[str]]:
-    """Bags of a stop, its release and the states of the locks, beside commands and a topic that is played."""
+    """Bags of a stop, its release and the states of the locks, together with commands and a harmless topic."""
 
     def seeds() -> Sequence[str]:
         from bot_console.tui.console.bags.writer import BagWriter, WritingOptions

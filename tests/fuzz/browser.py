@@ -1,4 +1,4 @@
-"""What browsers send to `bot-console serve`: each function feeds a text to the server, or to an open console."""
+"""Data that browsers send to `bot-console serve`: each function feeds a text to the server, or to an open console."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ from typing import Any, cast
 
 TOKEN, COOKIE = "t0ken", "c00kie"
 WAIT_S = 240.0
-"""Seconds for an answer; only ends a server that hangs."""
+"""Timeout in seconds for an answer; it only ends a server that hangs."""
 ANSWER_S = 0.05
-"""Seconds after which a request without an answer is taken for an unfinished one."""
+"""Seconds after which a request without an answer counts as unfinished."""
 
 
 def http(text: str) -> None:
-    """The bytes of a connection; whatever they are, the server answers with no error of its own."""
+    """The bytes of a connection; whatever they are, the server answers without an internal error."""
     server, port, faults = served("true")
     server._admissions[0].token = TOKEN
     data = text.replace("PORT", str(port)).encode("utf-8", "surrogatepass")
     with socket.create_connection(("127.0.0.1", port), WAIT_S) as link, suppress(ConnectionError):
         link.sendall(data)
         if not select.select([link], [], [], ANSWER_S)[0]:
-            link.shutdown(socket.SHUT_WR)  # it waits for more
+            link.shutdown(socket.SHUT_WR)  # the server waits for more
         if select.select([link], [], [], ANSWER_S)[0]:
             link.recv(4096)
     assert not faults, faults.pop()
@@ -52,7 +52,7 @@ def http_seeds() -> Sequence[str]:
 
 
 def admit(server: Any) -> None:
-    """Make room for a browser, whatever the earlier ones still have open."""
+    """Make room for a browser, whatever connections earlier ones still have open."""
     from bot_console.tui.cli.serve.server import Admission
 
     server._admissions = [Admission(token=TOKEN, cookie=COOKIE)]
@@ -60,9 +60,7 @@ def admit(server: Any) -> None:
 
 @cache
 def served(console: str) -> tuple[Any, int, list[str]]:
-    """A server of a console on loopback, which serves until the program ends; its port, and what it logs of its own
-    errors.
-    """
+    """A server of a console on loopback, which runs until the program ends; its port and its log of internal errors."""
     from aiohttp import web
     from bot_console.tui.cli.serve.server import Server
 
@@ -71,7 +69,7 @@ def served(console: str) -> tuple[Any, int, list[str]]:
     faults: list[str] = []
 
     def fault(text: str, *values: object, exc_info: Any = None, **_: object) -> None:
-        if "400, message" not in str(exc_info):  # what it refuses
+        if "400, message" not in str(exc_info):  # refused requests
             faults.append(f"{text % values}: {exc_info}")
 
     log = cast(Any, SimpleNamespace(debug=lambda *_, **__: None, error=fault, exception=fault, warning=fault))
@@ -94,7 +92,7 @@ def served(console: str) -> tuple[Any, int, list[str]]:
 
 
 class _Input:
-    """The console's input, which nobody reads."""
+    """A console's input that nobody reads."""
 
     def write(self, data: bytes) -> None:
         assert isinstance(data, bytes)

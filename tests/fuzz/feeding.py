@@ -1,4 +1,4 @@
-"""Feeds one parser and collects every outcome but refusals."""
+"""Feeds one parser and collects every outcome except refusals."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 from targets import Target, inputs_of
 
 LIMIT = 5.0
-"""Seconds of processor time that one input may take."""
+"""Seconds of CPU time that one input may take."""
 SHOWN = 300
 """Characters of an input that are shown."""
 
@@ -21,7 +21,7 @@ class Hang(BaseException):
 
 
 def feed(target: Target, count: int, seed: int, findings: dict[str, dict[str, Any]]) -> float:
-    """Feed one parser; returns the seconds of processor time it took."""
+    """Feed one parser; return the seconds of CPU time it took."""
     began = time.process_time()
     for number, text in enumerate(inputs_of(target, seed)):
         if number >= count:

@@ -14,7 +14,7 @@ FOLDER = Path(tempfile.mkdtemp(prefix="fuzz"))
 
 
 def file(text: str, name: str) -> Path:
-    """A file with this text; there is one per name."""
+    """Write a file with this text; there is one file per name."""
     path = FOLDER / name
     path.write_bytes(text.encode("utf-8", "surrogatepass"))
     return path

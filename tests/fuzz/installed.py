@@ -1,4 +1,4 @@
-"""What installations leave behind: plug-ins of other packages, and files that set up an environment."""
+"""Files that installations leave behind: plug-ins of other packages, and files that set up an environment."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ SEPARATOR = "\x1f"
 
 
 def plugins(text: str) -> None:
-    """The files of an installed package by which it offers panes; whatever they contain, a console can start."""
+    """The files by which an installed package offers panes; whatever they contain, a console can start."""
     from bot_console.tui.session import plugins
 
     points, _, metadata = text.partition(SEPARATOR)
@@ -36,7 +36,7 @@ PLUGINS = (
 
 
 def panes_of_workspace(text: str) -> None:
-    """`setup.cfg` of a package in the workspace, with its panes."""
+    """The `setup.cfg` of a package in the workspace, with its panes."""
     from bot_console.runtime.workspace.package import read_setup_cfg
     from bot_console.tui.session.plugins import _entry
 
@@ -54,7 +54,7 @@ SETUP_CFG = (
 
 
 def file_of_environment(text: str) -> None:
-    """The file of `setup venv`, for shims in a folder of any name: an interpreter that reads it finds them."""
+    """The file of `setup venv`, for a shim folder of any name: an interpreter that reads it finds the shims."""
     from bot_console.tui.cli.verbs import setup_venv
 
     shims = _folder(text)
@@ -66,7 +66,8 @@ def file_of_environment(text: str) -> None:
 
 
 def code_of_shell(text: str) -> None:
-    """What `setup bash` prints, for shims in a folder of any name: a shell that evaluates it has it in PYTHONPATH."""
+    """The output of `setup bash`, for a shim folder of any name: a shell that evaluates it has the folder in
+    PYTHONPATH."""
     from bot_console.tui.cli.verbs import setup
 
     shims = _folder(text)
@@ -79,7 +80,7 @@ def code_of_shell(text: str) -> None:
 
 
 def _folder(text: str) -> Path:
-    """A folder of shims whose name contains a text, as far as a name of a folder, and a list of them, can."""
+    """A shim folder whose name contains a text, as far as file names and lists of folders allow it."""
     name = os.fsdecode(text.replace("\0", "").replace("/", "").replace(":", "").encode("utf-8", "surrogatepass")[:80])
     shims = FOLDER / f"shims-{name}"
     shims.mkdir(exist_ok=True)

@@ -1,4 +1,4 @@
-"""What nodes and networks send, and how it is shown: each function feeds a text to one part."""
+"""Messages of nodes and networks, and how they are shown: each function feeds a text to one part."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def cdr_seeds() -> Sequence[str]:
 
 
 def reported(message: Any) -> None:
-    """A message as panes and verbs show it."""
+    """Format a message as panes and verbs show it."""
     from bot_console.tui.console.topics.message_tree import tree
     from rosidl_runtime_py import message_to_csv, message_to_yaml
 

@@ -155,7 +155,7 @@ MAX_BYTES = 20_000
 
 
 def mutated(seeds: Sequence[str], chance: random.Random) -> str:
-    """One of the valid inputs, changed in one or several places."""
+    """Return one of the valid inputs, changed in one or several places."""
     text = chance.choice(seeds)
     for _ in range(chance.choice((1, 1, 1, 2, 2, 3, 5, 8))):
         text = chance.choice(CHANGES)(text, seeds, chance)

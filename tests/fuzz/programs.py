@@ -1,4 +1,4 @@
-"""Command lines and environments of any bytes: each input is a start of the program, in a fork of a loaded one."""
+"""Command lines and environments of any bytes: each input starts the program in a fork of a loaded process."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from typing import IO, Any, cast
 from files import FOLDER
 
 SEPARATOR = "\x1f"
-"""Between the words of a command line, or between `NAME=value` of an environment and the command."""
+"""Separates the words of a command line, or each `NAME=value` of an environment and the command."""
 SAFE = ("stop", "release", "status", "bag", "lint", "param", "node", "interface", "run", "launch")
-"""Commands that end by themselves where no system runs, and write nothing; any other word is made the first of them."""
+"""Commands that end by themselves where no system runs, and write nothing; other words are replaced by one of them."""
 MEMORY_BYTES, CPU_S, END_S = 4 << 30, 20, 300
-"""Limits of one start; `END_S` only ends one that hangs."""
+"""Limits of one start; `END_S` only ends a start that hangs."""
 
 
 def command_line(text: str) -> None:
-    """The program with these words."""
+    """Run the program with these words."""
     words = text.split(SEPARATOR)
     if words[0] not in SAFE:
         words[0] = SAFE[0]
@@ -33,14 +33,14 @@ def command_line(text: str) -> None:
 
 
 def environment(text: str) -> None:
-    """The program with these variables, the last line being the command."""
+    """Run the program with these variables; the last line is the command."""
     *pairs, command = text.split(SEPARATOR)
     variables = dict(each.partition("=")[::2] for each in pairs)
     _start([command if command in SAFE else "status"], {name: value for name, value in variables.items() if name})
 
 
 def _start(words: list[str], variables: dict[str, str]) -> None:
-    """Start it; raises unless it ends with a code of its own and without a traceback."""
+    """Start the program; raise unless it exits by itself and without a traceback."""
     starter = _starter()
     request = [[_text(each) for each in words], [[_text(name), _text(value)] for name, value in variables.items()]]
     cast("IO[bytes]", starter.stdin).write(json.dumps(request).encode() + b"\n")
@@ -54,7 +54,7 @@ def _start(words: list[str], variables: dict[str, str]) -> None:
 
 
 def _text(text: str) -> str:
-    """Bytes for JSON: those of a text, or single bytes for characters below 256, without the end of a C string."""
+    """Convert a text for JSON: characters below 256 become single bytes, and the end of a C string is left out."""
     data = text.encode("latin-1") if all(ord(each) < 256 for each in text) else text.encode("utf-8", "surrogatepass")
     return base64.b64encode(data.replace(b"\0", b"")).decode()
 
@@ -71,7 +71,7 @@ def _starter() -> subprocess.Popen[bytes]:
 
 
 def serve() -> None:
-    """Answer each line, the words and the variables of a start, with its status and what it printed on stderr."""
+    """Answer each line (the words and the variables of a start) with its status and its stderr."""
     import bot_console.tui.cli.main
     import bot_console.tui.cli.verbs.background
     import bot_console.tui.cli.verbs.stop  # noqa: F401 -- so that the forks need not load them
@@ -94,7 +94,7 @@ def _bytes(text: str) -> bytes:
 
 
 def _run(words: list[bytes], variables: list[tuple[bytes, bytes]], printed: Any) -> None:
-    """Become the program; never returns."""
+    """Become the program; never return."""
     import traceback
 
     try:

@@ -1,4 +1,4 @@
-"""Valid inputs, from which others are derived."""
+"""Valid inputs, from which the mutated ones are derived."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sockets that take the bytes of others: the router of a robot, what a router answers to its clients, and browsers."""
+"""Sockets that accept foreign bytes: a robot's router, a client of a router, and browsers."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from functools import cache
 import browser
 
 WAIT_S = 240.0
-"""Seconds for an answer; only ends a router that hangs."""
+"""Timeout in seconds for an answer; it only ends a router that hangs."""
 MAX_PORTS = 20
-"""Ports that are tried."""
+"""How many ports are tried."""
 QUIET_S = 0.02
-"""Seconds without an answer after which none is waited for."""
+"""Seconds of silence after which no further answer is expected."""
 
 
 def router_handshake(text: str) -> None:
-    """The first bytes of a connection to a router, which afterwards answers an honest client as before."""
+    """Send the first bytes of a connection to a router, which afterwards answers an honest client as before."""
     port, hello = _router(), _recorded()[0]
     with socket.create_connection(("127.0.0.1", port), WAIT_S) as link, suppress(ConnectionError):
         link.sendall(text.encode("latin-1", "replace"))
@@ -39,7 +39,7 @@ def handshake_seeds() -> Sequence[str]:
 
 
 def router_answer(text: str) -> None:
-    """What a client gets from something that is not a router: it is refused, with a reason."""
+    """Answer a client in place of a router: the answer is refused, with a reason."""
     from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
 
     with socket.create_server(("127.0.0.1", 0)) as listening:
@@ -61,7 +61,7 @@ def _answer(listening: socket.socket, data: bytes) -> None:
 
 
 def answer_seeds() -> Sequence[str]:
-    """What a router answers to the first message."""
+    """The router's answer to the first message."""
     return (_recorded()[2].decode("latin-1"),)
 
 
@@ -112,7 +112,7 @@ def _recorded() -> tuple[bytes, bytes, bytes]:
 
 
 def _message(link: socket.socket) -> bytes:
-    """One message, with the two bytes of its length."""
+    """Read one message, with the two bytes of its length."""
     head = link.recv(2, socket.MSG_WAITALL)
     return head + link.recv(struct.unpack("<H", head)[0], socket.MSG_WAITALL)
 

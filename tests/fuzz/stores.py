@@ -1,4 +1,4 @@
-"""What the program keeps between runs: each function feeds a text to one of its stores, as if it had been damaged."""
+"""Files that the program keeps between runs: each function feeds a text to one of them, as if it had been damaged."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from typing import Any, cast
 from files import FOLDER, file
 
 ROW = ("2", "1000", "/robot", "speed", "0.5", "[1.0, 2]", "edit", "1", "too fast", "")
-"""The columns of a change, one a line in the inputs; digits become integers, `x` in front makes bytes."""
+"""The columns of a change, one per line in the inputs; digits become integers, a leading `x` makes bytes."""
 GOOD = (2, 1, "/robot", "speed", "0.5", "1.0", "edit", 1, "", "")
 
 
@@ -59,7 +59,7 @@ def history() -> Any:
 
 
 def history_row(text: str) -> None:
-    """A row of anything between two good ones, which are still read."""
+    """An arbitrary row between two good ones, which are still read."""
     import sqlite3
 
     from bot_console.tui.console.parameters.history_file import UNSTORABLE
@@ -90,7 +90,7 @@ def _column(text: str) -> tuple[str, Any]:
 
 
 def history_file(text: str) -> None:
-    """A file of anything in the place of the history; changes are kept again, or the problem is reported."""
+    """An arbitrary file in place of the history: changes are recorded again, or the problem is reported."""
     from bot_console.tui.console.model import Change, ChangeSource
     from bot_console.tui.console.parameters.history_file import History
 
@@ -122,7 +122,7 @@ def history_file_seeds() -> Sequence[str]:
 
 
 def pane_states(text: str) -> None:
-    """What panes remember."""
+    """The saved states of panes."""
     from bot_console.tui.panes.alarms.alarm import texts_of
     from bot_console.tui.panes.graph.view_state import view_state_of
     from bot_console.tui.panes.parameters.view_state import left_of
@@ -138,7 +138,7 @@ def pane_states(text: str) -> None:
 
 
 def lines_of_stores(text: str) -> None:
-    """The rules of the log, typed lines, commands of a lesson, and reports of a search, one a line."""
+    """The rules of the log, typed lines, commands of a lesson, and reports of a search, one per line."""
     from bot_console.tui.commanding.history import LineHistory
     from bot_console.tui.learn.command_log import read_log
     from bot_console.tui.panes.logs.rules import RuleBook

@@ -1,4 +1,4 @@
-"""Every parser of what people, files and nodes write, as a target: valid inputs, and the refusals of invalid ones."""
+"""Every parser of input from people, files and nodes, as a target: valid inputs, and the refusals of invalid ones."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ from mutation import mutated
 
 @dataclass(frozen=True)
 class Target:
-    """What is fed. `run` returns for any input; only `refusals` may be raised."""
+    """A parser to feed. `run` returns for any input; only `refusals` may be raised."""
 
     name: str
     seeds: Callable[[], Sequence[str]]
     run: Callable[[str], object]
     refusals: tuple[type[BaseException], ...] = ()
     share: float = 1.0
-    """How many of the inputs it gets, compared with the others; less for one that takes long."""
+    """Its share of the inputs compared with other targets; lower for slow ones."""
 
 
 def targets() -> list[Target]:
-    """All of them."""
+    """All targets."""
     from bot_console.runtime.rmw.arguments import ArgumentsError
     from bot_console.runtime.rmw.lexer import GrammarError
     from bot_console.runtime.rmw.parameter_overrides import ParameterYamlError
@@ -232,7 +232,7 @@ def targets() -> list[Target]:
 
 
 def inputs_of(target: Target, seed: int) -> Iterator[str]:
-    """Valid inputs first, then endless mutated ones; the same ones for the same seed."""
+    """Valid inputs first, then endlessly mutated ones; the same seed gives the same inputs."""
     chance = random.Random(f"{seed} {target.name}")
     good = target.seeds()
     return itertools.chain(good, (mutated(good, chance) for _ in itertools.count()))

@@ -1,4 +1,4 @@
-"""What people type: each function feeds a text to one parser."""
+"""Input that people type: each function feeds a text to one parser."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What other processes send: each function feeds a text to one parser, in place of bytes if they are not text."""
+"""Data that other processes send: each function feeds a text to one parser, as bytes where the parser expects bytes."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def attachment_seeds() -> Sequence[str]:
 
 
 def news(text: str) -> None:
-    """What a launched process writes into the pipe for reports about itself."""
+    """The notices that a launched process writes about itself into its data pipe."""
     from bot_console.runtime.launch.child.process_reports import NewsReader
 
     reader = NewsReader("talker-1")
@@ -57,7 +57,7 @@ NEWS = (
 
 
 def terminal_input(text: str) -> None:
-    """What a terminal sends: keys, pastes, mouse reports and answers to queries; a stop key after it is noticed."""
+    """Terminal input: keys, pastes, mouse reports and answers to queries; a stop key after it is noticed."""
     from bot_console.tui.keymap import stops
     from bot_console.tui.keys.terminal_events import TerminalEvents
     from textual import events

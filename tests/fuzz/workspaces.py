@@ -38,7 +38,7 @@ def expected_graph(text: str) -> None:
 
 
 def editor_settings(text: str) -> None:
-    """The settings of an editor, into which `setup editor` adds its own; what it returns can be read."""
+    """The settings of an editor, to which `setup editor` adds its own; the result can be read."""
     from bot_console.tui.files.jsonc import load, with_member, with_strings
 
     added = with_strings(with_member(text, "a", 1), "paths", ["/x", "/y"], lambda each: each.startswith("/old"))
@@ -46,7 +46,7 @@ def editor_settings(text: str) -> None:
 
 
 def build_file(name: str, reader: str) -> Callable[[str], None]:
-    """The file that says what a package installs."""
+    """The file that declares what a package installs."""
 
     def run(text: str) -> None:
         from importlib import import_module
@@ -61,7 +61,7 @@ def build_file(name: str, reader: str) -> Callable[[str], None]:
 
 
 def convert_options(text: str) -> None:
-    """The options of `bag convert`, except for the place of the new bag; its refusals are those of the command."""
+    """The options of `bag convert`, except for the output folder; refusals are those of the command."""
     from bot_console.tui.cli.bags import convert
     from bot_console.tui.console.bags.reader import Bag
 

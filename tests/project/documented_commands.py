@@ -1,4 +1,4 @@
-"""Command lines in the documents, and what is wrong with them."""
+"""Finds command lines in the documents, and what is wrong with them."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ BLOCK = re.compile(r"^```bash\n(.*?)^```", re.MULTILINE | re.DOTALL)
 INLINE = re.compile(
     r"(?<!`)`((?:NO_COLOR=1 )?bot-console [^`\s]+ [^`]+|ros2 [^`\s]+ [^`\s]+ [^`]+|python tools/[^`]+)`"
 )
-"""A command in a sentence; shorter ones only name a command."""
+"""A command in a sentence; a shorter one is only the name of a command."""
 OWN = set(
     [
         "stop",
@@ -47,9 +47,8 @@ ENVIRONMENT = re.compile(r"[A-Z_]+=.*")
 
 
 def commands(text: str) -> list[str]:
-    """The lines of all shell blocks, and commands in sentences that contain no `...` and no placeholders in
-    capitals.
-    """
+    """The lines of all shell blocks, and the commands in sentences that contain neither `...` nor placeholders in
+    capitals."""
     lines = [line for block in BLOCK.findall(text) for line in block.splitlines() if line.strip()]
     inline = (each.replace("\n", " ") for each in INLINE.findall(text) if "..." not in each)
     return lines + [each for each in inline if not re.search(r"\b[A-Z]{3,}\b(?!_)", each)]

@@ -1,4 +1,4 @@
-"""The course page's own driving rule, over the bare simulation: forward, or turn left while anything is too near."""
+"""The course page's driving rule on the bare simulation: drive forward, or turn left while anything is too near."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is declared is imported, what is imported is declared, and the documentation gives a reason for each."""
+"""Declared packages are imported, imported packages are declared, and the documentation gives a reason for each."""
 
 import ast
 import re

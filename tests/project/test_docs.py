@@ -1,4 +1,4 @@
-"""The documents are true: tables equal the code, links lead somewhere, command lines are valid."""
+"""The documents are correct: tables equal the code, links resolve, command lines are valid."""
 
 import importlib.util
 import re

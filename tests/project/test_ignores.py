@@ -1,4 +1,4 @@
-"""Comments that silence a checker give a reason: on the same line, or beside it if they are for a whole file."""
+"""Comments that silence a checker give a reason: on the same line, or next to it if they apply to a whole file."""
 
 from __future__ import annotations
 

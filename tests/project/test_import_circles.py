@@ -1,4 +1,4 @@
-"""There are no circular imports, counting late imports and those only for annotations."""
+"""There are no circular imports, not even through late imports or imports for annotations."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from syntax import statements
 ROOT = Path(__file__).parents[2]
 GENERATED = ROOT / "runtime" / "rosidl" / "generated"
 ALLOWED: dict[frozenset[str], str] = {}
-"""Circles that stay, as the set of their modules, each with the reason. There are none."""
+"""The allowed circles, as sets of modules, each with the reason. There are none."""
 BELOW_ALL = ("rclpy._rclpy_pybind11", "rclpy.constants")
-"""What stands for upstream's C extension, and plain numbers: both are below everything of rclpy."""
+"""The stand-in for upstream's C extension, and plain numbers: both are below everything else of rclpy."""
 Graph = dict[str, set[str]]
 
 
 def modules() -> dict[str, Path]:
-    """All our modules by their canonical names: for ROS packages, those under which they are imported."""
+    """All our modules by canonical name; a ROS package's is the name under which it is imported."""
     found: dict[str, Path] = {}
     for top in ("runtime", "tui", "nodes"):
         for path in (ROOT / top).rglob("*.py"):
@@ -41,7 +41,7 @@ def canonical(name: str) -> str:
 
 
 def names(path: Path, package: str) -> Iterator[tuple[str, str | None]]:
-    """What a module imports: at once, late within functions, or under `if TYPE_CHECKING`."""
+    """The imports of a module: at the top, late within functions, or under `if TYPE_CHECKING`."""
     for node in statements(path):
         if isinstance(node, ast.Import):
             yield from ((each.name, None) for each in node.names)

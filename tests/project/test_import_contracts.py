@@ -1,4 +1,4 @@
-"""The layers hold, and a planted violation is noticed."""
+"""The import contracts hold, and a planted violation is noticed."""
 
 import os
 import re

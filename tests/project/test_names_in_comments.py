@@ -1,4 +1,4 @@
-"""The names in backticks in docstrings and comments exist: a renamed one is easily left behind in them."""
+"""Names in backticks in docstrings and comments exist: after a renaming, old names are easily left behind there."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = ("tui", "runtime", "nodes", "launch", "tools", "tests")
 NAME = r"[A-Za-z][A-Za-z0-9]*_[A-Za-z0-9_]*[A-Za-z0-9]"
-"""A name with an underscore: a single word may be the ordinary English one."""
+"""A name with an underscore: a single word may be ordinary English."""
 QUOTED = re.compile(rf"`(?:\w+\.)*({NAME})(?:\([^`\n]*\))?`")
 ELSEWHERE = {
     "CO_COROUTINE": "of inspect",

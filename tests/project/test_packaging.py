@@ -19,7 +19,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 @pytest.fixture(scope="module")
 def wheel(tmp_path_factory):
-    """The names in a wheel built from a copy of this tree: a build writes modules that other tests import."""
+    """The names in a wheel built from a copy of this tree, since a build writes modules that other tests import."""
     folder = tmp_path_factory.mktemp("wheel")
     copy = folder / "tree"
     shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(".git", ".venv", "build", "generated", "__pycache__"))
@@ -74,7 +74,7 @@ def test_no_module_shadows_an_outside_name(wheel):
 
 
 def test_wheel_is_declared_to_contain_one_package():
-    """As the wheel itself shows, whose tests are slow."""
+    """The slow tests check the same on the wheel itself."""
     wheel = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["hatch"]["build"]["targets"]["wheel"]
     assert wheel["sources"] == {each: f"bot_console/{each}" for each in wheel["only-include"]}
     assert set(wheel["only-include"]) == {"tui", "runtime", "nodes", "profiles", "launch"}
@@ -84,7 +84,7 @@ def test_wheel_is_declared_to_contain_one_package():
 
 @pytest.mark.parametrize("folder", ["tests", "docs", "tools", "examples", ".ci", ".github"])
 def test_sdist_contains_what_its_own_tests_read(folder):
-    """The suite travels with the sdist, and has to pass there."""
+    """The test suite is part of the sdist, and has to pass there."""
     assert (
         f'"{folder}"' in (ROOT / "pyproject.toml").read_text("utf-8").partition("targets.sdist]")[2].partition("]")[0]
     )

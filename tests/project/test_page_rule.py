@@ -36,7 +36,7 @@ def lidar(name: str, **change: float) -> Settings:
 
 
 OFTEN = ("warehouse", "profile", 1)
-"""What the default run tries, for two minutes."""
+"""The case of the default run, for two minutes."""
 RUNS = [(name, *how) for name in NAMES for how in (("profile", 1), ("profile", 2), ("defaults", 1))]
 
 
@@ -56,7 +56,7 @@ def test_robot_never_stands_for_twenty_seconds(name: str, parameters: str, seed:
 @pytest.mark.soak
 @pytest.mark.parametrize("name", NAMES)
 def test_some_heading_is_free_at_every_place(name: str) -> None:
-    """A place is a trap if no half circle of the safety distance is free there: the rule would turn for ever."""
+    """A place is a trap if no half circle of the safety distance is free there: the rule would turn forever."""
     exact = lidar(name, noise=0.0, dropout=0.0, false_returns=0.0, field_of_view=2 * math.pi)
     run = Simulation(replace(world(name), movers=()), 1, exact)
     safety = profile(name)["robot_navigator"]["safety_distance"]

@@ -1,4 +1,4 @@
-"""The middleware uses the real process id: `os.getpid` gives a node that is a thread a made-up one."""
+"""The middleware uses the real process id: in a node that is a thread, `os.getpid` returns a made-up one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is loaded on the rclpy of PyPI imports, while it loads, only the ROS packages that PyPI has.
+"""Modules loaded on the rclpy of PyPI import, while they load, only ROS packages that PyPI has.
 
 An interface that only one function needs, such as that of composable nodes, is imported in the function: the console
 attaches, and launch files run, without it. `.ci/on_rclpy` runs the contract suites there.
@@ -53,9 +53,9 @@ def imported_while_loading(tree: ast.AST) -> Iterator[str]:
 
 
 def lacking(path: Path) -> set[str]:
-    """What a module imports while it loads although PyPI does not have it."""
+    """The packages that a module imports while it loads although PyPI lacks them."""
     text = path.read_text(encoding="utf-8")
-    named = {each for each in LACKING if each in text}  # most need not be parsed
+    named = {each for each in LACKING if each in text}  # most files need not be parsed
     return named & set(imported_while_loading(ast.parse(text))) if named else set()
 
 

@@ -1,4 +1,4 @@
-"""A release has the version of its tag, and a section of the changelog."""
+"""A release has the version of its tag, and a section in the changelog."""
 
 import importlib.util
 from pathlib import Path

@@ -108,7 +108,7 @@ def retired(name: str) -> set[str]:
 
 def retired_names(text: str) -> list[tuple[str, int]]:
     """The retired names that a source text defines, with their lines."""
-    if not any(map(retired, set(re.findall(r"\w+", text)))):  # quicker than to parse it
+    if not any(map(retired, set(re.findall(r"\w+", text)))):  # quicker than parsing
         return []
     return sorted({(name, line) for name, line in defined(ast.parse(text)) if retired(name)})
 

@@ -1,4 +1,4 @@
-"""Tests that fail are tried again in a process of their own; what fails in both is a failure of the run."""
+"""Failed tests run again in a separate process; a test that fails both times is a failure of the run."""
 
 import os
 import subprocess
@@ -10,9 +10,9 @@ import pytest
 
 HELPERS = Path(__file__).parents[1] / "helpers"
 ONLY_XDIST = {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1", "PYTEST_PLUGINS": "xdist.plugin", "PYTEST_ADDOPTS": ""}
-"""Environment of each pytest below: to import the other plug-ins takes most of its time."""
+"""Environment of each pytest below: importing the other plug-ins takes most of its time."""
 ON_CI = ("CI", "BUILD_NUMBER")
-"""Variables for which pytest does not shorten the last lines, which then repeat the explanation of a failure."""
+"""Variables for which pytest does not shorten its last lines, which then repeat the explanation of a failure."""
 TESTS = """
 import os
 from pathlib import Path
@@ -85,7 +85,7 @@ def failures(folder: Path) -> list[str | None]:
 
 
 def run(folder: Path, workers: str, *more: str) -> tuple[int, str, str]:
-    """The exit code, the counts of the last line, and all that is shown."""
+    """The exit code, the counts of the last line, and the whole output."""
     (folder / "conftest.py").write_text('pytest_plugins = ["second_tries"]\n')
     environment = {name: value for name, value in os.environ.items() if name not in ON_CI}
     done = subprocess.run(

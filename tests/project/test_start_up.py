@@ -1,4 +1,4 @@
-"""The budget of each start: what it must not import before it has done the first thing that a person waits for.
+"""The import budget of each start: what must not be imported before the first thing that a person waits for.
 
 Imports within functions exist for this budget, for names that exist only once the runtime is installed, and for
 packages that may be missing. All others belong at the top of their file.
@@ -76,11 +76,11 @@ BUDGETS = {
         SCREEN | DATA | LIBRARY | LAUNCH | {"asyncio", "ssl", "subprocess", "argparse", "zenoh", "bot_console.tui"},
     ),
 }
-"""What each start does, and what it must not import."""
+"""The program of each start, and the modules that it must not import."""
 
 
 def imported(folder: Path, program: str, *words: str) -> tuple[str, list[str]]:
-    """What a program has printed, and the modules that it has imported when it reports them."""
+    """The output of a program, and the modules that it has imported when it reports them."""
     file = folder / "started.py"
     file.write_text(REPORT + program, encoding="utf-8")
     environment = {**os.environ, "BOT_CONSOLE_USER_DIR": str(folder / "user")}

@@ -1,4 +1,4 @@
-"""The limits of the style page: how much a reader has to keep in mind at once."""
+"""The limits of the style guide: how much a reader has to keep in mind at once."""
 
 import ast
 import runpy
@@ -12,7 +12,7 @@ SOURCES = ("tui", "runtime", "nodes", "launch", "tools")
 FILE_LIMIT = 500
 FUNCTION_LIMIT = 60
 MAX_ANY_PER_1000_LINES = 20
-"""Uses of `Any` in the runtime, rounded: what is left can be anything, or is checked when the program runs."""
+"""Uses of `Any` in the runtime, rounded: the remaining ones can be anything, or are checked when the program runs."""
 FILES = sorted(
     path
     for folder in (*SOURCES, "tests/helpers")

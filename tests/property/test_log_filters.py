@@ -1,4 +1,4 @@
-"""The filter grammar against a naive model, one record at a time; the log finds the same in blobs of many records."""
+"""The filter grammar compared with a naive model, one record at a time; the log finds the same in its text blocks."""
 
 import time
 from itertools import groupby
@@ -172,7 +172,7 @@ def test_rules_hide_and_show_lines(lines, words, hidden, only, minimum):
 
 @given(st.lists(st.sampled_from("aab"), max_size=60), st.integers(2, 40), st.integers(1, 5), st.data())
 def test_runs_of_equal_lines_are_folded_in_whatever_order_they_arrive(message, capacity, slice_of, data):
-    """Older lines are found in slices, newer ones arrive meanwhile, and a small store drops the oldest."""
+    """Older lines are found piece by piece, newer ones arrive meanwhile, and a small store drops the oldest."""
     store, searched = LogStore(capacity), None
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(view, "FIRST_SLICE_RECORDS", slice_of)

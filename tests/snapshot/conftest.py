@@ -1,4 +1,4 @@
-"""No setting of the person who runs the tests leaks into what is drawn."""
+"""Keeps the settings of the person who runs the tests out of the pictures."""
 
 from __future__ import annotations
 

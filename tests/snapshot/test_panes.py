@@ -1,4 +1,4 @@
-"""How every pane looks: empty, live, with faults, narrow, and larger. Review each change as a change of design."""
+"""The look of every pane: empty, live, with faults, narrow, and larger. Review each difference as a design change."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ PICTURED = {
     "faulty": ("alarms",),
     "narrow": ("parameters",),
 }
-"""The panes whose picture in that state is taken by default; the overview and the questions show the others."""
+"""The panes whose picture in that state the default run compares; the overview and the questions show the others."""
 RARER: list[tuple[str, System, tuple[int, int]]] = [
     ("medium", live, (120, 40)),
     ("large", live, (200, 50)),
@@ -40,7 +40,7 @@ RARER: list[tuple[str, System, tuple[int, int]]] = [
     ("fleet_large", fleet, (200, 50)),
     ("faulty_large", faulty, (200, 50)),
 ]
-"""What is drawn by the same code as above, with more room."""
+"""Pictures of the same code with more room."""
 
 
 def app_of(system: System, start: str = "overview") -> BotConsoleApp:
@@ -49,7 +49,7 @@ def app_of(system: System, start: str = "overview") -> BotConsoleApp:
 
 
 def marks(state: str, pane: str) -> list[pytest.MarkDecorator]:
-    """What keeps the picture of a pane out of the default run."""
+    """The marks that keep the picture of a pane out of the default run."""
     if state in [each[0] for each in RARER]:
         return [pytest.mark.soak]
     return [] if pane in PICTURED[state] else [pytest.mark.slow]
@@ -79,7 +79,7 @@ def test_overview(size: tuple[int, int], snap_compare: Any) -> None:
 
 
 FOLDED = {"graph": [], "launch": [pytest.mark.slow], "topics": [pytest.mark.slow]}
-"""The panes that fold a fleet, whose pictures at the smallest size are taken before each change."""
+"""The panes that fold a fleet; their pictures at the smallest size are compared before each change."""
 
 
 @pytest.mark.parametrize(
@@ -102,7 +102,7 @@ def test_too_small(snap_compare: Any) -> None:
 
 
 LONG_AND_SHORT = {"parameters": [pytest.mark.slow], "world": []}
-"""Whose help is a picture before each change; that each names all its keys, the pilots see to."""
+"""The panes whose help is compared before each change; pilot tests check that each help names all keys."""
 
 
 @pytest.mark.parametrize(
@@ -133,7 +133,7 @@ OVERLAYS = {
 
 
 BY_DEFAULT = ("parameter_refused", "launch_picker", "profile_question", "all_stop")
-"""One picture of each kind: a field with a fault, a list to choose from, a question, a stop."""
+"""One picture of each kind: a field with an error, a list to choose from, a question, a stop."""
 
 
 @pytest.mark.parametrize(

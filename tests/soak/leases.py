@@ -1,13 +1,13 @@
 """Nodes that come back after their lease: `REAL_PYTHON tests/soak/leases.py [--times N]`, JSON out. Linux.
 
-REAL_PYTHON has the project and an rclpy that is not ours, over Fast DDS. A console and a node lose each other:
+REAL_PYTHON has the project and a foreign rclpy over Fast DDS. A console and a node lose each other in two ways:
 
 node       the node's process is stopped until the console has lost it; the node has not lost the console
 both       then the console is stopped, too, until the node has lost it, as when a cable is pulled
 
-and are to find each other again. `plain` counts the same for two plain rclpy nodes without a console: where Fast DDS
-never connects two participants again (eProsima/Fast-DDS#155), no console can help. `parameters` were read again, or
-the node is only in the `graph`, or `never` there, each within 30 s.
+Then they should find each other again. `plain` counts the same for two plain rclpy nodes without a console: where Fast
+DDS never connects two participants again (eProsima/Fast-DDS#155), no console can help. The outcomes are: `parameters`
+were read again; the node is only in the `graph`; or it `never` returns, each within 30 s.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ LEASE = """<?xml version="1.0" encoding="UTF-8" ?>
   </discovery_config></builtin></rtps></participant>
 </profiles>
 """
-"""Fast DDS itself waits for 20 s."""
+"""A lease shorter than the 20 s of Fast DDS."""
 
 
 class Program:
@@ -109,7 +109,7 @@ class Program:
             self._lines.put(line.strip())
 
     def reaches(self, state: str, timeout_s: float) -> bool:
-        """Wait for a state; False if it does not come."""
+        """Wait for a state; return whether it is reached."""
         while self.state != state:
             try:
                 self.state = self._lines.get(timeout=timeout_s)
@@ -126,7 +126,7 @@ class Program:
 
 
 def outcome(watching: str, settings: dict[str, str], *, both: bool) -> str:
-    """What is there again after one loss."""
+    """The outcome of one loss."""
     node, watcher = Program(NODE, settings), Program(watching, settings)
     try:
         if not (watcher.reaches("parameters", START_TIMEOUT_S) and node.reaches("parameters", START_TIMEOUT_S)):

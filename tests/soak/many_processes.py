@@ -3,9 +3,8 @@
     python tests/soak/many_processes.py --meet 10          rounds of 50 that start together: how many pairs talk
     python tests/soak/many_processes.py --graph            20 with 10 nodes of 25 entities each, all query the graph
 
-`cpu_s` is the processor time per process, `most` that of the busiest one, from the query until everything is known;
-`rest` is what all of them use afterwards, in shares of a processor, and `grown_mb` by how much the largest grows
-meanwhile. Linux.
+`cpu_s` is the CPU time per process, `most` that of the busiest one, from the query until everything is known; `rest` is
+the CPU share of all of them afterwards, and `grown_mb` the memory by which the largest grows meanwhile. Linux.
 """
 
 from __future__ import annotations
@@ -30,11 +29,11 @@ PERIOD = 0.25
 HOLDERS, NODES, ENTITIES = 20, 10, 25
 REST = 10.0
 Work = Callable[[int, Callable[[], None]], Any]
-"""The work of a process: takes its number, and a function that waits for the others; returns its report."""
+"""The work of a process, called with its number and a function that waits for the others; returns its report."""
 
 
 def together(count: int, work: Work, steps: int) -> list[Any]:
-    """The reports of processes that are forked, wait, and take each step at the same moment."""
+    """Fork processes that take each step at the same moment; return their reports."""
     addresses = [os.pipe() for _ in range(steps)]
     arrivals, reports, children = os.pipe(), [os.pipe() for _ in range(count)], []
     for number in range(count):
@@ -91,7 +90,7 @@ def until(done: Callable[[], bool], each: Callable[[], object] = lambda: None) -
 
 
 def meet(number: int, wait: Callable[[], None]) -> int:
-    """How many others one process has heard; it goes on talking until all have reported."""
+    """Count how many others one process has heard; it keeps talking until all have reported."""
     import threading
 
     import rclpy
@@ -135,7 +134,7 @@ def hold(number: int, wait: Callable[[], None]) -> dict[str, Any]:
 
 
 def entities(tables: Any) -> int:
-    """How many publishers, subscriptions, servers and clients there are."""
+    """The number of publishers, subscriptions, servers and clients."""
     kinds = ("publishers", "subscriptions", "servers", "clients")
     return sum(len(getattr(each, kind).all()) for each in tables for kind in kinds)
 

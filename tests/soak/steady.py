@@ -41,7 +41,7 @@ Sample = tuple[float, int, int]
 
 
 def descendants(pid: int) -> list[int]:
-    """A process and all its descendants."""
+    """The ids of a process and all its descendants."""
     found = [pid]
     for each in found:
         with contextlib.suppress(OSError):
@@ -94,9 +94,9 @@ def simulated(hours: float, folder: Path) -> dict[str, Any]:
 
 
 def live(minutes: float, filled: float, folder: Path) -> dict[str, Any]:
-    """Run a console with its robot, read from like a terminal; a key goes through its panes.
+    """Run a console with its robot; its output is read as by a terminal, and keys switch between its panes.
 
-    It is sampled for so many `minutes` after those in which it has `filled` its buffers.
+    It is sampled for `minutes`, after `filled` minutes in which it fills its buffers.
     """
     terminal, samples = Terminal(["-m", "bot_console.tui", "--seed", "1"], folder), []
     try:
@@ -127,7 +127,7 @@ def live(minutes: float, filled: float, folder: Path) -> dict[str, Any]:
 
 
 def _until(over: Callable[[], bool], pid: int) -> list[Sample]:
-    """Samples of a process and its descendants, about two a second, until it is over."""
+    """Sample a process and its descendants about twice a second until `over` returns true."""
     samples: list[Sample] = []
     while not over():
         samples.append(sample(pid))

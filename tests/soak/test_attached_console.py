@@ -1,7 +1,7 @@
 """Half an hour of everything that a console does beside a robot, on any rclpy: nothing is lost, nothing grows.
 
 `-m soak` runs it on the embedded runtime, `BOT_CONSOLE_TESTS_ON=ros pytest -m ros tests/soak` on a sourced ROS 2.
-BOT_CONSOLE_SOAK_MINUTES sets its length; the default is 30. Its measurements are printed (`-s`).
+BOT_CONSOLE_SOAK_MINUTES sets its length; the default is 30. The measurements are printed (`-s`).
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ def visitor(domain: int, name: str) -> Iterator[None]:
 
 
 def a_round(rig: RosRig, number: int, seen: Seen) -> None:
-    """Set, be refused, publish, log, drive; sometimes change the view, stop, and have a visitor."""
+    """Set a value, be refused, publish, log and drive; sometimes change the view, stop, and add a visiting node."""
     console = rig.console
     began = time.monotonic()
     taken = console.parameters.set(ROBOT, {"speed": 0.5 + number % 10 / 10}).result(TIMEOUT_S)

@@ -1,4 +1,4 @@
-"""A stepped run is independent of wall time: two hundred runs beside sixteen busy processes give one report."""
+"""A stepped run is independent of wall time: two hundred runs beside sixteen busy processes give the same report."""
 
 import json
 import os

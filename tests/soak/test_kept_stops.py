@@ -1,4 +1,4 @@
-"""A stop holds until a person releases it, whatever ends and starts meanwhile; a witness judges by ground truth.
+"""A stop holds until a person releases it, whatever ends and starts meanwhile; a witness judges by the ground truth.
 
 In one process: `tests/unit/tui/console/test_kept_stops.py`. Many runs beside busy processes: `witnessed_runs.py`.
 """

@@ -1,10 +1,10 @@
-"""A stop holds until a person releases it on an rclpy that is not ours, whatever process is killed meanwhile.
+"""A stop on a foreign rclpy holds until a person releases it, whatever process is killed meanwhile.
 
 With an environment of `.ci/on_rclpy`:
 
     BOT_CONSOLE_TESTS_ON=ros python -m pytest -m ros tests/soak/test_kept_stops_on_rclpy.py
 
-The nodes are those of the exported package, the console is `attach --ros`, and a witness judges by ground truth.
+The nodes are those of the exported package, the console is `attach --ros`, and a witness judges by the ground truth.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A program killed (-9) while it records changes has lost none that it showed, and the next one reads them all."""
+"""A program killed (-9) while it records changes loses none that it showed, and the next program reads them all."""
 
 from __future__ import annotations
 
@@ -21,9 +21,7 @@ NUMBER = 8
 
 
 def note_for_ever(file: Path, first: int, noted: int) -> None:
-    """Record one change after the other, with consecutive numbers, and write each number to the pipe `noted` once it is
-    visible.
-    """
+    """Record changes with consecutive numbers, and write each number to the pipe `noted` once the change is visible."""
     journal = Journal(history=History(file, time.time_ns()))
     for number in count(first):
         journal.record(time.time_ns(), "/n", "p", (number - 1, number), ChangeSource.EDIT)
@@ -57,7 +55,7 @@ def kill_writers(file: Path, times: int) -> None:
         newest = int.from_bytes(seen[-NUMBER:], "little") if seen else last
         there = numbers(file)
         last = there[-1] if there else 0
-        # There may be one more than was seen: it was on disk, and the program died before it showed it.
+        # There may be one more than was shown: it was on disk, and the program died before it showed it.
         assert last in (newest, newest + 1)
         assert there == list(range(last - len(there) + 1, last + 1)), "none in between is missing"
     assert last > times

@@ -81,7 +81,7 @@ def settings(folder: Path, number: int) -> None:
 
 
 def package(folder: Path, number: int) -> None:
-    """Export beside what killed exports have left, which is not asked about: each process has a separate name."""
+    """Export beside the remains of killed exports, without a question: each process has a separate name."""
     with contextlib.redirect_stdout(io.StringIO()):
         export_package([str(folder / "packages" / f"{os.getpid()}-{number}")])
 
@@ -96,7 +96,7 @@ def bag(folder: Path, number: int) -> None:
 
 
 WRITERS = {log: 0.05, parameters: 0.05, plot: 0.1, graph: 0.05, history: 0.05, settings: 0.1, package: 0.5, bag: 0.1}
-"""Everything that the program saves, with another number in every line, and within how many seconds it is killed."""
+"""Every file that the program saves, with a different number in each line, and within how many seconds it is killed."""
 
 
 def write_for_ever(writer: Callable[[Path, int], None], folder: Path) -> None:
@@ -105,7 +105,7 @@ def write_for_ever(writer: Callable[[Path, int], None], folder: Path) -> None:
 
 
 def assert_whole(folder: Path) -> None:
-    """Check that the files are as some save has left them, and that nothing partial would be taken for one."""
+    """Check that the files are as some save has left them, and that nothing partial could be taken for one."""
     lines = (folder / "log.txt").read_text().splitlines()
     assert len(lines) == LINES and len(set(lines)) == 1
     comment, *rest = (folder / "parameters.yaml").read_text().splitlines()

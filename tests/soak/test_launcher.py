@@ -1,4 +1,4 @@
-"""The launcher over hundreds of restarts: no thread, file descriptor or object is left behind. Run with `-m soak`."""
+"""The launcher over hundreds of restarts leaves no thread, file descriptor or object behind. Run with `-m soak`."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from launcher_bench import ENDS, WAITS, Bench
 pytestmark = [pytest.mark.soak, pytest.mark.timeout(600)]
 
 WARM_UP = 20
-"""Restarts before the first count: modules are imported, pools are filled."""
+"""Restarts before the first count: modules are imported and pools filled."""
 RESTARTS = 500
 SLACK = 50
-"""Allowed growth in objects of one kind; a tenth of what one leaked object per restart would be."""
+"""Allowed growth in objects of one kind: a tenth of what one leaked object per restart would add."""
 KEPT = {
     "launch.logging.launch_logger.LaunchLogger": "Python keeps loggers for ever, and each start has names of its own",
     "builtins.list": "handlers and filters of those",
@@ -51,13 +51,13 @@ def descriptors() -> list[str]:
 
 
 def census() -> Counter[str]:
-    """How many objects of each kind there are."""
+    """Count the objects of each kind."""
     gc.collect()
     return Counter(f"{type(each).__module__}.{type(each).__qualname__}" for each in gc.get_objects())
 
 
 def leaks_nothing(bench: Bench, once: Callable[[], None], end: Callable[[], object] = lambda: None) -> None:
-    """Do something hundreds of times; what is left must not grow."""
+    """Do something hundreds of times; check that what remains does not grow."""
     for _ in range(WARM_UP):
         once()
     threads, files, objects = threading.active_count(), len(descriptors()), census()

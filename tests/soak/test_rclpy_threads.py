@@ -226,7 +226,7 @@ def _publish(publisher: Any) -> None:
 
 
 def census() -> Counter[str]:
-    """How many objects of each kind there are."""
+    """Count the objects of each kind."""
     gc.collect()
     return Counter(type(each).__name__ for each in gc.get_objects())
 

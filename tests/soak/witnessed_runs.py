@@ -2,9 +2,9 @@
 
     python tests/soak/witnessed_runs.py --runs 50 --busy 2 [--only kept] [--way "link cut"]
 
-Judged by a witness of the ground truth in a separate process. Prints one JSON object: for each of the groups
-`stop`, `person`, `monitor`, and `kept` and `kept in background` (ways to lose a stop, of two kinds of robots) how many
-runs there were, how many of them failed, and how long (s) the robot went on.
+A witness in a separate process judges by the ground truth. Prints one JSON object: for each of the groups `stop`,
+`person`, `monitor`, `kept` and `kept in background` (ways to lose a stop, for two kinds of robots) the number of runs,
+how many of them failed, and how long (s) the robot moved on.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from processes.losses import GROUPS as LOSSES
 from processes.ways_to_lose_stops import WAYS
 
 Run = Callable[[LiveRobot], float]
-"""Returns how long (s) the robot went on; raises `AssertionError` where it moved."""
+"""Returns how long (s) the robot moved on; raises `AssertionError` if it moved later."""
 KEPT = "kept"
 IN_BACKGROUND = "kept in background"
 GROUPS: dict[str, dict[str, Run]] = {
@@ -43,7 +43,7 @@ GROUPS: dict[str, dict[str, Run]] = {
 
 
 def witnessed(group: str, ways: Sequence[str], runs: int, robot: LiveRobot) -> dict[str, Any]:
-    """Go through the runs of a group in turn; one that fails is counted, and the robot is released."""
+    """Run the ways of a group in turn; count failures, and release the robot after each."""
     went_on: dict[str, list[float]] = {each: [] for each in ways}
     failed: list[str] = []
     for number in range(runs):
@@ -64,7 +64,7 @@ def witnessed(group: str, ways: Sequence[str], runs: int, robot: LiveRobot) -> d
 
 
 def main() -> None:
-    """Run as the words of the command say."""
+    """Run according to the command line."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--runs", type=int, default=50, help="in each group")
     parser.add_argument("--busy", type=int, default=2)

@@ -1,4 +1,4 @@
-"""Prints what Kilted answers differently from Jazzy."""
+"""Prints results that differ between Kilted and Jazzy."""
 
 import warnings
 

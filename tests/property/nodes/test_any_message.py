@@ -1,4 +1,4 @@
-"""No message ends a node of the robot, and messages the safety monitor cannot use never let the robot drive on."""
+"""No message ends a node of the robot, and messages that the safety monitor cannot use never let the robot drive on."""
 
 from __future__ import annotations
 

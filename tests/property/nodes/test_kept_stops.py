@@ -79,7 +79,7 @@ class Stops(RuleBasedStateMachine):
 
     @rule()
     def restart_both(self) -> None:
-        """Both locks are killed before one is restarted."""
+        """Both locks are killed before either is restarted."""
         for name in NAMES:
             self.kill_lock(name)
         for name in NAMES:
@@ -158,19 +158,19 @@ class Stops(RuleBasedStateMachine):
 
     @rule(name=CONSOLES)
     def stop_and_deliver(self, name: str) -> None:
-        """A stop that is delivered without delay."""
+        """A stop is delivered without delay."""
         self.stop(name)
         self.deliver_all()
 
     @rule(name=CONSOLES)
     def release_and_deliver(self, name: str) -> None:
-        """A release of everything that is delivered without delay."""
+        """A release of everything is delivered without delay."""
         self.release(name, everybody=True)
         self.deliver_all()
 
     @rule(name=CONSOLES)
     def release_that_only_locks_receive(self, name: str) -> None:
-        """A release reaches the locks, no console hears of it, and both locks restart."""
+        """A release reaches the locks but no console, and then both locks restart."""
         self.release(name, everybody=True)
         locks = [node for node, _ in self.locks.values()]
         while arriving := [at for at, (to, _) in enumerate(self.bus.pending) if to.node in locks]:
@@ -181,7 +181,7 @@ class Stops(RuleBasedStateMachine):
 
     @rule(name=CONSOLES, count=st.integers(1, 3), at_once=st.booleans())
     def type_in_text_field(self, name: str, count: int, at_once: bool) -> None:
-        """Keys hold the robot until they turn out to be letters; then none of them does."""
+        """Keys hold the robot until they turn out to be text; then none of them does."""
         link, ids = self.consoles[name][1], list[str]()
         for _ in range(count):
             ids.append(link.add_stop("a letter"))
@@ -189,7 +189,7 @@ class Stops(RuleBasedStateMachine):
                 self.withdraw(link, ids[-1:])
         if at_once:
             self.withdraw(link, ids)
-        for _ in range(count + 3):  # each release is refused once for another one that was before it
+        for _ in range(count + 3):  # each release is refused once because of another that came before it
             self.now += 0.1
             self.deliver_all()
         assert not any(lock.lock.ids.intersection(ids) for _, lock in self.locks.values())
@@ -229,7 +229,7 @@ class Stops(RuleBasedStateMachine):
 
     @rule()
     def converge(self) -> None:
-        """In the end, every lock holds the stops that nobody has released, and no others."""
+        """At the end, every lock holds the stops that nobody has released, and no others."""
         self.full = False
         for _ in range(4):
             self.now += REMINDER_S
@@ -257,7 +257,7 @@ class Stops(RuleBasedStateMachine):
 
 
 class StopsWithoutFile(Stops):
-    """Locks that forget everything when they end."""
+    """The same with locks that forget everything when they end."""
 
     has_file = False
 

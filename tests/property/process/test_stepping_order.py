@@ -1,4 +1,4 @@
-"""Whatever threads do, a stepped run gives the same trace, runs one of them at a time, and time only increases."""
+"""Whatever threads do, a stepped run gives the same trace, runs one thread at a time, and its time only increases."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ programs = st.lists(st.lists(operation, max_size=8), min_size=1, max_size=5)
 
 
 class Run:
-    """One run of a program, and what happened in it."""
+    """One run of a program, and the events in it."""
 
     def __init__(self, threads):
         self.trace = []
@@ -98,7 +98,7 @@ def test_the_same_program_gives_the_same_trace(threads):
 
 @given(st.lists(st.lists(durations, min_size=1, max_size=6), min_size=1, max_size=5))
 def test_sleepers_wake_at_their_times_in_order_of_creation(threads):
-    """Compared with a model without threads: every wake-up at the sum of its sleeps, ties in order of creation."""
+    """Compared with a model without threads: each thread wakes at the sums of its sleeps, ties in order of creation."""
     trace = []
     with stepped() as clock:
         for number, sleeps in enumerate(threads):

@@ -1,4 +1,4 @@
-"""Later changes of a published message are never visible elsewhere, neither the sender's nor a receiver's."""
+"""Changes to a message after publishing, by the sender or by a receiver, are never visible elsewhere."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ messages = st.one_of(
 
 
 def spoil(value: Any) -> None:
-    """Change everything that can be changed in place, all the way down."""
+    """Change everything in a value that can be changed in place, recursively."""
     if hasattr(value, "get_fields_and_field_types"):
         for field in value.get_fields_and_field_types():
             inner = getattr(value, field)
@@ -47,7 +47,7 @@ def spoil(value: Any) -> None:
 
 
 def shown(message: Any) -> str:
-    """All of a message as text; upstream's `==` misses some differences of fixed-size arrays."""
+    """The whole message as text; upstream's `==` misses some differences of fixed-size arrays."""
     return repr(message)
 
 

@@ -17,7 +17,7 @@ keys = st.lists(tokens | st.sampled_from(["*", "**"]), min_size=1, max_size=4).m
 
 
 def spelled_out(pattern: list[str], parts: list[str]) -> bool:
-    """Token by token: `*` is one name, `**` any number of them."""
+    """Match token by token: `*` is one name, `**` any number of names."""
     if not pattern:
         return not parts
     if pattern[0] == "**":
@@ -48,13 +48,13 @@ RANKS = [
 
 
 def rank(value: Any) -> int:
-    """The rank of a type among those that one key may hold for a parameter."""
+    """The precedence of a type among the values that one key holds for a parameter."""
     is_list = isinstance(value, list)
     return RANKS.index((type(value[0] if is_list else value), is_list))
 
 
 def expected(given_files: Any, node: str) -> dict[str, Any]:
-    """Keys in order of first appearance; within a key the type with the first rank, and its last value."""
+    """Keys in order of first appearance; within a key, the type that ranks first, and its last value."""
     order: dict[str, dict[str, list[Any]]] = {}
     for file in given_files:
         for key, name, value in file:

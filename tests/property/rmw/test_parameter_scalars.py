@@ -1,4 +1,4 @@
-"""The types that rcl gives to words are those that C's own `strtol` and `strtod` would give."""
+"""rcl gives scalars the types that C's `strtol` and `strtod` would give them."""
 
 import ctypes
 import math

@@ -1,4 +1,4 @@
-"""YAML written without the library is identical to what the library writes."""
+"""YAML written without the library is identical to the library's."""
 
 from __future__ import annotations
 

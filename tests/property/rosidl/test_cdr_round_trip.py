@@ -1,4 +1,4 @@
-"""CDR: written messages are read back unchanged, and are identical to what rosbags writes."""
+"""CDR: written messages are read back unchanged, and their bytes are identical to those of rosbags."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ LARGE = (
     "diagnostic_msgs/msg/DiagnosticArray",
     "tf2_msgs/msg/TFMessage",
 )
-"""Those of most fields: what they are made of, smaller ones are made of too."""
+"""The messages with the most fields; smaller messages contain the same kinds."""
 NAMES = (
     "std_msgs/msg/Empty",
     "std_msgs/msg/String",
@@ -43,7 +43,7 @@ NAMES = (
     "unique_identifier_msgs/msg/UUID",
 )
 A_FEW = settings.default.max_examples * 2 // 5
-"""Fewer examples: one already covers all fields of a message, and there are many messages."""
+"""Fewer examples: each covers all fields of a message, and there are many messages."""
 LIMITS = settings(max_examples=A_FEW, deadline=None, suppress_health_check=list(HealthCheck))
 
 

@@ -24,7 +24,7 @@ NAMES = (
     "tf2_msgs/msg/TFMessage",
 )
 A_FEW = settings.default.max_examples * 2 // 5
-"""Fewer examples: one already covers all fields of a message, and there are many messages."""
+"""Fewer examples: each covers all fields of a message, and there are many messages."""
 LIMITS = settings(max_examples=A_FEW, deadline=None, suppress_health_check=list(HealthCheck))
 
 

@@ -1,4 +1,4 @@
-"""Changes of a message after publishing are not visible elsewhere: neither to nor between subscriptions."""
+"""Changes to a message after publishing are not visible elsewhere, neither to nor between subscriptions."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def spoil(message: JointState) -> None:
 
 
 def serve(executor: Any, done: Callable[[], bool]) -> None:
-    """Serve ready entities; waking the executor may take an extra turn."""
+    """Serve ready entities until `done` is true; waking the executor may take an extra turn."""
     for _ in range(20):
         if done():
             return

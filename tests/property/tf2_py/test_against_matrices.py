@@ -27,7 +27,7 @@ turns = st.one_of(any_turns, turns_about_an_axis).filter(lambda each: math.hypot
 
 
 def reported_until(latest: int) -> st.SearchStrategy[list[Entry]]:
-    """Transforms of the first seconds, enough of them that most lookups have an answer."""
+    """Transforms of the first seconds, enough that most lookups succeed."""
     each = st.tuples(st.sampled_from(FRAMES[1:]), st.integers(1, latest), moves, turns)
     return st.lists(each, min_size=20, max_size=40)
 
@@ -41,7 +41,7 @@ def unit(turn: list[float]) -> np.ndarray:
 
 
 def filled(known: list[Entry]) -> BufferCore:
-    """A buffer with all transforms, added in the order given; half of them are kept unparsed."""
+    """A buffer with all transforms, added in the given order; half of them are kept unparsed."""
     buffer = BufferCore()
     for index, (child, second, move, turn) in enumerate(known):
         message = TransformStamped()
@@ -60,8 +60,8 @@ def filled(known: list[Entry]) -> BufferCore:
 def in_parent(known: list[Entry], child: str, time: float) -> np.ndarray | None:
     """The matrix of a frame in its parent at a time (s); None if it is unknown.
 
-    Of several different transforms with one time the last one counts; at the oldest time, and where an interpolation
-    ends, the first one.
+    Of several different transforms with the same time the last one counts, but at the oldest time and at the end of an
+    interpolation the first one does.
     """
     kept: dict[int, list[tuple[np.ndarray, np.ndarray]]] = {}
     for name, second, move, turn in known:

@@ -1,4 +1,4 @@
-"""Whatever was shown and whatever comes next: after the output is written, the terminal shows what comes next."""
+"""Whatever is on the screen and whatever is drawn next, the terminal shows the new content after the output."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ CODES = st.lists(
 
 @st.composite
 def screens(draw: st.DrawFn) -> dict[int, dict[int, Strip | None]]:
-    """A few lines of a screen, some parts of which were not drawn."""
+    """A few lines of a screen, parts of which were not drawn."""
     screen: dict[int, dict[int, Strip | None]] = {}
     for y in draw(st.lists(st.integers(0, HEIGHT - 1), unique=True, max_size=HEIGHT)):
         cuts = draw(CUTS)
@@ -43,7 +43,7 @@ def screens(draw: st.DrawFn) -> dict[int, dict[int, Strip | None]]:
 
 
 def looks(cells: list[tuple[str, str]]) -> list[tuple[str, str]]:
-    """Cells without the colour and the weight of a blank's letter, which nobody sees."""
+    """Cells without the text colour and weight of blanks, which nobody sees."""
     unseen = re.compile(r"(^|;)(1|2|3|3[0-7]|9[0-7]|38;2;\d+;\d+;\d+)(?=;|$)")
     lined = re.compile(r"(^|;)[479](;|$)")
     return [

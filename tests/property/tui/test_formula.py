@@ -1,4 +1,4 @@
-"""Expressions over curves against a model that computes each value separately, following the documentation."""
+"""Expressions over curves compared with a model that computes each value separately, following the documentation."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ class Model:
 
     @staticmethod
     def _split(text: str) -> list[str]:
-        """The parts between commas, or on the two sides of an operator, outside all brackets."""
+        """Split a text at commas, or at an operator, outside all brackets."""
         depths = [text[: at + 1].count("(") - text[: at + 1].count(")") for at in range(len(text))]
         commas = [at for at, character in enumerate(text) if character == "," and depths[at] == 0]
         if commas:

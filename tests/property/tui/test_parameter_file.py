@@ -1,4 +1,4 @@
-"""Parameter files by property: what is written is read back, by us, by YAML and by ROS; patching loses nothing."""
+"""Parameter files: written values are read back by us, by YAML and by ROS; patching loses nothing."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def flat(data: dict[str, object], prefix: str = "") -> dict[str, object]:
 
 
 def assert_given(text: str, node: str, values: dict[str, Value]) -> None:
-    """Every reader of parameter files gives a node these values."""
+    """Check that every reader of parameter files gives a node these values."""
     ours = {name: value for (key, name), value in read_by_us(text).items() if key == node}
     upstream = flat(yaml.safe_load(text)[node]["ros__parameters"])
     by_yaml = {name: tuple(value) if isinstance(value, list) else value for name, value in upstream.items()}
@@ -117,7 +117,7 @@ SCRAPS = [
 @given(st.lists(st.sampled_from(SCRAPS), min_size=1, max_size=6).map("".join))
 def test_scalars_have_the_same_value_as_in_ros(text: str) -> None:
     ours, theirs = plain_value(text), scalar_value(text)
-    # Hexadecimal fractions and signed words for NaN are only understood by C, and nobody writes them.
+    # Only C understands hexadecimal fractions and signed words for NaN, and nobody writes them.
     assert same(ours, theirs) or (isinstance(theirs, float) and "x" in text)
 
 

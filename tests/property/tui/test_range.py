@@ -53,7 +53,7 @@ def described(allowed: Any, value: float) -> tuple[ParameterInfo, ParameterDescr
 
 
 def reason(value: Any, descriptor: ParameterDescriptor) -> str | None:
-    """Why rclpy refuses a value."""
+    """Why rclpy refuses a value; None if it accepts it."""
     given = Parameter("it", value=value)
     return refusal(given, descriptor, check_read_only=True, declared=True, tolerance=Node.PARAM_REL_TOL)
 

@@ -1,4 +1,4 @@
-"""Whatever has replaced a file that the console keeps, reading it neither fails nor blocks, and is reported once."""
+"""Whatever has replaced one of the console's files, reading it neither fails nor blocks, and is reported once."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ STORES: dict[str, tuple[Callable[[], Path], Callable[[], list[str]], bool]] = {
     "alarms": (lambda: config_folder() / "alarms.yaml", read_alarms, False),
     "a view": (lambda: StateFiles()._path("plot"), read_view, False),
 }
-"""Where each file is, a function that reads it and returns the problems, and whether an unusable file is reported."""
+"""The path of each file, a function that reads it and returns problems, and whether an unusable file is reported."""
 
 
 @pytest.fixture(autouse=True)

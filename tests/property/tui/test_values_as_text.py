@@ -1,4 +1,4 @@
-"""Values as text: both the text to edit and the copied command give back exactly the same value."""
+"""Values as text: the text to edit and the copied command both give back exactly the same value."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an executor answers after its shutdown."""
+"""The results of an executor's methods after its shutdown."""
 
 import rclpy
 from rclpy.executors import SingleThreadedExecutor

@@ -1,4 +1,4 @@
-"""spin_until_future_complete with a time limit."""
+"""spin_until_future_complete with a timeout."""
 
 import rclpy
 from rclpy.task import Future

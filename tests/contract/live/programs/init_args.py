@@ -1,4 +1,4 @@
-"""Arguments, unknown ones, and what remains."""
+"""ROS arguments, unknown arguments, and the arguments that remain."""
 
 import rclpy
 from rclpy.utilities import remove_ros_args

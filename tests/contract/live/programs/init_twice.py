@@ -1,4 +1,4 @@
-"""init and shutdown in a wrong order."""
+"""init and shutdown in the wrong order."""
 
 import rclpy
 

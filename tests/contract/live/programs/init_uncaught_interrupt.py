@@ -1,4 +1,4 @@
-"""An interrupt that nobody catches: the exit code."""
+"""The exit code after an uncaught interrupt."""
 
 import os
 import signal

@@ -1,4 +1,4 @@
-"""What fields accept."""
+"""The values that message fields accept."""
 
 import numpy
 from geometry_msgs.msg import Point

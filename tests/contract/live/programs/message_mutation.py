@@ -1,4 +1,4 @@
-"""Messages hold what they are given."""
+"""Messages keep references to the values they are given."""
 
 from geometry_msgs.msg import Pose, Twist
 from std_msgs.msg import Float64MultiArray

@@ -1,4 +1,4 @@
-"""Callbacks with a wrong number of parameters."""
+"""Callbacks with the wrong number of parameters."""
 
 import rclpy
 from std_msgs.msg import String

@@ -1,4 +1,4 @@
-"""What a fresh node has."""
+"""The entities of a new node."""
 
 import rclpy
 

@@ -1,4 +1,4 @@
-"""Arrays, bytes and their inference."""
+"""Arrays and bytes, and the types inferred from them."""
 
 import rclpy
 from rclpy.parameter import Parameter

@@ -1,4 +1,4 @@
-"""All or nothing."""
+"""Setting parameters all or nothing."""
 
 import rclpy
 from rcl_interfaces.msg import SetParametersResult

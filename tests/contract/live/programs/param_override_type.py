@@ -1,4 +1,4 @@
-"""An override of another type ends the declaration."""
+"""An override of a different type makes the declaration fail."""
 
 import rclpy
 

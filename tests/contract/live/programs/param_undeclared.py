@@ -1,4 +1,4 @@
-"""Reading, setting and declaring what is not, or already, declared."""
+"""Reading, setting and declaring parameters that are not declared, or already are."""
 
 import rclpy
 from rclpy.parameter import Parameter

@@ -1,4 +1,4 @@
-"""A missed deadline calls back."""
+"""A missed deadline calls the event callback."""
 
 import rclpy
 from rclpy.duration import Duration

@@ -1,4 +1,4 @@
-"""One timer creates the next: a little state machine."""
+"""Each timer creates the next: a small state machine."""
 
 import rclpy
 from rclpy.node import Node

@@ -1,4 +1,4 @@
-"""Rate in a thread of its own."""
+"""A Rate in a separate thread."""
 
 import threading
 

@@ -1,4 +1,4 @@
-"""With depth 1 only the newest message waits."""
+"""With depth 1 only the newest message is queued."""
 
 import time
 

@@ -1,4 +1,4 @@
-"""Publishing in a callback: three nodes in one executor pass a message on."""
+"""Publishing in a callback: three nodes in one executor pass on a message."""
 
 import rclpy
 from rclpy.executors import SingleThreadedExecutor

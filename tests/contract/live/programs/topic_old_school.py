@@ -1,4 +1,4 @@
-"""Without a class: a loop around spin_once."""
+"""A program without a class: a loop around spin_once."""
 
 import rclpy
 from std_msgs.msg import Int32

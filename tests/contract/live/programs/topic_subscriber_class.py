@@ -1,4 +1,4 @@
-"""A subscriber class that ends spin by an exception."""
+"""A subscriber class that ends spin with an exception."""
 
 import rclpy
 from rclpy.node import Node
