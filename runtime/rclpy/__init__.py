@@ -49,7 +49,7 @@ def init(
 ) -> Any:
     """Initialise; `args` None means `sys.argv`. Raises `RuntimeError` the second time, `RCLError` for bad arguments.
 
-    Returns what the distribution returns: nothing, or a context manager that shuts down.
+    As in the chosen distribution, it returns either nothing or a context manager that shuts down.
     """
     default = get_default_context()
     chosen: Context = default if context is None else context
@@ -62,7 +62,7 @@ def init(
 
 
 class InitContextManager:
-    """The result of `init` in some distributions: in a `with` block, it shuts down at the end."""
+    """The result of `init` in some distributions: shuts down at the end of a `with` block."""
 
     def __init__(self, context: Context, installed_signal_handlers: bool) -> None:
         self.context = context
@@ -95,14 +95,14 @@ def get_global_executor() -> Executor:
 
 
 def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
-    """Shut down; raises `RuntimeError` before `init`, and `RCLError` when that has already happened."""
+    """Shut down; raises `RuntimeError` before `init`, and `RCLError` if ROS is already shut down."""
     _shutdown(context=context)
     if uninstall_handlers or (uninstall_handlers is None and context is None):
         uninstall_signal_handlers()
 
 
 def try_shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
-    """Shut down, unless that has already happened."""
+    """Shut down, unless ROS is already shut down."""
     _try_shutdown(context=context)
     if uninstall_handlers or (uninstall_handlers is None and context is None):
         uninstall_signal_handlers()
@@ -141,14 +141,14 @@ def create_node(
 
 
 def spin_once(node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None) -> None:
-    """Run one callback of a node; None or a negative time-out (s) waits for ever."""
+    """Run one callback of a node; a time-out (s) of None or below zero waits for ever."""
     executor = get_global_executor() if executor is None else executor
     was_added = False
     try:
         was_added = executor.add_node(node)
         executor.spin_once(timeout_sec=timeout_sec)
     finally:
-        if was_added:  # else whoever spins the node already, such as the caller's caller, keeps it
+        if was_added:  # otherwise the executor that already spins the node, further up the call stack, keeps it
             executor.remove_node(node)
 
 

@@ -1,4 +1,4 @@
-"""Exceptions that upstream defines in its C extension, under the module name that programs import them from."""
+"""Exceptions that upstream defines in its C extension, in the module from which programs import them."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from enum import IntEnum
 
 
 class RCLError(RuntimeError):
-    """The ROS client library refused a call."""
+    """The ROS client library rejected a call."""
 
 
 class RCLInvalidROSArgsError(RCLError):
-    """The command line of a node has a ROS part that cannot be parsed."""
+    """The ROS part of a node's command line cannot be parsed."""
 
 
 class UnknownROSArgsError(RuntimeError):
@@ -19,7 +19,7 @@ class UnknownROSArgsError(RuntimeError):
 
 
 class NodeNameNonExistentError(RCLError):
-    """There is no node of that name in the graph."""
+    """The graph contains no node with that name."""
 
 
 class UnsupportedEventTypeError(RCLError):
@@ -35,7 +35,7 @@ class InvalidHandle(RuntimeError):
 
 
 class RMWError(RuntimeError):
-    """The middleware refused a call, or received bytes that are not a message."""
+    """The middleware rejected a call, or received bytes that are not a message."""
 
 
 class rmw_qos_policy_kind_t(IntEnum):  # noqa: N801 -- upstream's name

@@ -1,7 +1,7 @@
 """Callback groups: which callbacks may run at the same time."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -17,13 +17,11 @@ class CallbackGroup:
     """Holds entities by weak reference, and decides which of them may run. The base of both kinds of group."""
 
     blocked: list[Entity] | None = None
-    """Entities that are ready and have to wait for the group, or nothing."""
+    """Ready entities that have to wait for the group; None if there are none."""
     own_rules = False
-    """Whether it is a program's own class, which does not report when a waiting entity may begin."""
+    """Whether the group has a class of the program's own, which does not report when a waiting entity may begin."""
     _full = 64
-    """The number of entities, deleted ones included, from which deleted ones are removed before another one is
-    added.
-    """
+    """How many entities, including deleted ones, the group may hold before an addition removes deleted ones."""
 
     def __init_subclass__(cls, **kwargs: object) -> None:
         super().__init_subclass__(**kwargs)
@@ -33,7 +31,7 @@ class CallbackGroup:
         self.entities: set[weakref.ref[object]] = set()
 
     def block(self, entity: Entity) -> None:
-        """Register an entity that may not run now, to be notified when it may."""
+        """Register an entity that may not run now, to notify it when it may."""
         if self.own_rules:
             if entity.sink is not None:
                 entity.sink.ask_again(entity)
@@ -41,7 +39,7 @@ class CallbackGroup:
         if self.blocked is None:
             self.blocked = []
         self.blocked.append(entity)
-        if self.can_execute(entity):  # the callback it waited for has ended meanwhile in another thread
+        if self.can_execute(entity):  # the callback it waited for has meanwhile ended in another thread
             self.unblock()
 
     def unblock(self) -> None:
@@ -53,8 +51,9 @@ class CallbackGroup:
     def add_entity(self, entity: object) -> None:
         """Add an entity to the group."""
         if len(self.entities) >= self._full:
-            # Dead references go here, not when they die: else the set could change while a program iterates over it.
-            known = tuple(self.entities)  # an atomic copy: other threads may add meanwhile
+            # Dead references are removed here, not when they die: otherwise the set could change while a program
+            # iterates over it.
+            known = tuple(self.entities)  # an atomic copy, as other threads may add entities meanwhile
             self.entities.difference_update([each for each in known if each() is None])
             self._full = 2 * max(len(self.entities), CallbackGroup._full)
         self.entities.add(weakref.ref(entity))

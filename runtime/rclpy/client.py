@@ -1,7 +1,7 @@
 """Service clients."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -97,11 +97,11 @@ class Client(ServiceEnd):
                     return
 
     def awaits(self, future: object) -> bool:
-        """Whether a future is that of a request that was not answered yet."""
+        """Whether the future belongs to a request that has not been answered yet."""
         return future in tuple(self._pending_requests.values())
 
     def run(self) -> object:
-        """Take one response and settle its future."""
+        """Take one response and complete its future."""
         try:
             number, response = self.endpoint.queue.popleft()
         except IndexError:

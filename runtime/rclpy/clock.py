@@ -1,7 +1,7 @@
 """Clocks: system, steady, and ROS time, which `/clock` may drive."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ __all__ = [
 
 
 class ClockChange(IntEnum):
-    """How the source of ROS time changed in a jump."""
+    """How the source of ROS time changed at a jump."""
 
     ROS_TIME_NO_CHANGE = 1
     ROS_TIME_ACTIVATED = 2
@@ -45,7 +45,7 @@ class ClockChange(IntEnum):
 
 
 class JumpThreshold:
-    """Which jumps a callback is called for: `min_forward` or more ahead, `min_backward` or more back."""
+    """The jumps for which a callback is called: at least `min_forward` ahead, or at least `min_backward` back."""
 
     def __init__(
         self, *, min_forward: Duration | None, min_backward: Duration | None, on_clock_change: bool = True
@@ -62,7 +62,7 @@ class JumpThreshold:
 
 
 class TimeJump:
-    """A jump: the change of the source, and by how much time moved."""
+    """A jump: how the source changed, and how far time moved."""
 
     def __init__(self, clock_change: ClockChange, delta: Duration) -> None:
         if not isinstance(clock_change, ClockChange):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
@@ -82,13 +82,13 @@ class TimeJump:
 
 
 class ClockUser(Protocol):
-    """Something that waits for a time of a clock."""
+    """Something that waits for a point in time of a clock."""
 
     def arm(self) -> None:
-        """Set again when it is due."""
+        """Set again when it is due, with its executor."""
 
     def time_jumped(self, backward: bool) -> None:
-        """Observe a jump of the clock."""
+        """Handle a jump of the clock."""
 
 
 class JumpHandle:
@@ -123,7 +123,7 @@ class JumpHandle:
 
 
 class Clock(AnyClock):
-    """A clock; one of type ROS_TIME is made as a `ROSClock`."""
+    """A clock; `ROSClock` is the class of those of type ROS_TIME."""
 
     def __new__(cls, *, clock_type: ClockType | TimeClockType = ClockType.SYSTEM_TIME) -> Clock:
         """Choose the class by the type."""
@@ -168,10 +168,10 @@ class Clock(AnyClock):
         return self._read
 
     def _steady_deadline(self, when: int) -> int | None:
-        """The steady time (ns) at which this clock shows `when`; None if something else drives the clock."""
+        """Return the steady time (ns) at which this clock shows `when`; None if something else drives the clock."""
         if self._clock_type is ClockType.STEADY_TIME:
             return when
-        # In this order, a thread that is preempted in between wakes late, but never early.
+        # In this order, a thread that is preempted between the two readings wakes late, but never early.
         until = when - self._source.system_ns()
         return self._source.steady_ns() + until
 
@@ -190,8 +190,8 @@ class Clock(AnyClock):
     ) -> JumpHandle:
         """Register callbacks before and after jumps beyond a threshold.
 
-        Raises `ValueError` without a callable one, `AttributeError` for a threshold that is none. As upstream, a
-        `post_callback` that is not callable counts as none.
+        Raises `ValueError` if neither is callable, `AttributeError` if `threshold` is not a threshold. As upstream, a
+        `post_callback` that is not callable counts as missing.
         """
         if not callable(post_callback):
             post_callback = None
@@ -199,7 +199,7 @@ class Clock(AnyClock):
             raise ValueError("One of pre_callback or post_callback must be callable")
         if pre_callback is not None and not callable(pre_callback):  # pyright: ignore[reportUnnecessaryComparison] -- a user's argument
             raise ValueError("pre_callback must be callable if given")
-        _ = threshold.min_forward  # what is no threshold fails now, not at a jump
+        _ = threshold.min_forward  # an invalid threshold fails now, not at a jump
         return JumpHandle(self, threshold, pre_callback, post_callback)
 
     def sleep_until(self, until: Time, context: Context | None = None) -> bool:
@@ -266,7 +266,7 @@ class ROSClock(Clock):
         def switch() -> None:
             self._active = enabled
 
-        # rcl reports a change of source with a delta of zero, however far apart the two sources are.
+        # rcl reports a change of source with a delta of zero, however much the two times differ.
         self._jump(TimeJump(change, Duration()), switch)
         for timer in list(self._timers):
             timer.time_jumped(True)

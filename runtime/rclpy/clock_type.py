@@ -15,7 +15,7 @@ class ClockType(IntEnum):
 
 
 class TimeClockType(NamedIntEnum):
-    """The same as times have them, which print by name: upstream's are of the C extension."""
+    """The same types as `Time` returns them; they print by name, as upstream's come from the C extension."""
 
     UNINITIALIZED = 0
     ROS_TIME = 1

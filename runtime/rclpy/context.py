@@ -1,7 +1,7 @@
 """Contexts: what `rclpy.init` creates and `rclpy.shutdown` ends."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ NOT_INITIALIZED = "this context has not been initialised: call rclpy.init() firs
 
 
 class NodeOfContext(OverriddenNode, Protocol):
-    """A node as its context knows it."""
+    """What a context needs of its nodes."""
 
     def _ros_leave_graph(self) -> None: ...
 
@@ -63,7 +63,7 @@ class Context:
     ) -> None:
         """Initialise; raises `RuntimeError` the second time and `RCLError` for arguments that cannot be parsed.
 
-        `initialize_logging` affects only the log file: all contexts of a process share its logging.
+        `initialize_logging` affects only the log file, as all contexts of a process share its logging.
         """
         from rclpy.impl.command_line import begin_log_file, parse_global
         from rclpy.impl.rcutils_logger import RcutilsLogger
@@ -78,7 +78,7 @@ class Context:
                 domain_id = _domain_of_environment()
             elif domain_id < 0:
                 raise RuntimeError(f"Domain id ({domain_id}) should not be lower than zero.")
-            elif not hasattr(domain_id, "__index__"):  # NumPy's integers have it, floats do not
+            elif not hasattr(domain_id, "__index__"):  # integers of NumPy have it, floats do not
                 raise TypeError(f"domain_id must be an int, not {type(domain_id).__name__}")
             elif domain_id > DEFAULT_DOMAIN:
                 raise TypeError(f"domain_id must be less than 2^64, not {domain_id}")
@@ -90,7 +90,7 @@ class Context:
                 self._log_file = begin_log_file(self.arguments)
             self._process = current()
             self._forget_abandon = self._process.on_abandon(self._abandon)
-            self._initialized = True  # from here on a signal may shut it down
+            self._initialized = True  # from now on a signal may shut the context down
         remember_context(self)
 
     def ok(self) -> bool:
@@ -104,7 +104,7 @@ class Context:
             raise distribution().error_before_init(NOT_INITIALIZED)
 
     def require_running(self, what: str) -> None:
-        """Raise `TypeError` before `init` and `RCLError` after the shutdown: `what` cannot be made then."""
+        """Raise `TypeError` before `init`, and `RCLError` after the shutdown, as `what` cannot be created then."""
         self._require_init()
         if self.ended:
             current().deliver_signals()
@@ -115,7 +115,7 @@ class Context:
 
     @property
     def handle(self) -> Destroyable:
-        """The context's handle, as upstream's context has one."""
+        """The context's handle, as upstream has one."""
         return Destroyable(self, lambda: None)
 
     @property
@@ -141,7 +141,7 @@ class Context:
         self._end()
 
     def try_shutdown(self) -> None:
-        """Shut down, unless that has already happened."""
+        """Shut down, unless the context is already shut down."""
         if self._initialized and not self.ended:
             self._end()
 
@@ -168,9 +168,9 @@ class Context:
                 callback()
 
     def on_shutdown(self, callback: Callable[[], object]) -> None:
-        """Register a callback for the shutdown, called at once if that is over."""
+        """Register a callback for the shutdown, or call it at once if the context is already shut down."""
         if not callable(callback):
-            raise TypeError("callback should be a callable, got {}", type(callback))  # a pair, as upstream
+            raise TypeError("callback should be a callable, got {}", type(callback))  # given as a pair, as upstream
         self._add(callback, "_callbacks")
 
     def on_end(self, wake: Callable[[], object]) -> Callable[[], None]:
@@ -187,7 +187,7 @@ class Context:
         return lambda: None
 
     def _held(self, callback: Callable[[], object]) -> Callable[[], Callable[[], object] | None]:
-        """A reference to the callback: methods are held weakly, so that the context keeps no object alive."""
+        """Return a reference to the callback: weak for methods, so that the context keeps no object alive."""
         if isinstance(callback, MethodType):
             try:
                 return weakref.WeakMethod(callback, self._forget)
@@ -215,7 +215,7 @@ class Context:
         self._nodes.discard(node)
 
     def _abandon(self) -> None:
-        """Remove the nodes from the graph and silence them: the process was killed, but its code may still run."""
+        """Remove the nodes from the graph and silence them, as the process was killed but its code may still run."""
         self.ended = self._abandoned = True
         self._end_log_file()
         for endpoint in list(self.lingering):
@@ -224,7 +224,7 @@ class Context:
             node._ros_leave_graph()
 
     def _release_to_nodes(self) -> None:
-        """Let only the nodes keep the context from here on: a program may initialise and shut down many contexts."""
+        """Keep the context alive only through its nodes from now on, as a program may create many contexts."""
         weak_abandon = weakref.WeakMethod(self._abandon)
 
         def abandon() -> None:

@@ -1,7 +1,7 @@
-"""Recognizes a wait that cannot end: a callback waits for what only its own callback group or thread could receive."""
+"""Recognizes waits that cannot end: a callback waits for an event that only its own group or thread could receive."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ UNSPUN = (
 
 
 def report_deadlock(entity: Entity, node: NodeBase, what: str) -> None:
-    """Give a notice if what the calling thread waits for, an event of a node's entity, cannot come."""
+    """Give a notice if the calling thread waits for an event of a node's entity that cannot arrive."""
     frame = sys._getframe(1)
     if text := _cause(entity, frame):
         name = node.get_fully_qualified_name()
@@ -53,7 +53,7 @@ def report_deadlock(entity: Entity, node: NodeBase, what: str) -> None:
 
 
 def report_future(future: Any, executor: Any) -> None:
-    """Give a notice if a future, for which the calling thread spins an executor, cannot be settled that way."""
+    """Give a notice if a future, for which the calling thread spins an executor, cannot be completed that way."""
     for node in executor.get_nodes():
         for entity in tuple(node._ros_entities):
             if entity.awaits(future) and _blocked(entity, sys._getframe(1)):
@@ -74,13 +74,13 @@ def _cause(entity: Entity, frame: FrameType) -> str:
 
 
 def _blocked(entity: Entity, frame: FrameType) -> bool:
-    """Whether a callback of the entity's group runs further up the stack, and keeps the entity from being served."""
+    """Whether a callback of the entity's group runs further up the stack and prevents the entity from being served."""
     group = entity.callback_group
     return any(each.callback_group is group for _, each in _running(frame)) and not group.can_execute(entity)
 
 
 def _running(frame: FrameType | None) -> Iterator[tuple[Any, Any]]:
-    """The executors that run callbacks further up the stack, each with the entity whose callback it runs."""
+    """Yield the executors that run callbacks further up the stack, each with the entity whose callback it runs."""
     while frame is not None:
         if frame.f_code.co_name == "_run":
             executor: Any = frame.f_locals.get("self")
@@ -93,17 +93,17 @@ def _running(frame: FrameType | None) -> Iterator[tuple[Any, Any]]:
 
 
 _KINDS = ("the action client", "the timer", "the subscription", "the guard condition", "the client", "the service")
-"""By the kind of an entity."""
+"""The names of entities, by kind."""
 
 
 def wait_until_settled(
     future: Future[Any], entity: Entity, node: NodeBase, what: str, deadline_ns: int | None = None
 ) -> None:
-    """Block until the future, which a node's entity settles, is done or cancelled, or until a steady time (ns).
+    """Block until the future, which a node's entity completes, is done or cancelled, or until a steady time (ns).
 
-    If it never can be, a notice says so after a while, which calls the wait `what`.
-    Without a deadline it raises `ROSInterruptException` when the context is shut down, as no answer is received after
-    that. Upstream keeps waiting, so that its program never ends.
+    If that can never happen, a notice says so after a while; `what` describes the wait. Without a deadline it raises
+    `ROSInterruptException` when the context is shut down, as no answer can arrive after that. Upstream would keep
+    waiting, and the program never end.
     """
     clock, context = current().clock, node.context
     wakeup = clock.wakeup()
@@ -124,5 +124,5 @@ def wait_until_settled(
     finally:
         forget()
     if not future._settled():  # pyright: ignore[reportPrivateUsage] -- as above
-        current().deliver_signals()  # Ctrl-C shuts down as well: the waiting thread shall see `KeyboardInterrupt`
+        current().deliver_signals()  # Ctrl-C also ends the context: the waiting thread should see `KeyboardInterrupt`
         raise ROSInterruptException

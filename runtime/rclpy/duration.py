@@ -93,7 +93,7 @@ class Duration:
         return cls(seconds=msg.sec, nanoseconds=msg.nanosec)
 
     def get_c_duration(self) -> int:
-        """The length as passed to upstream's C layer: here in ns."""
+        """Return the length in ns, in place of the C object that upstream returns."""
         return self._nanoseconds
 
 

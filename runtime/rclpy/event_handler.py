@@ -47,7 +47,7 @@ __all__ = [
 
 Callback = Callable[[Any], object]
 INFINITE_NS = 2**63 - 2
-"""Durations from here on stand for no limit."""
+"""Durations (ns) from which on there is no limit."""
 
 
 class QoSPublisherEventType(NamedIntEnum):
@@ -96,7 +96,7 @@ class QoSCountInfo(NamedTuple):
 
 
 class QoSLivelinessChangedInfo(NamedTuple):
-    """Publishers that are alive and that are not, and the changes since the last call."""
+    """How many publishers are alive and how many are not, and the changes since the last call."""
 
     alive_count: int = 0
     not_alive_count: int = 0
@@ -137,7 +137,7 @@ class QoSMessageLostInfo(QoSCountInfo):
 
 
 class IncompatibleTypeInfo(QoSCountInfo):
-    """The data of an event about endpoints of another message type."""
+    """The data of an event about an endpoint with another message type."""
 
 
 class _EventCallbacks:
@@ -232,7 +232,7 @@ class PublisherEventCallbacks(_EventCallbacks):
     def _liveliness(self, callback: Callback, group: CallbackGroup, qos: QoSProfile) -> Sequence[EventHandler]:
         lease = limit(qos.liveliness_lease_duration)
         if lease is None or qos.liveliness is not LivelinessPolicy.MANUAL_BY_TOPIC:
-            return []  # a publisher whose process lives is alive
+            return []  # a publisher is alive as long as its process is
         return [MissedHandler(QoSLivelinessLostInfo, callback, group, lease, again=False)]
 
 

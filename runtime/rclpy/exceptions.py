@@ -114,7 +114,7 @@ class InvalidParameterTypeException(ParameterException):
 
 
 class InvalidParameterValueException(ParameterException):
-    """A parameter was given a value that its range or a callback refuses."""
+    """A parameter was given a value that its range or a callback rejects."""
 
     def __init__(self, parameter: str, value: object, reason: str, *args: object) -> None:
         ParameterException.__init__(
@@ -130,7 +130,7 @@ class ParameterImmutableException(ParameterException):
 
 
 class ParameterUninitializedException(ParameterException):
-    """A parameter was read that was declared without a value."""
+    """A parameter that was declared without a value was read."""
 
     def __init__(self, parameter: str, *args: object) -> None:
         ParameterException.__init__(self, f"The parameter '{parameter}' is not initialized", parameter, *args)

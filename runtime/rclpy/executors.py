@@ -1,7 +1,7 @@
 """Executors: they run the callbacks of their nodes' ready entities, in rclpy's order."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 
 class TaskQueue:
-    """The methods of `Executor` that keep tasks and continue them."""
+    """The methods of `Executor` that keep tasks and resume them."""
 
     _tasks: dict[Task[Any], Entity | None]
     _ready_tasks: list[Task[Any]]
@@ -76,7 +76,7 @@ class TaskQueue:
     def _run_task(self, task: Task[Any]) -> None:
         try:
             task()
-        except BaseException:  # a Ctrl-C, SystemExit, asyncio's CancelledError: the coroutine has ended with it
+        except BaseException:  # for example Ctrl-C, SystemExit, or asyncio's CancelledError: it has ended the coroutine
             self._forget(task)
             raise
         if not task.done():
@@ -93,7 +93,7 @@ class TaskQueue:
             raise error
 
     def _collect_tasks(self) -> list[Task[Any]]:
-        """The tasks that can continue, in the order of the distribution."""
+        """Return the tasks that can continue, in the order of the chosen distribution."""
         with self._lock:
             tasks, self._ready_tasks = self._ready_tasks, []
             if len(tasks) > 1:
@@ -132,12 +132,13 @@ class ConditionReachedException(Exception):
 class Executor(TaskQueue, ReadyCallbacks):
     """Serves nodes; `spin_once` runs one callback.
 
-    An entity marks itself ready once, however much it has to do. A wake takes what is ready and the timers that are
-    due, and sorts that batch by (node, kind, creation): rclpy's order, at the cost of the ready entities only.
+    An entity marks itself ready once, however many events it has. A wake takes the ready entities and the timers that
+    are due, and sorts that batch by (node, kind, creation). This is rclpy's order, at a cost that depends on ready
+    entities only.
     """
 
     receives_in_one_thread = False
-    """Whether nothing is received while a callback runs."""
+    """Whether nothing can be received while a callback runs."""
 
     def __init__(self, *, context: Context | None = None) -> None:
         self._context = get_default_context() if context is None else context
@@ -147,29 +148,29 @@ class Executor(TaskQueue, ReadyCallbacks):
         self._nodes: dict[NodeBase, int] = {}
         self._node_count = 0
         self._ready: deque[Entity] = deque()
-        self._batch: deque[Any] = deque()  # entities and tasks, told apart by their class: `isinstance` takes longer
+        self._batch: deque[Any] = deque()  # entities and tasks, distinguished by their class: `isinstance` is slower
         self._tasks: dict[Task[Any], Entity | None] = {}
         self._ready_tasks: list[Task[Any]] = []
         self._held: list[Entity] = []
-        """Ready entities whose group, one of the program's own, did not let them begin."""
+        """Ready entities that a callback group of the program's own class did not allow to begin."""
         self._timers = TimerHeap()
-        self._lock = allocate_lock()  # held for a few lines that never wait: it blocks nobody, in a stepped run either
+        self._lock = allocate_lock()  # held for a few lines that never wait: it blocks nobody, even in a stepped run
         self._wakeup = self._clock.wakeup()
         self._waiting = 0
         self._awaited: tuple[object, ...] | None = None
-        """What the thread that waits for work has requested."""
+        """What the thread that is waiting for work has asked for."""
         self._is_shutdown = False
         self.is_global = False
-        """Whether it is the one of `rclpy.spin`, which ends silently with `rclpy.shutdown`."""
+        """Whether this is the executor of `rclpy.spin`, which ends silently with `rclpy.shutdown`."""
         self._spinning = 0
-        """How many calls of `spin` and the like run."""
+        """How many calls of `spin` and similar methods are running."""
         self._polled = False
-        """Whether the last call that gave work was one that does not wait."""
+        """Whether the last call that returned work was one that does not wait."""
         self._context.on_end(self.wake)
 
     @property
     def is_spinning(self) -> bool:
-        """Whether `spin` or `spin_until_future_complete` runs, of this executor or, with it, of `rclpy`."""
+        """Whether `spin` or `spin_until_future_complete` is running, as a method or as a function of `rclpy`."""
         return self._spinning > 0
 
     @contextmanager
@@ -200,7 +201,7 @@ class Executor(TaskQueue, ReadyCallbacks):
             self._wakeup.set()
 
     def ask_again(self, entity: Entity) -> None:
-        """Retry an entity that may not begin now at the next wake."""
+        """Retry, at the next wake, an entity that may not begin now."""
         self._held.append(entity)
 
     def wake(self) -> None:
@@ -238,14 +239,14 @@ class Executor(TaskQueue, ReadyCallbacks):
         return True
 
     def spin(self) -> None:
-        """Run callbacks until shut down; raises `ExternalShutdownException` if the context is, while none runs."""
+        """Run callbacks until shut down; raises `ExternalShutdownException` if its context is, between callbacks."""
         report_unused_overrides(self._context)
         with self._entered():
             while self._context.ok() and not self._is_shutdown:
                 self.spin_once()
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
-        """Run one callback; None or a negative time-out waits for ever, 0 not at all."""
+        """Run one callback; a time-out of None or below zero waits for ever, 0 not at all."""
         raise NotImplementedError
 
     def spin_once_until_future_complete(self, future: Future[Any], timeout_sec: float | None = None) -> None:
@@ -278,9 +279,10 @@ class Executor(TaskQueue, ReadyCallbacks):
         raise NotImplementedError
 
     def _take(self, timeout_sec: float | None, condition: Condition | None, nodes: set[NodeBase] | None = None) -> Any:
-        """Take the next entity (with its callback group entered) or task; raises the reason if there is none.
+        """Take the next entity, whose callback group it enters, or the next task; raises an exception if there is none.
 
-        Raises `ValueError` if another thread waits for the same (of the same `nodes`), as upstream's generator does.
+        Raises `ValueError` if another thread is waiting for the same work (with the same `nodes`), as upstream's
+        generator does.
         """
         asked = (timeout_sec, condition, nodes)
         timeout = -1 if timeout_sec is None else timeout_sec_to_nsec(timeout_sec)
@@ -288,7 +290,7 @@ class Executor(TaskQueue, ReadyCallbacks):
         batch, context = self._batch, self._context
         if self._polled:
             self._polled = False
-            if timeout == 0 and not batch:  # as upstream: a poll after a wake's last callback merely ends that wake
+            if timeout == 0 and not batch:  # as upstream, a poll after a wake's last callback only ends that wake
                 raise TimeoutException
         if self._held:
             self._release_held()
@@ -296,13 +298,13 @@ class Executor(TaskQueue, ReadyCallbacks):
             while batch:
                 try:
                     item = batch.popleft()
-                except IndexError:  # another thread spins this executor as well
+                except IndexError:  # another thread spins this executor too
                     break
                 if item.__class__ is Task:
                     self._polled = timeout == 0
                     return item
                 if item.sink is not self or not item.pending():
-                    item.arm()  # for a timer whose clock was set back, which is due later now
+                    item.arm()  # for a timer whose clock was set back, so that it is due later
                     continue
                 group = item.callback_group
                 if (not group.own_rules or group.can_execute(item)) and group.beginning_execution(item):
@@ -377,7 +379,7 @@ class Executor(TaskQueue, ReadyCallbacks):
             raise TimeoutException
 
     def _run(self, item: Any) -> None:
-        """Run an item of `_take`; propagates exceptions of the callback."""
+        """Run an item that `_take` has returned; propagates exceptions of the callback."""
         if item.__class__ is Task:
             self._run_task(item)
             return
@@ -389,7 +391,7 @@ class Executor(TaskQueue, ReadyCallbacks):
         if result is None:
             self._ended(item)
             return
-        # A coroutine: its group stays busy until it has ended.
+        # A coroutine: its group stays busy until the coroutine has ended.
         task: Task[Any] = Task(result, executor=self)
         with self._lock:
             self._tasks[task] = item
@@ -426,7 +428,7 @@ class SingleThreadedExecutor(Executor):
 
 
 class MultiThreadedExecutor(Executor):
-    """Runs callbacks in a pool of threads; an exception of one is raised at a later `spin_once`."""
+    """Runs callbacks in a pool of threads; an exception of a callback is raised at a later `spin_once`."""
 
     def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
         super().__init__(context=context)
@@ -442,11 +444,11 @@ class MultiThreadedExecutor(Executor):
         self._pool = WorkerPool(num_threads, "executor")
         self._futures: deque[Task[Any]] = deque()
         self._wanted: tuple[Condition | None, Condition] = (None, lambda: bool(self._failed()))
-        """A condition that a caller waits for, and with it that of the pool: the same one for the same condition."""
+        """A caller's condition, and the pool's condition made from it, which is reused while the first is equal."""
         report_unfetched_at_exit(self, self._futures)
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
-        """Give one callback to the pool."""
+        """Pass one callback to the pool."""
         self._spin_once(timeout_sec)
 
     def _spin_once(self, timeout_sec: float | None, condition: Condition | None = None) -> None:

@@ -7,7 +7,7 @@ from rclpy._rclpy_pybind11 import RCLError
 
 
 def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> str:
-    """The full name of a topic as named in a node; raises `ValueError` if any of the three names is invalid."""
+    """Return the full name of a topic as seen by a node; raises `ValueError` if any of the three names is invalid."""
     if topic_name is None:  # pyright: ignore[reportUnnecessaryComparison] -- a user's argument
         raise RCLError("failed to do name expansion: input_topic_name argument is null")
     problem = names.validate_topic_name(topic_name)

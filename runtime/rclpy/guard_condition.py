@@ -28,7 +28,7 @@ class GuardCondition(Entity):
 
     @property
     def handle(self) -> Destroyable:
-        """The guard condition's handle, as upstream's has one."""
+        """The guard condition's handle, as upstream has one."""
         return Destroyable(self, self.use)
 
     def trigger(self) -> None:

@@ -1,4 +1,4 @@
-"""Where older programs import `InvalidHandle` from; it belongs to `rclpy.exceptions` now."""
+"""The module from which older programs import `InvalidHandle`, which now belongs to `rclpy.exceptions`."""
 
 from rclpy.exceptions import InvalidHandle
 

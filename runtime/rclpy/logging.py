@@ -1,4 +1,4 @@
-"""Logging as programs use it: loggers by name, levels, and the publishers of `/rosout` behind them."""
+"""The logging module for programs: loggers by name, levels, and the publishers of `/rosout` behind them."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _REGISTERED_TWICE = (
 
 
 def get_logger(name: str) -> RcutilsLogger:
-    """The logger with that name; raises `ValueError` for an empty one."""
+    """Return the logger with that name; raises `ValueError` for an empty one."""
     if not name:
         raise ValueError("Logger name must not be empty.")
     return RcutilsLogger(name)
@@ -44,38 +44,38 @@ def clear_config() -> None:
 
 
 def set_logger_level(name: str, level: LoggingSeverity | int, detailed_error: bool = False) -> Any:
-    """Set a logger's level; raises `ValueError` for an invalid one, whatever `detailed_error` says."""
+    """Set a logger's level; raises `ValueError` for an invalid one, whatever `detailed_error` is."""
     state().set_level(name, LoggingSeverity(level))
 
 
 def get_logger_level(name: str) -> LoggingSeverity:
-    """The level set for exactly that logger, UNSET if there is none."""
+    """Return the level set for exactly that logger, or UNSET."""
     shared = state()
     return LoggingSeverity(shared.levels.get(name, 0) if name else shared.default)
 
 
 def get_logger_effective_level(name: str) -> LoggingSeverity:
-    """The level of the nearest ancestor that has one, else the default."""
+    """Return the level of the nearest ancestor that has one, or the default."""
     return LoggingSeverity(state().effective_level(name))
 
 
 def get_logging_severity_from_string(log_severity: str) -> LoggingSeverity:
-    """The severity with that name, in upper or lower case; raises `RuntimeError` if there is none."""
+    """Return the severity with that name, in upper or lower case; raises `RuntimeError` if there is none."""
     try:
         return LoggingSeverity[log_severity.upper()]
-    except (KeyError, AttributeError):  # AttributeError: it is no string
+    except (KeyError, AttributeError):  # AttributeError: not a string
         raise RuntimeError("Failed to get severity name") from None
 
 
 def get_logging_directory() -> Path:
-    """The folder for log files."""
+    """Return the folder for log files."""
     from pathlib import Path
 
     return Path(logging_directory())
 
 
 def register_rosout(name: str, publish: Any) -> None:
-    """Publish the messages of the logger with that name by a node's publisher."""
+    """Publish the messages of the logger with that name through a node's publisher."""
     shared = state()
     if name in shared.rosout:
         get_logger("rcl.logging_rosout").warning(_REGISTERED_TWICE.format(name))

@@ -1,7 +1,7 @@
 """Nodes."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -49,10 +49,10 @@ LOGGER_SEPARATOR = "."
 
 
 class Node(NodeParameters, NodeGraph):
-    """A node of the ROS graph: it has parameters, and makes publishers, subscriptions, services, clients and timers.
+    """A node of the ROS graph: it has parameters, and creates publishers, subscriptions, services, clients and timers.
 
-    Programs inherit from it and name their attributes as they like, `_name` or `_bus` as well; therefore internal names
-    begin with `_ros_`, except those that upstream has, too.
+    Programs inherit from it and may choose any names for their attributes, even `_name` or `_bus`; therefore internal
+    names begin with `_ros_`, except those that upstream has, too.
     """
 
     PARAM_REL_TOL = 1e-6
@@ -110,7 +110,7 @@ class Node(NodeParameters, NodeGraph):
         self._type_description_service = TypeDescriptionService(self)
 
     def _ros_read_arguments(self, cli_args: Sequence[str] | None, use_global: bool) -> list[Arguments]:
-        """The parsed command lines that concern this node, the context's first."""
+        """Return the parsed command lines that concern this node, starting with the context's."""
         found = [self.context.arguments] if use_global else []
         if cli_args is not None:
             from rclpy.impl.command_line import parse_local
@@ -157,7 +157,7 @@ class Node(NodeParameters, NodeGraph):
 
     def _ros_report_missed_files(self, arguments: list[Arguments]) -> None:
         if remapping.remap_node_name(self._ros_remap_rules, self._ros_name):
-            return  # whoever remapped its name knew it, such as launch, which reports this in its own way
+            return  # the program that remapped its name, such as launch, knew it and has its own report
         own = self.get_fully_qualified_name()
         others = [each.get_fully_qualified_name() for each in self.context.tracked_nodes() if each is not self]
         for each in arguments:
@@ -194,7 +194,7 @@ class Node(NodeParameters, NodeGraph):
 
     @property
     def handle(self) -> Destroyable:
-        """The node's handle, as upstream's node has one."""
+        """The node's handle, as upstream has one."""
         return Destroyable(self, self._ros_use)
 
     @handle.setter
@@ -206,26 +206,26 @@ class Node(NodeParameters, NodeGraph):
             raise InvalidHandle(DESTROYED)
 
     def get_name(self) -> str:
-        """The name, remapped."""
+        """Return the node's name after remapping."""
         self._ros_use()
         return self._ros_name
 
     def get_namespace(self) -> str:
-        """The namespace, remapped."""
+        """Return the node's namespace after remapping."""
         self._ros_use()
         return self._ros_namespace
 
     def get_fully_qualified_name(self) -> str:
-        """Namespace and name."""
+        """Return namespace and name."""
         self._ros_use()
         return names.full_name(self._ros_namespace, self._ros_name)
 
     def get_clock(self) -> Clock:
-        """The node's clock, of ROS time."""
+        """Return the node's clock, which shows ROS time."""
         return self._clock
 
     def get_logger(self) -> RcutilsLogger:
-        """The node's logger."""
+        """Return the node's logger."""
         return self._logger
 
     def destroy_node(self) -> None:
@@ -247,7 +247,7 @@ class Node(NodeParameters, NodeGraph):
             executor.wake()
 
     def _ros_leave_graph(self) -> None:
-        """Remove the node from the graph and silence it, whatever its code may still do."""
+        """Remove the node from the graph and silence it, even if its code still runs."""
         if self._ros_rosout is not None:
             self._ros_rosout.close()
         self._ros_bus.remove_node(self._ros_id)
@@ -261,8 +261,8 @@ class Node(NodeParameters, NodeGraph):
         self.destroy_node()
 
 
-# `Node` inherits most methods from mixins that users do not see, and Python names `__qualname__` in the error of a call
-# with wrong arguments: this makes it `Node.create_publisher()`, as in rclpy, not `NodeEntities.create_publisher()`.
+# `Node` inherits most methods from mixins that users do not see, and Python's error for a call with wrong arguments
+# contains `__qualname__`: this makes it `Node.create_publisher()`, as in rclpy, not `NodeEntities.create_publisher()`.
 for _part in (NodeEntities, ParameterSetting, NodeParameters, NodeGraph):
     for _name, _method in vars(_part).items():
         if isinstance(_method, FunctionType):

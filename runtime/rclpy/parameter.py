@@ -26,7 +26,7 @@ class Parameter:
     """An immutable parameter."""
 
     class Type(_TypeBase):
-        """Types of a parameter; the values are those of `rcl_interfaces/msg/ParameterType`."""
+        """Parameter types; the values are those of `rcl_interfaces/msg/ParameterType`."""
 
         NOT_SET = 0
         BOOL = 1
@@ -41,7 +41,7 @@ class Parameter:
 
         @classmethod
         def from_parameter_value(cls, parameter_value: Any) -> Parameter.Type:
-            """The parameter type of a Python value; raises `TypeError` for a value of no such type."""
+            """Return the parameter type of a Python value; raises `TypeError` for any other value."""
             return cls(infer(parameter_value))
 
         def check(self, parameter_value: Any) -> bool:
@@ -63,14 +63,14 @@ class Parameter:
 
     @classmethod
     def from_parameter_msg(cls, param_msg: ParameterMsg) -> Parameter:
-        """The parameter in a message; raises `ValueError` for an unknown type."""
+        """Return the parameter in a message; raises `ValueError` for an unknown type."""
         type_ = Parameter.Type(param_msg.value.type)
         field = FIELDS.get(type_.value)
         return cls(param_msg.name, type_, None if field is None else getattr(param_msg.value, field))
 
     @property
     def name(self) -> str:
-        """The name, dots included."""
+        """The full name, including dots."""
         return self._name
 
     @property
@@ -80,11 +80,11 @@ class Parameter:
 
     @property
     def value(self) -> Any:
-        """The value as given; None for NOT_SET."""
+        """The value as it was given; None for NOT_SET."""
         return self._value
 
     def get_parameter_value(self) -> ParameterValue:
-        """The value as a message."""
+        """Return the value as a message."""
         from rcl_interfaces.msg import ParameterValue
 
         code = self._type_.value
@@ -92,7 +92,7 @@ class Parameter:
         return ParameterValue(type=code) if field is None else ParameterValue(type=code, **{field: self._value})
 
     def to_parameter_msg(self) -> ParameterMsg:
-        """The parameter as a message."""
+        """Return the parameter as a message."""
         from rcl_interfaces.msg import Parameter as ParameterMsg
 
         return ParameterMsg(name=self._name, value=self.get_parameter_value())
@@ -103,22 +103,22 @@ _YAML_ARRAYS = tuple((each.python, each.code) for each in ARRAYS if each.python 
 
 
 def get_parameter_value(string_value: str) -> ParameterValue:
-    """The value of a text in YAML 1.1, as `ros2 param set` reads it; raises `yaml.YAMLError`."""
+    """Return the value of a text in YAML 1.1, as `ros2 param set` reads it; raises `yaml.YAMLError`."""
     from rcl_interfaces.msg import ParameterValue
 
     value = _yaml_value(string_value)
     code = _yaml_type(value)
     if code is None:
-        # Upstream treats anything but a parameter value as a string: mixed lists by their text, the rest unchanged.
+        # Upstream treats everything else as a string: mixed lists as their text, the rest unchanged.
         return ParameterValue(type=STRING.code, string_value=string_value if isinstance(value, list) else value)
     return ParameterValue(type=code, **{FIELDS[code]: value})
 
 
 def _yaml_value(text: str) -> Any:
-    """The value of a text in YAML; the text itself if that is null or it cannot be parsed."""
+    """Return the value of a text in YAML; the text itself if its value is null or it cannot be parsed."""
     from bot_console.runtime.rmw.plain_yaml import plain_scalar
 
-    # Values other than strings are left to the YAML library, which raises its own error.
+    # Values that are not strings are left to the YAML library, which raises its own error.
     plain = plain_scalar(text) if isinstance(text, str) else None  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
     if plain is not None:
         return plain
@@ -133,7 +133,7 @@ def _yaml_value(text: str) -> Any:
 
 
 def _yaml_type(value: Any) -> int | None:
-    """The type code of a value read from YAML, or None; an empty list counts as a list of booleans."""
+    """Return the type code of a value read from YAML, or None; an empty list counts as a list of booleans."""
     if isinstance(value, list):
         items = cast("list[Any]", value)
         for kind, code in _YAML_ARRAYS:
@@ -145,7 +145,7 @@ def _yaml_type(value: Any) -> int | None:
 
 
 def parameter_value_to_python(parameter_value: ParameterValue) -> Any:
-    """The Python value of a message, arrays as lists, None for NOT_SET; raises `RuntimeError` for an unknown type."""
+    """Return the Python value of a message, arrays as lists, None for NOT_SET; `RuntimeError` for other types."""
     code = parameter_value.type
     if code == 0:
         return None
@@ -162,11 +162,11 @@ def parameter_dict_from_yaml_file(
     target_nodes: list[str] | None = None,
     namespace: str = "",
 ) -> dict[str, ParameterMsg]:
-    """The parameters of a file, by name; without `target_nodes` those of all nodes.
+    """Return the parameters of a file, by name; without `target_nodes`, those of all nodes.
 
     Nodes are named as in any parameter file (`talker`, `/robot1/talker`, `/robot1:` over `talker:`); keys with a
-    wildcard (`/**`, `/*/talker`) count if `use_wildcard` is true, and the others override them.
-    Raises `RuntimeError` for a file without the wanted parameters, `OSError` and `yaml.YAMLError`.
+    wildcard (`/**`, `/*/talker`) count if `use_wildcard` is true, and other keys override them. Raises `RuntimeError`
+    for a file without the wanted parameters, `OSError` and `yaml.YAMLError`.
     """
     import yaml
 
@@ -178,7 +178,7 @@ def parameter_dict_from_yaml_file(
             AttributeError,
             LookupError,
             OverflowError,
-        ):  # raised by the library's constructors of tagged values
+        ):  # the library's constructors of tagged values raise these
             raise RuntimeError(f"{parameter_file}: a value does not match its tag") from None
     return _unpack_parameter_dict(namespace, chosen_values(content, use_wildcard, target_nodes))
 

@@ -1,7 +1,7 @@
 """A client of the parameter services of another node."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ Callback = Callable[[Any], None]
 
 
 class AsyncParameterClient:
-    """Reads and sets the parameters of a remote node; each method returns a future of the service's response.
+    """Reads and sets the parameters of a remote node; each method returns a future for the service's response.
 
     A callback given to a method is called with the future once it is done.
     """
@@ -138,7 +138,7 @@ class AsyncParameterClient:
     def load_parameter_file(
         self, parameter_file: str, use_wildcard: bool = False, callback: Callback | None = None
     ) -> Future[SetParameters.Response]:
-        """Set the parameters of a file one by one, those under all its node names.
+        """Set the parameters of a file one by one, whichever node they are for.
 
         Raises `RuntimeError` for a file without parameters, `OSError` and `yaml.YAMLError`.
         """

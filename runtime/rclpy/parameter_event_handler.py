@@ -37,7 +37,7 @@ class ParameterEventCallbackHandle:
 
 
 class ParameterEventHandler:
-    """Listens to `/parameter_events`. Callbacks added last are called first, those for one parameter before others."""
+    """Listens to `/parameter_events`. Callbacks added last are called first; those for one parameter precede others."""
 
     def __init__(
         self,
@@ -78,7 +78,7 @@ class ParameterEventHandler:
 
     @staticmethod
     def get_parameter_from_event(event: ParameterEvent, parameter_name: str, node_name: str) -> ParameterMsg | None:
-        """The new or changed parameter of a node in an event, or None if the event does not contain it."""
+        """Return the new or changed parameter of a node in an event, or None if the event does not contain it."""
         if event.node != node_name:
             return None
         for parameter in ParameterEventHandler.get_parameters_from_event(event):
@@ -88,7 +88,7 @@ class ParameterEventHandler:
 
     @staticmethod
     def get_parameters_from_event(event: ParameterEvent) -> Iterator[ParameterMsg]:
-        """The new and the changed parameters of an event."""
+        """Yield the new and the changed parameters of an event."""
         yield from chain(event.new_parameters, event.changed_parameters)
 
     def add_parameter_callback(
@@ -122,7 +122,7 @@ class ParameterEventHandler:
         self._event_callbacks.remove(handle)
 
     def _resolve_path(self, node_path: str | None = None) -> str:
-        """The full name of a node; an empty one means the listening node."""
+        """Return the full name of a node; an empty path means the listening node."""
         if not node_path:
             return self.node.get_fully_qualified_name()
         if node_path.startswith("/"):

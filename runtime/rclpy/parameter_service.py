@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 class ParameterService:
-    """Serves requests to read, describe and set the parameters of a node; created by the node itself."""
+    """Serves requests to read, describe and set a node's parameters; the node itself creates it."""
 
     def __init__(self, node: NodeParameters) -> None:
         from rcl_interfaces import srv
@@ -53,7 +53,7 @@ class ParameterService:
     def _describe(
         self, request: DescribeParameters.Request, response: DescribeParameters.Response
     ) -> DescribeParameters.Response:
-        """Describe parameters; one undeclared name empties the whole response, as in the two services below."""
+        """Describe parameters; as in the next two services, one undeclared name makes the whole response empty."""
         try:
             response.descriptors = self._node().describe_parameters(request.names)
         except ParameterNotDeclaredException:

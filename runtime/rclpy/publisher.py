@@ -1,7 +1,7 @@
 """Publishers."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 
 class Publisher:
-    """Publishes messages of one type on one topic; made by `Node.create_publisher`."""
+    """Publishes messages of one type on one topic; created by `Node.create_publisher`."""
 
     def __init__(
         self,
@@ -52,12 +52,12 @@ class Publisher:
 
     @property
     def handle(self) -> Destroyable:
-        """The publisher's handle, as upstream's publisher has one."""
+        """The publisher's handle, as upstream has one."""
         return Destroyable(self, self._use)
 
     @property
     def topic_name(self) -> str:
-        """The fully qualified name, remapped."""
+        """The fully qualified name after remapping."""
         self._use()
         return self._endpoint.endpoint.topic
 
@@ -93,11 +93,11 @@ class Publisher:
         self._endpoint.publish_own(msg)
 
     def _is_wanted(self) -> bool:
-        """Whether a message would be delivered to anybody, or kept for late subscriptions."""
+        """Whether a message would be delivered to a receiver, or kept for late subscriptions."""
         return self._endpoint.is_heard() or self._endpoint.endpoint.qos.durability.name in LATCHING
 
     def _skip(self) -> None:
-        """Do what `_publish_own` does with an unwanted message, so that none has to be created."""
+        """Do what `_publish_own` does with an unwanted message, so that the caller need not create one."""
         if self.destroyed or self._context.ended:
             self._refuse()
         self._endpoint.skip()
@@ -114,7 +114,7 @@ class Publisher:
 
     def _refuse(self, what: str = "Failed to publish") -> None:
         self._use()
-        # An interrupt shuts the context down as well: the caller shall see the interrupt, not this error.
+        # An interrupt also shuts the context down: the caller should see the interrupt, not this error.
         current().deliver_signals()
         raise RCLError(f"{what}: publisher's context is invalid")
 
@@ -122,7 +122,7 @@ class Publisher:
         """Log an ERROR that names field, type and the publishing line."""
         frame = sys._getframe(2)
         while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("rclpy."):
-            frame = frame.f_back  # skips the `publish` of a lifecycle publisher, which is not the user's code
+            frame = frame.f_back  # skips the `publish` of a lifecycle publisher, which is not user code
         where = f"{frame.f_code.co_filename}:{frame.f_lineno}"
         self._node.get_logger().error(f"cannot publish on '{self._endpoint.endpoint.topic}': {error}, at {where}")
 
@@ -133,7 +133,7 @@ class Publisher:
         return self._endpoint.matched_count()
 
     def _is_heard(self) -> bool:
-        """Whether anybody receives messages: a subscription, or somebody who stores them for later."""
+        """Whether anybody receives messages: a subscription, or an observer that stores them for later."""
         return self._endpoint.is_heard()
 
     def assert_liveliness(self) -> None:
@@ -143,7 +143,7 @@ class Publisher:
         self._endpoint.assert_liveliness()
 
     def wait_for_all_acked(self, timeout: Duration | None = None) -> bool:
-        """Whether all reliable subscriptions have received everything; within a process they have at once.
+        """Whether all reliable subscriptions have received all messages; within a process they receive them at once.
 
         Raises `RCLError` after a shutdown of the context.
         """
@@ -152,7 +152,7 @@ class Publisher:
         return True
 
     def destroy(self) -> None:
-        """Destroy the publisher; every use from now on raises `InvalidHandle`."""
+        """Destroy the publisher; every later use raises `InvalidHandle`."""
         for handler in self.event_handlers:
             handler.destroy()
         self.destroyed = True

@@ -34,7 +34,7 @@ BEST_AVAILABLE_NS = 9223372036854775806
 
 DeadlineBestAvailable = Duration(nanoseconds=BEST_AVAILABLE_NS)
 LivelinessLeaseDurationeBestAvailable = Duration(nanoseconds=BEST_AVAILABLE_NS)
-"""The name is upstream's, its spelling too."""
+"""The name is upstream's, including the misspelling."""
 
 
 class InvalidQoSProfileException(Exception):
@@ -126,7 +126,7 @@ class QoSProfile:
 
     @property
     def lifespan(self) -> Duration:
-        """The age up to which a message is delivered."""
+        """The age up to which a message may be delivered."""
         return self._lifespan
 
     @lifespan.setter
@@ -195,7 +195,7 @@ class QoSProfile:
         return f"QoSProfile({', '.join(parts)})"
 
     def get_c_qos_profile(self) -> QoSProfile:
-        """The profile as passed to upstream's C layer: here the profile itself."""
+        """Return the profile itself, in place of the C object that upstream returns."""
         return self
 
 
@@ -258,12 +258,12 @@ class QoSPresetProfiles(Enum):
 
     @classmethod
     def get_from_short_key(cls, name: str) -> QoSProfile:
-        """The preset with that key; raises `KeyError`."""
+        """Return the preset with that key; raises `KeyError`."""
         return cls[name.upper()].value
 
 
 def qos_check_compatible(publisher_qos: QoSProfile, subscription_qos: QoSProfile) -> tuple[QoSCompatibility, str]:
-    """Whether two profiles are compatible, with the reasons why not, or why that is uncertain."""
+    """Return whether two profiles are compatible, and the reasons why they are not, or may not be."""
     from rclpy.impl.qos_check import errors, warnings
 
     found = errors(publisher_qos, subscription_qos)

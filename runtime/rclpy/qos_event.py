@@ -1,4 +1,4 @@
-"""The old name of `rclpy.event_handler`; importing it warns, as it does upstream."""
+"""The old name of `rclpy.event_handler`; as upstream, importing it gives a warning."""
 
 import warnings
 

@@ -1,7 +1,7 @@
 """QoS policies of a publisher or subscription that parameters may override."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from rclpy.node_parts.base import NodeBase
 
 QosCallbackType = Callable[[QoSProfile], Any]
-"""Says by a `QosCallbackResult` whether a profile with its overrides is valid."""
+"""Returns a `QosCallbackResult` that says whether a profile with its overrides is valid."""
 
 _ENUMS: dict[QoSPolicyKind, Any] = {
     QoSPolicyKind.LIVELINESS: LivelinessPolicy,
@@ -42,7 +42,7 @@ class InvalidQosOverridesError(Exception):
 
 
 class QoSOverridingOptions:
-    """Which policies may be overridden; `entity_id` distinguishes entities of one topic."""
+    """Which policies may be overridden; `entity_id` distinguishes the entities of one topic."""
 
     def __init__(
         self,
@@ -57,7 +57,7 @@ class QoSOverridingOptions:
 
     @property
     def policy_kinds(self) -> Iterable[QoSPolicyKind]:
-        """The policies that each get a parameter."""
+        """The policies for which a parameter is declared."""
         return self._policy_kinds
 
     @property
@@ -74,7 +74,7 @@ class QoSOverridingOptions:
     def with_default_policies(
         cls, *, callback: QosCallbackType | None = None, entity_id: str | None = None
     ) -> QoSOverridingOptions:
-        """Options for history, depth and reliability."""
+        """Return options for history, depth and reliability."""
         kinds = (QoSPolicyKind.HISTORY, QoSPolicyKind.DEPTH, QoSPolicyKind.RELIABILITY)
         return cls(kinds, callback=callback, entity_id=entity_id)
 
@@ -111,7 +111,7 @@ def _declare_qos_parameters(  # pyright: ignore[reportUnusedFunction] -- node_pa
 
 
 def _refuse_where_requested(answer: bool | SetParametersResult, about: str) -> None:
-    """Raise if a callback has returned a failure: a `QosCallbackResult`, or a bool as in older releases."""
+    """Raise an error if a callback has returned a failure: a `QosCallbackResult`, or a bool as in older releases."""
     if isinstance(answer, bool):
         if not answer:
             raise InvalidQosOverridesError(f"Provided QoS overrides {about}, are not valid")
@@ -120,7 +120,7 @@ def _refuse_where_requested(answer: bool | SetParametersResult, about: str) -> N
 
 
 def _parameter_value(qos: QoSProfile, policy: QoSPolicyKind) -> object:
-    """A policy as a parameter value: a lower-case name, nanoseconds, or a plain value."""
+    """Return a policy as a parameter value: a lower-case name, nanoseconds, or a plain value."""
     value = getattr(qos, policy.name.lower())
     if policy in _ENUMS:
         if value.name == "UNKNOWN":

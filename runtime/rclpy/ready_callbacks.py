@@ -1,7 +1,7 @@
-"""The base of custom executors: it takes ready callbacks, which they run wherever they like."""
+"""The base of custom executors, which take the ready callbacks and run them in any thread they like."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class TimeoutObject:
-    """A time-out (s) that can be changed while it is being waited for."""
+    """A time-out (s) that can be changed while a wait for it is running."""
 
     def __init__(self, timeout: float) -> None:
         self.timeout = timeout
@@ -31,7 +31,7 @@ async def await_or_execute(callback: Callable[..., Any], *args: object) -> Any:
 
 
 class ReadyCallbacks:
-    """The methods of `Executor` that hand out work instead of running it."""
+    """The methods of `Executor` that hand out work instead of doing it."""
 
     _nodes: dict[NodeBase, int]
     _take: Callable[[float | None, Callable[[], bool] | None, set[NodeBase] | None], Entity | Task[Any]]
@@ -51,9 +51,9 @@ class ReadyCallbacks:
         nodes: Iterable[NodeBase] | None = None,
         condition: Callable[[], bool] | None = None,
     ) -> tuple[Task[Any], Entity | None, NodeBase | None]:
-        """The next piece of work as (task, entity, node): calling the task, in any thread, runs the callback.
+        """Return the next piece of work as (task, entity, node): calling the task, in any thread, runs the callback.
 
-        Limited to the given nodes, if any. Raises `TimeoutException`, `ShutdownException`,
+        The work is limited to the given nodes, if any. Raises `TimeoutException`, `ShutdownException`,
         `ExternalShutdownException` and, once `condition()` is true, `ConditionReachedException`.
         """
         timeout = timeout_sec.timeout if isinstance(timeout_sec, TimeoutObject) else timeout_sec
@@ -71,7 +71,7 @@ class ReadyCallbacks:
                 self._give_back(item)
 
     def create_future(self) -> Future[Any]:
-        """A future whose done callbacks run in this executor."""
+        """Return a future whose done callbacks run in this executor."""
         return Future(executor=self)
 
     def can_execute(self, entity: Entity) -> bool:
@@ -79,7 +79,7 @@ class ReadyCallbacks:
         return entity.callback_group.can_execute(entity)
 
     def _origin(self, item: Entity | Task[Any]) -> tuple[Entity | None, NodeBase | None]:
-        """The entity and node that a callback belongs to; the entity is None for a task created by `create_task`."""
+        """Return the entity and node of a callback; the entity is None for a task created by `create_task`."""
         entity = self._tasks.get(item) if isinstance(item, Task) else item
         return entity, next((node for node in self._nodes if entity in node._ros_entities), None)
 
@@ -88,5 +88,5 @@ class ReadyCallbacks:
             self._resume(item)
         else:
             self._ended(item)
-            if item.pending():  # only here for a timer, too: it has not run, which would have armed it
+            if item.pending():  # includes a timer here, which has not run and so was not armed
                 item.notify()

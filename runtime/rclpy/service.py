@@ -1,7 +1,7 @@
 """Service servers."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class Service(ServiceEnd):
-    """Serves requests; made by `Node.create_service`. The callback takes (request, response) and returns a response."""
+    """Serves requests; see `Node.create_service`. The callback takes (request, response) and returns a response."""
 
     KIND = SERVICE
     endpoint: ServiceEndpoint
@@ -46,7 +46,7 @@ class Service(ServiceEnd):
         except IndexError:
             return None
         if self.endpoint.queue:
-            self.notify()  # in a reentrant group the next one may begin before this one has ended
+            self.notify()  # in a reentrant group the next callback may begin before this one has ended
         if self.events is not None:
             self.events.report(1, client, number, request=request)
         if self._is_async:

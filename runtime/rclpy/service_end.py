@@ -1,7 +1,7 @@
-"""What a service and a client have in common: each is one end of a service, whose activity can be published."""
+"""What services and clients have in common: each is one end of a service, whose activity can be published."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ End = TypeVar("End", bound="ServiceEnd")
 
 
 class ServiceEnd(Entity):
-    """A service or a client of a node; `endpoint` is set by the node, once it has the name."""
+    """A service or a client of a node; the node sets `endpoint` once it has the name."""
 
     endpoint: Any
     events: ServiceEvents | None = None
-    """Publishes its events while introspection is on."""
+    """Publishes the entity's events while introspection is on; otherwise None."""
 
     def __init__(
         self,
@@ -44,12 +44,12 @@ class ServiceEnd(Entity):
 
     @property
     def handle(self) -> Destroyable:
-        """Its handle, as upstream's service and client have one."""
+        """The entity's handle, as upstream has one."""
         return Destroyable(self, self.use)
 
     @property
     def service_name(self) -> str:
-        """The fully qualified name, remapped."""
+        """The fully qualified name after remapping."""
         self.use()
         return self.endpoint.name
 
@@ -74,7 +74,7 @@ class ServiceEnd(Entity):
         configure(self, clock, service_event_qos_profile, introspection_state)
 
     def destroy(self) -> None:
-        """Leave the graph, and the executor."""
+        """Leave the graph and the executor."""
         self.destroyed = True
         self._node._ros_bus.remove(self.endpoint)
         self.detach()

@@ -1,7 +1,7 @@
 """Service introspection: publishes the activity of a service or client on `<service>/_service_event`."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ EVENT_TOPIC = "/_service_event"
 
 
 class ServiceIntrospectionState(NamedIntEnum):
-    """How much is published."""
+    """How much of the activity is published."""
 
     OFF = 0
     METADATA = 1
@@ -29,7 +29,7 @@ class ServiceIntrospectionState(NamedIntEnum):
 
 
 class Introspected(Protocol):
-    """A service or client as far as its activity is published."""
+    """What introspection needs of a service or client."""
 
     srv_type: ServiceType
     events: ServiceEvents | None
@@ -45,13 +45,13 @@ class Introspected(Protocol):
 
 
 class ServiceEvents:
-    """Publishes the events of one service or client; event types are those of `ServiceEventInfo`."""
+    """Publishes the events of one service or client; the event types are those of `ServiceEventInfo`."""
 
     def __init__(self, entity: Introspected, clock: Clock, qos_profile: QoSProfile) -> None:
         self.state = ServiceIntrospectionState.OFF
         self._event = entity.srv_type.Event
         self._clock = clock
-        self._node: Any = entity._node  # one that creates publishers, which what is below them cannot name
+        self._node: Any = entity._node  # has `create_publisher`: a type that this module, below it, cannot name
         self._publisher: Publisher = self._node.create_publisher(
             self._event, entity.service_name + EVENT_TOPIC, qos_profile
         )
@@ -65,7 +65,7 @@ class ServiceEvents:
         request: Message | None = None,
         response: Message | None = None,
     ) -> None:
-        """Publish one event, with request and response only in the state CONTENTS."""
+        """Publish one event; request and response are included only in the state CONTENTS."""
         if self.state == ServiceIntrospectionState.OFF:
             return
         event = self._event()
@@ -86,8 +86,8 @@ class ServiceEvents:
 
 
 def configure(entity: Introspected, clock: Clock, qos_profile: QoSProfile, state: object) -> None:
-    """Make a service or client publish its events, or stop it with OFF; raises `TypeError` for what is no state."""
-    _ = clock.handle, qos_profile.get_c_qos_profile  # what is no clock or profile, such as a depth, fails as upstream
+    """Make a service or client publish its events, or stop it with OFF; raises `TypeError` for an invalid state."""
+    _ = clock.handle, qos_profile.get_c_qos_profile  # an invalid clock or profile, such as a depth, fails as upstream
     if not isinstance(state, ServiceIntrospectionState):
         raise TypeError(f"configure_introspection(): incompatible function arguments: {state!r} is no state")
     entity.use()

@@ -29,14 +29,14 @@ SIGNALS = {
 
 
 class EndsBySignal(Protocol):
-    """A context as the signal handling knows it."""
+    """What signal handling needs of a context."""
 
     def shut_down_by_signal(self) -> None:
         """Shut down without the callbacks of `on_shutdown`."""
 
 
 class _State:
-    """The signal handling of one process, and its contexts."""
+    """The signal handling of one process, with its contexts."""
 
     def __init__(self) -> None:
         self.option = SignalHandlerOptions.NO
@@ -48,7 +48,7 @@ _state: ProcessLocal[_State] = ProcessLocal(_State)
 
 
 def install_signal_handlers(options: SignalHandlerOptions = SignalHandlerOptions.ALL) -> None:
-    """Shut the contexts of this process down on the given signals."""
+    """Make the given signals shut down the contexts of this process."""
     state = _state.get()
     uninstall_signal_handlers()
     if SIGNALS[options]:
@@ -66,16 +66,16 @@ def uninstall_signal_handlers() -> None:
 
 
 def get_current_signal_handlers_options() -> SignalHandlerOptions:
-    """The signals that are handled now."""
+    """Return the signals that are handled now."""
     return _state.get().option
 
 
 def remember_context(context: EndsBySignal) -> None:
-    """Register a context of this process, to be shut down on a signal."""
+    """Register a context of this process, so that a signal shuts it down."""
     _state.get().contexts.add(context)
 
 
 def shutdown_contexts() -> None:
-    """Shut all contexts of this process down, as a signal does."""
+    """Shut down all contexts of this process, as a signal does."""
     for context in list(_state.get().contexts):
         context.shut_down_by_signal()

@@ -1,7 +1,7 @@
 """Subscriptions."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -34,12 +34,12 @@ DOUBLE_ARGUMENT, SINGLE_ARGUMENT = 2, 1
 
 
 class Subscription(Entity):
-    """Calls back with each message of a topic; made by `Node.create_subscription`."""
+    """Calls back with each message of a topic; created by `Node.create_subscription`."""
 
     KIND = SUBSCRIPTION
 
     class CallbackType(Enum):
-        """Whether the callback takes only the message or also its info."""
+        """Whether the callback takes only the message, or its info as well."""
 
         MessageOnly = 0
         WithMessageInfo = 1
@@ -73,12 +73,12 @@ class Subscription(Entity):
 
     @property
     def handle(self) -> SubscriptionHandle:
-        """The subscription's handle, as upstream's subscription has one."""
+        """The subscription's handle, as upstream has one."""
         return SubscriptionHandle(self, self.use)
 
     @property
     def callback(self) -> Callable[..., object]:
-        """The function called with `(message)` or `(message, info)`."""
+        """The function that is called with `(message)` or `(message, info)`."""
         return self._callback
 
     @callback.setter
@@ -103,7 +103,7 @@ class Subscription(Entity):
 
     @property
     def topic_name(self) -> str:
-        """The fully qualified name, remapped."""
+        """The fully qualified name after remapping."""
         self.use()
         return self.endpoint.endpoint.topic
 
@@ -119,7 +119,7 @@ class Subscription(Entity):
         return self._content_filter is not None
 
     def set_content_filter(self, filter_expression: str, expression_parameters: Sequence[str]) -> None:
-        """Keep only messages for which the expression is true; an empty one ends the filtering.
+        """Keep only messages for which the expression is true; an empty expression ends the filtering.
 
         Raises `RCLError` for an invalid expression, which leaves the filter as it was, and `TypeError`.
         """
@@ -127,7 +127,7 @@ class Subscription(Entity):
         self._set_filter(ContentFilterOptions(filter_expression, list(expression_parameters)), "set")
 
     def get_content_filter(self) -> ContentFilterOptions:
-        """The filter in effect; raises `RCLError` without one."""
+        """Return the filter in effect; raises `RCLError` if there is none."""
         self.use()
         if self._content_filter is None:
             raise RCLError(
@@ -175,7 +175,7 @@ class Subscription(Entity):
         return bool(self._queue)
 
     def take(self) -> tuple[Any, dict[str, int | None]] | None:
-        """Take the next unexpired message with its info, bypassing executors; None without one."""
+        """Take the next unexpired message with its info, bypassing executors; None if there is none."""
         while self._queue:
             message, stamp, received, number, expires = self._queue.popleft()
             if expires is None or current().clock.system_ns() <= expires:
@@ -188,10 +188,10 @@ class Subscription(Entity):
         """Take one message and run the callback."""
         try:
             message, stamp, received, number, expires = self._queue.popleft()
-        except IndexError:  # another thread was faster
+        except IndexError:  # another thread has taken it
             return None
         if self._queue:
-            self.notify()  # in a reentrant group the next one may begin before this one has ended
+            self.notify()  # in a reentrant group the next callback may begin before this one has ended
         if expires is not None and current().clock.system_ns() > expires:
             return None
         if isinstance(message, Held):  # inlined from `own`, to save a call per message

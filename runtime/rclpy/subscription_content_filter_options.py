@@ -1,4 +1,4 @@
-"""The filter that a subscription asks for."""
+"""The content filter that a subscription requests."""
 
 from __future__ import annotations
 

@@ -14,18 +14,18 @@ from rclpy.impl.callables import is_coroutine, is_coroutine_function
 T = TypeVar("T")
 
 _running = threading.local()
-"""`task`: the task that the thread is running; a future awaited by it registers itself there."""
+"""`task` is the task that the thread is running; a future that it awaits registers itself there."""
 
 
 class TaskExecutor(Protocol):
-    """An executor as a future knows it."""
+    """What a future needs of an executor."""
 
     def create_task(self, callback: Callable[..., object], *args: object) -> object:
         """Schedule a function in the executor."""
 
 
 class Future(Generic[T]):
-    """A result that arrives later. Done callbacks run as tasks of the executor if there is one, else at once."""
+    """A result that arrives later. Done callbacks run as tasks of the executor, or at once if there is none."""
 
     def __init__(self, *, executor: TaskExecutor | None = None) -> None:
         self._done = False
@@ -43,7 +43,7 @@ class Future(Generic[T]):
         self.report_unfetched()
 
     def report_unfetched(self) -> None:
-        """Print the exception, once, if there is one that was never retrieved."""
+        """Print the exception, if there is one that was never retrieved; does so only once."""
         if getattr(self, "_exception", None) is not None and not self._exception_fetched:
             self._exception_fetched = True
             print(f"The following exception was never retrieved: {self._exception}", file=sys.stderr)
@@ -57,7 +57,7 @@ class Future(Generic[T]):
         return self.result()
 
     def cancel(self) -> None:
-        """Cancel the future unless it is done; whoever awaits it continues with None."""
+        """Cancel the future unless it is done; the code that awaits it continues with None."""
         with self._lock:
             if not self._done:
                 self._cancelled = True
@@ -76,13 +76,13 @@ class Future(Generic[T]):
         return self._done or self._cancelled
 
     def result(self) -> T:
-        """The result, or None while there is none; raises the exception if there is one."""
+        """Return the result, or None while there is none; raises the exception if there is one."""
         if self._exception:
             raise self.exception()  # type: ignore[misc] -- there is one here
-        return cast("T", self._result)  # None is not declared: programs ask when the future is done
+        return cast("T", self._result)  # None is not declared, as programs ask when the future is done
 
     def exception(self) -> BaseException | None:
-        """The exception, or None."""
+        """Return the exception, or None."""
         self._exception_fetched = True
         return self._exception
 
@@ -104,7 +104,7 @@ class Future(Generic[T]):
         self._settle()
 
     def add_done_callback(self, callback: Callable[[Future[T]], object]) -> None:
-        """Add a callback that gets this future when it is done or cancelled, or at once if it is already."""
+        """Add a callback that gets this future when it is done or cancelled, or at once if it already is."""
         with self._lock:
             if not self._settled():
                 self._callbacks.append(callback)
@@ -127,9 +127,9 @@ class Future(Generic[T]):
         self._executor = None if executor is None else weakref.ref(executor)
 
     def _when_settled(self, wake: Callable[[], object]) -> None:
-        """Call `wake` once, from any thread, when the future is settled, or at once if it is already.
+        """Call `wake` once, from any thread, when the future is done or cancelled, or at once if it already is.
 
-        Whoever asks again while it waits, as a program that polls a future does, is not called twice.
+        A `wake` that is registered again while it waits, by a program that polls a future, is still called only once.
         """
         with self._lock:
             if not self._settled():
@@ -154,7 +154,7 @@ class Future(Generic[T]):
     def _call(self, callback: Callable[[Future[T]], object]) -> None:
         try:
             callback(self)
-        except Exception as error:  # an exception of a done callback must not reach whoever settled the future
+        except Exception as error:  # an exception of a done callback must not reach the code that completed the future
             warnings.warn(f"Unhandled exception in done callback: {error}", stacklevel=2)
 
 
@@ -208,7 +208,7 @@ class Task(Future[T]):
             self.set_result(stop.value)
         except Exception as error:  # boundary of a user callback: the executor raises it out of spin
             self.set_exception(error)
-        except BaseException:  # such as KeyboardInterrupt, for the thread that runs the task: there is no outcome
+        except BaseException:  # KeyboardInterrupt etc. go to the thread that runs the task, which gets no result
             self._handler = None
             raise
 
@@ -224,7 +224,7 @@ class Task(Future[T]):
         return self._executing
 
     def cancel(self) -> None:
-        """Cancel the task: a coroutine is closed, a function that has not begun does not run.
+        """Cancel the task: a coroutine is closed, a function that has not started does not run.
 
         Raises ValueError if the coroutine is running.
         """

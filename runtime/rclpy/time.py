@@ -17,7 +17,7 @@ MAX_NS = 2**63
 
 
 class Time:
-    """A point in time in ns since the clock's beginning.
+    """A point in time, in ns since the clock's zero.
 
     Raises `ValueError` for negative parts, `OverflowError` beyond 64 bits, `TypeError` when clocks are mixed.
     """
@@ -44,7 +44,7 @@ class Time:
 
     @classmethod
     def _of(cls, nanoseconds: int, clock_type: ClockType) -> Time:
-        """A time from parts that are known to be valid."""
+        """Return a time made of parts that are known to be valid."""
         made = cls.__new__(cls)
         made._nanoseconds = nanoseconds
         made._clock_type = clock_type
@@ -52,16 +52,16 @@ class Time:
 
     @property
     def nanoseconds(self) -> int:
-        """Time since the clock's beginning in ns."""
+        """Time since the clock's zero in ns."""
         return self._nanoseconds
 
     @property
     def clock_type(self) -> TimeClockType:
-        """The kind of clock; equal to the member of `ClockType`."""
+        """The type of the clock; equal to the member of `ClockType`."""
         return TimeClockType(self._clock_type)
 
     def seconds_nanoseconds(self) -> tuple[int, int]:
-        """Whole seconds and the ns beyond them."""
+        """Return the whole seconds, and the ns beyond them."""
         return self._nanoseconds // S_TO_NS, self._nanoseconds % S_TO_NS
 
     def __repr__(self) -> str:

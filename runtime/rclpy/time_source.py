@@ -1,7 +1,7 @@
 """Drives a node's clocks from `/clock` while its parameter `use_sim_time` is true."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Timers and rates."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ MAX_PERIOD_NS = 2**63 - 1
 
 
 def _fits(period_ns: int) -> int:
-    """The period, which must fit into 64 bits as upstream; raises `TypeError`."""
+    """Return the period, which must fit into 64 bits as upstream; raises `TypeError`."""
     if not -MAX_PERIOD_NS - 1 <= period_ns <= MAX_PERIOD_NS:
         raise TypeError(f"the period of a timer must be at most 2^63 - 1 ns (292 years), not {period_ns} ns")
     return period_ns
@@ -54,7 +54,7 @@ class Timer(Entity):
         autostart: bool = True,
     ) -> None:
         super().__init__(callback_group)
-        if not hasattr(autostart, "__bool__"):  # what upstream's C++ converts: also numbers and None
+        if not hasattr(autostart, "__bool__"):  # upstream's C++ also converts numbers and None
             raise TypeError(f"autostart must be a bool, not {type(autostart).__name__}")
         if _fits(timer_period_ns) < 0:
             raise RCLError("failed to create timer: timer period must be non-negative")
@@ -71,7 +71,7 @@ class Timer(Entity):
 
     @property
     def handle(self) -> Destroyable:
-        """The timer's handle, as upstream's timer has one."""
+        """The timer's handle, as upstream has one."""
         return Destroyable(self, self.use)
 
     @property
@@ -81,7 +81,7 @@ class Timer(Entity):
 
     @property
     def timer_period_ns(self) -> int:
-        """The period; a new one takes effect with the next call."""
+        """The period in ns; a new one takes effect with the next call."""
         self.use()
         return self._period
 
@@ -100,7 +100,7 @@ class Timer(Entity):
         return self.pending()
 
     def is_canceled(self) -> bool:
-        """Whether the timer was cancelled and not reset since."""
+        """Whether the timer was cancelled and has not been reset since."""
         self.use()
         return self._canceled
 
@@ -117,12 +117,12 @@ class Timer(Entity):
         self.arm()
 
     def time_since_last_call(self) -> int:
-        """Nanoseconds since the last call, or since the timer was made."""
+        """Return the nanoseconds since the last call, or since the timer was created."""
         self.use()
         return self.clock_of_timer._now_ns() - self._last
 
     def time_until_next_call(self) -> int | None:
-        """Nanoseconds until the next call, negative when it is overdue, None while cancelled."""
+        """Return the nanoseconds until the next call, negative when it is overdue, None while cancelled."""
         self.use()
         return None if self._canceled else self._next - self.clock_of_timer._now_ns()
 
@@ -132,7 +132,7 @@ class Timer(Entity):
         self.arm()  # without `notify`, which would run it twice in one wake
 
     def arm(self) -> None:
-        """Tell the executor when the timer is due; simulated time calls this again at each jump."""
+        """Report to the executor when the timer is due; called again at each jump of simulated time."""
         sink = self.sink
         if sink is None or self._canceled or self.destroyed:
             return
@@ -166,14 +166,14 @@ class Timer(Entity):
         return result if self._is_async else None
 
     def destroy(self) -> None:
-        """Destroy the timer; every use from now on raises `InvalidHandle`."""
+        """Destroy the timer; every later use raises `InvalidHandle`."""
         self.destroyed = True
         self.clock_of_timer._remove_timer(self)
         self.detach()
 
 
 class Rate:
-    """Sleeps at a frequency; made by `Node.create_rate`."""
+    """Sleeps at a frequency; created by `Node.create_rate`."""
 
     def __init__(self, timer: Timer, *, node: NodeBase) -> None:
         context = node.context
@@ -196,7 +196,7 @@ class Rate:
         self.destroy()
 
     def destroy(self) -> None:
-        """Destroy the rate, waking its sleepers."""
+        """Destroy the rate, which wakes the threads that sleep in it."""
         self._is_destroyed = True
         self._wakeup.set()
 
@@ -217,9 +217,9 @@ class Rate:
                 self._wakeup.clear()
 
     def sleep(self) -> None:
-        """Block until the next tick; returns at once if one has come since the last sleep.
+        """Block until the next tick; returns at once if there was one since the last sleep.
 
-        Raises `ROSInterruptException` when ROS is shut down meanwhile; returns when the rate is destroyed.
+        Raises `ROSInterruptException` if ROS is shut down meanwhile; returns if the rate is destroyed.
         """
         self._presleep()
         try:
@@ -229,7 +229,7 @@ class Rate:
         finally:
             self._postsleep()
         if self._is_shutdown:
-            current().deliver_signals()  # Ctrl-C shuts down as well: the sleeper shall see `KeyboardInterrupt`
+            current().deliver_signals()  # Ctrl-C also ends the context: the sleeper should see `KeyboardInterrupt`
             raise ROSInterruptException
 
 

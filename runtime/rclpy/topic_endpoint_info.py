@@ -1,4 +1,4 @@
-"""The entry of a publisher or a subscription in the graph."""
+"""The graph's entry for a publisher or subscription."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ class TopicEndpointInfo:
 
     @property
     def topic_type_hash(self) -> Any:
-        """Hash of the type's description."""
+        """Hash of the type's definition."""
         return self._topic_type_hash
 
     @topic_type_hash.setter

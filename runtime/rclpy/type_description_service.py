@@ -1,7 +1,7 @@
 """The service `~/get_type_description` of a node."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class TypeDescriptionService:
         weakref.finalize(node, _vanish, node._ros_bus, node.context.lingering, endpoint).atexit = False
 
     def _answer(self, request: Any, response: Any) -> Any:
-        """Describe a type that an entity of this node uses, found by its hash; with the messages of rcl."""
+        """Describe a type that an entity of this node uses, found by its hash; the messages are rcl's."""
         from bot_console.runtime.rosidl.type_hash import digest_from
 
         try:
@@ -122,7 +122,7 @@ def _individual(row: Mapping[str, Any]) -> Any:
 
 
 def _source(name: str) -> Any:
-    """The source file of a type; empty for types that are derived from another definition."""
+    """Return the source file of a type; empty for types that are derived from another definition."""
     from bot_console.runtime.rosidl.texts import definition_text
     from type_description_interfaces.msg import TypeSource
 

@@ -6,7 +6,7 @@ from bot_console.runtime.rosidl.type_hash import DIGEST_BYTES, VERSION, digest
 
 
 class TypeHash:
-    """A type's hash: version of the scheme (1 is RIHS01) and 32 bytes; raises `AssertionError` for other types."""
+    """A type's hash: version of the scheme (1 is RIHS01) and 32 bytes; raises `AssertionError` for wrong types."""
 
     _TYPE_HASH_SIZE = DIGEST_BYTES
     __slots__ = ("_value", "_version")
@@ -17,7 +17,7 @@ class TypeHash:
 
     @property
     def version(self) -> int:
-        """Version of the scheme, -1 for none."""
+        """Version of the scheme; -1 if unset."""
         return self._version
 
     @version.setter
@@ -47,7 +47,7 @@ class TypeHash:
 
 
 def type_hash_of(interface: object) -> TypeHash:
-    """The hash of a message, service or action class; computed when first asked for."""
+    """Return the hash of a message, service or action class; computed when first requested."""
     return TypeHash(VERSION, digest(interface))
 
 

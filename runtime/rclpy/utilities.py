@@ -1,4 +1,4 @@
-"""Shared by the modules of rclpy and by programs: the default context, and queries of command lines."""
+"""Utilities for the modules of rclpy and for programs: the default context, and queries of command lines."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from rclpy.context import Context
 from rclpy.impl.reexports import reexporting
 
 _default_context: ProcessLocal[list[Context]] = ProcessLocal(list)
-"""The default context of a process, or nothing before its first use and after its shutdown."""
+"""A process's default context; empty before its first use and after its shutdown."""
 _lock = threading.Lock()
 
 
 def get_default_context(*, shutting_down: bool = False) -> Context:
-    """The context used by default; with `shutting_down` the next call creates a new one."""
+    """Return the default context; with `shutting_down`, the next call creates a new one."""
     with _lock:
         holder = _default_context.get()
         if not holder:
@@ -27,7 +27,7 @@ def get_default_context(*, shutting_down: bool = False) -> Context:
 
 
 def remove_ros_args(args: Sequence[str] | None = None) -> list[str]:
-    """The arguments without those for ROS, including the program's name.
+    """Return the arguments without those for ROS; the program's name is kept.
 
     Raises `RCLInvalidROSArgsError` for invalid rules, `UnknownROSArgsError` for unknown ROS arguments.
     """
@@ -47,22 +47,22 @@ def shutdown(*, context: Context | None = None) -> None:
 
 
 def try_shutdown(*, context: Context | None = None) -> None:
-    """Shut a context down unless it is already."""
+    """Shut a context down, unless it is already shut down."""
     (get_default_context(shutting_down=True) if context is None else context).try_shutdown()
 
 
 def get_rmw_implementation_identifier() -> str:
-    """The name of the middleware."""
+    """Return the name of the middleware."""
     return qos_rules().identifier
 
 
 def get_available_rmw_implementations() -> set[str]:
-    """The names of the available middlewares."""
+    """Return the names of the available middlewares."""
     return {get_rmw_implementation_identifier()}
 
 
 def timeout_sec_to_nsec(timeout_sec: float | None) -> int:
-    """A time-out in ns; -1 (forever) for None and negative ones."""
+    """Return a time-out in ns; -1 (for ever) for None and negative values."""
     if timeout_sec is None or timeout_sec < 0:
         return -1
     return int(float(timeout_sec) * S_TO_NS)

@@ -8,7 +8,9 @@ from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameExcept
 
 
 def validate_full_topic_name(name: str, *, is_service: bool = False) -> bool:
-    """True for a valid full name; raises `InvalidTopicNameException`, for services `InvalidServiceNameException`."""
+    """Return True for a valid full name; raises `InvalidTopicNameException`, for services
+    `InvalidServiceNameException`.
+    """
     if name is None:  # pyright: ignore[reportUnnecessaryComparison] -- a user's argument
         raise RMWError("failed to validate name: error not set")
     problem = names.validate_full_topic_name(name)

@@ -8,7 +8,7 @@ from rclpy.exceptions import InvalidNamespaceException
 
 
 def validate_namespace(namespace: str) -> bool:
-    """True for a valid, absolute namespace; raises `InvalidNamespaceException`."""
+    """Return True for a valid, absolute namespace; raises `InvalidNamespaceException`."""
     if namespace is None:  # pyright: ignore[reportUnnecessaryComparison] -- a user's argument
         raise RMWError("failed to validate namespace: error not set")
     problem = names.validate_namespace(namespace)

@@ -8,7 +8,7 @@ from rclpy.exceptions import InvalidNodeNameException
 
 
 def validate_node_name(node_name: str) -> bool:
-    """True for a valid name; raises `InvalidNodeNameException`."""
+    """Return True for a valid name; raises `InvalidNodeNameException`."""
     if node_name is None:  # pyright: ignore[reportUnnecessaryComparison] -- a user's argument
         raise RMWError("failed to validate node name: error not set")
     problem = names.validate_node_name(node_name)

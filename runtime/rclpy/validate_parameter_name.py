@@ -6,7 +6,7 @@ from rclpy.exceptions import InvalidParameterException
 
 
 def validate_parameter_name(name: str) -> bool:
-    """True for a valid name; raises `InvalidParameterException` for an empty one, the only invalid kind."""
+    """Return True for a valid name; raises `InvalidParameterException` for an empty one, the only invalid kind."""
     if not name:
         raise InvalidParameterException(name)
     return True

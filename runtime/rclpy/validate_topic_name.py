@@ -1,4 +1,4 @@
-"""Validation of topic and service names as typed."""
+"""Validation of topic and service names before expansion."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ TOPIC_SEPARATOR_STRING = "/"
 
 
 def validate_topic_name(name: str, *, is_service: bool = False) -> bool:
-    """True for a valid name; raises `InvalidTopicNameException`, for services `InvalidServiceNameException`."""
+    """Return True for a valid name; raises `InvalidTopicNameException`, for services `InvalidServiceNameException`."""
     if name is None:  # pyright: ignore[reportUnnecessaryComparison] -- a user's argument
         raise RCLError("failed to validate name: topic_name argument is null")
     problem = names.validate_topic_name(name)

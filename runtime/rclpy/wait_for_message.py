@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 def wait_for_message(
     msg_type: type[Message], node: Node, topic: str, *, qos_profile: QoSProfile | int = 1, time_to_wait: float = -1
 ) -> tuple[bool, Any]:
-    """The next message of a topic: (True, message), or (False, None) after the time-out (s; negative: forever).
+    """Return the next message of a topic as (True, message), or (False, None) after the time-out (s; negative: none).
 
     Works with and without an executor that spins the node.
     """
@@ -30,7 +30,7 @@ def wait_for_message(
     try:
         timeout = None if time_to_wait < 0 else time_to_wait
         executor = SingleThreadedExecutor(context=node.context)
-        # Only this subscription: another executor may be spinning the node.
+        # Serve only this subscription, as another executor may be spinning the node.
         subscription.attach(executor, 0)
         executor.spin_until_future_complete(future, timeout)
         return (True, future.result()) if future.done() else (False, None)

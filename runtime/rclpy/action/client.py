@@ -1,7 +1,7 @@
 """Action clients."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import weakref
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from action_msgs.msg import GoalStatus as GoalStatus  # programs import it from here
+from action_msgs.msg import GoalStatus as GoalStatus  # programs import it from this module
 from action_msgs.srv import CancelGoal
 from bot_console.runtime.rmw.endpoints import own
 from rclpy.action.client_goal_handle import ClientGoalHandle
@@ -94,7 +94,7 @@ class ActionClient(ActionEntity):
         handle = None if goal is None else self._goal_handle(*goal)
         statuses = None if status is None else own(status[0])
         if statuses is not None:
-            self._receive_status(statuses)  # before the goal's future is settled, whose callback another thread may run
+            self._receive_status(statuses)  # before the goal's future is settled: another thread may run its callback
         if goal is not None and handle is not None:
             self._goals.settle(goal[0], handle, self.sink)
         if cancel is not None:
@@ -111,7 +111,7 @@ class ActionClient(ActionEntity):
             await call(callback, message)
 
     def _goal_handle(self, number: int, response: GoalResponse) -> ClientGoalHandle | None:
-        """The handle of a goal that was answered; None for a response that nothing waits for."""
+        """Return the handle of an answered goal; None for a response that nothing waits for."""
         goal_id = self._goals.subject(number)
         if goal_id is None:
             self._unexpected("goal")
@@ -199,7 +199,7 @@ class ActionClient(ActionEntity):
         self.use()
 
     def awaits(self, future: object) -> bool:
-        """Whether a future is that of a request that was not answered yet."""
+        """Whether the future belongs to a request that has not been answered yet."""
         return any(each.awaits(future) for each in (self._goals, self._cancels, self._results))
 
     def server_is_ready(self) -> bool:

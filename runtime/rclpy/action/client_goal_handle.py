@@ -1,7 +1,7 @@
 """A goal as its client sees it."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class GoalClient(Protocol):
-    """An action client as the handles of its goals know it."""
+    """What the handle of a goal needs of its action client."""
 
     def _cancel_goal(self, goal_handle: ClientGoalHandle) -> Any: ...
 
@@ -44,7 +44,7 @@ class GoalResponse(Protocol):
 class ClientGoalHandle:
     """A goal that was sent and answered; `status` follows the server's status topic."""
 
-    __module__ = "rclpy.action.client"  # as upstream, where objects print it
+    __module__ = "rclpy.action.client"  # as upstream, where a handle prints its address like any object
 
     def __init__(self, action_client: GoalClient, goal_id: UUID, goal_response: GoalResponse) -> None:
         self._action_client = action_client

@@ -1,7 +1,7 @@
 """The three services and two topics that make up an action, with their names on the wire."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ FEEDBACK, STATUS = "feedback", "status"
 
 @dataclass(frozen=True)
 class ActionNames:
-    """Full names, remapped one by one as Jazzy does: a rule for the action's own name changes nothing."""
+    """Full names, remapped one by one as in Jazzy: a rule for the action's own name has no effect."""
 
     goal: str
     cancel: str
@@ -44,7 +44,7 @@ class ActionNames:
 
 
 def action_names(node: Node, action: str, side: str) -> ActionNames:
-    """The names of an action's parts; raises `ValueError` for an invalid action name, with the message of rcl.
+    """Return the names of an action's parts; raises `ValueError` with rcl's message for an invalid action name.
 
     `side` is "client" or "server".
     """
@@ -54,7 +54,7 @@ def action_names(node: Node, action: str, side: str) -> ActionNames:
         empty = f"{invalid} invalid empty action name"
         raise ValueError(empty if side == "server" else f"{failed}: failed to get goal service name")
     try:
-        checked(node, f"{action}/_action/{GOAL}")  # first as a topic, as which rcl describes what is wrong
+        checked(node, f"{action}/_action/{GOAL}")  # first as a topic, as rcl words its message for one
         services = (checked(node, f"{action}/_action/{part}", service=True) for part in (GOAL, CANCEL, RESULT))
         topics = (checked(node, f"{action}/_action/{part}") for part in (FEEDBACK, STATUS))
         return ActionNames(*services, *topics)

@@ -1,7 +1,7 @@
 """The common part of action servers and clients, as entities that an executor serves."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 class ActionEntity(Entity, Waitable):
-    """A waitable over several endpoints: each wake takes one item from every endpoint that has any."""
+    """A waitable with several endpoints: each wake takes one item from every endpoint that has any."""
 
     KIND = WAITABLE
 
@@ -52,12 +52,12 @@ class ActionEntity(Entity, Waitable):
         return not self.destroyed and self._endpoints.pending()
 
     def interfaces(self) -> Sequence[type]:
-        """The action, and those of its interfaces that have their own type hashes in the graph."""
+        """The action itself, and those of its interfaces that have type hashes of their own in the graph."""
         impl = self._action_type.Impl
         return (self._action_type, impl.SendGoalService, impl.GetResultService, impl.FeedbackMessage)
 
     def destroy(self) -> None:
-        """Leave the graph; every use from now on raises `InvalidHandle`."""
+        """Leave the graph; every later use raises `InvalidHandle`."""
         if self.destroyed:
             return
         self.destroyed = True
@@ -68,7 +68,7 @@ class ActionEntity(Entity, Waitable):
 
 
 def take(queue: deque[Any]) -> Any:
-    """Take the oldest entry of a queue; None if another thread was faster."""
+    """Take the oldest entry of a queue; None if another thread has emptied it meanwhile."""
     try:
         return queue.popleft()
     except IndexError:

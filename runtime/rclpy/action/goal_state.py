@@ -1,4 +1,4 @@
-"""The states of a goal, and the events that take it from one to another."""
+"""The states of a goal, and the events that change them."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ _NAMES = ("UNKNOWN", "ACCEPTED", "EXECUTING", "CANCELING", "SUCCEEDED", "CANCELE
 
 
 def next_status(status: int, event: GoalEvent) -> int:
-    """The status after an event; raises `RCLError` for an event that cannot happen in this one."""
+    """Return the status after an event; raises `RCLError` for an event that is impossible in the given status."""
     try:
         return _NEXT[status, event]
     except KeyError:

@@ -1,7 +1,7 @@
 """The goals known to an action server."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -48,10 +48,10 @@ class Goals:
         )
 
     def to_cancel(self, request: CancelGoal.Request) -> tuple[list[ServerGoalHandle], int]:
-        """The goals that a cancel request selects, and the return code of the response.
+        """Return the goals that a cancel request selects, and the return code of the response.
 
-        A UUID alone selects that goal; a time stamp selects all goals accepted up to then (and the one of the UUID);
-        neither selects all goals.
+        A UUID alone selects that goal; a time stamp selects all goals accepted up to then, plus the goal of a UUID; a
+        request with neither selects all goals.
         """
         uuid, stamp = bytes(request.goal_info.goal_id.uuid), _ns(request.goal_info.stamp)
         none, terminated = CancelGoal.Response.ERROR_NONE, CancelGoal.Response.ERROR_GOAL_TERMINATED

@@ -1,7 +1,7 @@
 """The requests of an action client that are waiting for a response."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class PendingRequests:
         self._waiting: dict[int, tuple[Future[Any], UUID]] = {}
 
     def send(self, endpoint: ClientEndpoint, request: object, goal_id: UUID) -> Future[Any]:
-        """Send a request; its future is completed by `settle`, and dropped if it is cancelled before."""
+        """Send a request and return a future that `settle` completes; a future that is cancelled before is dropped."""
         future: Future[Any] = Future()
         with self._lock:
             self._number += 1
@@ -38,18 +38,18 @@ class PendingRequests:
         return future
 
     def subject(self, number: int) -> UUID | None:
-        """The goal that a request concerns; None for a request that is not pending."""
+        """Return the goal that a request concerns; None for a request that is not pending."""
         with self._lock:
             found = self._waiting.get(number)
         return None if found is None else found[1]
 
     def awaits(self, future: object) -> bool:
-        """Whether a future is that of a pending request."""
+        """Whether the future belongs to a pending request."""
         with self._lock:
             return any(each is future for each, _ in self._waiting.values())
 
     def settle(self, number: int, result: object, executor: TaskExecutor | None) -> bool:
-        """Complete a request, with done callbacks run by `executor`; returns whether the request was pending."""
+        """Complete a request; `executor` runs the done callbacks. Returns whether the request was pending."""
         found = self._forget(number)
         if found is None:
             return False

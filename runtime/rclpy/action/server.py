@@ -1,7 +1,7 @@
 """Action servers."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 RESULT_TIMEOUT_S = 900
 """How long a result is kept after the end of its goal."""
 MARGIN_NS = 1_000_000
-"""The executor wakes by another clock than the one that says whether a result has expired."""
+"""Margin for expiry (ns): the clock that wakes the executor is not the one by which results expire."""
 
 
 class GoalResponse(Enum):
@@ -72,8 +72,8 @@ def default_cancel_callback(cancel_request: Any) -> CancelResponse:
 class ActionServer(ActionEntity):
     """Serves an action; callbacks may be functions or coroutine functions.
 
-    `execute_callback(goal_handle)` returns the result; without it, `handle_accepted_callback` keeps the handle of a
-    goal for whatever executes it. Results are kept for `result_timeout` (s) after the end of their goal. Raises
+    `execute_callback(goal_handle)` returns the result; without it, `handle_accepted_callback` keeps a goal's handle for
+    the code that will execute it. Results are kept for `result_timeout` (s) after the end of their goal. Raises
     `ValueError` for an invalid name, `TypeError` for an execute callback that is not callable.
     """
 
@@ -148,11 +148,11 @@ class ActionServer(ActionEntity):
         return NumberOfEntities(0, 0, 1, 0, 3)
 
     def pending(self) -> bool:
-        """Whether a request has come or a result has expired."""
+        """Whether a request has arrived or a result has expired."""
         return super().pending() or (not self.destroyed and self._expired())
 
     def run(self) -> object:
-        """Take one request of each kind and serve them."""
+        """Take and serve one request of each kind."""
         ends = self._endpoints
         return self._serve(take(ends.goal.queue), take(ends.cancel.queue), take(ends.result.queue), self._expired())
 
@@ -183,7 +183,7 @@ class ActionServer(ActionEntity):
         await call(self._handle_accepted_callback, handle)
 
     async def _accepted(self, request: Any, uuid: bytes) -> ServerGoalHandle | None:
-        """The handle of a goal that the goal callback accepts, else None; a known UUID is rejected without asking."""
+        """Return the handle of a goal that the goal callback accepts, else None; a known UUID is rejected."""
         self._debug("New goal request with ID: {}", request.goal_id.uuid)
         if uuid in self._goals:
             return None
@@ -236,12 +236,12 @@ class ActionServer(ActionEntity):
         self._node._ros_bus.respond(client, number, future.result())
 
     def notify_execute(self, goal_handle: ServerGoalHandle, execute_callback: Callable[..., object] | None) -> None:
-        """Schedule a callback, the server's own by default, for a goal in the node's executor; none without either."""
+        """Schedule a goal's execution in the node's executor, by `execute_callback` or the server's own, if any."""
         callback = self._execute_callback if execute_callback is None else execute_callback
         if callback is None:
             return
         goal_handle._is_run_by_callback = True
-        executor: Any = self._node.executor  # without one it fails, as upstream
+        executor: Any = self._node.executor  # without an executor it fails, as upstream
         executor.create_task(self._execute_goal, callback, goal_handle)
 
     async def _execute_goal(self, callback: Callable[..., object], handle: ServerGoalHandle) -> None:
@@ -262,7 +262,7 @@ class ActionServer(ActionEntity):
         handle._set_result(result)
 
     def _warn_of_result(self, callback: Callable[..., object], result: object) -> None:
-        """Warn of a result of a wrong type; upstream fails only at a request for it, without naming the callback."""
+        """Warn of a result with the wrong type; upstream fails only at a request for it, and names no callback."""
         code = getattr(callback, "__code__", None)
         place = f" ({code.co_filename}:{code.co_firstlineno})" if code else ""
         self._logger.warning(
@@ -271,7 +271,7 @@ class ActionServer(ActionEntity):
         )
 
     def notify_goal_done(self) -> None:
-        """Start the expiry of an ended goal's result."""
+        """Make the result of an ended goal expire after its time-out."""
         self._goals.find_next_expiry()
         self.arm()
 
@@ -301,7 +301,7 @@ class ActionServer(ActionEntity):
         return due is not None and self._now_ns() >= due
 
     def arm(self) -> None:
-        """Arm the executor for the expiry of the next result; simulated time calls this again at each jump."""
+        """Set when the executor expires the next result; called again at each jump of simulated time."""
         due, sink = self._goals.next_expiry, self.sink
         if due is None or sink is None or self.destroyed:
             return

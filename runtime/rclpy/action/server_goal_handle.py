@@ -1,7 +1,7 @@
-"""A goal as its server's callbacks see it."""
+"""A goal as the callbacks of its server see it."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class GoalServer(Protocol):
-    """An action server as the handles of its goals know it."""
+    """What the handle of a goal needs of its action server."""
 
     @property
     def action_type(self) -> ServiceType:
@@ -30,7 +30,7 @@ class GoalServer(Protocol):
         """Schedule a callback for a goal."""
 
     def notify_goal_done(self) -> None:
-        """Start the expiry of an ended goal's result."""
+        """Make the result of an ended goal expire after its time-out."""
 
     def _publish_status(self) -> None: ...
 
@@ -45,7 +45,7 @@ class ServerGoalHandle:
     These three raise `RCLError` in a state that does not allow them, such as `canceled` without a cancel request.
     """
 
-    __module__ = "rclpy.action.server"  # as upstream, where objects print it
+    __module__ = "rclpy.action.server"  # as upstream, where a handle prints its address like any object
 
     def __init__(self, action_server: GoalServer, goal_info: GoalInfo, goal_request: Any) -> None:
         self._action_server = action_server
@@ -56,7 +56,7 @@ class ServerGoalHandle:
         self._lock = threading.Lock()
         self._result_future: Future[Any] = Future()
         self._is_run_by_callback = False
-        """Whether an execute callback runs, which returns the result."""
+        """Whether an execute callback is running, which will return the result."""
         self.terminal_ns: int | None = None
         """When the goal ended, by the node's clock (ns)."""
 
@@ -106,7 +106,7 @@ class ServerGoalHandle:
     def execute(self, execute_callback: Callable[..., object] | None = None) -> None:
         """Schedule the execute callback, the server's own by default, in the executor.
 
-        A goal that is being cancelled keeps its state: the callback then has to end it.
+        A goal that is being cancelled keeps its state, so the callback must end it.
         """
         self.executing()
         self._action_server.notify_execute(self, execute_callback)
@@ -129,7 +129,7 @@ class ServerGoalHandle:
             self._action_server._publish_feedback(message)
 
     def succeed(self, response: Message | None = None) -> None:
-        """Mark the goal as reached; `response` is its result, as is what an execute callback returns."""
+        """Mark the goal as succeeded; `response` is its result, otherwise the return value of the execute callback."""
         self._end(GoalEvent.SUCCEED, response)
 
     def abort(self, response: Message | None = None) -> None:
@@ -146,7 +146,7 @@ class ServerGoalHandle:
             self._set_result(self._action_server.action_type.Result() if response is None else response)
 
     def _set_result(self, result: Message | None) -> None:
-        """Send the result to whoever requests it; the first one counts."""
+        """Send the result to clients that request it; only the first result counts."""
         if self._result_future.done():
             return
         response = self._action_server.action_type.Impl.GetResultService.Response()

@@ -1,4 +1,4 @@
-"""Names that later releases of Jazzy have here."""
+"""Names that are here in later releases of Jazzy."""
 
 from rclpy.experimental.events_executor import EventsExecutor
 

@@ -6,4 +6,4 @@ from rclpy.executors import SingleThreadedExecutor
 
 
 class EventsExecutor(SingleThreadedExecutor):
-    """The same as `SingleThreadedExecutor`: every executor of this runtime is event-driven."""
+    """Works like `SingleThreadedExecutor`, as every executor of this runtime is event-driven."""

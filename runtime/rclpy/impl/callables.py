@@ -31,7 +31,7 @@ def is_coroutine_function(callback: object) -> TypeGuard[Callable[..., Coroutine
 
 
 def takes(callback: Callable[..., object], count: int) -> bool:
-    """Whether a callback can be called with `count` positional arguments; raises `ValueError` if that is not known."""
+    """Whether a callback can be called with `count` positional arguments; raises `ValueError` if that is unknown."""
     function = _plain(callback)
     if function is not None:
         return _function_takes(function, count + isinstance(callback, MethodType))
@@ -45,7 +45,7 @@ def takes(callback: Callable[..., object], count: int) -> bool:
 
 
 def _plain(callback: object) -> FunctionType | None:
-    """The function of a function or method; None if attributes may change what `inspect` says, or `self` is missing."""
+    """Return the function behind a function or method; None if attributes may affect `inspect` or `self` is missing."""
     is_method = isinstance(callback, MethodType)
     function = callback.__func__ if is_method else callback
     if type(function) is not FunctionType or function.__dict__ or (is_method and not function.__code__.co_argcount):

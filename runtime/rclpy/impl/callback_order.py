@@ -1,8 +1,8 @@
-"""The order in which an executor runs callbacks that are ready together, as upstream's does.
+"""The order in which an executor runs callbacks that are ready at the same time, which is upstream's.
 
-Tasks that can continue come first, the newest or the oldest one as the distribution does; then waitables, whichever
-node they belong to. Then come, node by node in the order in which the nodes were added, timers, subscriptions, guard
-conditions, clients and services; among these, the one that was created first.
+Tasks that can continue come first, the newest or the oldest one depending on the distribution; then waitables of any
+node. Then come, node by node in the order in which the nodes were added, timers, subscriptions, guard conditions,
+clients and services; among these, the one that was created first.
 """
 
 from __future__ import annotations
@@ -15,18 +15,18 @@ from typing import Protocol, TypeVar
 from bot_console.runtime.distribution import distribution
 
 WAITABLE, TIMER, SUBSCRIPTION, GUARD, CLIENT, SERVICE = range(6)
-"""Kinds of entities, in the order in which one wake serves them."""
+"""Kinds of entities, in the order in which a wake serves them."""
 
 OrderKey = tuple[int, int, int]
-"""The place of the node in its executor, the kind, and the place of the entity among all that were created."""
+"""The position of the node in its executor, the kind, and the position of the entity in the order of creation."""
 
 
 class Ordered(Protocol):
-    """An entity as far as its place."""
+    """An entity that has a position in the order."""
 
     @property
     def key(self) -> OrderKey:
-        """The result of `order_key` for it."""
+        """The entity's `order_key`."""
         ...
 
 
@@ -37,17 +37,17 @@ _key = attrgetter("key")
 
 
 def next_creation() -> int:
-    """The place of a new entity among all that were created in this process."""
+    """Return the position of a new entity in the order of creation in this process."""
     return next(_creation)
 
 
 def order_key(kind: int, node_order: int, creation: int) -> OrderKey:
-    """The key by which entities are sorted."""
+    """Return the key by which entities are sorted."""
     return -1 if kind == WAITABLE else node_order, kind, creation
 
 
 def sort_entities(entities: list[EntityT]) -> None:
-    """Sort what is ready in one wake."""
+    """Sort the entities that are ready in one wake."""
     entities.sort(key=_key)
 
 

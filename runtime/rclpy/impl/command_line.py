@@ -16,10 +16,10 @@ from rclpy.impl.rcutils_logger import RcutilsLogger
 
 DEPRECATED = "Found remap rule '{0}'. This syntax is deprecated. Use '--ros-args --remap {0}' instead."
 NOT_OBEYED = "'{0}' is outside of --ros-args and is left to the program. A parameter is set by --ros-args -p {0}"
-"""rcl says nothing of it: `-p speed:=2.5` without the flag is a word like any other."""
+"""Without the flag, rcl takes `-p speed:=2.5` for an ordinary word and says nothing about it."""
 ASSIGNED = r"[A-Za-z_][\w./]*:=."
 NO_LOG_CONFIG = "spdlog logging backend doesn't currently support external configuration"
-"""Upstream's usual backend takes no file either; a program that gave one would not start there."""
+"""Upstream's usual backend does not support a configuration file either, so a program that gives one does not start."""
 
 
 def parse_global(words: Sequence[str]) -> Arguments:
@@ -82,7 +82,7 @@ def _parse(words: Sequence[str]) -> Arguments:
 
 
 def _refuse_enclave(enclave: str | None) -> None:
-    """Refuse an invalid enclave of a context; that of one node (`cli_args`) is ignored, as upstream."""
+    """Reject an invalid enclave of a context; that of a single node (`cli_args`) is ignored, as upstream."""
     problem = None if enclave is None else names.validate_enclave(enclave)
     if problem:
         words = f"Enclave name is not valid: '{problem[0]}'. Invalid index: {problem[1]}"

@@ -1,4 +1,4 @@
-"""The part of upstream's wrapped entities that programs use: `with subscription.handle:` and its address.
+"""The part of upstream's entity handles that programs use: `with subscription.handle:` and the handle's address.
 
 As upstream, the `with` yields nothing: `with entity.handle as handle` leaves None in `handle`.
 """
@@ -11,7 +11,7 @@ from typing import Any
 
 
 class Destroyable:
-    """The handle of an entity: a context manager that checks it is alive, and delegates attributes to the entity."""
+    """The handle of an entity: a context manager that checks the entity is alive, and delegates attributes to it."""
 
     def __init__(self, owner: Any, use: Callable[[], None]) -> None:
         self._owner = owner
@@ -28,7 +28,7 @@ class Destroyable:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Leave the entity alive."""
+        """Do nothing: the entity stays alive."""
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Destroyable) and self._owner is other._owner

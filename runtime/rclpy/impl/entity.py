@@ -1,7 +1,7 @@
 """The base of everything an executor serves: timers, subscriptions, guard conditions, clients, services, waitables."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ DESTROYED = "cannot use Destroyable because destruction was requested"
 
 
 class EntityGroup(Protocol):
-    """A callback group as its entities know it."""
+    """What entities need of a callback group."""
 
     @property
     def own_rules(self) -> bool:
-        """Whether it is a program's own class."""
+        """Whether the group has a class of the program's own."""
         ...
 
     @property
     def blocked(self) -> Sequence[Entity] | None:
-        """Entities that are ready and have to wait for the group, or nothing."""
+        """Ready entities that have to wait for the group; None if there are none."""
         ...
 
     def add_entity(self, entity: Entity) -> None:
@@ -56,7 +56,7 @@ class EntityGroup(Protocol):
 
 
 class EntityExecutor(Protocol):
-    """An executor as the entities that it serves know it."""
+    """What entities need of an executor."""
 
     receives_in_one_thread: bool
     _ready: deque[Entity]
@@ -67,7 +67,7 @@ class EntityExecutor(Protocol):
         """Set the steady time (ns) at which an entity is due."""
 
     def ask_again(self, entity: Entity) -> None:
-        """Retry an entity that may not begin now at the next wake."""
+        """Retry, at the next wake, an entity that may not begin now."""
 
     def create_task(self, callback: Callable[..., object] | Coroutine[object, None, object], *args: object) -> object:
         """Schedule a function in the executor."""
@@ -87,7 +87,7 @@ class Entity:
     heap_deadline = 0
     due_at = 0
     arms_itself = False
-    """Whether it tells the executor its next due time before its callback begins, and need not be asked afterwards."""
+    """Whether it reports its next due time to the executor before its callback, and need not be asked afterwards."""
 
     def __init__(self, callback_group: EntityGroup) -> None:
         self.callback_group = callback_group
@@ -97,7 +97,7 @@ class Entity:
     def notify(self) -> None:
         """Mark the entity as ready; thread-safe."""
         sink = self.sink
-        # Marked once per wake: a thousand messages before it take one place in the queue.
+        # Marked once per wake: a thousand messages before that occupy a single place in the queue.
         if sink is not None and self.marked is not sink:
             self.marked = sink
             sink._ready.append(self)
@@ -109,14 +109,14 @@ class Entity:
         raise NotImplementedError
 
     def awaits(self, future: object) -> bool:
-        """Whether it is what arrives for the entity that settles a future."""
+        """Whether a future is completed by something that arrives for this entity."""
         return False
 
     def arm(self) -> None:
-        """Tell the executor when the entity will be ready, if that depends on time."""
+        """Report to the executor when the entity will be ready, if that depends on time."""
 
     def run(self) -> object:
-        """Do one piece of work; the executor drives a returned coroutine."""
+        """Process one event; the executor drives a returned coroutine."""
         raise NotImplementedError
 
     def interfaces(self) -> Sequence[type]:
@@ -134,7 +134,7 @@ class Entity:
         self.sink = sink
 
     def destroy(self) -> None:
-        """Leave the graph, and the executor."""
+        """Leave the graph and the executor."""
         raise NotImplementedError
 
     def detach(self) -> None:

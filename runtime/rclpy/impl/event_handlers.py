@@ -1,7 +1,7 @@
 """Handlers of publisher and subscription events: matches, incompatible profiles, deadlines, liveliness."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ if TYPE_CHECKING:
 
 
 class EventHandler(Entity):
-    """Calls back in the executor with the counts of one kind of event, and how they changed since the last call."""
+    """Calls back in the executor with the counts of one kind of event, and their changes since the last call."""
 
     KIND = WAITABLE
     kinds: tuple[Event, ...] = ()
-    """The events of the bus that it listens to."""
+    """The bus events that it handles."""
 
     def __init__(
         self, info_type: Callable[..., object], callback: Callable[..., object], callback_group: EntityGroup
@@ -48,12 +48,12 @@ class EventHandler(Entity):
         raise NotImplementedError
 
     def pending(self) -> bool:
-        """Whether an event is to be reported."""
+        """Whether there is an event to report."""
         return self._reported
 
     def run(self) -> object:
         """Run the callback."""
-        # Before the callback: events during it are reported by the next one.
+        # Before the callback, so that the next one reports events that happen during it.
         self._reported = False
         result = self._callback(self._info())
         return result if self._is_async else None
@@ -65,13 +65,13 @@ class EventHandler(Entity):
 
 
 class MatchedHandler(EventHandler):
-    """Matching endpoints appeared or left."""
+    """Handles matching endpoints that appear or leave."""
 
     kinds = ("matched",)
     _total = _new = _now = _change = 0
 
     def happened(self, kind: str, what: int) -> None:
-        """Record that one appeared (1) or left (-1)."""
+        """Record that an endpoint appeared (1) or left (-1)."""
         self._total += max(0, what)
         self._new += max(0, what)
         self._now += what
@@ -85,7 +85,7 @@ class MatchedHandler(EventHandler):
 
 
 class IncompatibleHandler(EventHandler):
-    """Endpoints with an incompatible QoS profile appeared."""
+    """Handles endpoints that appear with an incompatible QoS profile."""
 
     kinds = ("incompatible",)
     _total = _new = 0
@@ -105,7 +105,7 @@ class IncompatibleHandler(EventHandler):
 
 
 class LostHandler(EventHandler):
-    """Messages were lost."""
+    """Handles lost messages."""
 
     kinds = ("lost",)
     _total = _new = 0
@@ -123,7 +123,7 @@ class LostHandler(EventHandler):
 
 
 class TimedHandler(EventHandler):
-    """Base of handlers of events that occur when something does not happen in time."""
+    """Base of handlers for events that occur when something does not happen in time."""
 
     def __init__(
         self, info_type: Callable[..., object], callback: Callable[..., object], callback_group: EntityGroup
@@ -132,7 +132,7 @@ class TimedHandler(EventHandler):
         self._clock = current().clock
 
     def _due(self) -> int | None:
-        """The steady time (ns) at which the next event occurs; None without one."""
+        """The steady time (ns) at which the next event occurs; None if there is none."""
         raise NotImplementedError
 
     def _arm(self) -> None:
@@ -146,7 +146,7 @@ class TimedHandler(EventHandler):
         self._arm()
 
     def pending(self) -> bool:
-        """Whether an event is to be reported."""
+        """Whether there is an event to report."""
         due = self._due()
         return self._reported or (due is not None and self._clock.steady_ns() >= due)
 
@@ -161,7 +161,7 @@ class TimedHandler(EventHandler):
 
 
 class MissedHandler(TimedHandler):
-    """Nothing happened for a period (ns): a deadline, which is missed repeatedly, or a lease, which is lost once."""
+    """Handles a period (ns) without events: a deadline, which is missed repeatedly, or a lease, which is lost once."""
 
     kinds = ("message",)
     _total = _new = 0
@@ -201,7 +201,7 @@ class MissedHandler(TimedHandler):
 
 
 class LivelinessHandler(TimedHandler):
-    """Publishers of a topic appeared, left, were silent beyond their lease, or were heard again."""
+    """Handles publishers of a topic that appear, leave, exceed their lease in silence, or are heard again."""
 
     kinds = ("alive", "gone", "asserted")
 
@@ -223,7 +223,7 @@ class LivelinessHandler(TimedHandler):
             self._alive[what] = None if what.lease is None else self._clock.steady_ns() + what.lease
             self._silent.discard(what)
             self._arm()
-        # A sign of life is news only from one that had fallen silent.
+        # A sign of life matters only if the publisher had fallen silent.
         if kind != "asserted" or silent:
             self._report()
 

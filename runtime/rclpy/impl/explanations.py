@@ -38,15 +38,15 @@ SPUN_TWICE = (
 )
 
 GIVEN_BY = "_ros_given_by"
-"""Attribute of an exception about an overridden value: where the value is from, the node's full name, the parameter."""
+"""Attribute of an exception about an overridden value: its source, the node's full name, and the parameter."""
 DECLARED = "_ros_declared"
-"""Attribute of an exception about an undeclared parameter: the names that the node has declared."""
+"""Attribute of an exception about an undeclared parameter: the names the node has declared."""
 
 _EXPECTED = re.compile(r"expecting type '(\w+)'")
 
 
 def explain(exception: BaseException) -> str | None:
-    """The cause and remedy of a known mistake, with file and line; None for all others."""
+    """Return the cause and remedy of a known mistake, with file and line; None for any other exception."""
     for is_it, text in _KNOWN:
         if is_it(exception):
             return f"{_users_line(exception)}{text}"
@@ -81,7 +81,7 @@ def _init_in_with(exception: BaseException) -> bool:
 
 
 def spun_twice() -> ValueError:
-    """Return the error for two threads that wait for work of one executor; a person also learns how to avoid it."""
+    """Return the error for two threads that wait for work of one executor; a notice for people says how to avoid it."""
     if is_read():
         frame = sys._getframe(1)  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
         notify(current(), f"{line_outside(frame)}: {SPUN_TWICE}")
@@ -100,8 +100,8 @@ def invalid_result(callback: Callable[..., object], result: object) -> str:
 
 
 def _wrong_type(exception: Any) -> str:
-    """How to write a value of the declared type; only on a terminal, as rclpy has its own message."""
-    # By name, as this module is below the public ones.
+    """Return how to write a value of the declared type; only if a person reads it, as rclpy has its own message."""
+    # Compared by name, as this module is below the public ones.
     if type(exception).__name__ != "InvalidParameterTypeException" or not is_read():
         return ""
     found = _EXPECTED.search(str(exception.args[0]))
@@ -110,14 +110,14 @@ def _wrong_type(exception: Any) -> str:
 
 
 def _refused_value(exception: object) -> str:
-    """Which value was refused, if it came from a file: the exception does not say where from."""
+    """Return that the node refuses a value that came from a file, which the exception does not mention."""
     if type(exception).__name__ != "InvalidParameterValueException" or not is_read():
         return ""
     return "the node refuses this value" if _place_of_value(exception) else ""
 
 
 def _not_declared(exception: Any) -> str:
-    """The name of a parameter that was used without being declared, or how to declare it."""
+    """Return the name of a parameter that was used without being declared, or how to declare it."""
     if type(exception).__name__ != "ParameterNotDeclaredException" or not is_read():
         return ""
     declared = getattr(exception, DECLARED, None)
@@ -127,7 +127,7 @@ def _not_declared(exception: Any) -> str:
 
 
 def _place_of_value(exception: object) -> str:
-    """The line of a file that gives the refused value; empty if it is from no file."""
+    """Return the file and line that gave the refused value; empty if it did not come from a file."""
     source, node, name = getattr(exception, GIVEN_BY, ("", "", ""))
     return place_of(source, node, name)
 
@@ -139,7 +139,7 @@ _KNOWN: tuple[tuple[Callable[[BaseException], bool], str], ...] = (
 
 
 def _users_line(exception: BaseException) -> str:
-    """`file.py:12: ` for the innermost frame outside the runtime and the nodes that come with it; empty without one."""
+    """Return `file.py:12: ` for the innermost frame outside the runtime and its own nodes; empty if there is none."""
     found = ""
     trace = exception.__traceback__
     while trace is not None:
@@ -153,5 +153,5 @@ def _users_line(exception: BaseException) -> str:
 
 
 def _in_yaml(value: object) -> str:
-    """A parameter's value as written in YAML."""
+    """Return a parameter's value as written in YAML."""
     return str(value).lower() if isinstance(value, bool) else str(value)

@@ -1,7 +1,7 @@
 """Waiting for something to appear in the graph."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ if TYPE_CHECKING:
 
 
 class ContextState(Protocol):
-    """A context that may have ended."""
+    """What a wait needs of a context, which may be shut down."""
 
     @property
     def ended(self) -> bool:
-        """Whether it was shut down."""
+        """Whether the context was shut down."""
         ...
 
     def ok(self) -> bool:
-        """Whether it is valid; raises a pending interrupt."""
+        """Whether the context is valid; raises a pending interrupt."""
         ...
 
 
 class NodeInGraph(Protocol):
-    """A node as far as waiting for the graph needs it."""
+    """What a wait for the graph needs of a node."""
 
     @property
     def _ros_bus(self) -> Bus: ...
@@ -46,16 +46,16 @@ POLL = S_TO_NS // 4
 
 
 def require_valid(context: ContextState, what: str) -> None:
-    """Raise `RCLError` if the context was shut down, as the graph is unknown then.
+    """Raise `RCLError` if the context was shut down, as the graph is then unknown.
 
-    This ends loops that poll for an endpoint, which would never end otherwise.
+    This ends loops that poll for an endpoint and would otherwise never end.
     """
     if context.ended and not context.ok():  # ok() raises a pending interrupt first
         raise RCLError(f"{what}: rcl node's context is invalid")
 
 
 def wait_until_there(node: NodeInGraph, is_there: Callable[[], bool], timeout_sec: float | None) -> bool:
-    """Block until `is_there()`, a time-out (s) or the context's shutdown; returns the last `is_there()`."""
+    """Block until `is_there()` is true, a time-out (s) or the context's shutdown; returns the last `is_there()`."""
     clock = current().clock
     deadline = None if timeout_sec is None else clock.steady_ns() + int(timeout_sec * float(S_TO_NS))
     wakeup = clock.wakeup()
@@ -69,7 +69,7 @@ def wait_until_there(node: NodeInGraph, is_there: Callable[[], bool], timeout_se
             now = clock.steady_ns()
             if deadline is not None and now >= deadline:
                 break
-            # Changes of the graph wake this up; the poll notices a shutdown of the context.
+            # Changes of the graph end this wait early; the polling notices a shutdown of the context.
             until = now + POLL
             wakeup.wait(until if deadline is None else min(until, deadline))
             wakeup.clear()

@@ -1,6 +1,6 @@
-"""The file that a process logs to where `ROS_LOG_DIR` is set: as rcl_logging_spdlog names and fills it.
+"""The log file of a process if `ROS_LOG_DIR` is set, named and formatted as by rcl_logging_spdlog.
 
-Without that variable there is none: upstream then writes to `~/.ros/log`, a file for each run of each program.
+Without that variable there is no log file, whereas upstream writes one for each run of each program to `~/.ros/log`.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class LogFile:
     def write(
         self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int, on_rosout: bool
     ) -> None:
-        """Write a message at once; the first failure to write ends the log file."""
+        """Write a message at once; the first write that fails ends the log file."""
         formatter = self._formatter
         if not self.is_wanted or formatter is None:
             return
@@ -67,7 +67,7 @@ class LogFile:
                 os.makedirs(os.path.dirname(self._path), exist_ok=True)  # `--log-file-name` may contain folders
                 self._stream = open(self._path, "a", 1, "utf-8", "backslashreplace")  # noqa: SIM115 -- until `_close`
             self._stream.write(formatter.line(severity, name, text, file, function, line, stamp_ns, on_rosout) + "\n")
-        except (OSError, ValueError) as error:  # a full disk; closed by another thread
+        except (OSError, ValueError) as error:  # a full disk, or closed by another thread
             if self.is_wanted:
                 self._close()
                 print(f"[WARN] [rcl_logging]: nothing more is logged to {self._path}: {error}", file=sys.stderr)

@@ -36,7 +36,7 @@ def detect(options: dict[str, Any]) -> tuple[str, ...]:
 
 
 class Site:
-    """The state of one logging call site in a program."""
+    """The state of one call site of a logger in a program."""
 
     __slots__ = ("_clock", "_done", "_last", "_skipped", "filters", "name", "options", "severity")
 
@@ -70,7 +70,7 @@ class Site:
 
 
 def _clock(options: dict[str, Any]) -> AnyClock | None:
-    """The clock that a call's options name; None means system time."""
+    """Return the clock that a call's options name; None means system time."""
     if "throttle_time_source_type" not in options:
         return None
     clock = options["throttle_time_source_type"]

@@ -15,8 +15,8 @@ NAMES = {0: "UNSET", 10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATA
 COLOURS = {10: "\033[32m", 20: "\033[0m", 30: "\033[33m", 40: "\033[31m", 50: "\033[31m"}
 RESET = "\033[0m"
 ENVELOPE_VARIABLE = "BOT_CONSOLE_LOG_ENVELOPE"
-"""A format around each line, in which `{line}` is replaced by the usual line: set by programs that capture the
-output of a process and distinguish what a logger wrote from what was merely printed.
+"""A format around each line, in which `{line}` stands for the usual line. Programs that capture the output of a process
+set it, to distinguish what a logger wrote from what was merely printed.
 """
 _ESCAPES = {"\\a": "\a", "\\b": "\b", "\\n": "\n", "\\r": "\r", "\\t": "\t"}
 _TOKEN = re.compile(r"\{([a-z_]+)\}")
@@ -36,7 +36,7 @@ _FIELDS = {
 
 
 class Formatter:
-    """Formats and writes log lines; settings as rcutils reads them from the environment."""
+    """Formats and writes log lines, with the settings that rcutils reads from the environment."""
 
     def __init__(self, pattern: str, colours: str, *, to_stdout: bool) -> None:
         self._simple = not pattern or pattern == DEFAULT_FORMAT
@@ -47,7 +47,7 @@ class Formatter:
 
     @classmethod
     def of_environment(cls, *, enveloped: bool = True) -> Formatter:
-        """The formatter configured by the calling process's environment; lines of a file have no envelope."""
+        """Return the formatter that the calling process's environment configures; lines in a file have no envelope."""
         environment = os.environ
         put = _in_envelope if enveloped else _out_of_envelope
         return cls(
@@ -67,10 +67,10 @@ class Formatter:
         stamp_ns: int,
         on_rosout: bool = False,
     ) -> str:
-        """One formatted message, without colours and line end; `on_rosout` says whether `/rosout` got it, too."""
+        """Return one formatted message, without colours and line end; `on_rosout` is whether `/rosout` got it, too."""
         seconds, nanoseconds = divmod(stamp_ns, S_TO_NS)
         level = NAMES.get(severity, "UNKNOWN")
-        # The default format without a template: halves the time of a log line.
+        # The default format is made without a template, which halves the time of a log line.
         if self._simple:
             return f"[{level}] [{seconds:010d}.{nanoseconds:09d}] [{name}]: {text}"
         dated = _dated(seconds, nanoseconds) if self._dated else ""

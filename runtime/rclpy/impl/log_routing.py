@@ -17,7 +17,7 @@ UNSET = 0
 INFO = 20
 
 LogLine = Callable[[int, str, str, str, str, int, int], bool]
-"""Gets severity, logger, text, file, function, line and time (ns); says whether it went out."""
+"""Receives severity, logger, text, file, function, line and time (ns); returns whether the message was published."""
 
 
 class LogState:
@@ -26,7 +26,7 @@ class LogState:
     def __init__(self, log_file: LogFile | None = None) -> None:
         self.levels: dict[str, int] = {}
         self.effective: dict[str, int] = {}
-        """Levels found by looking at ancestors; emptied when a level changes."""
+        """Levels found by looking up ancestors; cleared when a level changes."""
         self.default = INFO
         self.stdout = True
         self.rosout: dict[str, LogLine] = {}
@@ -50,7 +50,7 @@ class LogState:
         self.stdout = arguments.stdout_enabled
 
     def effective_level(self, name: str) -> int:
-        """The level of the nearest ancestor that has one, else the default."""
+        """Return the level of the nearest ancestor that has one, or the default."""
         found = self.effective.get(name)
         if found is None:
             found = self.effective[name] = self._find(name)
@@ -67,7 +67,7 @@ class LogState:
     def write(self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int) -> None:
         """Write a message to `/rosout`, the console and the log file."""
         publish = self.rosout.get(name)
-        # First to `/rosout`: the formatted line can say whether that was done.
+        # `/rosout` comes first, because the formatted line can say whether the message was published there.
         sent = publish is not None and publish(severity, name, text, file, function, line, stamp_ns)
         if self.stdout:
             self.formatter.write(severity, name, text, file, function, line, stamp_ns, sent)
@@ -80,7 +80,7 @@ state = _state.get
 
 
 def logging_directory() -> str:
-    """The folder for log files: `ROS_LOG_DIR`, else `log` in `ROS_HOME`, else `~/.ros/log`."""
+    """Return the folder for log files: `ROS_LOG_DIR`, else `log` in `ROS_HOME`, else `~/.ros/log`."""
     given = os.environ.get("ROS_LOG_DIR")
     if given:
         return os.path.abspath(os.path.expanduser(given))
@@ -89,7 +89,7 @@ def logging_directory() -> str:
 
 
 def reset() -> None:
-    """Reset the calling process's levels and read its environment again; its log file remains."""
+    """Reset the calling process's levels and read its environment again; its log file stays open."""
     _state.set(LogState(state().log_file))
 
 

@@ -1,4 +1,4 @@
-"""The sections of a parameter file, each with the nodes that it is for, in every form that rcl reads."""
+"""The sections of a parameter file and the nodes that each is for, in every form that rcl reads."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _WILDCARDS = frozenset(("*", "**"))
 
 
 class Section(NamedTuple):
-    """The parameters below one path of keys; `values` is `MISSING` where there is no `ros__parameters`."""
+    """The parameters below one path of keys; `values` is `MISSING` if there is no `ros__parameters`."""
 
     top: Any
     """The key at the top of the file, for messages."""
@@ -23,14 +23,14 @@ class Section(NamedTuple):
 
     @property
     def has_wildcard(self) -> bool:
-        """Whether it is for more than one node."""
+        """Whether the section is for more than one node."""
         return not _WILDCARDS.isdisjoint(self.nodes.split("/"))
 
 
 def chosen_values(content: Any, use_wildcard: bool, target_nodes: Sequence[str] | None) -> dict[str, Any]:
-    """The parameters for the target nodes, or for all of them; those of wildcards first, so that others override them.
+    """Return the parameters for the target nodes, or for all nodes; wildcards come first, so that others override them.
 
-    Raises `RuntimeError` for a file that has none, or a section without `ros__parameters`.
+    Raises `RuntimeError` for a file without such parameters, or a section without `ros__parameters`.
     """
     keys = list(content.keys())
     sections = [each for top in keys for each in _sections(top, _below("", top), content[top])]

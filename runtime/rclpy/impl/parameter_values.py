@@ -1,4 +1,4 @@
-"""Which Python values each type of parameter takes, by the codes of `rcl_interfaces/msg/ParameterType`."""
+"""Which Python values each parameter type accepts, by the codes of `rcl_interfaces/msg/ParameterType`."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _NUMERIC_LISTS = frozenset((INTEGER_ARRAY.code, DOUBLE_ARRAY.code))
 
 
 def infer(value: object) -> int:
-    """The parameter type of a value; an empty list is a byte array. Raises `TypeError` for a value of no such type."""
+    """The parameter type of a value; an empty list is a byte array. Raises `TypeError` for any other value."""
     if value is None:
         return NOT_SET
     for kind, code in _SCALARS:
@@ -41,7 +41,7 @@ def infer(value: object) -> int:
 
 
 def value_fits(code: int, value: object) -> bool:
-    """Whether a parameter of a type may hold the value."""
+    """Whether a parameter of this type may hold the value."""
     if code == NOT_SET:
         return value is None
     kind = BY_CODE[code]

@@ -1,4 +1,4 @@
-"""Why two profiles are incompatible, or may be, in the words of rmw_dds_common."""
+"""Why two profiles are or may be incompatible, in the words of rmw_dds_common."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 UNSURE = ("SYSTEM_DEFAULT", "UNKNOWN")
 _MISSPELT = {"durability": "durabilty"}
-"""Words of rmw_dds_common as it spells them."""
+"""Words that rmw_dds_common misspells."""
 
 
 def errors(publisher: Any, subscription: Any) -> list[str]:

@@ -17,11 +17,11 @@ _frame = sys._getframe  # pyright: ignore[reportPrivateUsage] -- documented in `
 
 
 class RcutilsLogger:
-    """Logs under a name; dots divide the names of loggers from those of their children.
+    """Logs under a name; dots separate the names of loggers from their children's.
 
     Each call takes the message and the filters `throttle_duration_sec` (s), `throttle_time_source_type`, `skip_first`
-    and `once`, and returns whether the message was logged. One place in a program may not change severity or filters
-    from call to call (`ValueError`); a message that is no string is a `TypeError`.
+    and `once`, and returns whether the message was logged. The same call site may not change severity or filters
+    between calls (`ValueError`); a message that is not a string raises `TypeError`.
     """
 
     def __init__(self, name: str = "") -> None:
@@ -88,11 +88,11 @@ class RcutilsLogger:
         name = self.name
         if severity < (shared.effective.get(self.name) or shared.effective_level(self.name)):
             return False
-        # The caller of `info` and the like, which call this method.
+        # The caller of `info` or a similar method, which calls this one.
         frame = _frame(2)
         code = frame.f_code
         line = frame.f_lineno
-        # With `f_lasti`, as there may be two calls on one line.
+        # Includes `f_lasti`, as there may be two calls on one line.
         key = (code.co_name, code.co_filename, line, frame.f_lasti)
         site = self._sites.get(key)
         if options:
@@ -124,7 +124,7 @@ def _check_unchanged(site: Site, options: dict[str, Any]) -> None:
 
 
 def _text(message: object) -> str:
-    """Convert a message that is not a plain `str` as upstream's C layer does."""
+    """Convert a message that is not a plain `str`, as upstream's C layer does."""
     if message is None:
         return "(null)"
     if isinstance(message, str):

@@ -1,7 +1,7 @@
-"""Names that programs import from a module of rclpy that only imports them itself, as upstream's modules happen to do.
+"""Names that programs import from modules of rclpy that merely import them, as upstream's modules happen to do.
 
 `from rclpy.node import Node, Parameter` works upstream, and much public code relies on such names. Here a module
-imports what it needs itself; the others are looked up on first use, which costs nothing at the start.
+imports only the names it needs; the others are looked up on first use, which costs nothing at start.
 """
 
 from __future__ import annotations
@@ -103,7 +103,7 @@ _WITH_NODE = [
 
 
 def reexporting(module: str, names: str) -> Callable[[str], Any]:
-    """A module-level `__getattr__` that re-exports these names, and the C extension as `_rclpy`."""
+    """Return a module-level `__getattr__` that re-exports these names, and the C extension as `_rclpy`."""
     known = frozenset(names.split())
 
     def find(name: str) -> Any:
@@ -118,7 +118,7 @@ def reexporting(module: str, names: str) -> Callable[[str], Any]:
 
 
 def submodule(name: str) -> Any:
-    """The module `rclpy.<name>` if upstream would have loaded it by now, even without an import by the program."""
+    """Return the module `rclpy.<name>` if upstream would have loaded it by now, without an import by the program."""
     if name in _WITH_RCLPY or (name in _WITH_NODE and "rclpy.node" in sys.modules):
         return import_module(f"rclpy.{name}")
     raise AttributeError(f"module 'rclpy' has no attribute {name!r}")

@@ -1,7 +1,7 @@
 """The deadline queue of an executor: its timers by the steady time at which they are due."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 class TimerHeap:
     """A heap of (deadline ns, creation, timer), with one entry for each timer.
 
-    A postponed timer keeps its earlier entry, which moves to the later deadline once it reaches the top.
-    Pushes come from any thread: heap operations on these tuples do not run Python code, so they need no lock.
+    A postponed timer keeps its earlier entry, which is moved to the later deadline when it reaches the top. Pushes come
+    from any thread: heap operations on these tuples do not run Python code, so they need no lock.
     """
 
     def __init__(self) -> None:
@@ -32,7 +32,7 @@ class TimerHeap:
         heappush(self.entries, (deadline, timer.order, timer))
 
     def next_deadline(self, sink: object) -> int | None:
-        """The deadline (steady ns) of the executor's next timer; None without one."""
+        """Return the deadline (steady ns) of the executor's next timer; None if there is none."""
         entries = self.entries
         while entries:
             entry = entries[0]
@@ -60,7 +60,7 @@ class TimerHeap:
     def _put_right(self, entry: tuple[int, int, Entity], sink: object) -> None:
         """Remove the outdated first entry, or move it to its timer's deadline."""
         deadline, order, timer = entry
-        # A stale entry: the timer has gone to another executor, or was pushed again for an earlier time.
+        # An outdated entry: the timer has moved to another executor, or was pushed again with an earlier time.
         if timer.heap is not self or timer.heap_deadline != deadline:
             heappop(self.entries)
         elif timer.sink is not sink:

@@ -1,4 +1,4 @@
-"""The type variables of interfaces that upstream's annotations use, and those of programs."""
+"""The type variables for interfaces in upstream's annotations, which programs use too."""
 
 from __future__ import annotations
 

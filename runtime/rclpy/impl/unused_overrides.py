@@ -1,10 +1,10 @@
-"""Values of the command line and of files that set nothing, of which ROS 2 says nothing.
+"""Reports values from the command line and from files that set nothing, about which ROS 2 is silent.
 
-No node declares a parameter for them, or the file has no key for the node that it was given to.
+No node declares a parameter for such a value, or its file has no key for the node it was given to.
 """
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 class OverriddenNode(Protocol):
-    """A node as far as its declared and given parameters."""
+    """What this check needs of a node: its declared and given parameters."""
 
     @property
     def _allow_undeclared_parameters(self) -> bool: ...
@@ -39,27 +39,27 @@ class OverriddenNode(Protocol):
     def _ros_arguments(self) -> Sequence[Arguments]: ...
 
     def get_fully_qualified_name(self) -> str:
-        """Namespace and name."""
+        """Return namespace and name."""
         ...
 
 
 class OverridingContext(Protocol):
-    """A context as far as its nodes."""
+    """What this check needs of a context: its nodes."""
 
     def tracked_nodes(self) -> Sequence[OverriddenNode]:
-        """The nodes in this context."""
+        """Return the nodes in this context."""
         ...
 
 
 BY_PUBLISHERS = "qos_overrides."
-"""Parameters with such names are declared when a publisher or a subscription is made."""
+"""Prefix of parameters that are declared when a publisher or subscription is created."""
 HIDDEN_NODE_PREFIX = "_"
 WRITTEN_BY_LAUNCH = "launch_params_"
-"""How the names of files begin that launch has written for one node."""
+"""Prefix of files that launch writes for one node."""
 
 
 def report_unused_overrides(context: OverridingContext) -> None:
-    """Give a notice of each value that sets nothing, where a person reads it: to be called when spinning begins."""
+    """Give a notice of each value that sets nothing, if a person reads it; call this when spinning begins."""
     if is_read():
         for line in unused_overrides(context.tracked_nodes()):
             notify(current(), line)
@@ -68,13 +68,13 @@ def report_unused_overrides(context: OverridingContext) -> None:
 def unused_overrides(nodes: Iterable[OverriddenNode]) -> Iterator[str]:
     """Yield a line for each value that is given to some of the nodes and declared by none.
 
-    Values below a wildcard of a file are left out: they are for many nodes, each of which may need but some.
+    Values below a wildcard key of a file are left out: they are for many nodes, each of which may need only some.
     """
     given: dict[tuple[str, str], list[OverriddenNode]] = {}
     declared: set[str] = set()
     for node in nodes:
         if node._allow_undeclared_parameters:
-            return  # it may read any of them
+            return  # this node may read any of them
         declared |= node._parameters.keys()
         for name, source in _meant_for(node):
             if not name.startswith(BY_PUBLISHERS):
@@ -87,7 +87,7 @@ def unused_overrides(nodes: Iterable[OverriddenNode]) -> Iterator[str]:
 
 
 def _meant_for(node: OverriddenNode) -> Iterator[tuple[str, str]]:
-    """Name and source of each value that is meant for this very node."""
+    """Yield name and source of each value that is meant for exactly this node."""
     full = node.get_fully_qualified_name()
     for arguments in node._ros_arguments:
         for key, values in arguments.parameters.nodes.items():
@@ -98,7 +98,7 @@ def _meant_for(node: OverriddenNode) -> Iterator[tuple[str, str]]:
 
 
 def missed_files(table: ParameterTable, node: str, others: Collection[str]) -> Iterator[str]:
-    """Yield a line for each file that has no key for a node (full name), but one that seems to be mistyped.
+    """Yield a line for each file that has no key for a node (full name), but a key that seems to be mistyped.
 
     A file for many nodes may well omit one: a file is reported if a key that matches none of the process's `others`
     (full names) resembles the node's name, or is the only key of the file.

@@ -1,4 +1,4 @@
-"""A pool of threads for callbacks. Their waits go through the clock source, so that stepped runs work."""
+"""A pool of threads for callbacks. Their waits use the clock source, so that stepped runs work."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class WorkerPool:
         self._serving: set[int] = set()
         """The threads that have not ended."""
         self._waiting: list[Any] = []
-        """Wakeups of those who wait for the end of the threads."""
+        """Wakeups of the threads that wait for the pool's threads to end."""
         self._closed = False
         current().end_with_main(self)
 
@@ -44,7 +44,7 @@ class WorkerPool:
             elif self._threads < self._size:
                 self._threads += 1
                 name = f"{self._name}-{self._threads}"
-                # Not a daemon: a callback that has begun runs to its end even if the program is over, as upstream.
+                # Not a daemon: as upstream, a callback that has begun runs to its end even if the program has ended.
                 thread = threading.Thread(target=self._run, name=name, daemon=False)
                 thread.start()
                 self._serving.add(thread.ident or 0)
@@ -66,7 +66,7 @@ class WorkerPool:
                 if work is None:
                     if self._closed:
                         return
-                    # With the lock held, so that work submitted from here on finds this thread idle.
+                    # With the lock held, so that work submitted from now on finds this thread idle.
                     wakeup.clear()
                     self._idle.append(wakeup)
             if work is None:
@@ -76,13 +76,11 @@ class WorkerPool:
                     work()
                 except ProcessKilled:
                     raise
-                except BaseException:  # SystemExit and the like end only the callback, as in upstream's pool
+                except BaseException:  # as in upstream's pool, SystemExit and the like end only the callback
                     continue
 
     def shutdown(self, wait: bool = False) -> None:
-        """Let the threads end once they have no work left, and wait for that if asked to; a thread does not wait for
-        itself.
-        """
+        """Let the threads end once they have no work left; with `wait`, wait for all of them but the calling one."""
         ended = self._clock.wakeup() if wait else None
         with self._lock:
             self._closed = True
@@ -100,7 +98,7 @@ class WorkerPool:
 
 
 def report_unfetched_at_exit(owner: object, futures: deque[Any]) -> None:
-    """At the program's end, print exceptions that were never retrieved, as happens upstream."""
+    """Print, as upstream does at the program's end, the exceptions that were never retrieved."""
     weakref.finalize(owner, _report_unfetched, futures)
 
 

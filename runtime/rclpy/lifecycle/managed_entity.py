@@ -11,7 +11,7 @@ from rclpy.lifecycle.transition_callback_return import TransitionCallbackReturnT
 
 
 class ManagedEntity:
-    """Takes part in the transitions of its node; each callback gets the state that the node leaves."""
+    """Takes part in the transitions of its node; each callback gets the state that the node is leaving."""
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """The node is being configured."""
@@ -39,7 +39,7 @@ class ManagedEntity:
 
 
 class SimpleManagedEntity(ManagedEntity):
-    """A managed entity that knows whether its node is active."""
+    """A managed entity that tracks whether its node is active."""
 
     def __init__(self) -> None:
         self._enabled = False
@@ -63,7 +63,7 @@ class SimpleManagedEntity(ManagedEntity):
     def when_enabled(
         wrapped: Callable[..., Any] | None = None, *, when_not_enabled: Callable[[], Any] | None = None
     ) -> Any:
-        """Decorate a method to do nothing, or to call `when_not_enabled`, while the node is not active."""
+        """Decorate a method so that it does nothing, or calls `when_not_enabled`, while the node is not active."""
 
         def decorate(method: Callable[..., Any]) -> Callable[..., None]:
             @wraps(method)

@@ -32,7 +32,7 @@ _SHUTDOWNS = {
 class LifecycleNodeMixin(ManagedEntity):
     """The mix-in that makes a node a managed one; only for inheritance together with `Node`.
 
-    The default transition callbacks call those of the managed entities, up to the first that does not return SUCCESS.
+    The default transition callbacks call those of the managed entities, until one does not return SUCCESS.
     """
 
     _logger: RcutilsLogger
@@ -60,23 +60,23 @@ class LifecycleNodeMixin(ManagedEntity):
             self._service_get_transition_graph = services.get_transition_graph
 
     def trigger_configure(self) -> TransitionCallbackReturn:
-        """From unconfigured to inactive; raises `RCLError` in another state, as all of these do."""
+        """Go from unconfigured to inactive; raises `RCLError` in any other state, as the other triggers do."""
         return self.__change_state(Transition.TRANSITION_CONFIGURE)
 
     def trigger_cleanup(self) -> TransitionCallbackReturn:
-        """From inactive to unconfigured."""
+        """Go from inactive to unconfigured."""
         return self.__change_state(Transition.TRANSITION_CLEANUP)
 
     def trigger_activate(self) -> TransitionCallbackReturn:
-        """From inactive to active."""
+        """Go from inactive to active."""
         return self.__change_state(Transition.TRANSITION_ACTIVATE)
 
     def trigger_deactivate(self) -> TransitionCallbackReturn:
-        """From active to inactive."""
+        """Go from active to inactive."""
         return self.__change_state(Transition.TRANSITION_DEACTIVATE)
 
     def trigger_shutdown(self) -> TransitionCallbackReturn:
-        """From unconfigured, inactive or active to finalized."""
+        """Go from unconfigured, inactive or active to finalized."""
         transition = _SHUTDOWNS.get(self._state_machine.current_state[1])
         if transition is None:
             raise RCLError("Shutdown transtion not possible")
@@ -107,7 +107,7 @@ class LifecycleNodeMixin(ManagedEntity):
         callback = self._callbacks[self._state_machine.current_state[0]]
         try:
             return callback(before)
-        except Exception as error:  # boundary of a user callback: an ERROR as upstream, but not a silent one
+        except Exception as error:  # boundary of a user callback: ERROR as upstream, but with a log message
             place = traceback.extract_tb(error.__traceback__)[-1]
             name = getattr(callback, "__name__", repr(callback))
             self._logger.warning(
@@ -173,7 +173,7 @@ class LifecycleNodeMixin(ManagedEntity):
 
 
 class LifecycleNode(LifecycleNodeMixin, Node):
-    """A managed node: it starts as unconfigured, and others change its state through its services."""
+    """A managed node: it starts unconfigured, and other nodes change its state through its services."""
 
     def __init__(self, node_name: str, *, enable_communication_interface: bool = True, **kwargs: Any) -> None:
         Node.__init__(self, node_name, **kwargs)

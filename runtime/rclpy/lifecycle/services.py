@@ -1,4 +1,4 @@
-"""The five services through which others query and change a managed node's state."""
+"""The five services by which others query and change a managed node's state."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class LifecycleServices:
         return response
 
     def _fatal(self, transition: int) -> str:
-        """The effect of a request for an invalid transition, and what to request instead."""
+        """Return the effect of a request for an invalid transition, and what to request instead."""
         rows = [f"{number} ({label})" for number, label, *_ in self._machine.available_transitions]
         return (
             f"somebody requested transition {transition} by {self.change_state.service_name}, which does not start "
@@ -98,7 +98,7 @@ def _serve(
     node: Node, kind: ServiceType, name: str, callback: Callable[..., object], group: CallbackGroup | None
 ) -> Service:
     service = node.create_service(kind, f"~/{name}", callback, callback_group=group)
-    # Upstream creates these in rcl, where only the full name is known.
+    # Upstream creates these in rcl, which knows only the full name.
     service.srv_name = service.service_name
     return service
 

@@ -1,7 +1,7 @@
-"""The state machine of a managed node, with its services and its topic."""
+"""The state machine of a managed node, with its services and topic."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -22,17 +22,17 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
 Described = tuple[int, str, int, str, int, str]
-"""A transition: id and label of itself, of its start and of its goal."""
+"""A transition: its id and label, and those of its start and goal states."""
 
 
 class LifecycleStateMachine:
     """Holds the current state, and publishes each change on the topic `~/transition_event`.
 
-    As upstream, it publishes also where the communication interface, which is then only the services, is off.
+    As upstream, it also publishes if the communication interface is off, which then means only the services.
     """
 
     def __init__(self, node: Node, enable_com_interface: bool) -> None:
-        if not hasattr(enable_com_interface, "__bool__"):  # what upstream's C++ converts: also numbers and None
+        if not hasattr(enable_com_interface, "__bool__"):  # upstream's C++ also converts numbers and None
             raise TypeError(f"enable_communication_interface must be a bool, not {type(enable_com_interface)}")
         self._state: int = State.PRIMARY_STATE_UNCONFIGURED
         topic = checked(node, "~/transition_event")
@@ -43,12 +43,12 @@ class LifecycleStateMachine:
 
     @property
     def initialized(self) -> bool:
-        """Whether the machine can be used: always."""
+        """Whether the machine can be used; always True."""
         return True
 
     @property
     def current_state(self) -> tuple[int, str]:
-        """Id and label."""
+        """Id and label of the current state."""
         return self._state, STATES[self._state]
 
     @property
@@ -74,11 +74,11 @@ class LifecycleStateMachine:
         return found.id
 
     def trigger_transition_by_id(self, transition_id: int, publish_update: bool) -> None:
-        """Make a transition; raises `RCLError` for one that does not start from the current state."""
+        """Make a transition; raises `RCLError` if it does not start from the current state."""
         self._trigger(self._find(lambda each: each.id == transition_id, transition_id), publish_update)
 
     def trigger_transition_by_label(self, label: str, publish_update: bool) -> None:
-        """Make a transition; raises `RCLError` for one that does not start from the current state."""
+        """Make a transition; raises `RCLError` if it does not start from the current state."""
         self._trigger(self._find(lambda each: each.label == label, label), publish_update)
 
     def _valid(self) -> list[TransitionRow]:

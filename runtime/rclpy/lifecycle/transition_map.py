@@ -33,7 +33,7 @@ class TransitionRow:
 
 
 def _outcomes(name: str, start: int, success: int, failure: int, error: int) -> list[TransitionRow]:
-    """The transitions out of a transition state, one for each return value of its callback."""
+    """Return the transitions out of a transition state, one for each return value of its callback."""
     goals = {"SUCCESS": success, "FAILURE": failure, "ERROR": error}
     return [
         TransitionRow(getattr(Transition, f"TRANSITION_ON_{name}_{word}"), f"transition_{word.lower()}", start, goal)

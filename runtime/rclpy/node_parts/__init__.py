@@ -1,1 +1,1 @@
-"""The subjects of `Node` (entities, parameters, graph), above all public modules of rclpy except `node` itself."""
+"""The subjects of `Node` (entities, parameters, graph); they are above all public modules of rclpy except `node`."""

@@ -1,4 +1,4 @@
-"""The interface that the parts of a node share, and that the modules below `rclpy.node` need of one."""
+"""The interface of a node that its parts share, and that the modules below `rclpy.node` need."""
 
 # ruff: noqa: D102 -- the methods are documented where they are implemented
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class NodeExecutor(EntityExecutor, Protocol):
-    """An executor as its nodes know it."""
+    """What nodes need of their executor."""
 
     def add_node(self, node: NodeBase) -> bool:
         """Add a node; returns whether it was new."""

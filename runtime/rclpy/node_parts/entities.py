@@ -1,7 +1,7 @@
 """Creates and destroys a node's entities."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ if TYPE_CHECKING:
 
 
 class NodeEntities(NodeBase):
-    """Factories of `Node`."""
+    """The factory methods of `Node`."""
 
     _ros_publishers: dict[Publisher, None]
     _ros_waitables: dict[Waitable, None]
@@ -132,9 +132,9 @@ class NodeEntities(NodeBase):
         raw: bool = False,
         content_filter_options: ContentFilterOptions | None = None,
     ) -> Subscription:
-        """Create a subscription; the callback takes (message) or (message, info), with `raw` the message as bytes.
+        """Create a subscription; the callback takes (message) or (message, info); with `raw`, the message is bytes.
 
-        Messages that the content filter does not accept are left out. Raises `RCLError` for an invalid filter.
+        Messages that the content filter rejects are left out. Raises `RCLError` for an invalid filter.
         """
         qos = self._ros_profile(qos_profile)
         group = self._ros_group(callback_group)
@@ -157,7 +157,7 @@ class NodeEntities(NodeBase):
         for handler in handlers:
             self._ros_enter(handler, group)
         self._ros_enter(subscription, group)
-        # Last: from here on messages arrive, and the executor must know the subscription.
+        # Last, because messages arrive from now on, and the executor must know the subscription.
         self._ros_bus.create_subscription(subscription.endpoint)
         return subscription
 
@@ -223,7 +223,7 @@ class NodeEntities(NodeBase):
         clock: Clock | None = None,
         autostart: bool = True,
     ) -> Timer:
-        """Create a timer with a period (s) of a clock, the node's own by default."""
+        """Create a timer with a period (s) of a clock, by default the node's own."""
         period = int(float(timer_period_sec) * S_TO_NS)
         group = self._ros_group(callback_group)
         self.context.require_running("timer")
@@ -310,7 +310,7 @@ class NodeEntities(NodeBase):
 
     @property
     def publishers(self) -> Iterator[Publisher]:
-        """The node's publishers, except that of `/rosout`."""
+        """The node's publishers, except the one of `/rosout`."""
         rosout = None if self._ros_rosout is None else self._ros_rosout.publisher
         yield from [each for each in self._ros_publishers if each is not rosout]
 
@@ -352,7 +352,7 @@ def _check_service_qos(profile: object) -> None:
 
 
 def _event_reporter(handlers: list[EventHandler]) -> OnEvent:
-    """A function that passes an event of the bus to the handlers of its kind."""
+    """Return a function that passes a bus event to the handlers of its kind."""
 
     def report(kind: Event, what: object) -> None:
         for handler in handlers:
@@ -363,7 +363,7 @@ def _event_reporter(handlers: list[EventHandler]) -> OnEvent:
 
 
 def _listener(handlers: list[EventHandler]) -> Callable[[], None] | None:
-    """A function that passes a message event to its handlers; None without any, as messages are frequent."""
+    """Return a function that passes a message event to its handlers; None without any, as messages are frequent."""
     watching = [handler for handler in handlers if "message" in handler.kinds]
     return partial(_event_reporter(watching), "message", None) if watching else None
 

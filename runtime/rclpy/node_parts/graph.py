@@ -1,7 +1,7 @@
 """Graph queries of a node."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class NodeGraph(NodeBase):
     def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
         """Return all topics with their types, by name; raises `RCLError` after a shutdown of the context.
 
-        With `no_demangle` by their DDS names, and with the two topics of each service.
+        With `no_demangle`, they have their DDS names, and include the two topics of each service.
         """
         self._ros_use_graph("topic")
         tables = self._ros_bus.tables()
@@ -43,7 +43,7 @@ class NodeGraph(NodeBase):
         )
 
     def get_service_names_and_types(self) -> NamesAndTypes:
-        """All services with their types, by name, including those that only have clients.
+        """Return all services with their types, by name, including services that have only clients.
 
         Raises `RCLError` after a shutdown of the context.
         """
@@ -56,23 +56,23 @@ class NodeGraph(NodeBase):
         require_valid(self.context, f"failed to get {what} names and types")
 
     def get_node_names(self) -> list[str]:
-        """The names of all nodes, without namespaces."""
+        """Return the names of all nodes, without namespaces."""
         self._ros_use()
         require_valid(self.context, "Failed to get node names")
         return [each.name for each in self._ros_nodes()]
 
     def get_fully_qualified_node_names(self) -> list[str]:
-        """The full names of all nodes."""
+        """Return the full names of all nodes."""
         return [names.full_name(space, name) for name, space in self.get_node_names_and_namespaces()]
 
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
-        """Name and namespace of all nodes."""
+        """Return the names and namespaces of all nodes."""
         self._ros_use()
         require_valid(self.context, "Failed to get node names")
         return [(each.name, each.namespace) for each in self._ros_nodes()]
 
     def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
-        """Name, namespace and enclave of all nodes."""
+        """Return the names, namespaces and enclaves of all nodes."""
         self._ros_use()
         require_valid(self.context, "Failed to get node names")
         return [(each.name, each.namespace, each.enclave) for each in self._ros_nodes()]
@@ -80,7 +80,7 @@ class NodeGraph(NodeBase):
     def get_publisher_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
-        """The topics that a node publishes, with types; raises `NodeNameNonExistentError`."""
+        """Return the topics that a node publishes, with types; raises `NodeNameNonExistentError`."""
         owner = self._ros_who("publisher", node_name, node_namespace)
         if no_demangle:
             return collect(written_by(self._ros_bus.tables(), owner))
@@ -89,19 +89,19 @@ class NodeGraph(NodeBase):
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
-        """The topics that a node subscribes to, with types; raises `NodeNameNonExistentError`."""
+        """Return the topics that a node subscribes to, with types; raises `NodeNameNonExistentError`."""
         owner = self._ros_who("subscriber", node_name, node_namespace)
         if no_demangle:
             return collect(read_by(self._ros_bus.tables(), owner))
         return collect(pair for each in self._ros_bus.tables() for pair in each.subscriptions.of(owner))
 
     def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
-        """The services that a node offers, with types; raises `NodeNameNonExistentError`."""
+        """Return the services that a node offers, with types; raises `NodeNameNonExistentError`."""
         owner = self._ros_who("service", node_name, node_namespace)
         return collect(pair for each in self._ros_bus.tables() for pair in each.servers.of(owner))
 
     def get_client_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
-        """The services that a node is a client of, with types; raises `NodeNameNonExistentError`."""
+        """Return the services of which a node is a client, with types; raises `NodeNameNonExistentError`."""
         owner = self._ros_who("client", node_name, node_namespace)
         return collect(pair for each in self._ros_bus.tables() for pair in each.clients.of(owner))
 
@@ -109,7 +109,7 @@ class NodeGraph(NodeBase):
         return [node for each in self._ros_bus.tables() for node in each.nodes()]
 
     def _ros_who(self, what: str, name: str, namespace: str) -> Owner:
-        """The node that a query concerns; raises `RCLError` for an invalid name, and `NodeNameNonExistentError`."""
+        """Return the node that a query concerns; raises `RCLError` (invalid name) or `NodeNameNonExistentError`."""
         self._ros_use()
         require_valid(self.context, f"failed to get {what} names and types")
         owner = name, namespace or "/"
@@ -122,35 +122,35 @@ class NodeGraph(NodeBase):
         raise NodeNameNonExistentError(f"cannot get {what} names and types for nonexistent node: error not set")
 
     def count_publishers(self, topic_name: str) -> int:
-        """The number of publishers of a topic; the name is expanded but not remapped."""
+        """Return the number of publishers of a topic, whose name is expanded but not remapped."""
         require_valid(self.context, "Error in rcl_count_publishers")
         name = expand_name(self, topic_name)
         return sum(len(each.publishers.on(name)) for each in self._ros_bus.tables())
 
     def count_subscribers(self, topic_name: str) -> int:
-        """The number of subscriptions of a topic; the name is expanded but not remapped."""
+        """Return the number of subscriptions of a topic, whose name is expanded but not remapped."""
         require_valid(self.context, "Error in rcl_count_subscribers")
         name = expand_name(self, topic_name)
         return sum(len(each.subscriptions.on(name)) for each in self._ros_bus.tables())
 
     def count_clients(self, service_name: str) -> int:
-        """The number of clients of a service; the name is expanded but not remapped."""
+        """Return the number of clients of a service, whose name is expanded but not remapped."""
         require_valid(self.context, "Error in rcl_count_clients")
         name = expand_name(self, service_name, service=True)
         return sum(len(each.clients.on(name)) for each in self._ros_bus.tables())
 
     def count_services(self, service_name: str) -> int:
-        """The number of servers of a service; the name is expanded but not remapped."""
+        """Return the number of servers of a service, whose name is expanded but not remapped."""
         require_valid(self.context, "Error in rcl_count_services")
         name = expand_name(self, service_name, service=True)
         return sum(len(each.servers.on(name)) for each in self._ros_bus.tables())
 
     def get_publishers_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
-        """The publishers of a topic; the name is remapped."""
+        """Return the publishers of a topic, whose name is remapped."""
         return self._ros_infos(topic_name, no_mangle, publisher=True)
 
     def get_subscriptions_info_by_topic(self, topic_name: str, no_mangle: bool = False) -> list[TopicEndpointInfo]:
-        """The subscriptions of a topic; the name is remapped."""
+        """Return the subscriptions of a topic, whose name is remapped."""
         return self._ros_infos(topic_name, no_mangle, publisher=False)
 
     def _ros_infos(self, topic: str, no_mangle: bool, *, publisher: bool) -> list[Any]:
@@ -177,7 +177,7 @@ class NodeGraph(NodeBase):
         ]
 
     def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
-        """Whether a node exists, or appears within a time-out (s); a name without a slash is in the root namespace."""
+        """Wait for a node up to a time-out (s); returns whether it exists. The root namespace is the default."""
         full_name = f"/{fully_qualified_node_name.removeprefix('/')}"
         return wait_until_there(self, lambda: full_name in self.get_fully_qualified_node_names(), timeout)
 
@@ -205,14 +205,14 @@ _UNDECIDED = ("SYSTEM_DEFAULT", "BEST_AVAILABLE", "UNKNOWN")
 
 
 def in_effect(asked: Profile) -> QoSProfile:
-    """The profile with the middleware's defaults where the program left it open, and unlimited durations as infinite.
+    """Return the profile with the middleware's choices for open policies, and unlimited durations as infinite.
 
-    Each caller gets its own object, which it may change. For a profile received over the wire it is computed once.
+    Each caller gets its own object, which it may change. A profile received over the wire is converted only once.
     """
     return copied(_of_wire(asked)) if isinstance(asked, tuple) else _in_effect(asked)
 
 
-@lru_cache(256)  # a graph of thousands of endpoints has only a few profiles
+@lru_cache(256)  # a graph of thousands of endpoints has only a few different profiles
 def _of_wire(asked: Profile) -> QoSProfile:
     return _in_effect(asked)
 
@@ -232,7 +232,7 @@ def _in_effect(asked: Profile) -> QoSProfile:
 
 
 def copied(profile: QoSProfile) -> QoSProfile:
-    """A copy of a profile; durations are shared, as they are immutable."""
+    """Return a copy of a profile; durations are shared, as they are immutable."""
     copy = QoSProfile.__new__(QoSProfile)
     for slot in QoSProfile.__slots__:
         setattr(copy, slot, getattr(profile, slot))
@@ -249,11 +249,11 @@ def _limited(period: Period) -> Duration:
 
 Pair = tuple[str, str]
 TOPIC = "rt"
-"""Precedes the name of a topic."""
+"""Prefix of a topic's DDS name."""
 
 
 def written_by(tables: Iterable[Any], owner: Owner) -> Iterator[Pair]:
-    """Yield what a node publishes: its topics, the replies of its services, the requests of its clients."""
+    """Yield the DDS topics a node publishes: its topics, the replies of its services, the requests of its clients."""
     for each in tables:
         yield from map(_topic, each.publishers.of(owner))
         yield from map(_reply, each.servers.of(owner))
@@ -261,7 +261,7 @@ def written_by(tables: Iterable[Any], owner: Owner) -> Iterator[Pair]:
 
 
 def read_by(tables: Iterable[Any], owner: Owner) -> Iterator[Pair]:
-    """Yield what a node subscribes to: its topics, the requests of its services, the replies of its clients."""
+    """Yield the DDS topics a node subscribes to: its topics, its services' requests, its clients' replies."""
     for each in tables:
         yield from map(_topic, each.subscriptions.of(owner))
         yield from map(_request, each.servers.of(owner))
@@ -291,6 +291,6 @@ def _reply(pair: Pair) -> Pair:
 
 
 def type_name(name: str) -> str:
-    """`std_msgs/msg/String` as `std_msgs::msg::dds_::String_`."""
+    """Return `std_msgs/msg/String` as `std_msgs::msg::dds_::String_`."""
     package, kind, short = name.split("/")
     return f"{package}::{kind}::dds_::{short}_"

@@ -1,7 +1,7 @@
-"""How a node sets its parameters: callbacks, checks and the event, in Jazzy's order."""
+"""How a node sets its parameters: callbacks, checks and the event, in the order of Jazzy."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -35,16 +35,14 @@ EMPTIED = (
 )
 NOT_SET = Parameter.Type.NOT_SET
 MAX_PARAMETERS_WITH_GC = 100
-"""Above this number the garbage collector is paused: it would examine the growing event, all of which is needed,
-repeatedly.
-"""
+"""Above this number the garbage collector is paused: it would examine the growing event again and again."""
 
 Setter = Callable[[Any], Any]
-"""A callback; it gets the list of parameters, or whatever sequence the caller has given."""
+"""A callback; it gets the list of parameters, or the sequence that the caller has passed."""
 
 
 def _invalid(callback: Setter, result: object) -> SetParametersResult:
-    """The refusal for a callback that returned something else than a `SetParametersResult`, with a warning."""
+    """Return the refusal for a callback that did not return a `SetParametersResult`, after logging a warning."""
     warnings.warn("Callback returned an invalid type, it should return SetParameterResult.", stacklevel=1)
     hint = invalid_result(callback, result)
     if hint:
@@ -54,7 +52,7 @@ def _invalid(callback: Setter, result: object) -> SetParametersResult:
 
 def _check_callable(callback: object) -> None:
     if not callable(callback):
-        raise TypeError("Callback must be callable, got {}", type(callback))  # unformatted, as upstream
+        raise TypeError("Callback must be callable, got {}", type(callback))  # logged unformatted, as upstream
 
 
 def _refused(reason: str) -> SetParametersResult:
@@ -62,7 +60,7 @@ def _refused(reason: str) -> SetParametersResult:
 
 
 class ParameterSetting(NodeEntities):
-    """Methods of `Node` that change values. Callbacks added last are called first."""
+    """Methods of `Node` that change values. The callback added last is called first."""
 
     PARAM_REL_TOL: float
     _pre_set_parameters_callbacks: list[Setter]
@@ -99,7 +97,7 @@ class ParameterSetting(NodeEntities):
             return
         known = self._parameters
         undeclared = (parameter._name for parameter in parameters if parameter._name not in known)
-        # `any` consumes names up to the first non-empty one; the message lists the rest, as upstream's does.
+        # As upstream, `any` consumes the names up to the first non-empty one, and the message lists the rest.
         if any(undeclared):
             error = ParameterNotDeclaredException(list(undeclared))
             setattr(error, DECLARED, known)
@@ -112,9 +110,9 @@ class ParameterSetting(NodeEntities):
         *,
         keep_not_set: bool = False,
     ) -> SetParametersResult:
-        """Check the values, run the callbacks, store and publish; `descriptors` are the new ones of a declaration.
+        """Check the values, run the callbacks, store and publish; `descriptors` are those of a new declaration.
 
-        A NOT_SET parameter is deleted unless `keep_not_set`.
+        A NOT_SET parameter is deleted unless `keep_not_set` is set.
         """
         reason = self._ros_refusal(parameters, descriptors)
         if reason is not None:
@@ -125,7 +123,7 @@ class ParameterSetting(NodeEntities):
                 return _invalid(callback, result)
             if not result.successful:
                 return result
-        self._ros_use()  # the event needs the node's name, which a destroyed node refuses, before anything is stored
+        self._ros_use()  # the event needs the node's name; a destroyed node refuses it here, before anything is stored
         publisher = self._parameter_event_publisher
         if publisher._is_wanted():
             publisher._publish_own(self._ros_store_and_notify(parameters, descriptors, keep_not_set))
@@ -157,7 +155,7 @@ class ParameterSetting(NodeEntities):
     def _ros_store_and_notify(
         self, parameters: Sequence[Parameter], descriptors: dict[str, ParameterDescriptor] | None, keep_not_set: bool
     ) -> ParameterEvent:
-        """Store the values; returns the event with all of them."""
+        """Store the values; returns the event for all of them."""
         pause = len(parameters) > MAX_PARAMETERS_WITH_GC and gc.isenabled()
         if pause:
             gc.disable()
@@ -174,7 +172,7 @@ class ParameterSetting(NodeEntities):
         keep_not_set: bool,
         convert: Callable[[Parameter], Any],
     ) -> ParameterEvent:
-        """Store the values; returns the event made of `convert(parameter)` for each."""
+        """Store the values; returns the event that consists of `convert(parameter)` for each."""
         stored = self._parameters
         new: list[ParameterMsg] = []
         changed: list[ParameterMsg] = []
@@ -196,7 +194,7 @@ class ParameterSetting(NodeEntities):
         return parameter_event(self._ros_event_node_name, self._clock._now_ns(), new, changed, deleted)
 
     def add_pre_set_parameters_callback(self, callback: Callable[[list[Parameter]], list[Parameter]]) -> None:
-        """Add a callback that gets the parameters to be set before any check; the ones it returns are set instead."""
+        """Add a callback that gets the parameters before any check, and returns those to be set instead."""
         self._pre_set_parameters_callbacks.insert(0, callback)
 
     def add_on_set_parameters_callback(self, callback: Callable[[list[Parameter]], SetParametersResult]) -> None:
@@ -223,13 +221,13 @@ class ParameterSetting(NodeEntities):
 
 
 CARRIED_AS_THEY_ARE = frozenset((bool, float, str))
-"""Classes all of whose values are transmitted unchanged."""
+"""Classes of which all values are transmitted unchanged."""
 
 
 def parameter_event(
     node: str, now: int, new: list[ParameterMsg], changed: list[ParameterMsg], deleted: list[ParameterMsg]
 ) -> ParameterEvent:
-    """The parameter event of a node (full name) at a time (ns)."""
+    """Return the parameter event of a node (full name) at a time (ns)."""
     seconds, nanoseconds = divmod(now, S_TO_NS)
     return ParameterEvent(
         stamp=Time(sec=seconds, nanosec=nanoseconds, check_fields=False),
@@ -242,10 +240,10 @@ def parameter_event(
 
 
 def check_carried(parameter: Parameter) -> None:
-    """Raise what `event_parameter` would, without creating a message for values that need no check.
+    """Raise what `event_parameter` would raise, without creating a message for values that need no check.
 
-    A message is seven objects for the garbage collector: for ten thousand that nobody receives, they would take two
-    thirds of the time to set those parameters.
+    A message is seven objects for the garbage collector: ten thousand of them that nobody receives would take two
+    thirds of the time for setting those parameters.
     """
     value = parameter._value
     kind = value.__class__
@@ -255,7 +253,7 @@ def check_carried(parameter: Parameter) -> None:
 
 
 def _check_text(parameter: Parameter) -> None:
-    """Raise `UnicodeEncodeError` for a name or value with half a character, as a file name of any bytes may have."""
+    """Raise `UnicodeEncodeError` for a name or value with an incomplete character, as a file name may have."""
     value: Any = parameter._value
     texts: Any = value if value.__class__ is list or value.__class__ is tuple else (value,)
     for text in (parameter._name, *texts):
@@ -264,7 +262,7 @@ def _check_text(parameter: Parameter) -> None:
 
 
 def event_parameter(parameter: Parameter) -> ParameterMsg:
-    """A parameter as a well-formed message for an event.
+    """Return a parameter as a well-formed message for an event.
 
     Raises `FieldTypeError` or, for text that is not Unicode, `UnicodeEncodeError` if it cannot be serialized.
     """
@@ -280,7 +278,7 @@ def event_parameter(parameter: Parameter) -> ParameterMsg:
 
 
 def refusal(parameter: Any, descriptor: Any, *, check_read_only: bool, declared: bool, tolerance: float) -> str | None:
-    """Why a descriptor forbids a parameter, or None; sets the descriptor's name and, with dynamic typing, its type.
+    """Return why a descriptor forbids a parameter, or None; sets its name and, with dynamic typing, its type.
 
     `declared` says whether the parameter exists already; `tolerance` is the relative tolerance of ranges of doubles.
     """
@@ -304,7 +302,7 @@ def refusal(parameter: Any, descriptor: Any, *, check_read_only: bool, declared:
 
 
 def _outside_integers(name: str, value: int, allowed: Any) -> str | None:
-    """Why an integer is out of range, or None: both ends are always allowed; steps count from the lower end."""
+    """Return why an integer is out of range, or None. Both ends are always allowed; steps count from the lower end."""
     low, high = sorted((allowed.from_value, allowed.to_value))
     if value in (low, high):
         return None
@@ -319,9 +317,9 @@ def _outside_integers(name: str, value: int, allowed: Any) -> str | None:
 
 
 def _outside_doubles(name: str, value: float, allowed: Any, tolerance: float) -> str | None:
-    """The same for a double, with a relative tolerance at the ends and at each step."""
+    """Return the same for a double, with a relative tolerance at both ends and at each step."""
     ends = (allowed.from_value, allowed.to_value)
-    low, high = min(ends), max(ends)  # NaN as the first end makes both NaN, as upstream
+    low, high = min(ends), max(ends)  # as upstream, NaN as the first end makes both ends NaN
     if math.isclose(value, low, rel_tol=tolerance) or math.isclose(value, high, rel_tol=tolerance):
         return None
     if not low < value < high:

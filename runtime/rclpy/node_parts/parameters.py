@@ -1,7 +1,7 @@
 """The parameters of a node: declaration, reading, descriptors."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class NodeParameters(ParameterSetting):
         allow_undeclared: bool,
         automatic: bool,
     ) -> None:
-        """Collect this node's overrides: from the command lines, the context's first, then from the code."""
+        """Collect this node's overrides: from the command lines, starting with the context's, then from the code."""
         self._parameters = {}
         self._descriptors = {}
         self._allow_undeclared_parameters = allow_undeclared
@@ -70,7 +70,7 @@ class NodeParameters(ParameterSetting):
         descriptor: ParameterDescriptor | None = None,
         ignore_override: bool = False,
     ) -> Parameter:
-        """Declare a parameter by a default value or a `Parameter.Type`; an override takes precedence.
+        """Declare a parameter with a default value or a `Parameter.Type`; an override takes precedence.
 
         Raises `ParameterAlreadyDeclaredException`, `InvalidParameterException`, `InvalidParameterTypeException`,
         `InvalidParameterValueException`, `TypeError` and `ValueError`.
@@ -86,8 +86,8 @@ class NodeParameters(ParameterSetting):
     ) -> list[Parameter]:
         """Declare tuples (name[, value or type[, descriptor]]); each name is prefixed with the namespace and a dot.
 
-        Nothing is declared if a tuple is invalid or a name is taken; a refused value leaves those before it
-        declared. Raises what `declare_parameter` raises.
+        Nothing is declared if a tuple is invalid or a name is taken; if a value is refused, the parameters before it
+        stay declared. Raises what `declare_parameter` raises.
         """
         overrides = {} if ignore_override else self._parameter_overrides
         found: list[Parameter] = []
@@ -142,7 +142,7 @@ class NodeParameters(ParameterSetting):
         return name in self._parameters
 
     def get_parameter(self, name: str) -> Parameter:
-        """A parameter; raises `ParameterNotDeclaredException` and `ParameterUninitializedException`.
+        """Return a parameter; raises `ParameterNotDeclaredException` and `ParameterUninitializedException`.
 
         If undeclared parameters are allowed, an undeclared one is returned as NOT_SET.
         """
@@ -156,21 +156,21 @@ class NodeParameters(ParameterSetting):
         return parameter
 
     def get_parameters(self, names: Sequence[str]) -> list[Parameter]:
-        """Several parameters; raises what `get_parameter` raises, and `TypeError` for a name that is not a string."""
+        """Return several parameters; raises what `get_parameter` raises, and `TypeError` if a name is not a string."""
         _check_names(names)
         return [self.get_parameter(name) for name in names]
 
     def get_parameter_or(self, name: str, alternative_value: object = None) -> Any:
-        """A parameter; if it has no value, the alternative itself, or a NOT_SET parameter without one."""
+        """Return a parameter; if it has no value, the alternative itself, or a NOT_SET parameter without one."""
         parameter = self._parameters.get(name)
         if parameter is not None and parameter._type_ is not NOT_SET:
             return parameter
         return Parameter(name, NOT_SET) if alternative_value is None else alternative_value
 
     def get_parameter_type(self, name: str) -> Any:
-        """The code of a parameter's type, 0 while it has no value; raises `ParameterNotDeclaredException`.
+        """Return the code of a parameter's type, 0 while it has no value; raises `ParameterNotDeclaredException`.
 
-        If undeclared parameters are allowed, it is `Parameter.Type.NOT_SET` for an undeclared one, as upstream.
+        If undeclared parameters are allowed, it is, as upstream, `Parameter.Type.NOT_SET` for an undeclared one.
         """
         if name in self._parameters:
             return self._parameters[name].type_.value
@@ -179,18 +179,19 @@ class NodeParameters(ParameterSetting):
         raise self._ros_undeclared(name)
 
     def get_parameter_types(self, names: Sequence[str]) -> list[Any]:
-        """The types of several parameters; raises what `get_parameter_type` raises, and `TypeError`."""
+        """Return the types of several parameters; raises what `get_parameter_type` raises, and `TypeError`."""
         _check_names(names)
         return [self.get_parameter_type(name) for name in names]
 
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
-        """The parameters below a prefix, by the rest of their names; all parameters for an empty prefix."""
+        """Return the parameters below a prefix, by the rest of their names; all parameters for an empty prefix."""
         start = prefix + PARAMETER_SEPARATOR_STRING if prefix else prefix
         length = len(start)
         return {name[length:]: parameter for name, parameter in self._parameters.items() if name.startswith(start)}
 
     def list_parameters(self, prefixes: list[str], depth: int) -> ListParametersResult:
-        """The names below prefixes, at most `depth` levels deep (0 for any), with the prefixes that they have.
+        """Return the names below prefixes, at most `depth` levels deep (0 for any depth), and the prefixes that occur
+        in them.
 
         Raises `TypeError` and `ValueError`.
         """
@@ -201,9 +202,9 @@ class NodeParameters(ParameterSetting):
         return ListParametersResult(names=names, prefixes=list(found))
 
     def describe_parameter(self, name: str) -> ParameterDescriptor:
-        """The descriptor of a parameter, the very object that it was declared with.
+        """Return the descriptor of a parameter: the same object with which it was declared.
 
-        Raises `ParameterNotDeclaredException`; if undeclared ones are allowed, returns a default descriptor instead.
+        Raises `ParameterNotDeclaredException`; if undeclared ones are allowed, it returns a default descriptor instead.
         """
         if name in self._descriptors:
             return self._descriptors[name]
@@ -212,7 +213,7 @@ class NodeParameters(ParameterSetting):
         raise self._ros_undeclared(name)
 
     def describe_parameters(self, names: Sequence[str]) -> list[ParameterDescriptor]:
-        """The descriptors of several parameters; raises what `describe_parameter` raises."""
+        """Return the descriptors of several parameters; raises what `describe_parameter` raises."""
         return [self.describe_parameter(name) for name in names]
 
     def set_descriptor(
@@ -254,7 +255,7 @@ ANY_DEPTH = 0
 
 
 def listed(names: Iterable[str], prefixes: object, depth: object) -> list[str]:
-    """The names that `list_parameters` returns, in their order; raises `TypeError` and `ValueError`."""
+    """Return the names that `list_parameters` returns, in its order; raises `TypeError` and `ValueError`."""
     if not isinstance(prefixes, list):
         raise TypeError("The prefixes argument must be a list")
     wanted = cast("list[Any]", prefixes)
@@ -284,9 +285,9 @@ IN_CODE = "parameter_overrides of its program"
 def report_declared(
     node: str, declared: Iterable[tuple[str, Sequence[object]]], values: Iterable[object], sources: Mapping[str, str]
 ) -> None:
-    """Report the declarations (full name, tuple) of a node with the resulting values, if anybody listens.
+    """Report a node's declarations (full name, tuple) and the resulting values, if anybody listens.
 
-    `sources` are those of overrides. A default that is not a plain value, such as a type, is reported as None.
+    `sources` are the sources of overrides. A default that is not a plain value, such as a type, is reported as None.
     """
     if not anybody_listens():
         return
@@ -302,7 +303,7 @@ def report_declared(
 
 
 def _plain(value: Any) -> Any:
-    """A value for JSON: a scalar, or a list of scalars; bytes, which JSON lacks, as `{"byte": 0 .. 255}`; else None."""
+    """Convert a scalar or a list of scalars for JSON; bytes, which JSON lacks, to `{"byte": 0 .. 255}`; else None."""
     if isinstance(value, (bool, int, float, str)) or value is None:
         return value
     if isinstance(value, Parameter.Type):
@@ -331,7 +332,7 @@ TYPE_AND_DYNAMIC = (
 def read_declaration(
     index: int, declaration: Sequence[Any], namespace: str, overrides: Mapping[str, Parameter]
 ) -> tuple[Parameter, ParameterDescriptor]:
-    """The parameter, with the value of its override if there is one, and the descriptor that a tuple declares.
+    """Return the parameter that a tuple declares, with the value of its override if there is one, and its descriptor.
 
     The declared type is written into the descriptor. Raises `TypeError`, `ValueError` and
     `InvalidParameterException`.
@@ -376,7 +377,7 @@ def _descriptor(index: int, declaration: Sequence[Any]) -> ParameterDescriptor:
 
 
 def _set_type(name: str, wanted: Parameter.Type, descriptor: ParameterDescriptor) -> None:
-    """Set the descriptor's type to a declared type; raises `ValueError`."""
+    """Set the descriptor's type to the declared type; raises `ValueError`."""
     if wanted == Parameter.Type.NOT_SET:
         raise ValueError(f"Cannot declare parameter {{{name}}} as statically typed of type NOT_SET")
     if descriptor.dynamic_typing is True:

@@ -1,7 +1,7 @@
 """The `/rosout` publisher of a node, for its logger and that logger's children."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ ROSOUT = QoSProfile(depth=1000, reliability=ReliabilityPolicy.RELIABLE, durabili
 
 
 class LoggingNode(Protocol):
-    """A node as far as its log lines are published."""
+    """What publishing log lines needs of a node."""
 
     def get_logger(self) -> RcutilsLogger:
-        """The node's logger."""
+        """Return the node's logger."""
         ...
 
     def create_publisher(self, msg_type: type[Message], topic: str, qos_profile: QoSProfile) -> Publisher:
@@ -45,13 +45,14 @@ class Rosout:
 
     def _publish(self, severity: int, name: str, text: str, file: str, function: str, line: int, stamp_ns: int) -> bool:
         message = self._log()
-        # Bypasses the properties and their checks, which the logger's own values do not need: this runs for each line.
+        # Bypasses the properties and their checks, which the logger's own values do not need, as this runs for each
+        # line.
         stamp = message._stamp
         stamp._sec, stamp._nanosec = divmod(stamp_ns, S_TO_NS)
         message._level = severity
         message._name = name
         message._msg = _encodable(text)
-        message._file = _encodable(file)  # a path can be of any bytes
+        message._file = _encodable(file)  # a path can consist of any bytes
         message._function = function
         message._line = line
         return self._endpoint.publish_own(message)

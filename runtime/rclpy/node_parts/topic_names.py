@@ -1,7 +1,7 @@
-"""Topic and service names as a node uses them: expanded, remapped, validated."""
+"""Topic and service names as a node uses them: expanded, remapped and validated."""
 
 # pyright: reportPrivateUsage=false
-# The modules of rclpy are one library: what its users are not to touch has an underscore, as upstream.
+# rclpy is one library: as upstream, an underscore marks what is private to rclpy, not to one module.
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def checked(node: NodeBase, name: str, *, service: bool = False) -> str:
-    """The full, remapped name of an entity to be created.
+    """Return the full, remapped name of an entity to be created.
 
     Raises `InvalidTopicNameException` or `InvalidServiceNameException`, and `ValueError` for an unknown substitution.
     """
@@ -34,9 +34,9 @@ def checked(node: NodeBase, name: str, *, service: bool = False) -> str:
 
 
 def expand_name(node: NodeBase, name: str, *, service: bool = False) -> str:
-    """The full name of an existing topic or service, not remapped.
+    """Return the full name of an existing topic or service, not remapped.
 
-    Raises `ValueError` as upstream's counts do, and the exceptions of `checked` for invalid full names.
+    Raises `ValueError` as upstream's `count_...` methods do, and the exceptions of `checked` for invalid full names.
     """
     full = expand_topic_name(name, node.get_name(), node.get_namespace())
     validate_full_topic_name(full, is_service=service)
@@ -60,7 +60,7 @@ def resolve(node: NodeBase, name: str, *, only_expand: bool, service: bool = Fal
 
 
 def remapped(node: NodeBase, full: str, service: bool = False) -> str:
-    """A full name with the node's remap rules applied."""
+    """Return a full name to which the node's remap rules have been applied."""
     rules = node._ros_remap_rules
     if not rules:
         return full
