@@ -1,4 +1,4 @@
-"""No setting of the person who runs the tests leaks into what is drawn."""
+"""Keeps the settings of the person who runs the tests off the screen."""
 
 from __future__ import annotations
 

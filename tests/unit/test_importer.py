@@ -1,4 +1,4 @@
-"""ROS module names resolve to the embedded runtime; packages of a user that have our names come first."""
+"""ROS module names resolve to the embedded runtime; a user's packages that have our names take precedence."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ code_program(sys.argv[2], places_of(sys.argv[3:]))()
 
 
 def runs(workspace: Path, text: str, *folders: Path) -> None:
-    """Run a text in a process whose modules are in these folders."""
+    """Run a program text in a process that imports modules from these folders."""
     words = [sys.executable, "-c", RUN, *map(str, (workspace, text, *folders))]
     done = subprocess.run(words, capture_output=True, text=True, timeout=240, check=False)
     assert done.returncode == 0, done.stderr

@@ -52,7 +52,7 @@ def env(home: Path) -> dict[str, str]:
 
 @pytest.fixture
 def ros(tmp_path: Path) -> Path:
-    """An installed ROS 2 with little in it."""
+    """A minimal installed ROS 2."""
     for name in ("rclpy", "std_msgs"):
         (tmp_path / "ros" / name).mkdir(parents=True)
         (tmp_path / "ros" / name / "__init__.py").touch()

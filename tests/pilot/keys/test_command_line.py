@@ -1,4 +1,4 @@
-"""The command line: own verbs, `ros2` left out, completion, history, and errors that say what to type."""
+"""The command line: its own verbs, `ros2` commands with `ros2` left out, completion, history, and helpful errors."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def test_paste_is_inserted_or_refused_as_a_whole() -> None:
     reported: list[str] = []
 
     async def play(session: Session) -> None:
-        # A notification itself may expire while so much text is taken in.
+        # A notification itself may expire while so much text is processed.
         session.app.notify = lambda message, **how: reported.append(message)
         await session.press("colon")
         for characters in (MAX_PASTE_CHARACTERS, MAX_PASTE_CHARACTERS + 1):

@@ -28,7 +28,7 @@ def sets(session: Session) -> list[Value]:
 
 
 def edited(kind: Kind, value: Value, play: Callable[[Session], Awaitable[None]]) -> list[Value]:
-    """The values that were set while the list of that array was open and keys were pressed."""
+    """Open the list of an array, press keys, and return the values that were set."""
     found: list[Value] = []
 
     async def scene(session: Session) -> None:

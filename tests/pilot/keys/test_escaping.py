@@ -1,4 +1,4 @@
-"""Esc and a letter that come in one piece are what a person typed, unless somebody has bound the letter with Alt."""
+"""Esc and a character that arrive together are two keys, unless a key with Alt is bound to them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Every list obeys the same keys: first and last row, pages, filter, Escape, next and previous match."""
+"""Every list has the same keys: first and last row, pages, filter, Escape, next and previous match."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ each_list = pytest.mark.parametrize(
     "digit",
     [pytest.param(digit, id=pane, marks=() if pane == "logs" else pytest.mark.slow) for pane, digit in LISTS.items()],
 )
-"""All are lists of one kind: by default one of them is tried."""
+"""All are lists of the same kind: the default run tries one of them."""
 
 
 def focused(session: Session) -> RowList:
@@ -61,7 +61,7 @@ def focused(session: Session) -> RowList:
 
 
 def at_cursor(rows: RowList) -> str:
-    """What the row at the cursor is about; how wide its columns are does not count."""
+    """The text that identifies the row at the cursor, whatever the widths of its columns."""
     return about("".join(each.text for each in rows.row(rows.cursor, 200)))
 
 

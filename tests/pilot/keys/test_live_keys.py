@@ -1,4 +1,4 @@
-"""In what lies over the panes no key means two things: all scopes that act there are looked at together."""
+"""In overlays no key has two meanings; all scopes that are active there are checked together."""
 
 from __future__ import annotations
 
@@ -32,11 +32,11 @@ OVER = {
     "the name of a layout": ("0", "V", "w"),
     "quit": ("1", "slash", *"speed", "enter", "plus", "q"),
 }
-"""How what lies over the panes, or asks in one, is opened."""
+"""The keys that open each overlay, or a question in one."""
 
 
 def claims(session: Session) -> Iterator[tuple[str, str]]:
-    """Every key that acts now, with the id of what it does."""
+    """Every key that acts now, with the id of its action."""
     app = session.app
     below = (each for each in app.screen._binding_chain)
     for node, bindings in chain(app.screen._modal_binding_chain, below):

@@ -1,4 +1,4 @@
-"""By mouse alone: tabs, rows, the key bar, questions and what lies over the panes; all wheels and no keys."""
+"""By mouse alone: tabs, rows, the key bar, questions and overlays; the wheel, and no keys."""
 
 from __future__ import annotations
 
@@ -91,7 +91,7 @@ def test_mouse_press_where_a_notification_was_just_removed_does_not_end_the_cons
         screen = session.app.screen
         toast = screen.query_one(Toast)
         at = toast.region.offset
-        toast.remove()  # it is in what was composed until the next frame
+        toast.remove()  # it is part of the composed screen until the next frame
         session.app.post_message(MouseDown(None, at.x, at.y, 0, 0, 1, False, False, False, at.x, at.y))
         await session.settle()
         assert session.app._exception is None and session.app.is_running

@@ -1,4 +1,4 @@
-"""Questions carry their answer: bound to what they were asked about, closed when it leaves, typed into at any speed."""
+"""Questions belong to the item that they are about: they close when it disappears, and keep up with fast typing."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def prompt(session: Session) -> Prompt:
 
 
 async def at_once(session: Session, text: str) -> None:
-    """Type without waiting for anything in between, as a fast hand or a busy machine does."""
+    """Type without waiting in between, as a fast person or a busy machine does."""
     for character in text:
         special = {"\r": "enter", "\x1b": "escape", "\x10": "ctrl+p"}.get(character)
         key = special or _character_to_key(character)

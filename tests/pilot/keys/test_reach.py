@@ -1,4 +1,4 @@
-"""Every pane is reached and left by keys alone, and the keys that work everywhere do."""
+"""Every pane can be reached and left by keys alone, and the global keys work in each."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ def shown(session: Session) -> list[str]:
 
 @dataclass
 class Visit:
-    """What was found where the key of a pane had been pressed."""
+    """The state of the console after the key of a pane was pressed."""
 
     shown: list[str]
     current: str | None
     has_focus: bool
     key_bar: str
     claims: dict[str, set[str]]
-    """Every key that some scope around the focus claims, with the ids of what it does."""
+    """Every key that a scope around the focus claims, with the ids of its actions."""
     first_stop: object
     status: str
     second_stop: object
@@ -45,7 +45,7 @@ class Visit:
 
 @cache
 def visits() -> dict[str, Visit]:
-    """One walk through all panes, the keys of which are looked at by several tests."""
+    """Walk once through all panes; several tests examine the keys found there."""
     found: dict[str, Visit] = {}
 
     async def play(session: Session) -> None:

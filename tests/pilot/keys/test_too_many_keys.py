@@ -1,4 +1,4 @@
-"""Keys typed faster than the console handles them: what is held down does not go on after its release; a stop stays."""
+"""Keys typed faster than the console handles them: a held key does not go on after its release, but stops are kept."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ STOP = "exclamation_mark"
 
 
 async def behind(session: Session, *keys: str) -> list[str]:
-    """Type keys of which none has its turn yet; those that wait."""
+    """Type keys without letting any of them have its turn; return those that wait."""
     await session.app._keyboard.hold(lambda _: False)
     for each in keys:
         session.app.post_message(events.Key(each, "!" if each == STOP else each))

@@ -1,4 +1,4 @@
-"""Alarms: added, told once for each crossing, kept for the next start, and silent about what is not there."""
+"""Alarms: added, announced once for each crossing, kept for the next start, and silent about missing topics."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ SPEED = "/odom/twist.twist.linear.x"
 
 
 async def later(session: Session, *values: float) -> None:
-    """New values of the speed come, and a second goes by."""
+    """Let new values of the speed arrive, and a second pass."""
     times, known = session.console.series[SPEED]
     for value in values:
         session.console.now += 0.1

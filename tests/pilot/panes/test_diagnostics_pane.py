@@ -1,4 +1,4 @@
-"""Diagnostics: the tree, what is wrong in it, silence, and all about one status."""
+"""Diagnostics: the tree, its faults, stale entries, and the details of one status."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What each pane says about a system without anything in it, whatever key is pressed, and about one with faults."""
+"""What each pane shows for an empty system, whatever key is pressed, and for one with faults."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ KEYS_AND_WORDS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "B": (("d", "b", "p"), ("Add an alarm",)),
     "I": (("n", "space", "g", "y", "t"), ("no topic of sensor_msgs/msg/Image",)),
 }
-"""By the key of a pane: keys for what is not there, and what is said instead."""
+"""By the key of a pane: keys that act on something missing, and the text that is shown instead."""
 
 
 def test_keys_of_panes_without_anything_to_act_on_are_harmless() -> None:

@@ -24,7 +24,7 @@ def items(session: Session) -> set[str]:
 
 
 async def draw_topics(session: Session) -> None:
-    """Open the graph in the mode in which topics are items of their own, all of them, from the mode before it."""
+    """Open the graph, and switch from Flow to the mode in which all topics are separate items."""
     pane = session.pane(GraphPane)
     pane._view = replace(pane._view, mode=Mode.ACTIVE)
     await session.press("3", "m")
@@ -32,7 +32,7 @@ async def draw_topics(session: Session) -> None:
 
 
 def colours(view: DiagramView, item: str) -> set[object]:
-    """The colours in the line on which an item stands."""
+    """The colours of the line on which an item is drawn."""
     place = view.places[item]
     line = view.render_line(place.y + place.height // 2 - view.scroll_offset.y)
     return {each.style.color for each in line if each.style and item.rpartition("/")[2] in each.text}
@@ -149,7 +149,7 @@ def test_a_new_node_appears_and_the_selection_stays() -> None:
 
 @pytest.mark.slow
 def test_changes_made_while_the_pane_was_hidden_are_drawn_to_fit_the_pane() -> None:
-    """A hidden widget has no size; what is drawn before it has one again must not be chosen for a pane of one cell."""
+    """A hidden widget has no size: the drawing for it must not be chosen for a pane of one cell."""
     longer = "/cell_3/perception/front"
     first = NodeInfo(
         f"{longer}/left_stereo_camera", (Endpoint(f"{longer}/left/image_raw", ("sensor_msgs/msg/Image",)),)
@@ -210,7 +210,7 @@ def test_a_large_graph_is_laid_out_in_a_worker() -> None:
 
 
 def fleet(count: int) -> GraphInfo:
-    """Robots in namespaces, each with a LIDAR that is best effort and a navigator that wants it reliable."""
+    """Robots in namespaces, each with a LIDAR that offers best effort and a navigator that requests reliable."""
     kind = ("a/msg/B",)
     nodes, incompatible = [], {}
     for number in range(count):

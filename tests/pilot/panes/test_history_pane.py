@@ -1,4 +1,4 @@
-"""History: what became of each parameter, the way back, and the moment that log and plot look at."""
+"""History: the outcome of each change, the way back, and the moment that log and plot show."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Images: a topic is chosen, drawn within its limits, frozen, and shown as letters where colours cost too much."""
+"""Images: a topic is chosen, drawn within its limits, frozen, and drawn as characters where colours cost too much."""
 
 from __future__ import annotations
 

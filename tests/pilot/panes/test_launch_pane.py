@@ -1,4 +1,4 @@
-"""Launch: the tree, one process or a group steered, another launch file opened with its arguments."""
+"""Launch: the tree, control of a process or a group, and another launch file opened with its arguments."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from textual.widgets import Input
 
 
 async def until(session: Session, kind: type) -> None:
-    """Wait until a screen of that class is there; reading a launch file happens in a thread."""
+    """Wait until a screen of that class is shown; a thread reads the launch file."""
     for _ in range(200):
         if isinstance(session.app.screen, kind):
             return
@@ -319,7 +319,7 @@ def test_failure_is_shown_in_full_until_the_cursor_moves() -> None:
         await session.press("8")
         assert problem in " ".join(session.text().replace("│", " ").split())
         await session.press("down")
-        pane = "\n".join(session.text().splitlines()[:-2])  # the status line goes on to tell it
+        pane = "\n".join(session.text().splitlines()[:-2])  # the status line still shows it
         assert "sensor_handler-1  /sensor_handler" in pane and "word word" not in pane
 
     run(live(), play)

@@ -1,4 +1,4 @@
-"""What was open, filtered and selected in the Parameters pane is so again at the next start."""
+"""What was open, filtered and selected in a pane is restored at the next start."""
 
 from __future__ import annotations
 

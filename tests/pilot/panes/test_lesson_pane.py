@@ -1,4 +1,4 @@
-"""The lesson pane shows the step, what it waits for, and goes on when it is done."""
+"""The lesson pane shows the step and what it waits for, and moves on when the step is done."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ saw-pane plot
 
 
 class Clock:
-    """Time that goes on with each reading."""
+    """Time that advances with each reading."""
 
     now = 0.0
 
@@ -84,7 +84,7 @@ def run(
 
 
 async def look(session: Session) -> None:
-    """Let the lesson look at what has happened."""
+    """Let the lesson check what has happened."""
     for _ in range(5):
         session.pane(LessonPane).tick()
     await session.settle()
@@ -100,7 +100,7 @@ def test_step_is_shown_and_the_next_one_once_it_is_done(size: tuple[int, int], t
         await look(session)
         assert "2/2 Look at the plot" in session.text()
         assert "1 of 2 done" in session.text()
-        await session.press("4", "0")  # The visit is over when the lesson looks.
+        await session.press("4", "0")  # The visit is over when the lesson checks.
         await look(session)
         assert "2 of 2 done" in session.text()
 

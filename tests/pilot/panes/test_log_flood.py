@@ -1,4 +1,4 @@
-"""The log pane under a flood: it shows the newest lines, counts what there is, and no line twice."""
+"""The log pane under a flood: it shows the newest lines, counts all lines, and shows none twice."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SITE = ("node.py", "callback", 7)
 
 
 class Flooded(FakeConsole):
-    """A console with a log of its own size, searched beside the screen as that of a robot is."""
+    """A console with a real log, searched in the background like that of a robot."""
 
     def __init__(self, lines: int) -> None:
         super().__init__(live()[0].current)
@@ -33,16 +33,16 @@ class Flooded(FakeConsole):
         return self.views.open(which, instead_of)
 
     def flood(self, first: int) -> None:
-        """So many lines at once, from a number on; each tenth is a warning."""
+        """Log many lines at once, numbered from `first`; each tenth is a warning."""
         for number in range(first, first + AT_ONCE):
             severity = Severity.WARN if number % 10 == 0 else Severity.INFO
             self.records.add(START, severity, "talker", f"line {number}", SITE)
             if number % AT_ONCE == AT_ONCE // 2:
-                self.change(logs=self.records.state)  # the newer half comes while this one is drawn
+                self.change(logs=self.records.state)  # the newer half arrives while this one is drawn
 
 
 async def drawn(session: Session, until: str) -> list[tuple[int, int]]:
-    """Beat until a line is seen; the counts that stood on the screen meanwhile."""
+    """Refresh until a line is shown; return the counts that were on the screen meanwhile."""
     counts: list[tuple[int, int]] = []
     while until not in session.text():
         session.app._heartbeat()
@@ -63,7 +63,7 @@ def test_many_lines_are_followed_and_counted_exactly_once(lines: int) -> None:
     console = Flooded(lines)
 
     async def play(session: Session) -> None:
-        await session.press("2", "r")  # each line on its own
+        await session.press("2", "r")  # each line separately
         for first in range(0, lines, AT_ONCE):
             console.flood(first)
             counts = await drawn(session, f"line {first + AT_ONCE - 1} ")

@@ -1,4 +1,4 @@
-"""Parameters: edited in place, refusals where they were made, undo, filter, save."""
+"""Parameters: edited in place, refusals shown where they happened, undo, filter, save."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def test_editing_a_read_only_parameter_says_so_instead_of_asking_for_a_value() -
         for key in ("enter", "e"):
             await session.press(key)
             assert "seed is read-only: a parameter file" in session.text()
-            await session.press("4", "1")  # no line is open that would take them as text
+            await session.press("4", "1")  # no field is open that would take them as text
             assert not session.pane(ParametersPane).edits.refused
 
     run(live(), play)

@@ -1,4 +1,4 @@
-"""Profiles: differences first, refusals and safety asked about, the world on request."""
+"""Profiles: differences are shown first, refusals and safety need confirmation, the world is changed on request."""
 
 from __future__ import annotations
 

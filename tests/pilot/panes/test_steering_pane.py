@@ -1,4 +1,4 @@
-"""Steering: armed by hand, stopped by silence, by leaving, by Space, by the all-stop, by the end."""
+"""Steering: armed by hand; stopped by silence, by leaving, by Space, by the all-stop, and at the end."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def commands(session: Session) -> list[tuple[float, float]]:
 
 
 def stops(session: Session) -> list[tuple[object, ...]]:
-    """Locks, releases and changes of who steers, in order; what repeats stands once."""
+    """Locks, releases and changes of who steers, in order; repetitions appear once."""
     asked = [each for each in session.console.asked if each[0] in ("all_stop", "steer")]
     changes = [each for i, each in enumerate(asked) if i == 0 or each != asked[i - 1]]
     return changes[1:] if changes[:1] == [("steer", True)] else changes
@@ -160,7 +160,7 @@ def test_topic_and_rate_given_as_parameters_are_used_once_somebody_subscribes() 
 
 
 Driven = list[tuple[list[str], tuple[float, float]]]
-"""Keys, and the velocities that they ask for."""
+"""Keys, and the velocities that they request."""
 DRIVEN: Driven = [
     (["w", "w"], (0.1, 0.0)),
     (["W", "A", "x"], (0.0, 0.5)),

@@ -1,4 +1,4 @@
-"""Topics: measured while seen, read as a tree, published; services called, goals sent and cancelled."""
+"""Topics: measured while visible, read as a tree, published; services called, goals sent and cancelled."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ SET_BOOL, FIBONACCI = "std_srvs/srv/SetBool", "example_interfaces/action/Fibonac
 
 
 def with_services() -> GraphInfo:
-    """The robot, with a service and an action of its own."""
+    """The robot's graph with an additional service and action."""
     known = graph()
     server = NodeInfo(
         "/server",
@@ -32,14 +32,14 @@ def with_services() -> GraphInfo:
 
 
 def tick(session: Session, seconds: float = 1.0) -> None:
-    """Let time go on."""
+    """Let time pass."""
     pane = session.pane(TopicsPane)
     pane.clock.now += seconds
     pane.tick()
 
 
 async def opened(session: Session, *keys: str) -> TopicsPane:
-    """Open the pane under a clock that the test steps."""
+    """Open the pane with a clock that the test steps."""
     pane = session.pane(TopicsPane)
     pane.clock = Clock()
     await session.press("9", *keys)

@@ -1,4 +1,4 @@
-"""`!` holds the robot, and lets go of what this console holds; others' stops only after a question that names them."""
+"""`!` holds the robot and releases this console's own stop; others' stops only after a question that names them."""
 
 from __future__ import annotations
 

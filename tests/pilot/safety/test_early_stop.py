@@ -1,4 +1,4 @@
-"""A `!` behind input that is not handled yet holds the robot at once; its turn decides whether it was text."""
+"""A `!` behind unhandled input holds the robot at once; when it is handled, it turns out whether it was text."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def held(session: Session) -> bool:
 
 
 async def behind(session: Session, *keys: str) -> None:
-    """Type keys of which none has its turn yet, as the thread that reads them sees them."""
+    """Type keys as the reading thread sees them, without letting any of them have its turn."""
     await session.app._keyboard.hold(lambda _: False)
     for each in keys:
         event = events.Key(each, "!" if each == STOP else each if len(each) == 1 else None)

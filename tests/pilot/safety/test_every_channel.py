@@ -1,6 +1,6 @@
 """No text of the system reaches the terminal as a control character, whatever field carries it.
 
-The fields are not listed: every string of every model that the console hands to the panes gets the hostile text, and
+The fields are not listed: every string of every model that the console passes to the panes gets the hostile text, and
 every key of every pane is pressed.
 """
 
@@ -25,7 +25,7 @@ from samples import BELL, live, with_camera
 ACTING = ("Cc", "Cf", "Co", "Cn", "Cs")
 """Categories of characters that a terminal may obey, or that cannot be encoded."""
 LEAVING = {"logs.edit"}
-"""Keys that hand the terminal to another program."""
+"""Keys that leave the terminal to another program."""
 
 
 def hostile_everywhere(value: Any, *, fill: bool) -> Any:
@@ -51,7 +51,7 @@ def hostile_everywhere(value: Any, *, fill: bool) -> Any:
 
 
 def make_hostile(console: FakeConsole, *, fill: bool) -> None:
-    """Put the hostile text into all that a console hands to the panes."""
+    """Put the hostile text into everything that a console passes to the panes."""
     now = console.current
     console.change(
         **{
@@ -66,7 +66,7 @@ def make_hostile(console: FakeConsole, *, fill: bool) -> None:
 
 
 def acting_characters(session: Session) -> list[str]:
-    """The characters in the cells that would be written for the whole screen which act on a terminal."""
+    """The characters of the whole screen that would act on a terminal if they were written."""
     found: list[str] = []
     for strip in session.app.screen._compositor.render_strips():
         written = "".join(cells_of(strip, ColorSystem.TRUECOLOR).characters)
@@ -95,7 +95,7 @@ def test_no_field_of_any_model_reaches_the_terminal_as_control_characters(system
             for key in TABLE.get(entry.id, ()):
                 if key.action in LEAVING:
                     continue
-                if session.app.screen.focused is not pane:  # the key before it has opened something
+                if session.app.screen.focused is not pane:  # the previous key has opened something
                     await session.press("escape", "escape", entry.key)
                     pane = session.app.screen.focused
                 await session.press(key.keys.split(",")[0])

@@ -1,4 +1,4 @@
-"""A fault in a pane ends that pane alone; one elsewhere ends the console with the robot stopped and one line."""
+"""A fault in a pane ends only that pane; one elsewhere stops the robot and ends the console with one line."""
 
 from __future__ import annotations
 
@@ -46,9 +46,9 @@ FAULTS = {
 
 
 BESIDE_OTHERS = ("a drawing",)
-"""What is tried in a wide terminal as well: there other panes are drawn in the same frame."""
+"""The faults that are also tried in a wide terminal, where other panes are drawn in the same frame."""
 BY_DEFAULT = ("an action",)
-"""What is tried by default in a small terminal; the drawing is in the wide one."""
+"""The faults that the default run tries in a small terminal; it tries the drawing in the wide one."""
 
 
 @pytest.mark.parametrize(

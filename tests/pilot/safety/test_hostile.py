@@ -29,7 +29,7 @@ KEYS = {
 
 
 each_pane = pytest.mark.parametrize("digits", ["28", pytest.param("1345679HMBI", marks=pytest.mark.slow)])
-"""By default the panes with what programs print, beside those of the overview."""
+"""The default run tries the panes that show what programs print, and those of the overview."""
 
 
 @each_pane

@@ -141,7 +141,7 @@ def test_answering_no_keeps_stops_from_before_and_during_the_question() -> None:
 
 
 def test_stop_key_during_the_question_adds_the_persons_own_stop() -> None:
-    """The stop of the question ends with the robot's nodes; what a person has requested does not."""
+    """The stop of the question ends with the robot's nodes; a stop that a person has requested does not."""
 
     async def play(session: Session) -> None:
         await edited(session)

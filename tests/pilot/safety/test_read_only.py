@@ -1,4 +1,4 @@
-"""A console that only looks on says so when a key is pressed, not after a question has been answered."""
+"""A read-only console refuses when a key is pressed, not after a question has been answered."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ def connect(console: RosConsole) -> None:
 
 
 def lose(console: RosConsole, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let the console's own node fail."""
+    """Make the console's own node fail."""
 
     def broken(self: GraphWarnings, graph: GraphInfo) -> None:
         raise RuntimeError("no warnings any more")
@@ -38,7 +38,7 @@ def lose(console: RosConsole, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def press_stop(console: RosConsole, play: Callable[[BotConsoleApp], None], *keys: str) -> None:
-    """Show a console, press the stop key and perhaps others, then do something while it is shown."""
+    """Show a console, press the stop key and any other keys, then run `play` while it is shown."""
 
     async def main() -> None:
         app = BotConsoleApp(console, refresh_hz=0)

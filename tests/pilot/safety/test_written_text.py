@@ -1,4 +1,4 @@
-"""What nodes and people write is shown as it is written, wherever that is: never as markup."""
+"""Text that nodes and people write is shown as it is written, everywhere: never as markup."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Colours, glyphs and keys as a person wants them."""
+"""Colours, glyphs and keys as configured."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ def test_coloured_text_has_enough_contrast(name: str) -> None:
 
 
 def contrast(one: Color, other: Color) -> float:
-    """The ratio of WCAG 2.1."""
+    """The contrast ratio of WCAG 2.1."""
 
     def luminance(colour: Color) -> float:
         parts = [each / 255 for each in colour.rgb]

@@ -1,4 +1,4 @@
-"""Arranging the panes: by key, by mouse, by name."""
+"""Arranging the panes: by key, by mouse, and by the name of a layout."""
 
 from __future__ import annotations
 

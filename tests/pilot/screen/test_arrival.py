@@ -1,4 +1,4 @@
-"""A console that shows its frame first: what is typed before the panes are there, and what stands there in the end."""
+"""A console that shows its frame first: keys typed before the panes exist, and the final state of the screen."""
 
 from __future__ import annotations
 
@@ -32,14 +32,14 @@ from textual.widgets import Input
 
 SIZE = (120, 40)
 SEEN_FIRST = len(panes(BUILT_IN[OVERVIEW].form(*SIZE)))
-"""How many panes the overview shows at this size."""
+"""The number of panes in the overview at this size."""
 NAMES = {"!": "exclamation_mark", ":": "colon", "?": "question_mark"}
 
 
 def arrive(typed: str, play: Callable[[Session], Awaitable[None]], panes: int = len(ORDERED)) -> None:
-    """Run an app that is given its system late, with letters typed at the very moment when it is asked for.
+    """Run an app that gets its system late, with keys typed at the very moment when the app asks for it.
 
-    What is played begins when so many panes are there.
+    `play` begins when `panes` panes exist.
     """
 
     async def main() -> None:
@@ -187,7 +187,7 @@ def test_a_key_waits_only_for_the_panes_that_it_is_for(
 
     async def play(session: Session) -> None:
         least, maximum = (len(ORDERED),) * 2 if hidden is None else (SEEN_FIRST, SEEN_FIRST + hidden)
-        assert len(there) == 1 and least <= there[0] <= maximum  # a pane is given the keyboard a moment after it stands
+        assert len(there) == 1 and least <= there[0] <= maximum  # a pane gets the focus a moment after it was mounted
         assert [each.id for each in session.app.panes()] == [each.id for each in ORDERED]
         if key in ("6", "I"):
             assert session.app.current_pane is not None and session.app.current_pane.display
@@ -196,7 +196,7 @@ def test_a_key_waits_only_for_the_panes_that_it_is_for(
 
 
 def eager(monkeypatch: pytest.MonkeyPatch, asked: Callable[[], bool]) -> list[int]:
-    """Let something say whether a key was just pressed; gives how many panes have come unseen, at each question."""
+    """Let `asked` decide whether a key was just pressed; return the number of hidden panes made, at each call."""
     came: list[int] = []
 
     def is_eager(gate: AnswerGate) -> bool:

@@ -1,4 +1,4 @@
-"""What screen and panes look for among their widgets is kept for a while, not for hours."""
+"""Caches of widget queries by the screen and the panes stay bounded for hours."""
 
 from __future__ import annotations
 

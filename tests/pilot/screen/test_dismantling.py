@@ -1,4 +1,4 @@
-"""While the screens are dismantled, one widget after the other, nothing acts on what is left of them."""
+"""While the screens are dismantled, one widget after the other, nothing acts on the remaining widgets."""
 
 from __future__ import annotations
 

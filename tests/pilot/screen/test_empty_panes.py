@@ -1,4 +1,4 @@
-"""What a pane shows while it has nothing to show."""
+"""What a pane shows while it is empty."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from piloting import Session, run
 from samples import empty
 
 FRAMED = ("steering", "topics")
-"""Panes whose controls or headings are there without anything to list."""
+"""Panes with controls or headings that are there even if nothing is listed."""
 
 
 @pytest.mark.parametrize("digits", ["27", pytest.param("134568HMBI", marks=pytest.mark.slow)])

@@ -1,4 +1,4 @@
-"""Panes make what is in them when they are first seen, and then look as if it had been there from the start."""
+"""Panes compose their parts when they are first shown, and then look as if they had done so from the start."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The console opens what the spellings of rqt ask for, at the start and by a line after the colon."""
+"""The console opens what rqt's command lines ask for, at the start and after the colon."""
 
 from __future__ import annotations
 

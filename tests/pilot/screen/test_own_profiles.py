@@ -1,4 +1,4 @@
-"""The person's own profiles are saved over, renamed and deleted after a question; those of others are refused."""
+"""A person's own profiles are overwritten, renamed and deleted after a question; other profiles are protected."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ SEEN = 1_700_000_000
 
 
 def with_hall(folder: Path) -> tuple:
-    """A system with a profile of the person's beside those of the robot; it stands last."""
+    """A system with a profile of the person's own after the robot's; it is the last one."""
     console, launcher = live()
     file = folder / "zz_hall.yaml"
     file.write_text("/robot_navigator:\n  ros__parameters: {turn_rate: 0.5}\n")

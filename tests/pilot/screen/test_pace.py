@@ -1,4 +1,4 @@
-"""What changes faster than a person reads is not drawn each time; words are told at once, the newest in any case."""
+"""Figures that change faster than a person reads are not drawn each time; words and the latest state are."""
 
 from __future__ import annotations
 

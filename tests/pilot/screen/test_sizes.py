@@ -1,4 +1,4 @@
-"""Nothing overflows, at any size that the console works at."""
+"""Nothing overflows at any size at which the console works."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ SIZES = [(60, 20), (80, 24), (100, 30), (120, 40), (170, 45), (200, 50), (250, 8
 
 
 def lines_of(session: Session, size: tuple[int, int]) -> list[str]:
-    """The lines on the screen, which fill it."""
+    """The lines on the screen; checks that they fill it."""
     strips = session.app.screen._compositor.render_strips()
     assert len(strips) == size[1]
     assert {strip.cell_length for strip in strips} == {size[0]}
@@ -44,7 +44,10 @@ MARKS = {
     ((120, 40), live): [pytest.mark.slow],
     (SIZES[0], empty): [pytest.mark.slow],
 }
-"""Where room is scarce, and a usual terminal; the soak takes the others, and one pane is resized through them below."""
+"""The marks of size and state: scarce room and a usual terminal before each change, the others in the soak run.
+
+One pane is also resized through all sizes below.
+"""
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Lines that go on stand below the panes, take no keyboard, and end by their key, each alone."""
+"""Continuous lines run in panels below the panes, do not take the keyboard, and end separately by their key."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from samples import live
 
 
 class Printing:
-    """A stream that a test fills."""
+    """A stream that the test fills."""
 
     def __init__(self) -> None:
         self.reported: Sequence[str] = ()
@@ -27,12 +27,12 @@ class Printing:
 
 
 SIZES = [(80, 24), pytest.param((120, 40), marks=pytest.mark.soak)]
-"""The smaller one has the least room for panels."""
+"""The smaller size has the least room for panels."""
 
 
 @pytest.fixture
 def streams(monkeypatch: pytest.MonkeyPatch) -> list[Printing]:
-    """The streams that were begun."""
+    """The streams that were started."""
     begun: list[Printing] = []
 
     def stream(_: FakeCommandLine, line: str) -> Stream | None:
@@ -46,7 +46,7 @@ def streams(monkeypatch: pytest.MonkeyPatch) -> list[Printing]:
 
 
 async def begin(session: Session, line: str = "ros2 topic hz /odom", *, typed: bool = False) -> StreamPanels:
-    """Run a line that goes on, as a pane does or, which takes longer, as a person."""
+    """Run a continuous line as a pane does, or `typed` like a person, which takes longer."""
     if typed:
         await session.press(":")
         await session.paste(line)

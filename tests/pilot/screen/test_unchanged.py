@@ -1,4 +1,4 @@
-"""While the robot moves, a list that shows nothing of it is not drawn anew."""
+"""While the robot moves, a list that shows nothing of it is not drawn again."""
 
 from __future__ import annotations
 

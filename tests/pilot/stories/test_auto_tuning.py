@@ -1,4 +1,4 @@
-"""`T` in the parameter pane: what is asked, how a tuning goes on, and what becomes of the best."""
+"""`T` in the Parameters pane: the questions, the progress of a tuning, and its best setting."""
 
 from __future__ import annotations
 

@@ -33,22 +33,25 @@ PLUGINS = {
     "rqt_plot": "plot",
     "rqt_publisher": "topics",
 }
-"""Configuration > Dynamic Reconfigure, Introspection > Node Graph, Logging > Console, Visualization > Plot,
-Topics > Message Publisher, and the pane of each."""
+"""The pane of each rqt plug-in that the page uses.
+
+These are Configuration > Dynamic Reconfigure, Introspection > Node Graph, Logging > Console, Visualization > Plot and
+Topics > Message Publisher.
+"""
 TYPES = {
     "max_speed": "double · 0.1 .. 5.0",
     "detection_threshold": "integer · 0 .. 255",
     "enable_safety": "boolean · ",
     "robot_name": "string · ",
 }
-"""Parameters of our robot, and what the console finds out about them."""
+"""Parameters of our robot, and the types and limits that the console shows for them."""
 EXAMPLE = Path(__file__).resolve().parents[3] / "docs" / "examples" / "my_robot_control"
 ROBOT = "ros2 run my_package simple_robot_step3 --ros-args -p speed:=1.0 -p robot_name:=TestBot"
 
 
 @pytest.fixture(scope="module")
 def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Terminals]:
-    """The page's workspace with the console beside it, for all of this chapter."""
+    """The page's workspace with the console beside it, shared by all tests of this chapter."""
     with terminals(tmp_path_factory.mktemp("page")) as running:
         yield running
 
@@ -110,7 +113,7 @@ def test_step_1_a_text_field_and_a_checkbox(page: Terminals, robot: Program) -> 
 
 
 async def add_curve(screen: Screen, path: str) -> None:
-    """Type it into the topic field, and press Enter."""
+    """Type a path into the topic field, and press Enter."""
     await screen.press("a")
     await screen.enter(path)
     assert path in screen.pane(PlotPane).paths
@@ -220,7 +223,7 @@ def test_step_4_an_error_is_found_among_warnings(page: Terminals, robot: Program
 
 
 async def choose(screen: Screen, *keys_and_panes: str) -> None:
-    """Arrange: a key, and the pane that it is to bring."""
+    """Arrange the panes: a key, and the pane that it should add."""
     for key, pane in zip(keys_and_panes[::2], keys_and_panes[1::2], strict=True):
         await screen.press(key)
         await screen.enter(pane)
@@ -362,5 +365,5 @@ def test_own_plug_in_starts_and_stops_the_robot(page: Terminals) -> None:
 
 
 async def press_button(screen: Screen, name: str) -> None:
-    """By Tab, which goes through the plug-in's parts, and Enter."""
+    """Press a button of the plug-in: Tab until it has the focus, then Enter."""
     await screen.press(*{"stop": ["tab"], "start": ["shift+tab"]}[name], "enter")

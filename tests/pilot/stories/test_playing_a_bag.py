@@ -1,4 +1,4 @@
-"""A bag that is shown is played: by key, into the ROS domain, with one cursor for the player and all panes."""
+"""A bag that is open is played by key into the ROS domain, with one cursor for the player and all panes."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ WAIT_S = 240
 
 
 class Published:
-    """Stands for a node: keeps what is published, in order."""
+    """Replaces the publishing node: keeps what is published, in order."""
 
     def __init__(self) -> None:
         self.numbers: queue.Queue[int] = queue.Queue()
@@ -65,7 +65,7 @@ def nobody_to_wait_for(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def bag(tmp_path: Path) -> Bag:
-    """A number each second, and a command."""
+    """A bag with a number each second, and a command."""
     writer = BagWriter(tmp_path / "bag")
     writer.topic("/number", Int32, [])
     writer.topic("/cmd_vel", Twist, [])

@@ -1,4 +1,4 @@
-"""R records and ends, Z saves the last minutes; the status line says that it records."""
+"""R starts and stops recording, Z saves the last minutes; the status line shows the recording."""
 
 from __future__ import annotations
 

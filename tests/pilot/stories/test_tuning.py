@@ -35,7 +35,7 @@ def sent(session: Session) -> list[dict[str, dict[str, object]]]:
 
 
 async def mark_two(session: Session) -> None:
-    """The turn rate by a step, the beams of another node by typing."""
+    """Mark two values: the turn rate by a step, and the beams of another node by typing."""
     await session.press("1", "m")
     await go_to(session, "turn_rate")
     await session.press("minus")
@@ -154,7 +154,7 @@ def test_expression_with_unit_shows_its_result() -> None:
 
 
 async def click(session: Session, text: str, ahead: int = 0) -> None:
-    """Click where a text stands on the screen."""
+    """Click on a text on the screen."""
     y, line = next((at, line) for at, line in enumerate(session.lines()) if text in line)
     await session.pilot.click(offset=(line.index(text) + ahead, y))
     await session.settle()
@@ -211,7 +211,7 @@ def test_change_flashes_and_marks_show_its_source() -> None:
 
 @pytest.mark.slow
 def test_plot_compares_responses_with_their_figures() -> None:
-    """Set B takes the speed from 0.5 to 1.0 at once; set A back down with 0.5 m/s² until 1.2 s, too far by 15 %."""
+    """Set B raises the speed from 0.5 to 1.0 at once; set A lowers it by 0.5 m/s² until 1.2 s, 15 % too far."""
     console, launcher = live()
     times = [20.0 + at / 20 for at in range(800)]
     b, a = 30.0, 45.0

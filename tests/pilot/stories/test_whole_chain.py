@@ -1,4 +1,4 @@
-"""From finding a parameter among thousands to loading what was saved, by keys alone and by mouse alone."""
+"""From finding a parameter among thousands to loading a saved file, by keys alone and by mouse alone."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ async def help_line(session: Session, words: str) -> None:
 
 
 async def slide(session: Session, name: str, share: float) -> None:
-    """Click into the slider of a parameter of the navigator, at a share of its length."""
+    """Click into the slider of one of the navigator's parameters, at a share of its length."""
     y, line = next((y, line) for y, line in enumerate(session.lines()) if f" {name} " in line and "●" in line)
     begin, end = line.index("─"), line.rindex("─")
     await session.pilot.click(offset=(begin + round(share * (end - begin)), y))

@@ -32,6 +32,6 @@ def test_warm_up_leaves_one_thread_no_descriptor_and_an_empty_graph() -> None:
 
 def test_shared_imports_register_no_exit_functions() -> None:
     text = "import atexit\nfrom bot_console.runtime.children.warm_up import import_shared\nimport_shared()\n"
-    text += "print(atexit._ncallbacks())"  # the server drops all of them, as it drops those of its parent
+    text += "print(atexit._ncallbacks())"  # the server closes all of them, like those of its parent
     done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True)
     assert done.stdout == "0\n"

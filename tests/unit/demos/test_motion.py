@@ -14,7 +14,7 @@ velocities = st.floats(-20.0, 20.0)
 
 
 def reference(x: float, y: float, heading: float, steps: list[tuple[float, float]]) -> tuple[float, float, float]:
-    """The same path in another form: complex numbers, y upwards, the angle wrapped by arctangent."""
+    """The same path computed differently: complex numbers, y upwards, the angle wrapped by arctangent."""
     place = complex(x, y)
     for forward, turn in steps:
         heading = math.atan2(math.sin(heading + turn * 0.016), math.cos(heading + turn * 0.016))

@@ -1,4 +1,4 @@
-"""Parameter files from a real HTTPS server with a temporary certificate: what is kept, and what is refused."""
+"""Parameter files from a real HTTPS server with a temporary certificate: which are cached, and which are refused."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ SECOND = b"/robot:\n  ros__parameters:\n    speed: 2.5\n"
 
 
 class Server(ThreadingHTTPServer):
-    """Answers each request with what the test says."""
+    """Answers each request as the test says."""
 
     daemon_threads = True
 
@@ -45,7 +45,7 @@ class Server(ThreadingHTTPServer):
         return f"{self.scheme}://localhost:{self.server_port}/robot.yaml"
 
     def handle_error(self, request: object, client_address: object) -> None:
-        """A client that breaks off is part of some tests."""
+        """Ignore clients that close the connection: some tests do."""
 
 
 class Answers(BaseHTTPRequestHandler):
@@ -68,7 +68,7 @@ class Answers(BaseHTTPRequestHandler):
             self.wfile.write(self.server.content)
 
     def log_message(self, *_: object) -> None:
-        """Nothing."""
+        """Log nothing."""
 
 
 @pytest.fixture(scope="module")
@@ -102,7 +102,7 @@ def serving(made: Server) -> Iterator[Server]:
 
 @pytest.fixture
 def plain(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Server]:
-    """A server without TLS on this machine, and a proxy that nobody may ask."""
+    """A server without TLS on this machine, and a proxy that must not be used."""
     monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path))
     monkeypatch.setenv("http_proxy", "http://127.0.0.1:9")
     monkeypatch.delenv("no_proxy", raising=False)

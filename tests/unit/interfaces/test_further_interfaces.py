@@ -13,7 +13,7 @@ from bot_console.runtime.interfaces import further_interfaces, interface_cache
 from bot_console.runtime.rosidl.cdr import deserialize, serialize
 
 LARGE = ("nav2_msgs", "control_msgs", "irobot_create_msgs", "geographic_msgs")
-"""Those of most definitions."""
+"""The packages with the most definitions."""
 PACKAGES = sorted(further_interfaces.unverified_folders())
 
 

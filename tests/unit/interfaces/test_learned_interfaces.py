@@ -21,7 +21,7 @@ SPOT = "float64 x\nfloat64 y\nint32 A=1\n"
 
 @pytest.fixture(autouse=True)
 def forgotten(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Path]:
-    """What a test learns is kept in its own folder, and forgotten; gives the folder."""
+    """A separate folder for what a test learns, which is forgotten afterwards."""
     folder = tmp_path / "kept"
     monkeypatch.setattr(learned_interfaces, "_folders", {})
     monkeypatch.setattr(learned_interfaces, "_kept", lambda: folder)
@@ -54,7 +54,7 @@ def test_learned_message_has_constants_and_package_can_grow() -> None:
     assert learn("learned_a/msg/Path", hash_of("learned_a/msg/Path", paths), reported(paths)) == ""
     assert module.Path(spots=[spot()]).spots == [spot()] and module.Spot is spot
     paint = {"learned_a/srv/Paint": "Spot at\n---\nbool done\n", **spots}
-    # What a service's event consists of is told as well.
+    # The parts of a service's event are reported as well.
     event = {
         "service_msgs/msg/ServiceEventInfo": "uint8 event_type\nbuiltin_interfaces/Time stamp\n"
         "char[16] client_gid\nint64 sequence_number\n",

@@ -79,7 +79,7 @@ def test_useless_answers_are_reported(node: Any) -> None:
     assert outcome(inquiry(NAME, HASHES), lambda name, type_hash: None) == "has not described it"
     refused = outcome(inquiry(NAME, HASHES), lambda name, type_hash: reported(node, "RIHS01_" + "0" * 64))
     assert refused == "does not describe it: Type not currently in use by this node"
-    # True to their hashes, but from another action.
+    # The hashes are correct, but belong to another action.
     other = {name.replace("Fibonacci", "Other"): hashed for name, hashed in HASHES.items()}
     elsewhere = outcome(inquiry(NAME.replace("Fibonacci", "Other"), other), lambda name, each: reported(node, each))
     assert elsewhere.startswith("sent a description of it that is invalid: the definition of example_interfaces/action")

@@ -1,6 +1,4 @@
-"""Arguments, configurations, the environment, and their scopes as upstream really implements them. Contract, section
-1.2.
-"""
+"""Arguments, configurations, the environment, and their scopes as upstream really implements them. Contract, 1.2."""
 
 from __future__ import annotations
 

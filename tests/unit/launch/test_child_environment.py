@@ -1,4 +1,5 @@
-"""Processes that a launch starts by the interpreter or a shell find `rclpy`, `launch`, messages and `ros2`."""
+"""Processes that a launch starts by the interpreter or a shell can import `rclpy`, `launch` and messages, and run
+`ros2`."""
 
 from __future__ import annotations
 

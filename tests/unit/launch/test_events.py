@@ -148,7 +148,7 @@ AGAIN: dict[str, Callable[[Any], Any]] = {
     "by a timer": lambda process: TimerAction(period=0.0, actions=[process]),
     "in a nested description": lambda process: LaunchDescription([process]),
 }
-"""Ways in which a handler executes a process once more."""
+"""Ways in which a handler executes the same process again."""
 
 
 @pytest.mark.parametrize("again", slow_after(2, AGAIN))

@@ -17,7 +17,7 @@ from launch import LaunchDescription, LaunchService
 
 
 class EndedChild(ForkedChild):
-    """Its exit code is known; its output ends with the first signal."""
+    """A child whose exit code is known, and whose output ends with the first signal."""
 
     def __init__(self) -> None:
         super().__init__("talker", lambda fd, data: None, asyncio.get_running_loop())
@@ -31,7 +31,7 @@ class EndedChild(ForkedChild):
 
 @pytest.fixture
 def sent(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, int]]:
-    """The signals that reach the operating system; output of a process that has ended is awaited for an hour."""
+    """The signals that reach the operating system; the output of an ended process is awaited for an hour."""
     sent: list[tuple[int, int]] = []
     monkeypatch.setattr(os, "kill", lambda pid, number: sent.append((pid, number)))
     monkeypatch.setattr(streamed_child, "DRAIN_S", 3600)

@@ -1,4 +1,4 @@
-"""Arguments of a wrong type: refused where upstream refuses them, in its words."""
+"""Arguments of a wrong type are refused where upstream refuses them, with the same messages."""
 
 from __future__ import annotations
 

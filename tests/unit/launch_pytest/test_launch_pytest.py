@@ -178,7 +178,7 @@ class Done:
         )
         self.code, self.printed = done.returncode, done.stdout
         self.cases: dict[str, list[tuple[str, list[str]]]] = {name: [] for name in FILES}
-        # Not from the output: what processes print appears in the same lines.
+        # Not from the output: the lines of processes are mixed into it.
         for each in ElementTree.parse(folder / "report.xml").iter("testcase"):
             where = (each.attrib["classname"] or each.attrib["name"]).removeprefix("test_")
             self.cases[where].append((each.attrib["name"], [kind.tag for kind in each]))

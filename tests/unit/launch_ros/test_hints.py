@@ -1,4 +1,4 @@
-"""Mistakes in what a launch gives its nodes are reported with the line that has to change, where a person reads."""
+"""Mistakes in a launch's arguments and parameters are reported with the line to change, where a person reads."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ UNDECLARED = "{here}/program.py:10: the parameter max_sped is not declared; did 
 
 @pytest.fixture
 def launched(run: Launch, tmp_path: Path) -> Any:
-    """Run the launch file; returns what each process has reported as hints."""
+    """Run the launch file; return the hints that each process has reported."""
     for name, text in (("program", PROGRAM), ("handled", HANDLED)):
         (tmp_path / f"{name}.py").write_text("#!/usr/bin/env python3\n" + text.replace("\n\nrclpy", "\nrclpy", 1))
         (tmp_path / f"{name}.py").chmod(0o755)

@@ -40,7 +40,7 @@ def script(tmp_path: Path) -> Any:
 
 @pytest.fixture
 def meets() -> None:
-    """This process takes part in a domain, in which it meets what it launches."""
+    """Let this process take part in a domain, in which it finds the processes that it launches."""
     assert not join_domain()
 
 

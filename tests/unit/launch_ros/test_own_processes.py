@@ -47,7 +47,7 @@ def script(tmp_path: Path) -> Any:
 
 @pytest.fixture
 def news() -> Iterator[list[News]]:
-    """Collects what processes report."""
+    """Collects the reports of processes."""
     heard: list[News] = []
     forget = on_news(heard.append)
     yield heard
@@ -74,7 +74,7 @@ def test_node_has_its_own_process_with_arguments_and_environment(run: Launch, sc
 
 @pytest.fixture
 def meets(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """This process takes part in a domain, in which its children can meet it."""
+    """Let this process take part in a domain, in which its children find it."""
     monkeypatch.delenv("ROS_AUTOMATIC_DISCOVERY_RANGE", raising=False)
     let_children_meet(True)
     yield

@@ -1,4 +1,4 @@
-"""Users' programs of a stepped run: operating-system processes whose threads keep the run's time."""
+"""Users' programs of a stepped run: operating system processes whose threads follow the run's time."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from launch_ros.actions import Node
 from launching import Launch
 
 STALL_S = 0.2
-"""Seconds for which a thread must be blocked, on a machine that may be busy, to count as such."""
+"""Seconds for which a thread must be blocked to count as such, on a machine that may be busy."""
 
 
 class Run(NamedTuple):
@@ -35,7 +35,7 @@ class Run(NamedTuple):
 
     @property
     def lines(self) -> list[str]:
-        """What its programs printed."""
+        """The output of its programs."""
         return re.findall(r"^\[\w+-\d+\] (.*)$", self.text, re.M)
 
 

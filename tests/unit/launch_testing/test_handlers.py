@@ -1,4 +1,4 @@
-"""What is recorded of processes: which ones match, what they printed, and how they ended."""
+"""The record of processes: which ones match, what they printed, and how they ended."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ BEN = Request(STOP, "ben", "me too", "b", "b1")
 
 
 def release(latch: Latch, *ids: str, by: str = "ben") -> bool:
-    """A release that quotes the lock's present challenge."""
+    """Send a release that quotes the lock's current challenge."""
     return latch.request(Request(RELEASE, by, key=by, ids=ids, challenges=(latch.challenge,)), 0)
 
 
@@ -84,9 +84,7 @@ def test_no_two_states_of_a_lock_have_the_same_challenge() -> None:
 
 
 def test_older_console_can_stop_and_release_only_its_own_stops() -> None:
-    """Its stops have no ids and its releases no challenges, so that a copy cannot be distinguished from the
-    original.
-    """
+    """Its stops have no ids and its releases no challenges, so a copy cannot be distinguished from the original."""
     latch = Latch()
     old = Request(STOP, "old", "now", "o")
     for _ in range(2):

@@ -116,7 +116,7 @@ def test_clock_is_followed_while_scans_continue(rig: Rig) -> None:
 
 def test_robot_time_does_not_query_the_graph_under_load(rig: Rig) -> None:
     rig.time.follow(7 * SECOND)
-    # The rig's node has no methods for the graph, which would have to be followed as a whole.
+    # The rig's node has no graph methods, for which it would have to follow the whole graph.
     rig.time.follow(8 * SECOND)
     rig.clock(8.0)
     began = rig.time.now()

@@ -126,7 +126,7 @@ def test_unwritable_place_is_an_error(tmp_path: Path) -> None:
 
 
 def test_error_names_the_very_file(tmp_path: Path) -> None:
-    """For example one of root, if the robot was once started by `sudo`."""
+    """For example a file of root, if the robot was once started by `sudo`."""
     (tmp_path / "state" / "stops.json.lock").mkdir(parents=True)
     with pytest.raises(StopFileError, match=r"stops\.json\.lock cannot be written"):
         at(tmp_path).merge(Lock())
@@ -177,7 +177,7 @@ def test_concurrent_writers_lose_nothing(tmp_path: Path) -> None:
 
 
 class Clock:
-    """Time that passes only while a lock sleeps; at `release_s` the other lock has written, and lets the file go."""
+    """Time that passes only while a lock sleeps; at `release_s` the other lock has written and unlocks the file."""
 
     def __init__(self, release: Callable[[], object], release_s: float) -> None:
         self.now = 0.0

@@ -1,4 +1,4 @@
-"""Worlds by name, if there is none of that name."""
+"""A name that is not a world's is refused with the available names."""
 
 import pytest
 from bot_console_robot.simulation.world import WorldError

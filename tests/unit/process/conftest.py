@@ -53,9 +53,8 @@ class Started:
 
 @pytest.fixture
 def start() -> Iterator[Callable[..., Started]]:
-    """Start a callable as a node process; afterwards kill what a test has left running and restore all patched
-    modules.
-    """
+    """Start callables as node processes; afterwards kill those that a test has left running and restore patched
+    modules."""
     processes: weakref.WeakSet[NodeProcess] = weakref.WeakSet()
 
     def start_one(

@@ -24,7 +24,7 @@ DAMAGES = {
 
 @pytest.fixture(params=DAMAGES.values(), ids=list(DAMAGES))
 def path(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A path with a damaged package, and one that is well."""
+    """A path with a damaged package and an intact one."""
     well = {"entry_points.txt": POINTS.encode(), "METADATA": b"Metadata-Version: 2.1\nName: well\nVersion: 1\n"}
     for name, files in (("odd", request.param), ("well", well)):
         folder = tmp_path / f"{name}-1.dist-info"

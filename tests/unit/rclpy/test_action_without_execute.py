@@ -1,4 +1,4 @@
-"""Action servers without an execute callback: whatever `handle_accepted_callback` keeps the goal for ends it."""
+"""Action servers without an execute callback: the goal is ended by whatever `handle_accepted_callback` hands it to."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""init, shutdown, contexts, and what nodes and entities can still do afterwards."""
+"""init, shutdown and contexts, and what nodes and entities can still do afterwards."""
 
 from __future__ import annotations
 

@@ -32,7 +32,7 @@ class Events:
         self._end = self._start
 
     def hear(self, name: str) -> Any:
-        """A callback."""
+        """Return a callback that records events under a name."""
 
         def callback(info: Any) -> None:
             elapsed = (self._clock.now() - self._start).nanoseconds // 1_000_000
@@ -51,7 +51,7 @@ class Events:
         return self.node.create_subscription(Int32, "t", lambda message: None, self.qos, event_callbacks=events)
 
     def run(self, seconds: float) -> None:
-        """Serve the node for a while."""
+        """Spin the node for some time (s)."""
         self._end += Duration(seconds=seconds)
         while self._clock.now() < self._end:
             self.node.executor.spin_once(timeout_sec=(self._end - self._clock.now()).nanoseconds / SECOND)

@@ -37,7 +37,7 @@ def test_entities_created_after_the_kill_stay_out_of_the_graph(process, domain, 
     context.init([], domain_id=domain)
     node = Node("n", context=context)
     process.finish(-9)
-    monkeypatch.setattr(context, "ended", False)  # as it was when each of these checked
+    monkeypatch.setattr(context, "ended", False)  # the state when each of these checked
     node.create_publisher(String, "t", 10)
     node.create_subscription(String, "t", lambda message: None, 10)
     node.create_service(Trigger, "s", lambda request, response: response)
@@ -51,7 +51,7 @@ def test_node_created_while_its_context_ends_stays_out_of_the_graph(process, dom
     context = Context()
     context.init([], domain_id=domain)
     process.finish(-9)
-    monkeypatch.setattr(context, "ended", False)  # as it was when the node checked
+    monkeypatch.setattr(context, "ended", False)  # the state when the node checked
     Node("n", context=context)
     assert things(domain) == []
 

@@ -312,7 +312,7 @@ def test_done_future_is_awaited_without_a_pause(ros: Any) -> None:
 
 
 def test_asyncio_awaits_a_future_of_rclpy() -> None:
-    """What fails with rclpy 7.1.9 (rclpy#1588)."""
+    """This fails with rclpy 7.1.9 (rclpy#1588)."""
     future: Future[int] = Future()
 
     async def main() -> Any:

@@ -1,4 +1,4 @@
-"""The tables of the graph always equal a list of all that exists."""
+"""The tables of the graph always agree with a list of all entities."""
 
 import gc
 import threading

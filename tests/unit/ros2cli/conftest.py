@@ -1,4 +1,4 @@
-"""A system with nodes written in the test, on which commands run."""
+"""A system on which commands run, with nodes written in the test."""
 
 from __future__ import annotations
 

@@ -85,7 +85,7 @@ def test_second_ctrl_c_is_raised_at_once() -> None:
 
 
 def test_ctrl_c_while_a_server_answers_keeps_the_answer(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The signal comes in the callback that takes the answer: the wait ends with it, and the answer is there."""
+    """The signal arrives in the callback that receives the answer: the wait ends with it, and the answer is kept."""
     answers: list[str] = []
 
     def spin(node: Any, done: Any, seconds: float) -> bool:

@@ -43,7 +43,7 @@ def test_main_reads_sys_argv_by_default(monkeypatch: pytest.MonkeyPatch, capsys:
 
 
 def test_param_verb_does_not_import_rarely_needed_modules() -> None:
-    """`ros2 param set` in a second terminal: each of these would be a twentieth of its processor time, or more."""
+    """`ros2 param set` in a second terminal: each of these would take a twentieth of its CPU time, or more."""
     program = """
 import sys
 from bot_console.runtime.importer import install

@@ -108,7 +108,7 @@ def test_hint_names_once_what_is_waited_for(
 
 
 class Graph:
-    """A graph that comes bit by bit: one part at each step of a clock that only waiting moves."""
+    """A graph that arrives bit by bit: one part at each step of a clock that advances only by waiting."""
 
     def __init__(self, *parts: str) -> None:
         self._parts = parts

@@ -1,4 +1,4 @@
-"""`interface add`: what is kept, what is refused, and which definition takes precedence."""
+"""`interface add`: what is stored, what is refused, and which definition takes precedence."""
 
 from __future__ import annotations
 

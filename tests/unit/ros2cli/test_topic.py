@@ -164,7 +164,7 @@ def test_hz_measures_arrivals_when_messages_waited_to_be_taken(ros, monkeypatch)
 
     def busy_at_first(node, topic, take, **how):
         def delayed(message, info):
-            if not held:  # what comes during a second waits, as while a type is being imported
+            if not held:  # messages that arrive within a second wait, as while a type is being imported
                 Clock(clock_type=ClockType.SYSTEM_TIME).sleep_for(Duration(seconds=1))
             held.append(message)
             take(message, info)

@@ -1,4 +1,4 @@
-"""The source of a message's module, which is written when a package is built or first imported."""
+"""The source of a message module, which is written when a package is built or first imported."""
 
 from bot_console.runtime.rosidl.emit import modules
 from bot_console.runtime.rosidl.parse import parse

@@ -1,4 +1,4 @@
-"""Types without a definition: their messages are bytes, and their name and hash are those that were given."""
+"""Types without a definition: their messages are bytes, with the given type name and hash."""
 
 import pytest
 from bot_console.runtime.rosidl.cdr import deserialize, serialize

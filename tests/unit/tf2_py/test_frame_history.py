@@ -1,4 +1,4 @@
-"""The history of one frame: how long it is kept, in which order, and what is still unread."""
+"""The history of one frame: how long it is kept, in which order, and which entries are still unread."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The path between two frames: the newest time at which it is known, and trees without one."""
+"""The path between two frames: the newest time at which it is known, and trees without such a path."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ WARNING = "[tf2_buffer]: Detected jump back in time. Clearing tf buffer."
 
 
 class Rig:
-    """A node in simulated time, with a buffer, and what publishes time and transforms."""
+    """A node in simulated time, with a buffer, and publishers of time and transforms."""
 
     def __init__(self, node: Node, serve: Serve, made: str = "Buffer()") -> None:
         self.node, self.serve = node, serve

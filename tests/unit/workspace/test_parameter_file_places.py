@@ -1,4 +1,4 @@
-"""Hints that say where a parameter file is if it was named by a path within its package."""
+"""Hints that say where a parameter file is that was named by a path within its package."""
 
 from __future__ import annotations
 

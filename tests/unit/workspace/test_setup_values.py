@@ -1,4 +1,4 @@
-"""Values in `setup.py` are evaluated without running it; what cannot be evaluated is reported."""
+"""Values in `setup.py` are evaluated without running it; a value that cannot be evaluated is reported."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def test_entry_points_that_need_execution_are_reported_with_line_and_fix(package
 def test_setup_py_that_is_nested_too_deeply_is_refused(
     package: Path, fault: BaseException, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Which of them Python's parser raises, and at what depth, depends on its version."""
+    """Which of these errors Python's parser raises, and at what depth, depends on its version."""
 
     def parse(text: str) -> ast.Module:
         raise fault

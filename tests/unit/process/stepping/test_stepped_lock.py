@@ -19,7 +19,7 @@ OBSOLETE = {"acquire_lock", "locked_lock", "release_lock"}
     ("stepped_lock", "built_in"), [(module.SteppedLock(), threading.Lock()), (module.SteppedRLock(), threading.RLock())]
 )
 def test_lock_has_all_methods_of_the_built_in_one(stepped_lock: Any, built_in: Any) -> None:
-    """`concurrent.futures`, `logging` and `multiprocessing` call some that are not public."""
+    """`concurrent.futures`, `logging` and `multiprocessing` call some methods that are not public."""
     assert set(dir(built_in)) - OBSOLETE <= set(dir(stepped_lock))
 
 

@@ -30,9 +30,8 @@ class Time:
         self.next = action
 
     def polls(self, count: int, share: float, waited: float = 0.0) -> int:
-        """Poll so many times while the thread ran, or waited for a processor, for these shares; return how often it
-        reported.
-        """
+        """Poll `count` times while the thread runs, or waits for a processor, for these shares; return the number of
+        reports."""
         for _ in range(count):
             self.now += PERIOD_S
             self.ran += share * PERIOD_S

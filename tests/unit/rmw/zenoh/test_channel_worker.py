@@ -42,8 +42,9 @@ class Clock:
 
 
 class Waits:
-    """Replaces the event of a thread's end: records when and how long it was waited for, and is set after so many
-    waits.
+    """Replaces a thread's stop event.
+
+    It records when and how long the thread waited for it, and is set after a number of waits.
     """
 
     def __init__(self, clock, count=1000):

@@ -1,4 +1,4 @@
-"""A process that is stopped in a debugger says so to others of its domain, by a file in their folder."""
+"""A process that is stopped in a debugger reports this to others of its domain, by a file in their folder."""
 
 from __future__ import annotations
 

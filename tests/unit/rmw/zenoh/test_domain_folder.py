@@ -1,4 +1,4 @@
-"""The folder in which the processes of a domain meet belongs to one user alone."""
+"""The folder with the sockets of a domain belongs to one user alone."""
 
 from __future__ import annotations
 

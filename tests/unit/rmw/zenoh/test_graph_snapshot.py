@@ -35,7 +35,7 @@ def show(session: Any, count: int) -> list[Any]:
 
 
 def patient(session: MeshSession) -> MeshSession:
-    """The session, which waits for answers however busy the machine is."""
+    """Let a session wait for answers however busy the machine is; return it."""
     session.timeout_s = 60.0
     return session
 

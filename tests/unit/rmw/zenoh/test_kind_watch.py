@@ -1,4 +1,4 @@
-"""Many topics share one watch for their kind: each listener hears what a separate watch would report."""
+"""Many topics share one watch for their kind: each listener receives what a separate watch would report."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Without Unix sockets, programs meet on ports of 127.0.0.1, and only those that can read a secret."""
+"""Without Unix sockets, programs use ports of 127.0.0.1, and only programs that can read a secret get a link."""
 
 from __future__ import annotations
 

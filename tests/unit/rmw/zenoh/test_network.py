@@ -266,7 +266,7 @@ class Link:
         return lambda: answer[0] if answer else None
 
     def pass_time(self, seconds: float, delay: float | None) -> None:
-        """Let time pass on a link that answers each question after `delay` s; None: never."""
+        """Let time pass on a link that answers each query after `delay` s; None: never."""
         for _ in range(round(seconds * 8)):
             self.now += STEP
             for asked, answer in self.asked:
@@ -310,7 +310,7 @@ def test_link_that_always_answers_late_is_slow_but_not_silent(link):
 def test_delays_of_queries_sent_before_a_silence_ended_are_ignored(link):
     link.pass_time(1.0, 0.25)
     link.pass_time(9.0, None)
-    link.pass_time(STEP, 0.0)  # all open questions end at once, as when the link is dropped
+    link.pass_time(STEP, 0.0)  # all open queries end at once, as when the link is dropped
     link.pass_time(2.0, None)
     assert link.silent == 11.25 + STEP
     link.pass_time(1.0, 0.25)

@@ -70,7 +70,7 @@ def console(way):
 
 
 def until(done, node=None, step=lambda: None):
-    """Take what arrives until `done`; fails after the time-out."""
+    """Process what arrives until `done`; fail after the timeout."""
     end = time.monotonic() + TIMEOUT_S
     while not done():
         assert time.monotonic() < end

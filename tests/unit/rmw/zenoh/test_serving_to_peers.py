@@ -1,6 +1,6 @@
-"""A robot that admits others is seen and heard by nodes of rmw_zenoh with default configuration, which are peers.
+"""A robot that admits others is visible to nodes of rmw_zenoh with default configuration, which are peers.
 
-The node is a bare Zenoh session with the settings that differ from Zenoh's own in rmw_zenoh's default configuration.
+The node is a bare Zenoh session with those settings of rmw_zenoh's default configuration that differ from Zenoh's own.
 """
 
 # pyright: reportUnknownMemberType=false, reportUnknownVariableType=false
@@ -23,7 +23,7 @@ DOMAIN = 0
 
 
 def until(done: Callable[[], object], step: Callable[[], object] = lambda: None) -> None:
-    """Repeat `step` until `done`; fails after the time-out."""
+    """Repeat `step` until `done`; fail after the timeout."""
     end = time.monotonic() + TIMEOUT_S
     while not done():
         assert time.monotonic() < end
@@ -63,11 +63,11 @@ class Peer:
         self.publisher = self.session.declare_publisher("topic/node")
 
     def see(self, sample: zenoh.Sample) -> None:
-        """Note a token of the graph."""
+        """Record a token of the graph."""
         self.tokens.add(str(sample.key_expr))
 
     def hear(self, sample: zenoh.Sample) -> None:
-        """Note a message."""
+        """Record a message."""
         self.heard.append(sample.payload.to_bytes())
 
     def sees(self, zid: str) -> bool:
@@ -77,7 +77,7 @@ class Peer:
 
 @dataclass
 class Robot:
-    """A mesh of two processes' sessions, of which the second admits others."""
+    """A mesh of two processes' sessions, the second of which admits others."""
 
     port: int
     heard: list[bytes] = field(default_factory=list)

@@ -37,7 +37,7 @@ def tokens(session: Session, key: str) -> set[str]:
 
 
 def shown(one: Session, two: Session, key: str) -> threading.Event:
-    """Wait until `two` sees a token of `one`, and so all declared before; return an event set when the token leaves."""
+    """Wait until `two` has a token of `one`, and so all earlier ones; return an event set when the token leaves."""
     came, went = threading.Event(), threading.Event()
     two.watch_tokens(key, lambda _, there: (came if there else went).set())
     one.declare_token(key)

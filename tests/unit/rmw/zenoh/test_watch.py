@@ -1,4 +1,5 @@
-"""When a session is reopened because of another: if a link carries nothing, never if the process is frozen or slow."""
+"""When a session is reopened because of another one: if a link carries nothing, but not if the process is frozen or
+slow."""
 
 from __future__ import annotations
 
