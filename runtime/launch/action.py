@@ -30,12 +30,12 @@ class Action(LaunchDescriptionEntity):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, object]]:
-        """Return class and keyword arguments of an action in XML or YAML."""
+        """Return the class and keyword arguments of an action in XML or YAML."""
         condition = parser.parse_condition(entity) if hasattr(parser, "parse_condition") else None
         return cls, {"condition": condition} if condition is not None else {}
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Execute the action if its condition holds, and emit `ExecutionComplete` when it is done."""
+        """Execute the action if its condition holds, and emit `ExecutionComplete` when the action is done."""
         if self.__condition is not None and not self.__condition.evaluate(context):
             return None
         try:
@@ -54,15 +54,15 @@ class Action(LaunchDescriptionEntity):
         return []
 
     def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
-        """Return the entities below the action if it has no condition."""
+        """Return the entities below the action; none if it has a condition."""
         return self.get_sub_entities() if self.__condition is None else []
 
     def describe_conditional_sub_entities(self) -> list[tuple[str, list[LaunchDescriptionEntity]]]:
-        """Return the entities below the action, with a text, if it has a condition."""
+        """Return the entities below an action that has a condition, with a text."""
         if self.__condition is None:
             return []
         return [(f"Conditionally included by {self.describe()}", self.get_sub_entities())]
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
-        """Perform the action; returns entities to visit next."""
+        """Perform the action; returns the entities to visit next."""
         return None

@@ -1,4 +1,4 @@
-"""Find the arguments declared in a tree of entities, including includes and conditional branches, as upstream does."""
+"""Find the arguments declared in a tree of entities, as upstream does: also in includes and conditional branches."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Includes = list[Any] | None
 
 
 class DeclaresArgument:
-    """Base class of the action that declares a launch argument; here so that this module does not import it."""
+    """Base class of the action that declares a launch argument; it is here so that this module does not import it."""
 
 
 class IncludesDescription:
@@ -24,10 +24,10 @@ class ResetsConfigurations:
 
 
 def discover(entities: Iterable[LaunchDescriptionEntity], conditional: bool) -> list[tuple[Any, Includes]]:
-    """Return the arguments, each with the includes that may give it a value; None for the description's own.
+    """Return the arguments, each with the includes that may give it a value, or None for the description's own.
 
-    An action that resets all configurations ends its own list of entities, not the enclosing ones. An argument is
-    conditional only if itself or the list it is in is conditional: deeper levels of a branch are not.
+    An action that resets all configurations ends its own list of entities, but not the enclosing ones. An argument is
+    conditional only if it or its own list of entities is conditional; deeper levels of a branch are not.
     """
     walk = _Walk()
     walk.entities(entities, None, conditional)
@@ -40,7 +40,7 @@ class _Walk:
         self._names: set[str] = set()
 
     def entities(self, entities: Iterable[LaunchDescriptionEntity], includes: Includes, conditional: bool) -> None:
-        """Walk entities in order; below the first include, all includes share one list."""
+        """Walk entities in order; all includes below the first one share one list."""
         for entity in entities:
             kind: type = entity.__class__
             if issubclass(kind, DeclaresArgument):

@@ -21,6 +21,6 @@ class Condition:
         return repr(self)
 
     def evaluate(self, context: LaunchContext) -> bool:
-        """Evaluate the condition in a context; False without a predicate."""
+        """Evaluate the condition in a context; False if there is no predicate."""
         self.__last = self._predicate(context) if self._predicate is not None else False
         return self.__last

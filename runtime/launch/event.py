@@ -2,6 +2,6 @@
 
 
 class Event:
-    """Something that has happened, or is requested; handlers match by class."""
+    """Something that has happened or is requested; handlers match by class."""
 
     name = "launch.Event"

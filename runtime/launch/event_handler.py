@@ -17,9 +17,9 @@ class BaseEventHandler:
     """Decides whether it handles an event, and which entities are visited for it."""
 
     kind_of_events: type[Event] | None = None
-    """The class that all matching events have; None: any."""
+    """The class of all matching events; None if any class may match."""
     target_of_events: object = None
-    """The only action whose events match; None: any."""
+    """The only action whose events match; None if any action may match."""
 
     def __init__(self, *, matcher: Callable[[Event], bool], handle_once: bool = False) -> None:
         self.__matcher = matcher
@@ -72,7 +72,7 @@ class EventHandler(BaseEventHandler):
         return self.__entities
 
     def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
-        """A text and the entities."""
+        """Return a description and the entities."""
         return super().describe()[0], check_entities(self.__entities)
 
     def handle(self, event: object, context: LaunchContext) -> SomeEntitiesType | None:

@@ -1,4 +1,4 @@
-"""Event handlers in the order in which they are called; fast even if hundreds each wait for their own action."""
+"""Event handlers in the order of their calls; fast even if each of hundreds waits for an action of its own."""
 
 from __future__ import annotations
 

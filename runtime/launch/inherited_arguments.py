@@ -1,4 +1,4 @@
-"""Launch arguments that an included file inherits from an include beside it: what Jazzy does, with a warning."""
+"""Launch arguments that an included file inherits from a sibling include: as in Jazzy, but with a warning."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ class Included(NamedTuple):
 
     file: str
     origin: str
-    """The line of the include; empty if unknown."""
+    """The place (`file:line`) of the include; empty if unknown."""
     given: frozenset[str]
-    """The names of the arguments that it gives."""
+    """The names of the arguments that the include gives."""
 
 
 class Includes:
-    """The includes being visited, outermost first, and who has set which argument to which value."""
+    """The includes being visited, outermost first, and which of them has set which argument to which value."""
 
     def __init__(self) -> None:
         self._open: list[Included] = []
@@ -37,12 +37,12 @@ class Includes:
         self._open.pop()
 
     def default_set(self, name: str, value: object) -> None:
-        """Note that a declaration of the innermost include has set its default."""
+        """Record that a declaration in the innermost include has set its default."""
         if self._open:
             self._set[name] = (self._open[-1], value)
 
     def check(self, name: str, value: object, default: Callable[[], str | None]) -> None:
-        """Warn of an argument declared in the innermost include whose value is that of an include beside it."""
+        """Warn if an argument that the innermost include declares has the value given to a sibling include."""
         setter, set_value = self._set.get(name, (None, None))
         if not self._open or setter is None or set_value != value:
             return

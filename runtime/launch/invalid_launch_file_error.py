@@ -6,14 +6,14 @@ from collections.abc import Iterable
 
 
 class InvalidLaunchFileError(Exception):
-    """A launch file cannot be read; the causes are the errors of each parser that tried it."""
+    """A launch file cannot be read; the causes are the errors of the parsers that tried it."""
 
     def __init__(self, extension: str = "", *, likely_errors: Iterable[BaseException] = ()) -> None:
         super().__init__(extension)
         self._extension = extension
         self._likely_errors = list(likely_errors)
         if self._likely_errors:
-            self.__cause__ = self._likely_errors[0]  # the error of the parser for files of that extension
+            self.__cause__ = self._likely_errors[0]  # the error of the parser for files with that extension
 
     def __str__(self) -> str:
         """Return the causes, one per line."""

@@ -1,4 +1,4 @@
-"""Whether a Python program of a launch gets a process of its own: every program of a user does, ours are composed."""
+"""Whether a Python program of a launch gets its own process: every user program does, our nodes are composed."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
 CONFIGURATION = "isolation"
-"""The launch configuration with which our nodes get processes, too: `isolation:=process`."""
+"""The launch configuration that gives our nodes processes of their own, too: `isolation:=process`."""
 PROCESS = "process"
 
 

@@ -64,7 +64,7 @@ class LaunchContext:
         return self.__asyncio_loop
 
     def add_completion_future(self, future: asyncio.Future[None]) -> None:
-        """Keep the launch from being idle until a future is done."""
+        """Prevent the launch from being idle until a future is done."""
         self._completion_futures.append(future)
 
     def _push_locals(self) -> None:
@@ -81,7 +81,7 @@ class LaunchContext:
 
     @property
     def locals(self) -> Any:
-        """The locals as attributes."""
+        """The locals, as attributes."""
         return _Locals(self.get_locals_as_dict())
 
     def extend_globals(self, extensions: Mapping[str, object]) -> None:
@@ -89,7 +89,7 @@ class LaunchContext:
         self.__globals.update(extensions)
 
     def extend_locals(self, extensions: Mapping[str, object]) -> None:
-        """Add locals, visible to entities visited from here on."""
+        """Add locals, visible to entities visited from now on."""
         self.__locals.update(extensions)
 
     @property
@@ -123,7 +123,7 @@ class LaunchContext:
         _replace_environment(self.__environment_reset)
 
     def register_event_handler(self, event_handler: object, append: bool = False) -> None:
-        """Register a handler, before the existing ones or, with `append`, after them."""
+        """Register a handler before the existing ones or, with `append`, after them."""
         self._event_handlers.add(event_handler, append=append)
 
     def unregister_event_handler(self, event_handler: object) -> None:

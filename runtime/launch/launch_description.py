@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class LaunchDescription(LaunchDescriptionEntity):
-    """A list of entities, visited in order, each completely before the next."""
+    """A list of entities that are visited in order, each completely before the next."""
 
     def __init__(
         self, initial_entities: Iterable[LaunchDescriptionEntity] | None = None, *, deprecated_reason: str | None = None
@@ -59,12 +59,12 @@ class LaunchDescription(LaunchDescriptionEntity):
         return self.__entities
 
     def get_launch_arguments(self, conditional_inclusion: bool = False) -> list[Any]:
-        """Return the arguments declared in the description and its includes; of equal names, the first counts."""
+        """Return the arguments declared in the description and its includes; the first one with a name counts."""
         pairs = self.get_launch_arguments_with_include_launch_description_actions(conditional_inclusion)
         return [argument for argument, _ in pairs]
 
     def get_launch_arguments_with_include_launch_description_actions(
         self, conditional_inclusion: bool = False
     ) -> list[tuple[Any, list[Any] | None]]:
-        """Return the arguments, each with the includes through which it was found; None for the description's own."""
+        """Return the arguments, each with the includes through which it was found, None for the description's own."""
         return discover(self.__entities, conditional_inclusion)

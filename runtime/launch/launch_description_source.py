@@ -1,4 +1,4 @@
-"""Where a launch description comes from."""
+"""The source of a launch description."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class LaunchDescriptionSource:
 
     @property
     def location(self) -> str:
-        """The location; as described substitutions until the description was read."""
+        """The location; a description of its substitutions until the launch description was read."""
         if self.__expanded_location is not None:
             return self.__expanded_location
         return " + ".join(each.describe() for each in self.__location)
@@ -46,7 +46,7 @@ class LaunchDescriptionSource:
             return self.__launch_description
         try:
             location = perform_substitutions(LaunchContext(), self.__location)
-        except Exception:  # a substitution may need what only a running launch has
+        except Exception:  # a substitution may need a running launch
             return None
         self.__launch_description = self._get_launch_description(location)
         self.__expanded_location = location
@@ -61,7 +61,7 @@ class LaunchDescriptionSource:
         return self.__launch_description
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
-        """Read the description; this base class has only a given one, and raises `RuntimeError` without it."""
+        """Read the description; this base class only returns a given one, and otherwise raises `RuntimeError`."""
         if self.__launch_description is None:
             raise RuntimeError(
                 "LaunchDescriptionSource.get_launch_description(): called without launch description being set"

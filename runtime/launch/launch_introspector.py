@@ -1,4 +1,4 @@
-"""Launch descriptions as a tree of text."""
+"""Formats launch descriptions as a tree of text."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class LaunchIntrospector:
-    """Formats a launch description as `ros2 launch --print` does: what needs a context is not evaluated."""
+    """Formats a launch description as `ros2 launch --print` does; what needs a context is not evaluated."""
 
     def format_launch_description(self, launch_description: LaunchDescription) -> str:
         """Return the tree, one line per entity."""

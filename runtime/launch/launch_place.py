@@ -19,19 +19,19 @@ class LaunchPlace(NamedTuple):
     line: int | None
     """Its line, from 1; None if unknown."""
     entity: LaunchDescriptionEntity | None
-    """The entity being visited; None while reading a file."""
+    """The entity being visited; None while a file is read."""
 
 
 def report_place(
     error: BaseException, file: str, line: int | None = None, entity: LaunchDescriptionEntity | None = None
 ) -> None:
-    """Attach to an exception where it was raised; a place attached earlier, nearer to its origin, is kept."""
-    # not setattr: a user's exception may be a frozen dataclass
+    """Attach the place where it was raised to an exception; an earlier place, nearer to the origin, is kept."""
+    # not `setattr`, as a user's exception may be a frozen dataclass
     error.__dict__.setdefault(ATTRIBUTE, LaunchPlace(file, line, entity))
 
 
 def report_visited(error: BaseException, entity: LaunchDescriptionEntity) -> None:
-    """Attach to an exception the entity whose visit raised it, and the entity's origin if known."""
+    """Attach the entity whose visit raised it to an exception, and the entity's origin if known."""
     origin = str(getattr(entity, "origin", ""))
     file, _, line = origin.rpartition(":")
     if line.isdigit():

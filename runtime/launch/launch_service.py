@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 class LaunchService:
-    """Visits launch descriptions and handles events until nothing is left to do. May run in any thread."""
+    """Visits launch descriptions and handles events until nothing is left to do. It may run in any thread."""
 
     def __init__(self, *, argv: Iterable[str] | None = None, noninteractive: bool = False, debug: bool = False) -> None:
         self.__argv = list(argv) if argv is not None else []
@@ -61,17 +61,17 @@ class LaunchService:
 
     @property
     def event_loop(self) -> asyncio.AbstractEventLoop | None:
-        """The event loop it runs in; None while not running."""
+        """The event loop in which the service runs; None while it is not running."""
         return self.__loop
 
     @property
     def task(self) -> asyncio.Task[int] | None:
-        """The task it runs as; None while not running."""
+        """The task as which the service runs; None while it is not running."""
         return self.__task
 
     @property
     def failure(self) -> Exception | None:
-        """The exception that has ended the launch, with its traceback, or None (not upstream)."""
+        """The exception that ended the launch, with its traceback, or None (not upstream)."""
         return self.__failure
 
     @property
@@ -80,11 +80,11 @@ class LaunchService:
         return self.__pending.entities
 
     def include_launch_description(self, launch_description: object) -> None:
-        """Include a description, before the service runs or while it does."""
+        """Include a description, before the service runs or while it is running."""
         self.emit_event(IncludeLaunchDescription(launch_description))
 
     def emit_event(self, event: Event) -> None:
-        """Queue an event; while the service runs, block until its loop has taken it.
+        """Queue an event; if the service is running, block until its loop has taken the event.
 
         Raises `RuntimeError` in the thread of that loop, where upstream blocks for ever.
         """
@@ -111,7 +111,7 @@ class LaunchService:
             taken.set_result(None)
 
     def __stop_taking(self) -> None:
-        """Clear the loop at its end; events still under way are queued for the next run."""
+        """Detach the loop when it ends; events not yet taken are queued for the next run."""
         with self.__guard:
             self.__loop = self.__task = None
             left = list(self.__on_their_way)
@@ -129,7 +129,7 @@ class LaunchService:
             loop.close()
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
-        """Run in the current event loop; raises `RuntimeError` if already running."""
+        """Run in the current event loop; raises `RuntimeError` if the service is already running."""
         if not self.__running.acquire(blocking=False):
             raise RuntimeError("LaunchService cannot be run multiple times concurrently.")
         try:
@@ -230,9 +230,9 @@ class LaunchService:
         self.__context.emit_event_sync(Shutdown(reason=reason, due_to_sigint=due_to_sigint))
 
     def shutdown(self, force_sync: bool = False) -> Coroutine[object, None, None] | None:
-        """Shut down, from any thread; before the service runs, this ends it as soon as it starts.
+        """Shut down, from any thread; before the service runs, this makes it end as soon as it starts.
 
-        Returns a coroutine unless `force_sync` is set; the request is made either way.
+        Returns a coroutine unless `force_sync` is set; the request is made in either case.
         """
         reason = "LaunchService.shutdown() called"
         with self.__guard:
@@ -248,7 +248,7 @@ class LaunchService:
 
 
 class _Done(Coroutine[Any, Any, None]):
-    """A coroutine that has nothing to do: it may be awaited, made a task, or dropped without a warning."""
+    """A coroutine with nothing to do, which may be awaited, made a task, or dropped without a warning."""
 
     def __await__(self) -> Generator[object, None, None]:
         return
@@ -259,7 +259,7 @@ class _Done(Coroutine[Any, Any, None]):
         raise StopIteration
 
     def throw(self, *error: Any) -> Any:
-        """Raise what is thrown."""
+        """Raise the given exception."""
         raise error[0]
 
     def close(self) -> None:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Named(Action):
-    """An action on what has a name, in Python and as an attribute."""
+    """An action on something that has a name, in Python and as an attribute."""
 
     def __init__(self, name: SomeSubstitutionsType, **kwargs: Condition | None) -> None:
         super().__init__(**kwargs)

@@ -14,7 +14,7 @@ _OWN = tuple(
 
 
 def origin_of_caller() -> str:
-    """Return file and line of the calling code outside launch itself, as `x.launch.py:12`; empty if there is none."""
+    """Return file and line of the calling code outside launch, as `x.launch.py:12`; empty if there is none."""
     frame = sys._getframe(1)  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
     while frame is not None and frame.f_code.co_filename.startswith(_OWN):
         frame = frame.f_back

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class OutputLines:
-    """Collects the text of one stream and logs each line when it is complete."""
+    """Collects the text of one stream and logs each line as soon as it is complete."""
 
     def __init__(self, action: Action, logger: Logger, output_format: str) -> None:
         self._action = action
@@ -22,7 +22,7 @@ class OutputLines:
         self._unfinished = ""
 
     def feed(self, data: bytes) -> None:
-        """Take in bytes and log the completed lines."""
+        """Handle received bytes: log the lines that they complete."""
         *lines, self._unfinished = (self._unfinished + self._decode(data)).split("\n")
         for line in lines:
             self._log(line)

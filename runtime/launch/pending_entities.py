@@ -36,12 +36,12 @@ class PendingEntities:
             future.add_done_callback(lambda done: self._done(done, entity))
 
     def raise_failures(self) -> None:
-        """Raise the exception of a future that has failed, once."""
+        """Raise the exception of a future that has failed, but only once."""
         if self._failures:
             raise self._failures.popleft()
 
     def wake(self) -> None:
-        """Wake the waiter: something has changed."""
+        """Wake the waiting thread, as something has changed."""
         self._woken = True
         if self._waiter is not None and not self._waiter.done():
             self._waiter.set_result(None)

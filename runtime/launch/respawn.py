@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class Respawn:
-    """Respawns after any exit, until the launch ends or the retries are used up (-1: no limit)."""
+    """Respawns after any exit, until the launch ends or the retries are used up (-1 means no limit)."""
 
     def __init__(self, wanted: bool | SomeSubstitutionsType, delay: float | None, max_retries: int) -> None:
         self._wanted = wanted

@@ -1,4 +1,4 @@
-"""`ros2 ...` as a command of a launch file: run by this runtime's own verbs, which see the launch's nodes."""
+"""`ros2 ...` as a command in a launch file: this runtime's own verbs run it, and see the launch's nodes."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ QUOTED = re.compile(r"'[^']*'|\"[^\"`$\\]*\"")
 
 
 def ros2_program(command: Sequence[str], shell: bool) -> PythonProgram | None:
-    """Return a command that consists only of a `ros2` command line as a program; None for all others.
+    """Return a program for a command that is a single `ros2` command line; None for any other command.
 
-    It is ours, but for `ros2 run`, which becomes what it runs.
+    The program is ours, except for `ros2 run`, which becomes the program that it runs.
     """
     words = ros2_words(command, shell)
     if words is None:
@@ -31,9 +31,9 @@ def ros2_program(command: Sequence[str], shell: bool) -> PythonProgram | None:
 
 
 def ros2_words(command: Sequence[str], shell: bool) -> list[str] | None:
-    """Return the arguments of a command that consists only of a `ros2` command line; None for all others.
+    """Return the arguments of a command that is a single `ros2` command line; None for any other command.
 
-    Also None for a command that is a separate program, such as `ros2 bag`, which is started like any other.
+    Also None for commands that are separate programs, such as `ros2 bag`, which are started like any others.
     """
     words = list(command)
     if shell:
@@ -42,7 +42,7 @@ def ros2_words(command: Sequence[str], shell: bool) -> list[str] | None:
             return None
         try:
             words = shlex.split(line)
-        except ValueError:  # the shell gives a better error message
+        except ValueError:  # the shell's error message is better
             return None
     if not words or os.path.basename(words[0]) != "ros2" or (words[1:2] and words[1] in SEPARATE_PROGRAMS):
         return None

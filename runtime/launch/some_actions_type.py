@@ -1,4 +1,4 @@
-"""The type of arguments that take actions."""
+"""The type of arguments that accept actions."""
 
 from __future__ import annotations
 

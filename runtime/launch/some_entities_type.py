@@ -1,4 +1,4 @@
-"""The type of arguments that take entities."""
+"""The type of arguments that accept entities."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ SomeEntitiesType_types_tuple = (LaunchDescriptionEntity, Iterable)
 
 
 def check_entities(entities: SomeEntitiesType | None) -> list[LaunchDescriptionEntity]:
-    """Return a list of entities from one, several or None."""
+    """Return a list of entities from one entity, several or None."""
     if entities is None:
         return []
     return [entities] if isinstance(entities, LaunchDescriptionEntity) else list(entities)

@@ -1,4 +1,4 @@
-"""The type of arguments that take text."""
+"""The type of arguments that accept text."""
 
 from __future__ import annotations
 

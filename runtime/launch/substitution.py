@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 
 class Substitution:
-    """A text known only when the launch runs."""
+    """A text that is known only when the launch runs."""
 
     def describe(self) -> str:
         """Return a short description."""

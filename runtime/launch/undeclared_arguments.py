@@ -1,4 +1,4 @@
-"""Launch arguments not declared by the launch file: accepted, as upstream does, but with a warning."""
+"""Launch arguments that the launch file does not declare: accepted as upstream, but with a warning."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ ALWAYS_KNOWN = frozenset(
 
 
 class WarnOfUndeclaredArguments(Action):
-    """Warns of names that no entity visited before has declared or read."""
+    """Warns of argument names that no entity visited before has declared or read."""
 
     def __init__(self, names: Collection[str]) -> None:
         super().__init__()
         self._names = names
 
     def execute(self, context: LaunchContext) -> None:
-        """Warn of each, suggesting a similar declared name."""
+        """Warn of each name, suggesting a similar declared one."""
         for name in self._names:
             if name in ALWAYS_KNOWN or name in context.declared_arguments or name in context.read_configurations:
                 continue

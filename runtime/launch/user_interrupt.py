@@ -10,7 +10,7 @@ from typing import Any
 
 
 class UserInterrupt:
-    """Calls back in the loop for each SIGINT, with whether it is a repeated one. Does nothing off the main thread."""
+    """Calls back in the loop on each SIGINT, with whether it is a repeated one. Does nothing off the main thread."""
 
     def __init__(self, callback: Callable[[bool], None]) -> None:
         self._callback = callback
@@ -25,8 +25,8 @@ class UserInterrupt:
         return self
 
     def __exit__(self, *_details: object) -> None:
-        # If the launch was killed, this runs whenever its coroutine is collected, in any thread, possibly of another
-        # node process with its own handler.
+        # If the launch was killed, this runs whenever its coroutine is collected: in any thread, possibly one of
+        # another node process with its own handler.
         if self._active and signal.getsignal(signal.SIGINT) == self._caught:
             signal.signal(signal.SIGINT, self._before)
 

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @expose_action("arg")
 class DeclareLaunchArgument(Action, DeclaresArgument):
-    """Declares a launch argument: sets the configuration of its name to a default, unless it is already set."""
+    """Declares a launch argument: sets the configuration of that name to a default, unless it is already set."""
 
     def __init__(
         self,
@@ -96,14 +96,14 @@ class DeclareLaunchArgument(Action, DeclaresArgument):
 
     @property
     def choices(self) -> list[str] | None:
-        """The valid values; None: any."""
+        """The valid values; None if any value is valid."""
         return self.__choices
 
     def __check_inherited(self, context: LaunchContext) -> None:
         def default() -> str | None:
             try:
                 return None if self.default_value is None else perform_substitutions(context, self.default_value)
-            except Exception:  # a default that is not used may name what does not exist
+            except Exception:  # a default that is not used may refer to missing things
                 return None
 
         context.includes.check(self.name, context.launch_configurations[self.name], default)

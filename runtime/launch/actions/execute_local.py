@@ -48,7 +48,7 @@ if TYPE_CHECKING:
 
 
 class ExecuteLocal(Action):
-    """Runs an executable, logs its output, ends it with the launch, and respawns it if requested."""
+    """Runs an executable, logs its output, ends it when the launch ends, and respawns it if requested."""
 
     def __init__(
         self,
@@ -110,7 +110,7 @@ class ExecuteLocal(Action):
 
     @property
     def emulate_tty(self) -> bool:
-        """Whether the process prints to its own pseudo terminal."""
+        """Whether the process prints to a pseudo terminal of its own."""
         return self.__emulate_tty
 
     @property
@@ -125,17 +125,17 @@ class ExecuteLocal(Action):
 
     @property
     def output(self) -> Any:
-        """The output setting: where its lines are logged."""
+        """The output setting: where the process's output is logged."""
         return self.__output
 
     @property
     def process_details(self) -> dict[str, Any] | None:
-        """Name, command, directory and environment, available once prepared, and the pid, once started."""
+        """Name, command, directory and environment, available once prepared, and the pid, available once started."""
         return self.__details
 
     @property
     def return_code(self) -> int | None:
-        """The exit code of the last run; None before."""
+        """The exit code of the last run; None before the first one has ended."""
         return self.__return_code
 
     @property
@@ -183,7 +183,7 @@ class ExecuteLocal(Action):
     def prepare(self, context: LaunchContext) -> None:
         """Evaluate the description."""
         self.__process_description.prepare(context, self)
-        if not self.__executed:  # a second execution is refused, and the process of the first keeps its details
+        if not self.__executed:  # a second execution is refused, so the process of the first keeps its details
             self.__details = self.__new_details()
 
     def __new_details(self) -> dict[str, Any]:
@@ -196,13 +196,13 @@ class ExecuteLocal(Action):
         }
 
     def python_program(self, command: list[str]) -> PythonProgram | None:
-        """Return the command as a Python program of this runtime; None if it runs as an operating system process."""
+        """Return the command as a Python program of this runtime; None if it runs as an ordinary system process."""
         from launch.ros2_commands import ros2_program
 
         return ros2_program(command, self.__shell)
 
     def words_for(self, program: PythonProgram | None, command: list[str]) -> list[str]:
-        """Return the argument list for the program, or for the system if there is none."""
+        """Return the argument list for the program, or if there is none, for the operating system."""
         return command
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
@@ -232,7 +232,7 @@ class ExecuteLocal(Action):
 
     def __handlers(self) -> list[BaseEventHandler]:
         return [
-            self.__when(ProcessExited, self.__on_data),  # handlers run newest first, so this one runs last
+            self.__when(ProcessExited, self.__on_data),  # handlers are called newest first, so this one is called last
             OnTargetedProcess(ShutdownProcess, self, lambda event, context: self._shutdown_process(context, True)),
             OnTargetedProcess(SignalProcess, self, self.__on_signal),
             self.__when(ProcessIO, self.__on_io),
@@ -272,7 +272,7 @@ class ExecuteLocal(Action):
         self.__retire(context)
 
     def __retire(self, context: LaunchContext) -> None:
-        """Unregister the handlers after the last exit is handled; a long launch would otherwise keep every process."""
+        """Unregister the handlers after the last exit was handled; otherwise a long launch would keep every process."""
         if self.__exits_to_report or self.__completed is None or not self.__completed.done():
             return
         for handler in self.__registered:
@@ -296,7 +296,7 @@ class ExecuteLocal(Action):
         self._shutdown_process(context, not event.due_to_sigint or context.noninteractive)
 
     def _shutdown_process(self, context: LaunchContext, send_sigint: bool) -> None:
-        """Begin to shut the process down, once; without SIGINT if the terminal has already sent it."""
+        """Begin to shut the process down, but only once; without SIGINT if the terminal has already sent one."""
         if self.__shutdown is None or self.__shutdown.done():
             return
         self.__shutdown.set_result(None)
@@ -307,11 +307,11 @@ class ExecuteLocal(Action):
         if send_sigint:
             self.__escalation.interrupt()
         elif not child.gets_signals_of_terminal:
-            with contextlib.suppress(ProcessLookupError):  # it has just ended, and its last output is being read
+            with contextlib.suppress(ProcessLookupError):  # it has just ended, and its last output is still being read
                 child.send_signal(2)
 
     async def __run(self, context: LaunchContext) -> None:
-        """Run the process, and respawn it while wanted."""
+        """Run the process, and respawn it as long as that is wanted."""
         while not self.__over:
             try:
                 code = await self.__run_once(context)
@@ -364,10 +364,10 @@ class ExecuteLocal(Action):
             context.emit_event_sync(kind(text=data, action=self, **details))
 
         program = None
-        if is_installed():  # else this package serves another rclpy, with which programs are ordinary processes
+        if is_installed():  # otherwise this package serves another rclpy, with which programs are ordinary processes
             program = self.python_program(command)
             if program is not None and not (program.is_ours or CAN_FORK):
-                program = None  # an interpreter of its own runs it
+                program = None  # it runs in an interpreter of its own
             command = self.words_for(program, command)
         child = await start_child(
             command,

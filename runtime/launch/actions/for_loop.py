@@ -39,7 +39,7 @@ class ForEach(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, object]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["input_values"] = parser.parse_substitution(entity.get_attr("values"))
         iteration = _children_function(entity, parser)
@@ -52,12 +52,12 @@ class ForEach(Action):
 
     @property
     def input_values(self) -> list[Substitution]:
-        """The values, as a text."""
+        """The values as a text."""
         return self._input_values
 
     @property
     def function(self) -> Callable[..., Iterable[LaunchDescriptionEntity] | None]:
-        """The function called with the values of each iteration."""
+        """The function that is called with the values of each iteration."""
         return self._function
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
@@ -82,7 +82,7 @@ class ForEach(Action):
 
 @expose_action("for")
 class ForLoop(Action):
-    """Visits the entities that a function of `i` returns, for each number from 0 below a length."""
+    """Visits the entities that a function of `i` returns, for each number from 0 up to a length (exclusive)."""
 
     def __init__(
         self,
@@ -99,7 +99,7 @@ class ForLoop(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[Action], dict[str, object]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["length"] = parser.parse_substitution(entity.get_attr("len"))
         name = entity.get_attr("name")
@@ -114,17 +114,17 @@ class ForLoop(Action):
 
     @property
     def length(self) -> list[Substitution]:
-        """The number of iterations, as a text."""
+        """The number of iterations as a text."""
         return self._length
 
     @property
     def function(self) -> Callable[..., Iterable[LaunchDescriptionEntity] | None]:
-        """The function called with each number."""
+        """The function that is called with each number."""
         return self._function
 
     @property
     def name(self) -> str | None:
-        """The name that `$(index name)` uses for the number."""
+        """The name by which `$(index name)` finds the number."""
         return self._name
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
@@ -137,7 +137,7 @@ class ForLoop(Action):
 
 
 class _WithLocals(Action):
-    """Sets locals for the entities visited next, or drops them."""
+    """Sets locals for the entities visited next, or removes them."""
 
     def __init__(self, values: dict[str, object] | None) -> None:
         super().__init__()

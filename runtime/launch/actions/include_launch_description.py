@@ -98,7 +98,7 @@ class IncludeLaunchDescription(Action, IncludesDescription):
         ]
 
     def _check_required(self, description: LaunchDescription, given: list[str]) -> None:
-        """Raise `RuntimeError` for a required argument not given; names given by nested includes accumulate."""
+        """Raise `RuntimeError` for a required argument that is not given; nested includes add to the given names."""
         for argument, below in description.get_launch_arguments_with_include_launch_description_actions():
             if argument._conditionally_included or argument.default_value is not None:
                 continue
@@ -118,7 +118,7 @@ class IncludeLaunchDescription(Action, IncludesDescription):
     def _given_names_without_context(self) -> list[str]:
         try:
             return self._given_names(LaunchContext())
-        except Exception:  # a name only known in the running launch cannot be counted
+        except Exception:  # a name that is known only in the running launch cannot be counted
             return []
 
     def _set_locals(self, context: LaunchContext) -> None:
@@ -129,7 +129,7 @@ class IncludeLaunchDescription(Action, IncludesDescription):
 
 
 class IncludeBoundary(Action):
-    """The actions that an include visits before and after its description; not a part of the launch file."""
+    """Base of the actions visited before and after an include's description; they are not part of the launch file."""
 
 
 class _EnterInclude(IncludeBoundary):

@@ -1,4 +1,4 @@
-"""Logging at a level: actions of Kilted that public launch files already use."""
+"""Logging at a level: actions of ROS 2 Kilted that public launch files already use."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Log(Message):
 
 @expose_action("log_debug")
 class LogDebug(Log):
-    """Logs a message shown only with `--debug`."""
+    """Logs a message that is shown only with `--debug`."""
 
     def __init__(self, *, msg: SomeSubstitutionsType, **kwargs: Condition | None) -> None:
         super().__init__(msg=msg, level="DEBUG", **kwargs)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class OpaqueCoroutine(Action):
-    """Runs a coroutine alongside the launch, which waits for it; the launch's shutdown cancels it."""
+    """Runs a coroutine alongside the launch, which waits for it and cancels it when it shuts down."""
 
     def __init__(
         self,

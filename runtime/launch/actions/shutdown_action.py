@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @expose_action("shutdown")
 class Shutdown(EmitEvent):
-    """Shuts the launch down; as the handler of a process exit, it reports that the process was required."""
+    """Shuts the launch down; if it handles a process exit, it reports that the process was required."""
 
     def __init__(self, *, reason: SomeSubstitutionsType = "reason not given", **kwargs: Condition | None) -> None:
         super().__init__(event=ShutdownEvent(reason=reason if isinstance(reason, str) else ""), **kwargs)

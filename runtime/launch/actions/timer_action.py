@@ -32,9 +32,9 @@ if TYPE_CHECKING:
 
 @expose_action("timer")
 class TimerAction(Action):
-    """Visits actions after a period (s), with the locals and the launch configurations of its start.
+    """Visits actions after a period (s), with the locals and launch configurations from when the timer was started.
 
-    What the actions change of the configurations is theirs alone. Configurations made meanwhile are visible.
+    Changes that the actions make to configurations stay theirs; configurations created meanwhile are visible.
     """
 
     def __init__(
@@ -103,7 +103,7 @@ class TimerAction(Action):
         period = perform_typed_substitution(context, self.__period, float)
         self._completed_future = create_future(context.asyncio_loop)
         cancel_on_shutdown = perform_typed_substitution(context, self.__cancel_on_shutdown, bool)
-        if self.__canceled or (cancel_on_shutdown and context.is_shutdown):  # upstream lets it run in the latter case
+        if self.__canceled or (cancel_on_shutdown and context.is_shutdown):  # upstream ignores shutdown here
             self._completed_future.set_result(None)
             return
         self._handler = EventHandler(
@@ -151,5 +151,5 @@ class TimerAction(Action):
 
 
 def _copied(configurations: Mapping[str, object]) -> dict[str, object]:
-    """A copy that shares no list: launch_ros appends to those of `SetParameter` and `SetRemap`."""
+    """Return a copy that shares no list, as launch_ros appends to the lists of `SetParameter` and `SetRemap`."""
     return {name: copy(value) for name, value in configurations.items()}

@@ -1,7 +1,7 @@
 """The process behind an action that executes something.
 
-This is a process of the operating system (`os_child`), a node process, i.e. a thread of this process (`node_child`), or
-a separate process for a Python program (`forked_child`).
+It is an operating system process (`os_child`), a node process, i.e. a thread of this process (`node_child`), or a
+separate process for a Python program (`forked_child`).
 """
 
 from bot_console.runtime.children.own_fork_server import CAN_FORK, close_fork_server, fork_server

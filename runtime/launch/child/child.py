@@ -11,22 +11,22 @@ Output = Callable[[int, bytes], None]
 
 
 class Child(Protocol):
-    """A process that was started."""
+    """A started process."""
 
     pid: int
     exited: asyncio.Future[int]
-    """The exit code; set when the process has ended and all of its output has been passed on."""
+    """The exit code; set when the process has ended and all of its output was passed on."""
     gets_signals_of_terminal: bool
-    """Whether Ctrl-C in the terminal reaches it without the launch."""
+    """Whether Ctrl-C in the terminal reaches the process without the launch."""
 
     def send_signal(self, signum: int) -> None:
         """Deliver a signal; raises `TypeError` for anything but a number."""
         ...
 
     def write(self, data: bytes) -> None:
-        """Write bytes to its standard input."""
+        """Write bytes to the process's standard input."""
         ...
 
     def close(self) -> None:
-        """Release all its resources."""
+        """Release all resources."""
         ...

@@ -18,15 +18,15 @@ from launch.child.python_program import PythonProgram
 from launch.child.streamed_child import StreamedChild, read_output, read_stream
 
 UNKNOWN = 255
-"""Exit code of a process whose fork server was killed: nobody can get the real one from the system."""
+"""Exit code of a process whose fork server was killed, as nobody can get the real one from the system."""
 UNKNOWN_TEXT = b"the fork server was killed, so the exit code of this process is not known\n"
 
 DATA = 3
-"""The data pipe as one of the open streams: what it reports about its end is waited for."""
+"""The data pipe as an open stream, so that the process's last reports are waited for."""
 
 
 class ForkedChild(StreamedChild):
-    """A real process, in its own session, out of reach of the terminal's Ctrl-C."""
+    """A real process in its own session, which the terminal's Ctrl-C does not reach."""
 
     gets_signals_of_terminal = False
 
@@ -46,11 +46,11 @@ class ForkedChild(StreamedChild):
         self.pipe_connection_lost(DATA, None)
 
     def _unheard(self, text: str) -> None:
-        """Print news that no hook takes, so that a person may read it."""
+        """Print news that no hook takes, so that a person may read them."""
         self.pipe_data_received(2, text.encode())
 
     def reported(self, data: bytes) -> None:
-        """Take in a report of the fork server."""
+        """Handle a report from the fork server."""
         self.report.feed(data)
         if self.report.pid is not None and not self.started.done():
             self.pid = self.news.pid = self.report.pid
@@ -59,7 +59,7 @@ class ForkedChild(StreamedChild):
             self.has_ended(self.report.exit_code)
 
     def all_reported(self) -> None:
-        """Handle the end of the fork server's report, for whatever reason."""
+        """Handle the end of the fork server's reports, for whatever reason."""
         if not self.started.done():
             text = self.report.problem or "the fork server has ended"
             self.started.set_exception(OSError(f"cannot start a process: {text}"))
@@ -68,7 +68,7 @@ class ForkedChild(StreamedChild):
             self._loop.create_task(self._outlive_server())
 
     async def _outlive_server(self) -> None:
-        """Wait for the end of a process without its server; only its open streams show that it still runs."""
+        """Wait for the end of a process whose server has ended; only its open streams show that it is still running."""
         while self.open_streams:
             await asyncio.sleep(0.2)
         self.has_ended(UNKNOWN)
@@ -80,7 +80,7 @@ class ForkedChild(StreamedChild):
         os.kill(self.pid, operator.index(signum))
 
     def write(self, data: bytes) -> None:
-        """Write bytes to its standard input."""
+        """Write bytes to the process's standard input."""
         if self.input is not None:
             self.input.write(data)
 
@@ -92,7 +92,7 @@ class ForkedChild(StreamedChild):
 
 
 class OwnEnds(NamedTuple):
-    """Our ends of what connects us with a process of the fork server; the caller has to close them."""
+    """Our ends of the connections to a process of the fork server; the caller must close them."""
 
     report: int
     stdout: int
@@ -102,7 +102,7 @@ class OwnEnds(NamedTuple):
 
 
 def start_job(job: Job, *, emulate_tty: bool, channel: int | None = None) -> OwnEnds:
-    """Let the fork server start a job with streams of its own; raises `OSError`, and leaves nothing open then."""
+    """Let the fork server start a job with new streams; raises `OSError`, and then leaves nothing open."""
     from launch.child.terminals import open_pipes, open_terminals
 
     with ExitStack() as kept, ExitStack() as given:

@@ -1,4 +1,4 @@
-"""A node of ours, composed in this process, as a child of a launch."""
+"""One of our nodes, composed in this process, as a child of a launch."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class NodeChild:
         self.process.send_signal(operator.index(signum))
 
     def write(self, data: bytes) -> None:
-        """Do nothing: the input of a node process is at its end."""
+        """Do nothing: the standard input of a node process is always at its end."""
 
     def close(self) -> None:
         """Do nothing: there are no resources to release."""
@@ -63,7 +63,7 @@ def start_node_child(
 def _in_loop(loop: asyncio.AbstractEventLoop, callback: Callable[[], None]) -> None:
     try:
         loop.call_soon_threadsafe(callback)
-    except RuntimeError:  # the launch is over, so nobody needs the callback
+    except RuntimeError:  # the launch has ended, so nobody needs the callback
         return
 
 

@@ -13,7 +13,7 @@ from launch.child.streamed_child import StreamedChild, read_output
 
 
 class OsChild(StreamedChild, asyncio.SubprocessProtocol):
-    """An operating system process whose output is read from pipes or its own pseudo terminals."""
+    """An operating system process, whose output is read from pipes or from its own pseudo terminals."""
 
     gets_signals_of_terminal = True
 
@@ -36,11 +36,12 @@ class OsChild(StreamedChild, asyncio.SubprocessProtocol):
         """Deliver a signal; raises `ProcessLookupError` after the end."""
         if self._transport.get_returncode() is not None:
             raise ProcessLookupError
-        # Not the transport's own: `Popen.send_signal` polls, which can take the exit code away from asyncio (255 then).
+        # Not the transport's own method: `Popen.send_signal` polls, and may take the exit code away from asyncio (then
+        # 255).
         os.kill(self.pid, signum)
 
     def write(self, data: bytes) -> None:
-        """Write bytes to its standard input."""
+        """Write bytes to the process's standard input."""
         pipe: Any = self._transport.get_pipe_transport(0)
         if pipe is not None:
             pipe.write(data)
@@ -61,7 +62,7 @@ async def start_os_child(
     cwd: str | None,
     output: Output,
 ) -> OsChild:
-    """Run a command; raises whatever starting it raises, mostly `OSError`."""
+    """Run a command; raises whatever the start raises, mostly `OSError`."""
     loop = asyncio.get_running_loop()
     child = OsChild(output, loop)
     if not emulate_tty or os.name == "nt":

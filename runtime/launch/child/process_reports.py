@@ -14,8 +14,9 @@ class News(NamedTuple):
     process: str
     """The process's label, such as `talker-1`."""
     kind: str
-    """`notice` (a text), `uncaught` (an exception: text, frames), `crash` (in C code: text), `declared` and `given`
-    (parameters of a node and where their values come from), ..."""
+    """`notice` (a text), `uncaught` (an exception: text, frames), `crash` (in C code: text), `declared` and `given` (a
+    node's parameters and the sources of their values), ...
+    """
     facts: Mapping[str, object]
 
 
@@ -39,7 +40,7 @@ class NewsReader:
     """Reads the data pipe of one process."""
 
     def __init__(self, process: str, unheard: Callable[[str], None] = lambda text: None) -> None:
-        """`unheard` is called with a text for news that no hook takes; tracebacks are omitted, as already printed."""
+        """`unheard` is called with a text for news that no hook takes; tracebacks, already printed, are omitted."""
         self._process = process
         self._unheard = unheard
         self._rest = b""
@@ -53,7 +54,7 @@ class NewsReader:
             self._line(line)
 
     def close(self) -> None:
-        """Handle the end of the pipe: what was not data is the output of a crash."""
+        """Handle the end of the pipe; text that was not data is the output of a crash."""
         text = "\n".join(self._crash).strip()
         self._crash = []
         if text:

@@ -1,4 +1,4 @@
-"""A Python program as plain data: it can run as a node process here, or in a separate process."""
+"""A Python program as plain data, which can run as a node process here or in a separate process."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from bot_console.runtime.process.fork_server import function_named
 
 
 class PythonProgram(NamedTuple):
-    """The name of a function that returns the program, and its arguments."""
+    """A program: the name of a function that returns it, and the function's arguments."""
 
     function: str
-    """`package.module:function`"""
+    """The function, as `package.module:function`."""
     arguments: tuple[object, ...]
     """Numbers, strings, lists, None."""
     is_ours: bool = False
-    """Whether it is part of the runtime or its robot, rather than a user's."""
+    """Whether the program is part of the runtime or its robot, rather than a user's."""
 
     def load(self) -> Callable[[], object]:
         """Import the function and return the program."""

@@ -1,4 +1,4 @@
-"""Start a command in the way that suits it."""
+"""Start a command in the way that suits its program."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ async def start_child(
     cwd: str | None,
     output: Output,
 ) -> Child:
-    """Run a command, or the Python program it stands for; raises whatever starting it raises, mostly `OSError`."""
+    """Run a command, or the Python program that it names; raises whatever the start raises, mostly `OSError`."""
     env = {**env, **for_children()}
     if program is None or own_process:
         env = child_environment(env)

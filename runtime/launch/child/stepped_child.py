@@ -1,4 +1,4 @@
-"""A user's program in a stepped run: a separate process that takes turns in the run's time."""
+"""A user's program in a stepped run: a separate process that takes turns in simulated time."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class SteppedChild(ForkedChild):
         self._input = -1
 
     def read_all(self, own: OwnEnds) -> None:
-        """Read its streams in its turns."""
+        """Read the process's streams in its turns."""
         self._input = own.stdin
         self._member.read(own.report, self._take_report, self._pass_on_exit, at_once=True)
         for fd, end in ((1, own.stdout), (2, own.stderr)):
@@ -55,7 +55,7 @@ class SteppedChild(ForkedChild):
     def _in_loop(self, callback: Callable[..., object], *arguments: object) -> None:
         try:
             self._loop.call_soon_threadsafe(callback, *arguments)
-        except RuntimeError:  # the launch is over, so nobody needs the callback
+        except RuntimeError:  # the launch has ended, so nobody needs the callback
             return
 
     def send_signal(self, signum: int) -> None:
@@ -63,11 +63,11 @@ class SteppedChild(ForkedChild):
         self._member.send_signal(operator.index(signum))
 
     def write(self, data: bytes) -> None:
-        """Write bytes to its standard input."""
+        """Write bytes to the process's standard input."""
         os.write(self._input, data)
 
     def close(self) -> None:
-        """Close its standard input; the rest is closed when it ends."""
+        """Close the process's standard input; the rest is closed when the process ends."""
         super().close()
         if self._input >= 0:
             os.close(self._input)

@@ -1,4 +1,4 @@
-"""A process whose output is read from pipes or terminals; it counts as ended once exit code and all output are in."""
+"""A process whose output is read from pipes or terminals; it has ended once its exit code and all output are in."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from functools import partial
 from launch.child.child import Output
 
 DRAIN_S = 0.2
-"""How long (s) output is awaited after the exit: a grandchild may hold the pipes open for ever."""
+"""How long (s) output is awaited after the exit, as a grandchild may hold the pipes open for ever."""
 
 
 class StreamedChild:
@@ -49,7 +49,7 @@ class StreamedChild:
 
 
 class StreamReader(asyncio.Protocol):
-    """Passes on what is read from a descriptor, and its end."""
+    """Passes on the data read from a descriptor, and its end."""
 
     def __init__(self, take: Callable[[bytes], None], end: Callable[[], None]) -> None:
         self._take = take

@@ -1,4 +1,4 @@
-"""Pseudo terminals for a child's output, so that it behaves as in front of a user."""
+"""Pseudo terminals for a child's output, so that it prints as if to a user."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ class Stream(NamedTuple):
 
 
 def open_terminals() -> tuple[Stream, Stream]:
-    """Open a terminal each for stdout and stderr; they leave line ends unchanged."""
+    """Open one terminal each for stdout and stderr; they leave line ends unchanged."""
     return _terminal(), _terminal()
 
 
 def open_pipes() -> tuple[Stream, Stream]:
-    """Open a pipe each for stdout and stderr."""
+    """Open one pipe each for stdout and stderr."""
     return Stream(*os.pipe()), Stream(*os.pipe())
 
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class LaunchConfigurationEquals(Condition):
-    """True when a launch configuration has a value; an unset one equals None."""
+    """True if a launch configuration has a given value; None stands for an unset one."""
 
     def __init__(self, launch_configuration_name: str, expected_value: SomeSubstitutionsType | None) -> None:
         name = type(self).__name__

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class LaunchConfigurationNotEquals(LaunchConfigurationEquals):
-    """True when a launch configuration does not have a value."""
+    """True if a launch configuration does not have a given value."""
 
     def _predicate_func(self, context: LaunchContext) -> bool:
         return not super()._predicate_func(context)

@@ -1,4 +1,4 @@
-"""Descriptions of what is executed."""
+"""Descriptions of executables."""
 
 from launch.descriptions.executable import Executable
 

@@ -10,5 +10,5 @@ if TYPE_CHECKING:
 
 
 def event_named(name: str) -> Callable[[Event], bool]:
-    """Return a predicate: whether an event has this name."""
+    """Return a predicate that tells whether an event has this name."""
     return lambda event: event.name == name

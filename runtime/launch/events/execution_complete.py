@@ -8,7 +8,7 @@ from launch.event import Event
 
 
 class ExecutionComplete(Event):
-    """An action is done; an asynchronous one when its future is."""
+    """An action is done; an asynchronous one is done when its future is."""
 
     name = "launch.events.ExecutionComplete"
 

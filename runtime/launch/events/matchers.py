@@ -7,7 +7,7 @@ from typing import Any
 
 
 def matches_action(target_action: object) -> Callable[[Any], bool]:
-    """Return a predicate: whether an action is this one."""
+    """Return a predicate that tells whether an action is this one."""
 
     def matches(action: object) -> bool:
         return action is target_action

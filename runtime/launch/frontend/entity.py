@@ -6,7 +6,7 @@ from typing import Any, get_args
 
 
 class Entity:
-    """An element: its kind, its attributes, and the elements in it."""
+    """An element: its kind, its attributes, and its nested elements."""
 
     @property
     def type_name(self) -> str:
@@ -15,7 +15,7 @@ class Entity:
 
     @property
     def line(self) -> int:
-        """The line where it begins; 0 if unknown."""
+        """The line where the element begins; 0 if unknown."""
         return 0
 
     @property

@@ -13,16 +13,16 @@ substitution_parse_methods: dict[str, Callable[..., Any]] = {}
 
 
 def expose_action(name: str) -> Callable[[T], T]:
-    """Register a class as the action of this name; its `parse(entity, parser)` returns class and keyword arguments.
+    """Register a class as the action with this name; its `parse(entity, parser)` returns class and keyword arguments.
 
-    A function is registered as the parse method itself. Raises `RuntimeError` for anything else, and for a name already
-    used by another class.
+    A function is registered as the parse method itself. Raises `RuntimeError` for anything else, and for a name that
+    another class already uses.
     """
     return _exposer(name, action_parse_methods, "action")
 
 
 def expose_substitution(name: str) -> Callable[[T], T]:
-    """Register a class or function as the substitution of this name; `parse(data)` returns class and arguments."""
+    """Register a class or function as the substitution with this name; `parse(data)` returns class and arguments."""
     return _exposer(name, substitution_parse_methods, "substitution")
 
 
@@ -51,5 +51,5 @@ def _parse_method(exposed: object) -> Callable[..., Any] | None:
 
 
 def _is_same(known: Any, parse: Any) -> bool:
-    """Whether two parse methods are the same, possibly loaded again from the same place."""
+    """Whether two parse methods are the same, even if one was loaded again from the same place."""
     return known is parse or (known.__module__, known.__qualname__) == (parse.__module__, parse.__qualname__)

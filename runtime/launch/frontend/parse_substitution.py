@@ -12,12 +12,12 @@ if TYPE_CHECKING:
 
 NAME = re.compile(r"[a-zA-Z0-9_\-]+")
 
-# From this nesting depth on, a stack overflow is blamed on the text; the usual stack allows about 200.
+# From this nesting depth on, the text is blamed for a stack overflow; the usual stack allows about 200 levels.
 MANY_IN_ONE_ANOTHER = 20
 
 
 class UnexpectedCharacters(ValueError):
-    """A character is not allowed where it stands."""
+    """A character is not allowed at its position."""
 
 
 class UnexpectedEOF(ValueError):
@@ -47,7 +47,7 @@ def parse_substitution(string_value: str) -> list[Substitution]:
         return reader.pieces("")
     except RecursionError:
         if reader.deepest < MANY_IN_ONE_ANOTHER:
-            raise  # the callers used up the stack, e.g. a launch file that includes itself
+            raise  # the callers have used up the stack, e.g. a launch file that includes itself
         raise ValueError(f"{string_value[:40]!r}... has too many substitutions in one another") from None
 
 
@@ -93,7 +93,7 @@ class _Reader:
         """The deepest nesting of substitutions read so far."""
 
     def pieces(self, ends: str, quote: str = "") -> list[Substitution]:
-        """Read texts and substitutions up to one of the characters, or to the end; `quote` is the enclosing quote."""
+        """Read texts and substitutions up to a character in `ends`, or to the end; `quote` is the enclosing quote."""
         from launch.substitutions.text_substitution import TextSubstitution
 
         found: list[Substitution] = []
@@ -128,7 +128,7 @@ class _Reader:
         self._depth -= 1
         try:
             return _substitution(name[0], arguments)
-        except Exception as error:  # a substitution's own message, under upstream's heading
+        except Exception as error:  # the substitution's own message under upstream's heading
             raise VisitError(error) from error
 
     def _quoted_argument(self) -> list[Substitution]:

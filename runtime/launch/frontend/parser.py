@@ -60,12 +60,12 @@ class Parser:
 
     @classmethod
     def is_extension_valid(cls, extension: str) -> bool:
-        """Whether any parser reads files of this extension."""
+        """Whether any parser reads files with this extension."""
         return extension in cls.get_available_extensions()
 
     @classmethod
     def load(cls, file: str | TextIO) -> tuple[Entity, Parser]:
-        """Return the root element and its parser; raises `InvalidFrontendLaunchFileError` if none can read it."""
+        """Return the root element and its parser; raises `InvalidFrontendLaunchFileError` if none can read the file."""
         cls.load_launch_extensions()
         path = file if isinstance(file, str) else getattr(file, "name", "")
         extension = os.path.splitext(path)[1].removeprefix(".")
@@ -90,7 +90,7 @@ class Parser:
 
     @classmethod
     def _parsers_for(cls, path: str) -> list[type[Parser]]:
-        """Return all parsers, those for the file's extension first."""
+        """Return all parsers, beginning with those for the file's extension."""
         name = os.path.basename(path)
 
         def knows(parser: type[Parser]) -> bool:
@@ -99,7 +99,7 @@ class Parser:
         return sorted(cls.load_parser_implementations().values(), key=lambda parser: not knows(parser))
 
     def parse_action(self, entity: Entity) -> Any:
-        """Create the action of an element; raises whatever is wrong with it."""
+        """Create the action of an element; raises an error for anything wrong with it."""
         try:
             return self._parse_action(entity)
         except Exception as error:
@@ -143,7 +143,7 @@ class Parser:
         if entity.type_name != "launch":
             raise RuntimeError("Expected 'launch' as root tag")
         deprecated = entity.get_attr("deprecated", optional=True)
-        entity.get_attr("version", optional=True)  # used in public files; ignored, as upstream
+        entity.get_attr("version", optional=True)  # public files use it; ignored, as upstream
         actions = [self.parse_action(each) for each in entity.children]
         entity.assert_entity_completely_parsed()
         return LaunchDescription(actions, deprecated_reason=deprecated)
@@ -154,7 +154,7 @@ class Parser:
 
 
 def _line_of_parse_error(error: object) -> int | None:
-    """The line where the XML or YAML library stopped."""
+    """Return the line at which the XML or YAML library stopped."""
     mark = getattr(error, "problem_mark", None)
     if mark is not None:
         return mark.line + 1
@@ -164,7 +164,7 @@ def _line_of_parse_error(error: object) -> int | None:
 
 def _read(path: str) -> str:
     with open(path, "rb") as file:
-        content = file.read()  # decoded as a whole: an error of a part would not tell the line
+        content = file.read()  # decoded as a whole, as an error in a part would not tell the line
     return io.StringIO(content.decode("utf-8"), newline=None).read()
 
 

@@ -1,4 +1,4 @@
-"""Attributes shared by all elements that run a process."""
+"""Attributes that all elements that run a process share."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ DURATIONS = {"sigkill_timeout": str, "sigterm_timeout": str, "respawn_delay": fl
 def parse_process(
     entity: Entity, parser: Parser, kwargs: dict[str, object], ignore: frozenset[str]
 ) -> dict[str, object]:
-    """Add keyword arguments of `ExecuteProcess`, except the ignored ones, which the caller parses."""
+    """Add the keyword arguments of `ExecuteProcess`, except the ignored ones, which the caller parses."""
     if "cmd" not in ignore:
         kwargs["cmd"] = parse_command_line(entity.get_attr("cmd"), parser)
     for name in TEXTS:
@@ -89,7 +89,7 @@ def _parse_env(entity: Entity, parser: Parser, kwargs: dict[str, object]) -> Non
 def parse_command_line(text: str, parser: Parser) -> list[list[Substitution]]:
     """Split a command line into words as a shell does; the values of substitutions are not split.
 
-    A piece of only whitespace ends a word, even an empty one; an empty text is one empty word.
+    A piece that is only whitespace ends a word, even an empty one; an empty text is one empty word.
     """
     from launch.substitutions.text_substitution import TextSubstitution
 

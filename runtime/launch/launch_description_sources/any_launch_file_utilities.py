@@ -34,7 +34,7 @@ def get_launch_description_from_frontend_launch_file(
 def get_launch_description_from_any_launch_file(
     launch_file_path: str, *, parser: type[Parser] | None = None
 ) -> LaunchDescription:
-    """Return the description in a launch file; raises `InvalidLaunchFileError` with the error of each reader."""
+    """Return the description in a launch file; raises `InvalidLaunchFileError` with the errors of all readers."""
     from launch.launch_description_sources.python_launch_file_utilities import (
         get_launch_description_from_python_launch_file,
     )
@@ -50,6 +50,6 @@ def get_launch_description_from_any_launch_file(
     for read in readers:
         try:
             return read(launch_file_path)
-        except Exception as error:  # a launch file may raise anything; every reader's error is reported
+        except Exception as error:  # a launch file may raise anything; all readers' errors are reported
             errors.append(error)
     raise InvalidLaunchFileError(extension, likely_errors=errors)

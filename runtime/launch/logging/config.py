@@ -41,7 +41,7 @@ class LaunchConfig:
 
     def __init__(self) -> None:
         self.level_hooks: list[Callable[[int], None]] = []
-        """Called with a new level: the loggers depend on the settings, not the settings on them."""
+        """Called with a new level, as the loggers depend on the settings, not the settings on them."""
         self.reset()
 
     def reset(self) -> None:
@@ -55,11 +55,11 @@ class LaunchConfig:
         self._screen_format = Format("default")
         self._log_format = Format("default")
         self.log_handler_factory: Callable[..., logging.Handler] = logging.FileHandler
-        """Creates the handler of a log file, from its path and `encoding=`."""
+        """Creates the handler of a log file from its path and `encoding=`."""
 
     @property
     def level(self) -> int:
-        """Records below this are dropped."""
+        """Records below this level are dropped."""
         return self._level
 
     @level.setter
@@ -86,7 +86,7 @@ class LaunchConfig:
         return os.path.join(self.log_dir, file_name)
 
     def set_screen_format(self, screen_format: str, *, screen_style: str | None = None) -> None:
-        """Set the format of records on the screen: a name such as `default_with_timestamp`, or a format.
+        """Set the format of records on the screen: a name such as `default_with_timestamp`, or a format string.
 
         Raises `ValueError` for an unknown style, and for a style given with a name.
         """
@@ -113,7 +113,7 @@ class LaunchConfig:
         self.set_screen_handler(handler)
 
     def set_screen_handler(self, handler: logging.Handler) -> None:
-        """Replace the standard output as the screen: for a console that draws it itself."""
+        """Replace the standard output as the screen, for a console that draws the screen itself."""
         self._screen = self._with_screen_format(handler)
 
     def get_log_file_handler(self, file_name: str = "launch.log") -> logging.Handler:

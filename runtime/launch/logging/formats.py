@@ -17,7 +17,7 @@ OUTPUT_IN_LOG = "{created:.7f} {message}"
 
 
 class Format(NamedTuple):
-    """A record format, by its text or name, with the style of its fields (`{`, `%` or `$`)."""
+    """A record format, given by its text or its name, with the style of its fields (`{`, `%` or `$`)."""
 
     text: str
     style: str = "{"
@@ -35,12 +35,12 @@ class Format(NamedTuple):
 
     @classmethod
     def overridden(cls, variable: str, own: Format) -> Format:
-        """Return the format from an environment variable, else `own`."""
+        """Return the format that an environment variable sets, or else `own`."""
         given = os.environ.get(variable)
         return cls(given) if given else own
 
     def formatter(self, names: Mapping[str, str], output_format: str) -> logging.Formatter:
-        """Return a formatter with this format for records, and another for output of processes."""
+        """Return a formatter with this format for records, and another format for the output of processes."""
         return OutputAwareFormatter(names.get(self.text, self.text), output_format, self.style)
 
 

@@ -1,4 +1,4 @@
-"""Loggers of launch, in a separate tree: records that nodes in this process log with `logging` are not affected."""
+"""Loggers of launch, in a tree of their own: records that nodes in this process log with `logging` are unaffected."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class LaunchLogger(logging.Logger):
 
 
 def get_logger(name: str | None = None) -> LaunchLogger:
-    """Return the logger of a name; without a name, the root logger."""
+    """Return the logger with a name; without a name, the root logger."""
     if name is None:
         return _root
     logger = _manager.getLogger(name)
@@ -35,7 +35,7 @@ def get_logger(name: str | None = None) -> LaunchLogger:
 
 
 def set_level(level: int) -> None:
-    """Drop records below a level, in all loggers without a level of their own."""
+    """Drop records below a level, in all loggers that have no level of their own."""
     _root.setLevel(level)
     _manager._clear_cache()  # type: ignore[attr-defined] -- the standard library itself calls it so
 

@@ -1,4 +1,4 @@
-"""The location of log files: `$ROS_LOG_DIR`, else `$ROS_HOME/log`, else `~/.ros/log`, with a folder for each run."""
+"""The location of log files: `$ROS_LOG_DIR`, else `$ROS_HOME/log`, else `~/.ros/log`, with one folder per run."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def get_logging_directory() -> str:
 def new_run_directory() -> str:
     """Create a unique folder for this run and point the link `latest` at it.
 
-    If that fails, use a temporary folder and say so on stderr.
+    If that fails, use a temporary folder and report that on stderr.
     """
     base = get_logging_directory()
     try:
@@ -57,5 +57,5 @@ def _point_latest_at(base: str, path: str) -> None:
             os.unlink(link)
         if not os.path.exists(link):
             os.symlink(path, link, target_is_directory=True)
-    except OSError:  # links are unsupported, or another run was faster; the link is only a convenience
+    except OSError:  # links are unsupported, or another run created it first; the link is only a convenience
         return

@@ -41,7 +41,7 @@ def get_output_loggers(
 
 
 class _OutputLogger:
-    """Logs lines printed by a process, unchanged."""
+    """Logs the lines that a process prints, unchanged."""
 
     def __init__(self, logger: LaunchLogger) -> None:
         self._logger = logger
@@ -71,7 +71,7 @@ def _handlers(
 
 
 def _own(file_name: str) -> logging.Handler:
-    """Return the handler of a file for the lines of one process, without the main log's timestamps."""
+    """Return the handler of a file for one process's lines, which lack the timestamps of the main log."""
     handler = launch_config.get_log_file_handler(file_name)
     handler.setFormatter(logging.Formatter())
     return handler

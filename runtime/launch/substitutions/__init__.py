@@ -1,4 +1,4 @@
-"""Substitutions: texts known only when the launch runs."""
+"""Substitutions: texts that are known only when the launch runs."""
 
 from launch.substitutions.anon_name import AnonName
 from launch.substitutions.boolean_substitution import (

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @expose_substitution("anon")
 class AnonName(Substitution):
-    """A unique name; always the same one for the same prefix."""
+    """A unique name; the same prefix always gives the same name."""
 
     def __init__(self, name: SomeSubstitutionsType) -> None:
         super().__init__()

@@ -45,7 +45,7 @@ class NotSubstitution(Substitution):
 
 
 def _values(context: LaunchContext, *operands: list[Substitution]) -> list[bool]:
-    """Evaluate all operands, whatever the first ones are."""
+    """Evaluate all operands, even if the first ones already decide."""
     return [bool_of(context, each) for each in operands]
 
 
@@ -54,7 +54,7 @@ class AndSubstitution(TwoSided):
     """Whether both operands are true."""
 
     def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
-        super().__init__(left, right)  # errors name this class
+        super().__init__(left, right)  # error messages name this class
 
     def perform(self, context: LaunchContext) -> str:
         """Evaluate to `true` or `false`."""
@@ -66,7 +66,7 @@ class OrSubstitution(TwoSided):
     """Whether at least one operand is true."""
 
     def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
-        super().__init__(left, right)  # errors name this class
+        super().__init__(left, right)  # error messages name this class
 
     def perform(self, context: LaunchContext) -> str:
         """Evaluate to `true` or `false`."""

@@ -18,7 +18,7 @@ TRUTH = {"true": True, "1": True, "false": False, "0": False}
 
 
 def _operand(value: object) -> SomeSubstitutionsType:
-    """What contains no substitution as text: a boolean as a launch file would write it, None as the empty text."""
+    """Return a value without substitutions as text: a boolean as launch files write it, None as an empty text."""
     if is_substitution(value):
         return cast("SomeSubstitutionsType", value)
     if value is None:
@@ -45,7 +45,7 @@ def _equal(left: str, right: str) -> bool:
 
 @expose_substitution("equals")
 class EqualsSubstitution(TwoSided):
-    """Whether two values are equal: as booleans, else as numbers, else as texts."""
+    """Whether two values are equal as booleans, otherwise as numbers, otherwise as texts."""
 
     def __init__(self, left: object, right: object) -> None:
         super().__init__(_operand(left), _operand(right))

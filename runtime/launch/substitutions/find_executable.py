@@ -48,6 +48,6 @@ class FindExecutable(Substitution):
         found = shutil.which(name, path=context.environment.get("PATH", os.defpath))
         if found is not None:
             return os.path.abspath(found)
-        if name == "ros2":  # answered by this runtime's own verbs, so the program need not be installed
+        if name == "ros2":  # this runtime's own verbs replace it, so the program need not be installed
             return name
         raise SubstitutionFailure(f"executable '{self.__name}' not found on the PATH")

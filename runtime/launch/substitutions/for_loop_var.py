@@ -42,7 +42,7 @@ class ForEachVar(Substitution):
         return f"{type(self).__name__}({described(self._name)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the value; raises `SubstitutionFailure` outside of a loop that has it."""
+        """Return the value; raises `SubstitutionFailure` outside a loop that has it."""
         name = perform_substitutions(context, self._name)
         values = context.get_locals_as_dict()
         if name in values:

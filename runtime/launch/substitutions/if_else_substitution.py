@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @expose_substitution("if")
 class IfElseSubstitution(Substitution):
-    """One of two values, by a condition; raises `RuntimeError` when both are empty."""
+    """One of two values, chosen by a condition; raises `RuntimeError` if both are empty."""
 
     def __init__(
         self,

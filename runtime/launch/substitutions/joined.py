@@ -19,7 +19,7 @@ def described(subs: Iterable[Substitution]) -> str:
 
 
 def bool_of(context: LaunchContext, subs: Iterable[Substitution]) -> bool:
-    """Return the boolean value of a text by YAML's rules; raises `SubstitutionFailure` if it has none."""
+    """Return the boolean value of a text by YAML's rules; raises `SubstitutionFailure` if the text is not a boolean."""
     from launch.substitutions.substitution_failure import SubstitutionFailure
     from launch.utilities.type_utils import perform_typed_substitution
 
@@ -44,9 +44,9 @@ class TwoSided(Substitution):
 
     @classmethod
     def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[TwoSided], dict[str, object]]:
-        """Parse two arguments, as of `$(and left right)`."""
+        """Parse two arguments, as in `$(and left right)`."""
         if len(data) != 2:
-            raise TypeError("and substitution expects 2 arguments")  # whatever it is, as upstream
+            raise TypeError("and substitution expects 2 arguments")  # any type is accepted, as upstream
         return cls, {"left": data[0], "right": data[1]}
 
     @property

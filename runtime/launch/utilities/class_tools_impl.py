@@ -1,4 +1,4 @@
-"""Checks of the kind of an object."""
+"""Type checks for objects."""
 
 from __future__ import annotations
 
@@ -16,5 +16,5 @@ def is_a(obj: object, entity_type: type) -> bool:
 
 
 def is_a_subclass(obj: object, entity_type: type) -> bool:
-    """Whether an object is an instance of a class, or itself a subclass of it."""
+    """Whether an object is an instance of a class, or is a subclass of it."""
     return isinstance(obj, entity_type) or (inspect.isclass(obj) and issubclass(obj, entity_type))

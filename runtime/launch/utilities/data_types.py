@@ -13,7 +13,7 @@ def is_typing_list(data_type: object) -> bool:
 
 
 def extract_type(data_type: object) -> tuple[Any, bool]:
-    """Return the scalar type and whether it is a list of them; raises `ValueError` for other types."""
+    """Return the scalar type, and whether it is a list of that type; raises `ValueError` for other types."""
     scalar, is_list = data_type, False
     arguments = get_args(data_type) if is_typing_list(data_type) else ()
     if arguments:
@@ -24,7 +24,7 @@ def extract_type(data_type: object) -> tuple[Any, bool]:
 
 
 def is_instance_of_valid_type(value: object, can_be_str: bool = False) -> bool:
-    """Whether a value is a scalar or a list of one type, with `can_be_str` also mixed with strings."""
+    """Whether a value is a scalar or a list of one type; with `can_be_str` the list may also contain strings."""
     if not isinstance(value, list):
         return isinstance(value, SCALARS)
     items = cast("list[Any]", value)
@@ -35,7 +35,7 @@ def is_instance_of_valid_type(value: object, can_be_str: bool = False) -> bool:
 
 
 def is_instance_of(value: object, data_type: object, can_be_str: bool = False) -> bool:
-    """Whether a value has a type; an int is no float, but a bool is an int. Raises `ValueError` for other types."""
+    """Whether a value has a type; an int is not a float, but a bool is an int. Raises `ValueError` for other types."""
     if data_type is None:
         return is_instance_of_valid_type(value, can_be_str=can_be_str)
     scalar, is_list = extract_type(data_type)

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def normalize_to_list_of_substitutions(subs: SomeSubstitutionsType) -> list[Substitution]:
-    """Return a list of substitutions; raises `TypeError` for anything but texts and substitutions."""
+    """Return a list of substitutions; raises `TypeError` for anything other than texts and substitutions."""
     from launch.substitutions.text_substitution import TextSubstitution
 
     def one(item: object) -> Substitution:

@@ -55,9 +55,9 @@ __all__ = [
 
 
 def coerce_to_type(value: str, data_type: Any = None, can_be_str: bool = False) -> Any:
-    """Convert a text to a scalar or list; with `can_be_str` it may stay a text.
+    """Convert a text to a scalar or list; with `can_be_str` it may remain a text.
 
-    Raises `ValueError` for a text not of the type, `TypeError` for anything but a text.
+    Raises `ValueError` for a text that does not have the type, `TypeError` for anything but a text.
     """
     ensure_argument_type(value, str, "value", "coerce_to_type")
     if data_type is None:
@@ -121,7 +121,7 @@ def _list_from(value: str, scalar: Any, can_be_str: bool) -> list[Any]:
 
 
 def _by_yaml(value: str, problem: str, can_be_str: bool) -> Any:
-    """Parse a text as YAML; an empty text is returned as it is, with `can_be_str` also one that is not YAML."""
+    """Parse a text as YAML; an empty text is returned unchanged, and so is, with `can_be_str`, one that is not YAML."""
     import yaml
 
     if not value:
@@ -143,7 +143,7 @@ def is_valid_scalar_type(data_type: Any) -> bool:
 
 
 def is_substitution(value: Any) -> bool:
-    """Whether a value is a substitution, or an iterable of texts and at least one substitution."""
+    """Whether a value is a substitution, or an iterable of texts with at least one substitution."""
     if isinstance(value, Substitution):
         return True
     if isinstance(value, str) or not isinstance(value, Iterable):
@@ -163,7 +163,7 @@ def is_normalized_substitution(value: Any) -> bool:
 
 
 def normalize_typed_substitution(value: Any, data_type: Any = None) -> Any:
-    """Normalize a value: scalars as they are, substitutions as a list, lists as a list of either; else `TypeError`."""
+    """Normalize a value: scalars unchanged, substitutions to a list, lists to a list of either; else `TypeError`."""
     if isinstance(value, ScalarTypesTuple):
         if not is_instance_of(value, data_type):
             raise TypeError(f"value='{value}' is not an instance of {data_type}")
@@ -197,7 +197,7 @@ def _type_of_items(value: Any, data_type: Any) -> Any:
 
 
 def _common_type(value: Any, items: list[Any]) -> type | None:
-    """Return the common type of the items that are not substitutions, None if all are; ints among floats are floats."""
+    """Return the items' common type, ignoring substitutions; None if there are only these. Floats may include ints."""
     kinds: set[type] = set()
     for each in items:
         if isinstance(each, ScalarTypesTuple):
@@ -218,7 +218,7 @@ def _common_type(value: Any, items: list[Any]) -> type | None:
 
 
 def perform_typed_substitution(context: LaunchContext, value: Any, data_type: Any = None) -> Any:
-    """Evaluate the result of `normalize_typed_substitution`; raises `ValueError` for a text not of the type."""
+    """Evaluate the result of `normalize_typed_substitution`; raises `ValueError` if a text does not have the type."""
     if isinstance(value, ScalarTypesTuple):
         if data_type is not None and not is_instance_of(value, data_type):
             raise TypeError(f"value=`{value}` is a scalar and not an instance of `{data_type}`")

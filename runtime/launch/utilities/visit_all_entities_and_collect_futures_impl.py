@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 def visit_all_entities_and_collect_futures(
     entity: LaunchDescriptionEntity, context: LaunchContext
 ) -> list[tuple[LaunchDescriptionEntity, asyncio.Future[None]]]:
-    """Visit an entity and those it returns, depth first; return those not done at once, with their futures."""
+    """Visit an entity and those it returns, depth first; return those that are not done at once, with futures."""
     try:
         below = entity.visit(context)
     except Exception as error:
