@@ -1,4 +1,4 @@
-"""How processes ended, in words."""
+"""Descriptions of how processes ended."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Texts that are cut say so."""
+"""Texts that are cut show an ellipsis."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The keys of the help: they stand as in a table of Rich, and only those are drawn that are seen."""
+"""The keys of the help are laid out as in a table of Rich, but only visible lines are drawn."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The key table is true: every action exists, no key has two meanings, and all of it survives a terminal."""
+"""The key table is correct: every action exists, no key has two meanings, and a terminal can send every key."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def test_a_pane_names_the_scopes_that_act_in_it_and_overrides_no_key_of_them(eac
     merged = kind._merge_bindings().key_to_bindings
     for scope in (each.id, *kind.SCOPES):
         if scope in ("list", "diagram"):
-            continue  # these are of what stands in the pane
+            continue  # these belong to widgets in the pane
         for key in TABLE[scope]:
             for name in key.keys.split(","):
                 assert [binding.id for binding in merged[name]] == [key.id]
@@ -117,7 +117,7 @@ def outside_of_table(path: Path) -> list[str]:
     """The places in a file that bind keys without the table."""
     found: list[str] = []
     text = path.read_text(encoding="utf-8")
-    if not re.search(rf"Binding|BINDINGS|event\s*\.\s*key|{'|'.join(HANDLERS)}", text):  # quicker than to parse it
+    if not re.search(rf"Binding|BINDINGS|event\s*\.\s*key|{'|'.join(HANDLERS)}", text):  # quicker than parsing
         return found
     for node in ast.walk(ast.parse(text)):
         match node:

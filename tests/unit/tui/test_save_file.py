@@ -1,4 +1,4 @@
-"""Saving any file: all or nothing, and what the old file had stays."""
+"""Saving any file: all or nothing; mode, links and owner are kept."""
 
 from __future__ import annotations
 

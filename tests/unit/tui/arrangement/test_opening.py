@@ -1,4 +1,4 @@
-"""The spellings of rqt: real ROS 2's, and the course page's."""
+"""Command lines of rqt programs, in the spellings of real ROS 2 and of the course page."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The options of `ros2 bag` of Jazzy (rosbag2 0.26): all are taken, and wrong combinations are explained."""
+"""The options of `ros2 bag` of Jazzy (rosbag2 0.26): all are accepted, and wrong combinations are explained."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A browser that has fallen silent counts as closed while a robot is steered, and only then."""
+"""A silent browser counts as closed while a robot is steered, and only then."""
 
 from __future__ import annotations
 

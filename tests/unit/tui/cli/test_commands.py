@@ -1,4 +1,4 @@
-"""Commands are imported when they are used: each name leads to a function."""
+"""Commands are imported when they are used: each name resolves to a function."""
 
 from __future__ import annotations
 

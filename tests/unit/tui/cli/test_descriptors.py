@@ -1,4 +1,4 @@
-"""What is written to descriptors 1 and 2, bypassing Python, becomes log lines; the screen has duplicates."""
+"""Output to descriptors 1 and 2 that bypasses Python becomes log lines; the screen uses duplicates of them."""
 
 import os
 import subprocess

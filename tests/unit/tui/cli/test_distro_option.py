@@ -1,4 +1,4 @@
-"""`--distro NAME` chooses the distribution before anything asks for it, and leaves the words of programs alone."""
+"""`--distro NAME` chooses the distribution before it is needed, and leaves the arguments of programs alone."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ UNHEARD = "bot-console {} was ended before a robot answered\n"
 
 
 def terminated(*_: object) -> None:
-    """What the handler of SIGTERM does while a verb looks for a robot."""
+    """Do what the handler of SIGTERM does while a verb looks for a robot."""
     rclpy.get_default_context().shut_down_by_signal()
 
 

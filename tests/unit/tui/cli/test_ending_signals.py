@@ -1,4 +1,4 @@
-"""Signals end a console whatever the interrupted thread holds at that moment."""
+"""Signals end a console whatever locks the interrupted thread holds at that moment."""
 
 from __future__ import annotations
 

@@ -104,7 +104,7 @@ def test_unwritable_folder_does_not_keep_the_console_from_starting(tmp_path: Pat
 
 
 class App:
-    """An app that keeps its messages until it is asked to handle them."""
+    """An app that keeps its messages until the test lets it handle them."""
 
     def __init__(self) -> None:
         self.messages: list[Callable[[], object]] = []

@@ -1,4 +1,4 @@
-"""Waiting until a value is stable: the first value that lasts, or the last one in time."""
+"""Waiting until a value is stable: the first value that lasts, or the last one before the timeout."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bot_console.tui.session.reached_console import POLL_S, settled
 
 @pytest.fixture
 def passed(monkeypatch: pytest.MonkeyPatch) -> list[float]:
-    """The seconds that were slept; time advances by nothing else."""
+    """The seconds slept so far; nothing else makes time advance."""
     slept: list[float] = []
     clock = SimpleNamespace(monotonic=lambda: sum(slept), sleep=slept.append)
     monkeypatch.setattr(reached_console, "time", clock)

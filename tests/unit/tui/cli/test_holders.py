@@ -44,7 +44,7 @@ def test_status_reports_robot_that_does_not_answer(
 def test_status_names_who_holds_a_robot_in_a_namespace(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """Its nodes are none of those of a robot without a namespace."""
+    """Its nodes have other names than those of a robot without a namespace."""
     for name, value in {"reach_system": "", "_known": None, "robot_there": [], "frozen": []}.items():
         monkeypatch.setattr(background, name, lambda value=value: value)
     monkeypatch.setattr(background, "holders", lambda: ["anna: my foot"])
@@ -61,7 +61,7 @@ def test_nobody_holds_a_robot_that_does_not_exist(monkeypatch: pytest.MonkeyPatc
 
 
 def test_release_after_which_a_node_holds_the_robot_names_the_node(capsys: pytest.CaptureFixture[str]) -> None:
-    """A lock that answers, but cannot write its stop file, stops the robot for a reason of its own."""
+    """A lock that answers, but cannot write its stop file, stops the robot for this reason."""
     full = RobotStop("n1", "simulator", "stops cannot be kept: No space left on device", by_node=True)
     assert stop._report("release", False, StopInfo(stopped=True, locks=2, stops=(full,))) == 1
     assert capsys.readouterr().err == f"not released: still held by simulator: {full.reason}\n"

@@ -1,4 +1,4 @@
-"""A waiting main thread runs the handlers of signals, including those delivered to another thread."""
+"""A waiting main thread runs signal handlers, including those of signals delivered to another thread."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ TIMEOUT_S = 240.0
 
 @pytest.fixture
 def elsewhere() -> Iterator[None]:
-    """Keeps SIGUSR1 from the main thread, as can happen to a process that was frozen when the signal came."""
+    """Blocks SIGUSR1 in the main thread, as can happen to a process that was frozen when the signal came."""
     signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGUSR1])
     yield
     signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGUSR1])
@@ -37,7 +37,7 @@ class Waited(threading.Event):
         signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGUSR1])
         while not self._cond._waiters:  # pyright: ignore -- whether the main thread waits already
             threading.Event().wait(0.001)
-        threading.Event().wait(0.001)  # Gives it the interpreter for its last steps before it sleeps.
+        threading.Event().wait(0.001)  # Lets it run its last steps before it sleeps.
         os.kill(os.getpid(), signal.SIGUSR1)
 
 

@@ -1,4 +1,4 @@
-"""Lint finds what parameter declarations lack, in the line to be changed, and nothing in complete ones."""
+"""Lint reports what parameter declarations lack, in the line to be changed, and nothing for complete ones."""
 
 from __future__ import annotations
 
@@ -258,7 +258,7 @@ def test_folder_with_a_launch_file_is_linted_where_ros_is_not_installed(tmp_path
 
 
 def test_integer_with_an_integer_range_is_not_reported_as_float(tmp_path: Path) -> None:
-    """`rate` sounds like a float, but its range says what it is."""
+    """`rate` sounds like a float, but its range says that it is an integer."""
     program = tmp_path / "talker.py"
     program.write_text(
         "range = ParameterDescriptor(description='Rate (Hz)', integer_range=[IntegerRange()])\n"

@@ -1,4 +1,4 @@
-"""Packages that work here and would not on ROS 2: each obstacle is named with its fix, and the package still runs."""
+"""Packages that work here but would not on ROS 2: each obstacle is named with its fix, and the package still runs."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ XML = "<package format='3'><name>p</name><export><build_type>{}</build_type></ex
 
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
-    """A package with nothing to complain about."""
+    """A package without any fault."""
     for name, text in {
         "package.xml": XML.format("ament_python"), "setup.py": SETUP, "setup.cfg": CFG, "p/__init__.py": "",
         "p/talk.py": "import rclpy\nfrom std_msgs.msg import String\ndef main():\n    pass\n",

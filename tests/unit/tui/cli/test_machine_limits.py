@@ -34,7 +34,7 @@ Limits = dict[int, tuple[int, int]]
 
 @pytest.fixture
 def limits(monkeypatch: pytest.MonkeyPatch) -> Limits:
-    """The limits of this process, in place of the real ones."""
+    """Limits of this process that replace the real ones."""
     known = dict.fromkeys((resource.RLIMIT_NOFILE, resource.RLIMIT_AS, resource.RLIMIT_FSIZE), (NO_LIMIT, NO_LIMIT))
     monkeypatch.setattr(resource, "getrlimit", known.__getitem__)
     monkeypatch.setattr(resource, "setrlimit", known.__setitem__)

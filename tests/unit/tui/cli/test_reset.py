@@ -18,7 +18,7 @@ TRIGGER = ("std_srvs/srv/Trigger",)
 
 
 class Robot(FakeConsole):
-    """The sample system, which knows its start values."""
+    """The sample system, with known start values."""
 
     def start_values(self) -> dict[tuple[str, str], Any]:
         return {(NAVIGATOR, "max_speed"): 2.0, (NAVIGATOR, "turn_rate"): 1.0, (SIMULATOR, "seed"): 9}

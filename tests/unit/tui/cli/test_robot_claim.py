@@ -97,7 +97,7 @@ def test_process_that_inherited_the_claim_holds_it_until_it_ends(tmp_path):
 
 @pytest.fixture
 def up(monkeypatch, tmp_path):
-    """What `up` starts: nothing real; returns the options of the process."""
+    """Replaces the process that `up` starts; returns its options."""
     calls = []
 
     def start(words, **options):

@@ -30,7 +30,7 @@ Shell = Callable[..., str]
 
 @pytest.fixture(scope="module")
 def printed(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], str]:
-    """Turns a line that evaluates the setup into one that evaluates what `bot-console setup` printed for it once."""
+    """Turns a line that evaluates the setup into one that evaluates the output of a single `bot-console setup`."""
     folder = make_home(tmp_path_factory.mktemp("printed"))
 
     @cache
@@ -47,7 +47,7 @@ def printed(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], str]:
 def shell(home: Path, printed: Callable[[str], str]) -> Shell:
     """The output of a shell that has evaluated the setup.
 
-    A zsh without completion would load it first, which takes it longer than everything else.
+    A zsh without completion would load it first, which takes longer than everything else.
     """
 
     def output(

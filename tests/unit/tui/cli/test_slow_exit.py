@@ -11,7 +11,7 @@ from bot_console.tui.cli.slow_exit import WAITING_TEXT, report_slow_exit
 
 
 class Terminal(io.StringIO):
-    """Keeps what is printed, and signals when the line is there."""
+    """Keeps the output, and signals when the line is there."""
 
     def __init__(self) -> None:
         super().__init__()

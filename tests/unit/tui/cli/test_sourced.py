@@ -1,4 +1,4 @@
-"""`install/setup.bash` after `colcon build`, as tutorials source it; never written over another file."""
+"""`install/setup.bash` after `colcon build`, sourced as in tutorials; it never overwrites another colcon's file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Commands of `ros2` that are answered differently here."""
+"""Commands of `ros2` that bot-console answers differently."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def test_doctor_checks_this_machine(capsys: pytest.CaptureFixture[str], words: t
 
 
 def test_prefix_runs_before_the_executable() -> None:
-    """What `--prefix` names gets the executable and its arguments, in its own process."""
+    """The program named by `--prefix` gets the executable and its arguments, in a separate process."""
     words = ["--prefix", "echo 'with this'", "demo_nodes_py", "talker", "--ros-args", "-r", "__node:=t"]
     code = "import sys; from bot_console.tui.cli.main import main; sys.exit(main(sys.argv[1:]))"
     ended = subprocess.run(

@@ -1,4 +1,4 @@
-"""What a command line gets wrong is reported on one line, which says what is possible."""
+"""Errors in a command line are reported on one line, which says what is possible."""
 
 from __future__ import annotations
 

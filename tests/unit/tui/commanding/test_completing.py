@@ -1,4 +1,4 @@
-"""Completion of the command line: the place is asked once, the word narrows, answers may come late."""
+"""Completion of the command line: one query per position, candidates narrowed while typing, and late answers."""
 
 from __future__ import annotations
 

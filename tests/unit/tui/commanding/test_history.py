@@ -1,4 +1,4 @@
-"""Lines typed before: kept from run to run, walked through by how they begin or by what they have."""
+"""Earlier lines: kept from run to run, and recalled by their beginning or by a part."""
 
 from __future__ import annotations
 

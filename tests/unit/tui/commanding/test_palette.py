@@ -1,4 +1,4 @@
-"""What the palette finds, and what it lists first."""
+"""The actions that the palette finds, and their order."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from bot_console.tui.keymap import TABLE
 
 
 class Pane:
-    """A pane of a scope of the key table."""
+    """A pane with a scope of the key table."""
 
     def __init__(self, scope: str) -> None:
         self.scopes = (scope, "find", "list")
 
 
 def found(typed: str, scope: str = "parameters") -> list[str]:
-    """What is found while a pane is focused."""
+    """The actions found while a pane is focused."""
     commands = all_commands(cast(Any, AppWithoutScreen()), cast(Any, Pane(scope)), lambda name: None)
     return [each.value for each in options_for(commands, lambda line: "", typed)]
 
 
 class AppWithoutScreen:
-    """What actions are bound to."""
+    """An app to which actions are bound."""
 
     def call_later(self, *call: object) -> None:
         raise AssertionError

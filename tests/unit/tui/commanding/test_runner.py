@@ -1,4 +1,4 @@
-"""Lines that are wrong say what to type instead, and what a line would take from the robot's safety is said."""
+"""Invalid lines get a hint on what to type instead, and unsafe lines a warning."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from samples import live
 
 
 class Screen:
-    """Keeps what it was told; knows two layouts."""
+    """Keeps the messages that it received; knows two layouts."""
 
     def __init__(self) -> None:
         self.reported: list[str] = []

@@ -1,6 +1,4 @@
-"""The console's connection to ROS: before it is up, when it breaks, and when it is closed while requests are
-pending.
-"""
+"""The console's connection to ROS: before it exists, when it breaks, and when it is closed with pending requests."""
 
 import pytest
 import rclpy
@@ -23,7 +21,7 @@ def domain(monkeypatch):
 
 @pytest.fixture
 def idle(domain):
-    """A node that offers a service and never serves it."""
+    """A node that offers a service and is never spun."""
     context = Context()
     rclpy.init(args=[], context=context, domain_id=domain)
     node = rclpy.create_node("idle", context=context, start_parameter_services=False)

@@ -1,4 +1,4 @@
-"""Velocity commands of the console, and what it sees of their way to the robot."""
+"""Velocity commands of the console, and what it sees of their path to the robot."""
 
 import math
 
@@ -24,7 +24,7 @@ _made: list["Bench"] = []
 
 @pytest.fixture(autouse=True)
 def close_benches():
-    """A node that remains would keep the `/rosout` publisher of its name from later nodes."""
+    """Close all benches: a remaining node would keep the `/rosout` publisher of its name from later nodes."""
     yield
     while _made:
         _made.pop().close()
@@ -292,7 +292,7 @@ def test_a_robot_that_was_only_watched_receives_nothing_when_the_console_leaves(
 
 
 class Waits:
-    """The time (s) for which a link waits without acknowledgement."""
+    """The times (s) for which a link waits without acknowledgement."""
 
     def __init__(self, monkeypatch):
         self.waited = []

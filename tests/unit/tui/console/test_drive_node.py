@@ -21,7 +21,7 @@ from rigs import TIMEOUT_S, until
 
 @pytest.fixture
 def console(monkeypatch: pytest.MonkeyPatch) -> Iterator[RosConsole]:
-    """Connected to a base with a lock."""
+    """A console connected to a base with a lock."""
     domain = unused_domain()
     monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
     monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)

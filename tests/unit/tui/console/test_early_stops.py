@@ -36,7 +36,7 @@ class Rig:
         self.settle()
 
     def settle(self) -> DriveInfo:
-        """Let all messages arrive; returns what the console then shows."""
+        """Let all messages arrive; return what the console then shows."""
         for _ in range(200):
             self.executor.spin_once(timeout_sec=0)
         return self.link.info(WorldInfo())

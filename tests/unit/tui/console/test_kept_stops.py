@@ -1,4 +1,4 @@
-"""A stop holds until a person releases it, whatever becomes of locks and consoles; afterwards it does not come back."""
+"""A stop holds until a person releases it, whatever happens to locks and consoles, and then does not come back."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ def file_lost(rig: StopRig) -> None:
 
 
 def file_of_yesterday(rig: StopRig) -> None:
-    """A backup without the stop takes the place of the file."""
+    """A backup without the stop replaces the file."""
     path = Path(rig.stop_file)
     path.with_name("backup").write_text('{"version": 1, "robots": {}}')
     path.with_name("backup").replace(path)
@@ -135,7 +135,7 @@ def reasons(lock: EmergencyStop) -> list[str]:
 
 
 def test_a_replayed_release_releases_no_stop_and_is_logged(rig: StopRig, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Recorded when it had no effect, as if it had been lost on its way."""
+    """Recorded when it had no effect, as if it had been lost in transit."""
     lines: list[str] = []
     for name in (MONITOR, BASE_NODE):
         monkeypatch.setattr(rig.nodes[name].get_logger(), "warning", lambda text, **_: lines.append(text))
@@ -218,12 +218,12 @@ def test_a_release_is_repeated_as_long_as_the_locks_report(
     press = anna.add_stop("ALL STOP")
     rig.settle()
     for lock in rig.locks.values():
-        lock.stop("robot", "a fault")  # Another challenge, which anna has not received: her release is refused.
+        lock.stop("robot", "a fault")  # A different challenge, which anna has not received: her release is refused.
     anna.withdraw(press)
     now[0] = RELEASE_TIMEOUT_S + 0.5
     if silent:
         now[0] += REPORT_TIMEOUT_S
-        anna.repeat()  # Nothing has come from the locks meanwhile: a release that is sent later would come unexpected.
+        anna.repeat()  # The locks have sent nothing meanwhile: nobody would expect a release that is sent later.
     rig.settle(3)
     assert all((press in lock.lock.ids) is silent for lock in rig.locks.values())
     assert all(lock.lock.held for lock in rig.locks.values())
@@ -237,7 +237,7 @@ def test_robot_is_held_again_if_an_abandoned_release_arrives_late(
     anna = rig.links["anna"]
     anna.stop("ALL STOP")
     rig.settle()
-    anna.release()  # it waits in the link, as nothing is received meanwhile
+    anna.release()  # it waits in the link, since nothing is received meanwhile
     now[0] = RELEASE_TIMEOUT_S + REPORT_TIMEOUT_S + 0.5
     anna.repeat()
     assert anna.info.stopped and not anna.info.confirmed
@@ -256,7 +256,7 @@ def test_lock_that_falls_silent_long_after_a_release_causes_no_stop(
     anna = rig.links["anna"]
     anna.stop("ALL STOP")
     rig.settle()
-    anna.follow([])  # the locks are gone, and with them what could still answer
+    anna.follow([])  # the locks are gone, and nothing else could answer
     anna.release()
     now[0] = RELEASE_TIMEOUT_S + 0.5
     anna.repeat()
@@ -447,7 +447,7 @@ def last_values(rig: StopRig, topic: str) -> dict[str, str]:
 
 
 class OlderLock:
-    """A lock that does not distinguish stops of one key, and reports neither releases nor challenges."""
+    """A lock that does not distinguish stops with the same key, and reports neither releases nor challenges."""
 
     def __init__(self, rig: StopRig, instance: str) -> None:
         node = rig.node(f"older{instance}")

@@ -1,4 +1,4 @@
-"""The path of a log line, end to end: every line once, whichever way it takes, at full rate and at the end."""
+"""The path of a log line, end to end: every line arrives once, whichever way it takes, at full rate and at the end."""
 
 import os
 import time
@@ -56,7 +56,7 @@ def console(tmp_path, monkeypatch):
 
 
 def check(console, folder, names, count, before=""):
-    """Launch a writer for each name, and end them once the log has all that they write."""
+    """Launch a writer for each name, and end them once the log has all their lines."""
     (folder / "writer.py").write_text(WRITER)
     path, seen = folder / "system.launch.py", folder / "seen"
     arguments = [[name, str(count), str(seen)] for name in names]
@@ -87,7 +87,7 @@ def wait(condition):
 
 
 def lines(console, name):
-    """The log's lines of a node."""
+    """The log lines of a node."""
     console.snapshot()
     return console.logs.matching(LogFilter(words=f"re:^{name}"), 0)
 

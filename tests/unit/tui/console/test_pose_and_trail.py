@@ -1,4 +1,4 @@
-"""A robot that has gone silent is shown with the age of its data, and without speed."""
+"""A robot that has gone silent is shown with the age of its data, and without a speed."""
 
 import math
 
@@ -60,7 +60,7 @@ EXTREMES = (math.nan, math.inf, -math.inf, 1.7e308, -1.7e308, 1e200, 5e-324, 0.0
 
 
 def watched(*, grid: OccupancyGrid | None = None, odometry: Odometry, scan: LaserScan) -> WorldInfo:
-    """What a console knows after these messages."""
+    """The state of a console after these messages."""
     context = Context()
     context.init([], domain_id=unused_domain())
     node = Node("console", context=context)

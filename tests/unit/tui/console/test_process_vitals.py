@@ -73,7 +73,7 @@ def test_all_processes_are_measured_at_the_same_moments() -> None:
     assert [each.share for each in usages] == [None, None, None]
     for each in usages:
         each.poll(1.05)
-    assert [each.share for each in usages] == [0.0, 0.0, None]  # a quarter of a second says little
+    assert [each.share for each in usages] == [0.0, 0.0, None]  # a quarter of a second is too short for a result
     for each in usages:
         each.poll(2.05)
     assert [each.share for each in usages] == [0.0, 0.0, 0.0]

@@ -31,7 +31,7 @@ def sent_when_connected(*requests: tuple[bool, str]) -> list[tuple[bool, str]]:
 
 
 def test_automatic_stop_does_not_replace_a_persons_stop_that_is_waiting_for_the_link() -> None:
-    """Only the person's outlives the robot's nodes."""
+    """Only the person's stop outlives the robot's nodes."""
     person, own = (True, BY_PERSON), (True, REASON)
     assert sent_when_connected(person, own, person) == [person, own]
     assert sent_when_connected(own, person) == [own, person]

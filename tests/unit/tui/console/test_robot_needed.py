@@ -1,4 +1,4 @@
-"""What nodes need from a missing robot, by the resolved names and types of the graph."""
+"""The topics of a missing robot that nodes need, by the resolved names and types of the graph."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from sensor_msgs.msg import LaserScan
 
 
 class Nodes:
-    """Makes nodes that subscribe to topics and publish them."""
+    """Makes nodes that subscribe to topics or publish them."""
 
     def __init__(self) -> None:
         self._context = Context()

@@ -1,4 +1,4 @@
-"""The connection that stops the robot exists before everything else in a console, and outlives every other part."""
+"""The connection that stops the robot is the first of a console, and outlives every other part."""
 
 from __future__ import annotations
 

@@ -74,7 +74,7 @@ def test_text_that_cannot_be_encoded_does_not_prevent_a_stop(
 
 
 def encoding(publish: Callable[[DiagnosticStatus], None]) -> Callable[[DiagnosticStatus], None]:
-    """Publish as if to another process, for which every message is encoded."""
+    """Publish as if to another process, which needs every message serialized."""
 
     def encoded(message: DiagnosticStatus) -> None:
         publish(deserialize_message(serialize_message(message), DiagnosticStatus))

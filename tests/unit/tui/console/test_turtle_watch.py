@@ -28,7 +28,7 @@ class Watched:
         self.graph = GraphWatch(self.node, self.world.follow)
 
     def spin_until(self, done: object) -> None:
-        """Spin until a condition holds; the test's timeout ends it if that never happens."""
+        """Spin until a condition holds; if that never happens, the test's timeout ends it."""
         while not done():  # type: ignore[operator]
             self.executor.spin_once(timeout_sec=0.1)
             self.graph.poll()

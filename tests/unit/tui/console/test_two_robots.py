@@ -111,7 +111,7 @@ class Robots:
         self.follow("", "/robot2")
 
     def follow(self, *spaces: str) -> None:
-        """Set the robots of the graph."""
+        """Set the robots in the graph."""
         found = tuple(
             node(
                 f"{space}/base",

@@ -1,4 +1,4 @@
-"""Values that JSON allows and no writer of ours produces are left out where the program's own files are read."""
+"""The program's own files are read without values that JSON allows but we never write."""
 
 from __future__ import annotations
 

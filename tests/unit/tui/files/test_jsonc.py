@@ -1,4 +1,4 @@
-"""Settings of editors: strings are added to a list, and everything else stays as it was, comments too."""
+"""Settings of editors: strings are added to a list, and everything else stays as it was, including comments."""
 
 from __future__ import annotations
 

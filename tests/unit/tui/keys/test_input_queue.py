@@ -32,7 +32,7 @@ def merged(*messages: Message) -> list[Message]:
 
 
 class Loop:
-    """An event loop that does what was scheduled when it is told to."""
+    """An event loop that runs scheduled functions when the test says so."""
 
     def __init__(self) -> None:
         self.due: deque[Any] = deque()
@@ -44,7 +44,7 @@ class Loop:
 
 
 class App:
-    """An app that keeps its messages until it is told to handle them."""
+    """An app that keeps its messages until the test lets it handle them."""
 
     def __init__(self) -> None:
         self.messages: list[Any] = []
@@ -59,7 +59,7 @@ class App:
         return self.post_message(call)
 
     def handle(self) -> list[Message]:
-        """Handle all messages; returns those that were events."""
+        """Handle all messages; return those that were events."""
         seen: list[Message] = []
         while self.messages:
             message = self.messages.pop(0)

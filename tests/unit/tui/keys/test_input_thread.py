@@ -1,4 +1,4 @@
-"""Keys come through, and the thread that takes them ends when it is asked to, not when it happens to look."""
+"""Keys arrive, and the reading thread ends as soon as it is asked to, not at its next timeout."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class Rig:
         self.came.release()
 
     def types(self, data: bytes, count: int = 1) -> list[str]:
-        """The keys of the events that come of it."""
+        """Type bytes; return the keys of the resulting events."""
         before = len(self.events)
         os.write(self.master, data)
         for _ in range(count):
@@ -50,14 +50,14 @@ class Rig:
         return [each.key for each in self.events[before:]]
 
     def end(self) -> bool:
-        """As a driver ends it; whether it has ended."""
+        """End the thread as a driver does; return whether it has ended."""
         self.driver.exit_event.set()
         self.thread.join(TIMEOUT_S)
         self.driver.exit_event.clear()
         return not self.thread.is_alive()
 
     def close(self) -> None:
-        """Let go of the terminal, whose other end may be closed."""
+        """Close the terminal, whose other end may be closed already."""
         os.close(self.slave)
         if not self.gone:
             os.close(self.master)
@@ -65,7 +65,7 @@ class Rig:
 
 @pytest.fixture
 def rig(monkeypatch: pytest.MonkeyPatch) -> Iterator[Rig]:
-    monkeypatch.setattr(input_thread, "ESCAPE_TIMEOUT_S", 10 * TIMEOUT_S)  # who waits for the next look never ends
+    monkeypatch.setattr(input_thread, "ESCAPE_TIMEOUT_S", 10 * TIMEOUT_S)  # a thread that waits for it never ends
     rig = Rig()
     yield rig
     rig.end()

@@ -1,4 +1,4 @@
-"""Bytes from a terminal are split into text, sequences and pastes, wherever they are broken off."""
+"""Bytes from a terminal are split into text, sequences and pastes, wherever they are interrupted."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ INPUT = st.lists(PIECES, max_size=12).map(b"".join)
 
 
 def fed(data: bytes, cuts: list[int] | None = None) -> list[Piece]:
-    """What becomes of bytes that arrive in parts, and of nothing after them for a long time."""
+    """The pieces of bytes that arrive in parts, followed by a long silence."""
     splitter = Splitter()
     ends = [0, *sorted(cuts or []), len(data)]
     pieces = [piece for a, b in itertools.pairwise(ends) for piece in splitter.feed(data[a:b], 0.0)]
@@ -42,7 +42,7 @@ def fed(data: bytes, cuts: list[int] | None = None) -> list[Piece]:
 
 
 def joined(pieces: list[Piece]) -> list[tuple[Kind, str]]:
-    """Texts that follow each other count as one."""
+    """Pieces with adjacent texts joined."""
     return [
         (kind, "".join(text for _, text in same) if kind is Kind.TEXT else each)
         for kind, same in itertools.groupby(pieces, lambda piece: piece.kind)

@@ -1,4 +1,4 @@
-"""The events of what a terminal sends; keys that stop the robot are noticed first, and nothing else is a stop."""
+"""The events of terminal input; keys that stop the robot are noticed first, and nothing else is a stop."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ def is_stop(event: events.Key) -> bool:
 
 
 def facts(event: Any) -> tuple[Any, ...]:
-    """What tells two events apart."""
+    """The properties that distinguish two events."""
     names = ("key", "character", "text", "x", "y", "button")
     return type(event), *(getattr(event, each, None) for each in names)
 
 
 class Reader:
-    """Feeds bytes, and collects the events and what was noticed."""
+    """Feeds bytes, and collects the events and the stops that were noticed."""
 
     def __init__(self) -> None:
         self.noticed: list[tuple[events.Key, bool]] = []

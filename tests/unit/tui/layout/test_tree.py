@@ -1,4 +1,4 @@
-"""Trees of splits: whatever is done to them, each pane stands once and the screen is filled without a gap."""
+"""Trees of splits: after any change each pane occurs once, and the screen is filled without a gap."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ SCREEN = Box(0, 0, 160, 50)
 
 @st.composite
 def changed_trees(draw: st.DrawFn) -> Tree:
-    """What comes of any row of changes."""
+    """Trees after any sequence of changes."""
     tree: Tree = "a"
     for _ in range(draw(st.integers(0, 12))):
         pane, other = draw(st.sampled_from(NAMES)), draw(st.sampled_from(NAMES))

@@ -1,4 +1,4 @@
-"""A pane that would stay empty gives its place in a layout to another."""
+"""A pane that would stay empty leaves its place in a layout to another."""
 
 from __future__ import annotations
 

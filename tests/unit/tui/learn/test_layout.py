@@ -1,4 +1,4 @@
-"""A layout that is saved beside a lesson can be read again, also by a console without one."""
+"""A layout that is saved beside a lesson can be loaded again, also by a console without a lesson."""
 
 from __future__ import annotations
 

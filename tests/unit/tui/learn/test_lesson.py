@@ -1,4 +1,4 @@
-"""A step is done when its deeds were seen and its states hold, and only then."""
+"""A step is done when its actions were seen and its states hold, and only then."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ setup(
 
 
 class Clock:
-    """Time that goes on by more than the interval between two polls of the files with each reading."""
+    """Time that advances with each reading, by more than the interval between two polls of the files."""
 
     now = 0.0
 
@@ -370,7 +370,7 @@ def test_commands_of_other_terminals_count(tmp_path: Path) -> None:
 
 
 def deed(condition: Condition, deeds: Deeds) -> bool:
-    """Do what a condition asks for; False for states of files."""
+    """Do what a condition asks for; return False for states of files."""
     words = [each.replace("*", "x") for each in condition.words]
     name = words[0] if words else ""
     match condition.verb:
@@ -417,7 +417,7 @@ def test_each_deed_of_the_course_counts_and_is_asked_for_when_left_out(step: Ste
 
 
 def _same_deed(left_out: Condition | None, others: list[Condition]) -> bool:
-    """Whether another condition of the step asks for a deed that is also this one."""
+    """Whether another condition of the step asks for the same action."""
     assert left_out is not None
     deeds = Deeds()
     for each in others:

@@ -1,4 +1,4 @@
-"""Each step of the course answers a typical mistake: the step stays open, and its text says what to do about it."""
+"""Each step of the course answers a typical mistake: the step stays open, and its text says what to do."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MANIFEST = "<package><name>intelligent_robot</name><export><build_type>ament_pyt
 
 
 class Mistake(NamedTuple):
-    """What a student has done, and what the step says to it."""
+    """What a student has done, and the step's response."""
 
     answer: str
     commands: Sequence[Command] = ()

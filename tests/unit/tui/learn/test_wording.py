@@ -1,4 +1,4 @@
-"""What a step waits for, and what is done of it, is said in plain English."""
+"""What a step waits for, and what has been done, is described in plain English."""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ WIDTH, HEIGHT = 40, 20
 
 
 def drawing(*lines: tuple[int, int, int], background: tuple[int, int, int] = (69, 86, 255)) -> Drawing:
-    """A drawing with a line of each colour along a row, at a third, two thirds ... of the height."""
+    """A drawing with a horizontal line of each colour, at equal distances from top to bottom."""
     pixels = np.zeros((500, 500, 4), np.uint8)
     pixels[:] = (*background, 0)
     for number, color in enumerate(lines, 1):

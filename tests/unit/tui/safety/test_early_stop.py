@@ -1,4 +1,4 @@
-"""A stop key holds the robot where it is read, under an id of its own, and only text takes that back."""
+"""A stop key holds the robot as soon as it is read, under a separate id, unless it turns out to be text."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from textual import events
 
 
 class Rig:
-    """An early stop, and a robot that notes what is asked of it."""
+    """An early stop, and a robot that records its requests."""
 
     def __init__(self, *, attached: bool = True) -> None:
         self.idle, self.typing, self.now = True, False, 0.0
@@ -26,7 +26,7 @@ class Rig:
         self.early.attach(self, lambda: self.asked.append("stop"), lambda: self.own)
 
     def held_by(self, *ids: str, shown: bool = True) -> None:
-        """The console's stops have changed, and unless `shown` is false the screen says so."""
+        """Change the console's stops, and unless `shown` is false let the screen show them."""
         self.own = frozenset(ids)
         self.shown = self.own if shown else self.shown
 

@@ -36,7 +36,7 @@ def test_edit_is_announced_with_the_key_that_takes_it_back(news: SafetyNews, con
 
 
 def test_value_that_a_refused_set_has_taken_back_is_not_announced(news: SafetyNews, console: FakeConsole) -> None:
-    console.set_parameters(NODE, {"max_speed": 0.9})  # This is what undo would take back.
+    console.set_parameters(NODE, {"max_speed": 0.9})  # Undo would take this back.
     console.take(NODE, {"safety_distance": 0.4}, ChangeSource.EDIT, atomically=True)
     assert reported(news, console) == []
     console.take(NODE, {"safety_distance": 0.8}, ChangeSource.ROLLBACK, atomically=True)

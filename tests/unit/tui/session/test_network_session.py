@@ -24,7 +24,7 @@ from rigs import until
 
 
 class Connection:
-    """Stands for the connection to a router: the robot is in this process."""
+    """Replaces the connection to a router: the robot is in this process."""
 
     def other_domains(self, domain: int) -> str:
         return ""
@@ -44,7 +44,7 @@ def test_console_on_a_network_finds_the_node_that_hangs(monkeypatch: pytest.Monk
     silent: list[tuple[str, ...]] = []
 
     class Screen:
-        """A session in which somebody looks at the Graph pane until a node is silent."""
+        """A session in which the Graph pane is visible until a node is silent."""
 
         def __init__(self, console: RosConsole, *_: Any, **__: Any) -> None:
             self._console = console

@@ -34,7 +34,7 @@ def own_environment(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 
 @pytest.fixture
 def started(monkeypatch: pytest.MonkeyPatch) -> list[tuple[Any, ...]]:
-    """The arguments of the sessions that are started: none is shown."""
+    """The arguments of the sessions that are started; none is shown."""
     sessions: list[tuple[Any, ...]] = []
 
     class Started:
@@ -53,7 +53,7 @@ def started(monkeypatch: pytest.MonkeyPatch) -> list[tuple[Any, ...]]:
 
 
 class Closed:
-    """Stands for a connection."""
+    """Replaces a connection."""
 
     def other_domains(self, domain: int) -> str:
         return ""

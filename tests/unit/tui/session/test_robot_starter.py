@@ -7,7 +7,7 @@ from geometry_msgs.msg import Twist
 from rclpy.context import Context
 
 OWN_DOMAIN = 91
-"""A domain in which no node of another test of this process is met."""
+"""A domain that contains no node of another test of this process."""
 POLLS = int(SETTLED_S / GRAPH_POLL_S) + 2
 """Polls of an unchanged graph until its nodes count as up."""
 
@@ -37,7 +37,7 @@ def polled(beside, node):
 
 @pytest.fixture
 def beside():
-    """Makes a starter for a launch of so many processes, with so many nodes of other programs before it."""
+    """Makes a starter for a launch of `processes` programs, beside nodes of other programs that were there before."""
     return lambda processes, others: RobotStarter(
         System(lambda: (processes, 0), lambda text: None, lambda arguments: None, others), {}
     )

@@ -57,7 +57,7 @@ def test_unmatched_quotation_mark_is_reported():
 
 
 class Launches(FakeLauncher):
-    """Keeps what it is asked to launch."""
+    """Keeps the launch requests that it receives."""
 
     def __init__(self, answer: Answer) -> None:
         super().__init__()

@@ -24,7 +24,7 @@ TIMEOUT_S = 240.0
 def test_second_start_waits_for_the_first(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     waits, lock, seen = threading.Event(), tmp_path / "lock", list[str]()
     monkeypatch.setattr(module.time, "sleep", lambda seconds: waits.set())
-    monkeypatch.setattr(module, "SIGNALS", [])  # Only a main thread may hold these back.
+    monkeypatch.setattr(module, "SIGNALS", [])  # Only a main thread may block these signals.
 
     def second() -> None:
         with start_lock(lock, TIMEOUT_S) as got:
@@ -46,7 +46,7 @@ def test_wait_for_another_start_ends_at_its_timeout(tmp_path: Path) -> None:
 
 @pytest.fixture
 def started(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[object]:
-    """What `up` starts: nothing real; recorded by the number of this process."""
+    """Replaces the process that `up` starts; records this process's id instead."""
     calls: list[object] = []
 
     def start(words: object, **_: object) -> SimpleNamespace:

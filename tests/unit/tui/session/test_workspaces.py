@@ -1,4 +1,4 @@
-"""Whose package is run if two have the same name."""
+"""Which package is run if two have the same name."""
 
 from __future__ import annotations
 

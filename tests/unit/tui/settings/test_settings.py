@@ -1,4 +1,4 @@
-"""The settings file: what it says is done, what it says wrongly is named, and neither stops a start."""
+"""The settings file: valid settings are applied, invalid ones are named, and neither prevents a start."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 @pytest.fixture
 def table(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The key table as it is, whatever a test makes of it."""
+    """Restores the key table after a test has changed it."""
     for scope, keys in list(TABLE.items()):
         monkeypatch.setitem(TABLE, scope, keys)
 

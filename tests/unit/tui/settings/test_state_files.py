@@ -1,4 +1,4 @@
-"""What panes keep is there in the next run; what cannot be read is as if it had never been."""
+"""The saved state of panes is there in the next run; unreadable state is ignored."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Texts that were cut are not kept for hours."""
+"""The cache of cut texts stays bounded."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""No character that acts on a terminal comes out of what is drawn, whoever has drawn it."""
+"""Nothing that is drawn contains a character that acts on a terminal, whoever has drawn it."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def test_symbols_of_the_console_do_not_cause_the_rest_of_a_line_to_be_written_ag
 
 
 def rewritten(*texts: Text) -> str:
-    """What is written for the last of several contents of a line."""
+    """The output for the last of several contents of a line."""
     screen = ShownScreen()
     screen.forget(80, 1)
     written = ""

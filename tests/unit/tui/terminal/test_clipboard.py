@@ -1,4 +1,4 @@
-"""What is sent to the clipboard: nothing in it acts on the terminal, and it is never too long."""
+"""Text for the clipboard: nothing in it acts on the terminal, and it is never too long."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A terminal that takes nothing any more does not keep the program from ending."""
+"""A terminal that accepts nothing any more does not keep the program from ending."""
 
 from __future__ import annotations
 

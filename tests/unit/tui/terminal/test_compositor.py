@@ -1,4 +1,4 @@
-"""What is composed of changed parts is what Textual composes of them; and no line is asked for that nobody sees."""
+"""Changed parts are composed as by Textual, and only visible lines are rendered."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ WIDTH, HEIGHT = 40, 12
 
 
 class Counted(Static):
-    """Counts the lines that it is asked for."""
+    """Counts the lines that are requested of it."""
 
     asked = 0
 
@@ -54,7 +54,7 @@ class Panes(App[None]):
 
 
 def pieces(update: Any) -> dict[tuple[int, int], list[tuple[str, Any]]]:
-    """What is drawn in the spans of an update: the segments of each piece, by line and column."""
+    """The segments drawn in the spans of an update, by line and column."""
     assert isinstance(update, ChopsUpdate)
     found = {}
     for y, begin, end in update.spans:
@@ -66,7 +66,7 @@ def pieces(update: Any) -> dict[tuple[int, int], list[tuple[str, Any]]]:
 
 
 def both(compositor: Any, *regions: Region) -> tuple[Any, Any]:
-    """What of these regions comes from us, and from Textual."""
+    """The update for these regions from our compositor, and from Textual's."""
     compositor._dirty_regions.update(regions)
     ours = pieces(compositor.render_partial_update())
     compositor._dirty_regions.update(regions)

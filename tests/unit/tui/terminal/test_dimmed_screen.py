@@ -1,4 +1,4 @@
-"""What is seen of the panes around a box that lies over them is what Textual shows of them; less is asked for."""
+"""The panes around a box are drawn as Textual draws them, and fewer lines are rendered."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ SIZE = (40, 12)
 
 
 class Counted(Static):
-    """Notes the lines that it is asked for."""
+    """Records the lines that are requested of it."""
 
     asked: list[int]
 
@@ -44,7 +44,7 @@ class Box(DimmedScreen):
 
 
 class Panes(App[None]):
-    """Frames beside each other, with colours, a link and letters of two cells."""
+    """Frames beside each other, with colours, a link and characters of two cells."""
 
     CSS = """
     Container { width: 1fr; height: 1fr; border: round green; background: $panel; }
@@ -66,7 +66,7 @@ class Panes(App[None]):
 
 
 def drawn(update: Any) -> list[list[tuple[str, Style | None]]]:
-    """Each cell of each line of an update, with its style but for the ids of links, which are chance."""
+    """Each cell of each line of an update, with its style but without the random ids of links."""
     return [
         [(character, each.style and each.style.clear_meta_and_links()) for each in strip for character in each.text]
         for strip in (Strip.join(line) for line in update.strips)
@@ -74,7 +74,7 @@ def drawn(update: Any) -> list[list[tuple[str, Style | None]]]:
 
 
 def links(update: Any) -> bool:
-    """Whether anything that is drawn leads somewhere."""
+    """Whether anything that is drawn is a link."""
     return any(each.style and each.style.link for line in update.strips for strip in line for each in strip)
 
 

@@ -1,4 +1,4 @@
-"""When a frame may be drawn, on a clock that is moved by hand."""
+"""When a frame may be drawn, by a clock that the test steps."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whatever the terminal answers after the console has left it does not reach the shell."""
+"""Answers of the terminal that arrive after the console has left it do not reach the shell."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ OWED = b"\x1b[12;1R"
 
 
 class Driver:
-    """Stands for Textual's: keeps what was done, in order."""
+    """Replaces Textual's driver: records the calls in order."""
 
     def __init__(self, descriptor: int, far: int, answer: bytes) -> None:
         self.fileno = descriptor

@@ -1,4 +1,4 @@
-"""What reaches the terminal: after every frame it shows what Textual has composed; none comes while it is busy."""
+"""After every frame the terminal shows what Textual has composed; no frame is sent while it is busy."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ WIDTH, HEIGHT = 40, 8
 
 
 class HostListener(AnswerGate):
-    """A gate that is opened and closed by hand."""
+    """A gate that the test opens and closes."""
 
     closed = False
 
@@ -33,7 +33,7 @@ class HostListener(AnswerGate):
 
 
 class Wire(HeadlessDriver):
-    """Leads to the terminal that the app has in the test."""
+    """The connection to the test's terminal."""
 
     is_headless = False
 
@@ -76,7 +76,7 @@ class Panes(SparingApp):
         self.query_one(f"#{side}", Static).update(text, layout=False)
 
     def composed(self) -> list[str]:
-        """What stock Textual would draw now."""
+        """The lines that stock Textual would draw now."""
         return [strip.text for strip in self.screen._compositor.render_strips()]
 
 
@@ -223,7 +223,7 @@ def test_what_changes_just_before_a_held_frame_is_drawn_is_not_lost(over: bool) 
         first.update("held", layout=False)
         await pilot.pause()
         second.update("late", layout=False)
-        for _ in range(100):  # Textual has noticed, and not looked yet
+        for _ in range(100):  # Textual has noticed the change, but not processed it yet
             if second not in app.screen._dirty_widgets:
                 await asyncio.sleep(0)
         app.gate.closed = False

@@ -1,4 +1,4 @@
-"""Parts of a widget are styled when they are drawn, and again whenever that widget is styled again."""
+"""Component styles of a widget are computed when they are drawn, and again whenever that widget is styled again."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from textual.widget import Widget
 
 
 class Parts(StyledByPart):
-    """A widget of two parts."""
+    """A widget with two component classes."""
 
     COMPONENT_CLASSES: ClassVar[set[str]] = {"parts--first", "parts--second"}
 

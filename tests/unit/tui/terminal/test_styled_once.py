@@ -1,4 +1,4 @@
-"""What an app does at its start and not again."""
+"""Work that an app does at its start and not again."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from textual.widgets import Static
 
 
 class Plain(StyledOnceApp):
-    """An app of one line."""
+    """An app with one line."""
 
     CSS = "Static { color: $accent; }"
 

@@ -1,4 +1,4 @@
-"""Leaving the terminal: the editor and its line, and a robot that is held before the console sleeps."""
+"""Leaving the terminal: the editor command with its line, and a robot that is held before the console is suspended."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def test_missing_editor_or_file_is_reported(file: str, environment: dict[str, st
 
 
 class Shell:
-    """Stands for the app: keeps what was done, in order."""
+    """Replaces the app: records the calls in order."""
 
     def __init__(self) -> None:
         self.done: list[str] = []
@@ -115,7 +115,7 @@ def test_console_that_may_not_release_does_not_hold_the_robot() -> None:
 
 
 class Driver:
-    """Stands for Textual's driver: keeps what was done, in order."""
+    """Replaces Textual's driver: records the calls in order."""
 
     def __init__(self) -> None:
         self.done: list[str] = []
@@ -134,7 +134,7 @@ class Driver:
 
 
 def with_driver(play: Callable[[Driver], Coroutine[None, None, None]]) -> None:
-    """Play a scene with a driver that takes up again; nothing is set up at first."""
+    """Play a scene with a driver that can be resumed; nothing is set up at first."""
 
     async def main() -> None:
         driver = Driver()

@@ -1,4 +1,4 @@
-"""A terminal that goes away does not keep anybody waiting."""
+"""A terminal that goes away blocks nobody."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ TIMEOUT_S = 240.0
 
 def test_the_writer_outlives_its_terminal() -> None:
     far, near = pty.openpty()
-    with contextlib.suppress(OSError), os.fdopen(near, "w") as file:  # closing writes what is left, to nobody
+    with contextlib.suppress(OSError), os.fdopen(near, "w") as file:  # closing writes the rest, to nobody
         lasting = TerminalFile(file)
         writer = WriterThread(lasting)
         writer.start()

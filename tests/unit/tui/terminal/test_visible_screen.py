@@ -1,4 +1,4 @@
-"""What is hidden is not laid out and not drawn, and is whole when it is shown."""
+"""A hidden widget is neither laid out nor drawn, and is complete when it is shown."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from textual.widgets import Static
 
 
 class Panes(App[None]):
-    """Two panes of which the second is hidden, on a screen that counts how often it is laid out and drawn."""
+    """Two panes, the second of them hidden, on a screen that counts how often it is laid out and drawn."""
 
     CSS = "Container { width: 1fr; } Static { height: auto; }"
 
@@ -27,7 +27,7 @@ class Panes(App[None]):
         self.laid_out = self.drawn = 0
 
     def get_default_screen(self) -> Screen[None]:
-        """One of a kind, counting."""
+        """The counting screen."""
         app = self
 
         class Counting(self._kind):
@@ -50,7 +50,7 @@ class Panes(App[None]):
                 yield Static("a")
 
     def lines(self) -> list[str]:
-        """What is on the screen."""
+        """The lines on the screen."""
         return [strip.text for strip in self.screen._compositor.render_strips()]
 
 
@@ -58,7 +58,7 @@ Play = Callable[[Panes, Pilot[None]], Awaitable[None]]
 
 
 def played(play: Play, kind: type[Screen[None]] = VisibleScreen) -> tuple[int, int, list[str]]:
-    """How often a play lets the screen be laid out and drawn, and what is seen at its end."""
+    """How often a play has the screen laid out and drawn, and the lines at its end."""
 
     async def main() -> tuple[int, int, list[str]]:
         app = Panes(kind)

@@ -22,13 +22,13 @@ QUESTION = TuningSpecification(
 
 
 def report(trial: Trial) -> dict[str, Any]:
-    """Faster is better, until it collides; seeds differ a little."""
+    """The report of a run: faster is better until it collides, and seeds differ a little."""
     speed = float(trial.setting[0])
     return {"mean_speed": speed + 0.01 * trial.seed, "collisions": int(speed > 3)}
 
 
 class Instant:
-    """A runner whose runs end at once; `fail` are seeds whose runs do."""
+    """A runner whose runs end at once; `fail` names the seeds whose runs fail."""
 
     def __init__(self, fail: tuple[int, ...] = ()) -> None:
         self.begun: list[Trial] = []

@@ -1,4 +1,4 @@
-"""Scores: formulas over a run's report, refused before the first run where they cannot be right."""
+"""Scores: formulas over a run's report; a formula that cannot be right is refused before the first run."""
 
 from __future__ import annotations
 

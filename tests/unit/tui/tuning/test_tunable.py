@@ -1,4 +1,4 @@
-"""Tunables: values within a range, and the words that name them."""
+"""Tunables: values within a range, and the arguments that name them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A braille canvas: the dots of cells as codes and letters, and several canvases as one picture."""
+"""A braille canvas: the dots of cells as codes and characters, and several canvases as one picture."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from bot_console.tui.widgets.braille import BITS, BrailleCanvas, layered
 
 
 def codes_by_dot(dots, width, height):
-    """The codes as the Unicode standard has them: a bit for each dot."""
+    """The codes according to the Unicode standard: a bit for each dot."""
     codes = np.zeros((height, width), np.uint8)
     for row, column in zip(*np.nonzero(dots), strict=True):
         codes[row // 4, column // 2] |= BITS[row % 4, column % 2]
@@ -16,7 +16,7 @@ def codes_by_dot(dots, width, height):
 
 
 def pieces_by_cell(layers, styles, across):
-    """A row at a time and a cell at a time: blanks belong to the run before them, leading ones to the first run."""
+    """Row by row and cell by cell: a blank belongs to the run before it, leading ones to the first run."""
     rows = []
     for cells in zip(*layers, strict=True):
         pieces = []

@@ -1,4 +1,4 @@
-"""The drawing of a graph: small ones exactly, loops, and what never may happen."""
+"""The drawing of a graph: small ones exactly, loops, and invariants of all drawings."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ KIND = ("a/msg/B",)
 
 
 def chart(*links: str) -> Chart:
-    """Links such as `a>b: word word`; a box `a|b` has two members."""
+    """Make a chart of links such as `a>b: word word`; a box `a|b` has two members."""
     found: list[ChartLink] = []
     for each in links:
         ends, _, words = each.partition(": ")

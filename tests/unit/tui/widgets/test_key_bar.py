@@ -1,4 +1,4 @@
-"""Which keys the last line names where not all have room."""
+"""Which keys the key bar names if there is no room for all."""
 
 from __future__ import annotations
 

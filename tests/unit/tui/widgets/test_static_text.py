@@ -1,4 +1,4 @@
-"""A text of several lines: those that stay the same are not drawn anew, and what is seen is what was said last."""
+"""A text of several lines: unchanged lines are not drawn again, and the screen shows the latest text."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The status line: what is worth the little room, the reason first."""
+"""The status line: what deserves the limited room, the reason first."""
 
 from __future__ import annotations
 

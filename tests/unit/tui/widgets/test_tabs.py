@@ -1,4 +1,4 @@
-"""The line of tabs: titles as long as there is room for, and never other words."""
+"""The line of tabs: full titles if there is room, otherwise their first characters."""
 
 from __future__ import annotations
 

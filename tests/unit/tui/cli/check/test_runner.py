@@ -1,4 +1,4 @@
-"""Steps on a system: a true expectation passes at once or in time, a failed one reports what is true instead."""
+"""Steps on a system: a true expectation passes at once or in time, a failed one reports the actual state."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ NAVIGATOR = "/robot_navigator"
 
 
 class System:
-    """The sample system, on a clock that advances only when somebody sleeps."""
+    """The sample system, with a clock that advances only when somebody sleeps."""
 
     def __init__(self) -> None:
         self.console: FakeConsole = live()[0]

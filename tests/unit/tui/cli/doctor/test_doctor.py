@@ -148,7 +148,7 @@ def test_topic_with_two_types_is_reported_as_such(node) -> None:
 
 
 def run(*words: str) -> subprocess.CompletedProcess[str]:
-    line = [sys.executable, "-m", "bot_console.tui", "doctor", *words]  # which chooses another rclpy while it starts
+    line = [sys.executable, "-m", "bot_console.tui", "doctor", *words]  # this chooses another rclpy while it starts
     return subprocess.run(line, capture_output=True, text=True, timeout=240, check=False)
 
 

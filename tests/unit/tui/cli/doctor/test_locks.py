@@ -1,4 +1,4 @@
-"""The doctor says that an emergency stop answers only if every lock has answered, and changes nothing by asking."""
+"""The doctor says that an emergency stop answers only if every lock has answered, and its requests change nothing."""
 
 from __future__ import annotations
 

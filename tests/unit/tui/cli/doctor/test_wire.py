@@ -1,6 +1,4 @@
-"""What the doctor reads off the wire: tokens, attachments of old releases, clocks; a capture can be used as a
-fixture.
-"""
+"""What the doctor reads off the wire: tokens, old attachments, clocks; and captures that can be used as fixtures."""
 
 import itertools
 import json
@@ -52,7 +50,7 @@ def robot(place):
 
 
 def watched(place, publishing=lambda: None):
-    """What the doctor sees while something is published repeatedly."""
+    """What the doctor sees while `publishing` is called repeatedly."""
     import threading
 
     session, ended = open_network_session(0, Way((place,))), threading.Event()

@@ -1,4 +1,4 @@
-"""The tuner of a console: what it refuses, and that closing ends its runs."""
+"""The tuner of a console: its refusals, and that closing ends its runs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Runs in their own processes: the report equals that of the same headless run; a refused value is a failed run."""
+"""Runs in separate processes: the report equals that of the same headless run; a refused value is a failed run."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How long a player waits for the subscriptions to what it plays."""
+"""How long a player waits for subscriptions to its topics."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from bot_console.tui.console.bags.playing.discovery import MIN_S, TIMEOUT_S, awa
 
 
 class Waits(threading.Event):
-    """Adds up the time that is waited, and does not wait."""
+    """Adds up the waiting times, and does not wait."""
 
     waited = 0.0
 

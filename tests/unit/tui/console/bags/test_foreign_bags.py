@@ -1,4 +1,4 @@
-"""Bags that other programs wrote: compressed, without index, in parts; and files that only look like bags."""
+"""Bags written by other programs: compressed, without an index, in parts; and files that only look like bags."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def write_mcap(path: Path, order: list[int] | None = None, schema: str = "std_ms
 
 
 def drop_summary(path: Path) -> Path:
-    """The same file as a writer leaves it that knows of no summary."""
+    """The same file as written by a program that writes no summary."""
     whole = path.read_bytes()
     (summary,) = struct.unpack_from("<Q", whole, len(whole) - 28)
     data_end = whole.rindex(b"\x0f" + struct.pack("<Q", 4), 0, summary or len(whole))
@@ -260,7 +260,7 @@ UNREADABLE = {
     "it ends after": ("a.db3.zstd", zstandard.ZstdCompressor().compress(bytes(range(256)) * 4)[:-5]),
     "is not known here": ("a.mcap", b""),
 }
-"""What is reported, a name, and what the file contains."""
+"""The reported text, a file name, and the content of the file."""
 
 
 @pytest.mark.parametrize("words", [["info"], ["play"], ["open"]])

@@ -1,4 +1,4 @@
-"""A player that is paused, stepped, moved and changed in speed, and what it publishes then."""
+"""A player that is paused, stepped, moved and changed in speed, and what it publishes."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ WAIT_S = 240
 
 
 class Published:
-    """Stands for a node: keeps what is published, in order."""
+    """Replaces the publishing node: keeps what is published, in order."""
 
     def __init__(self) -> None:
         self.messages: queue.Queue[tuple[str, int]] = queue.Queue()
@@ -64,7 +64,7 @@ def bag(tmp_path: Path) -> Bag:
 
 @contextmanager
 def playing(bag: Any, **how: Any) -> Iterator[tuple[Player, Published, Callable[[], None]]]:
-    """A player that runs; the third value waits for its end."""
+    """A running player; the third value waits for its end."""
     published, stopped = Published(), threading.Event()
     player = Player(published, bag, PlaybackOptions(**how), class_of)  # type: ignore[arg-type] -- it only publishes
     thread = threading.Thread(target=player.run, args=[stopped], daemon=True)

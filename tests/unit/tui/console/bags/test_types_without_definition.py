@@ -1,6 +1,6 @@
-"""Topics whose type has no definition here are recorded as they are, and played back byte by byte.
+"""Topics whose type has no definition here are recorded as raw bytes, and played back byte by byte.
 
-The other side is a captured node of rmw_zenoh_cpp behind a router, whose type nobody here knows.
+The other side is a captured node of rmw_zenoh_cpp behind a router, whose type is unknown here.
 """
 
 from __future__ import annotations
@@ -79,7 +79,7 @@ def node(way: Way) -> Iterator[Any]:
 
 
 class NotingWriter(BagWriter):
-    """Knows the last message."""
+    """A writer that keeps the last message."""
 
     last = b""
 
@@ -89,7 +89,7 @@ class NotingWriter(BagWriter):
 
 
 def sent(payloads: Iterable[bytes]) -> list[bytes]:
-    """Without the messages from before the subscription was known."""
+    """The payloads without the messages from before the subscription was known."""
     return [each for each in payloads if each != FIRST]
 
 
@@ -103,7 +103,7 @@ def recorded(folder: Path, node: Any, talker: CapturedNode, storage: str = "mcap
     )
 
     def begun() -> bool:
-        talker.send(FIRST)  # again and again: it does not know when the subscription has reached it
+        talker.send(FIRST)  # repeatedly, since the node does not know when the subscription has reached it
         made.turn()
         return writer.last != b""
 

@@ -1,4 +1,4 @@
-"""Bags as they can be written: storages, several files, compression, further facts, converted and reindexed."""
+"""The ways to write bags: storages, several files, compression, additional metadata, conversion and reindexing."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def numbers(bag: Bag) -> list[int]:
 
 
 def by_rosbags(folder: Path) -> list[int]:
-    """The same, read by another library."""
+    """Read the same bag with another library."""
     highlevel = pytest.importorskip("rosbags.highlevel")
     with highlevel.AnyReader([folder]) as reader:
         assert reader.message_count == COUNT + 1

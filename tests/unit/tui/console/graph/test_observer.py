@@ -1,4 +1,4 @@
-"""The node that reads the graph is replaced when its middleware has lost the names of nodes that are there."""
+"""The node that reads the graph is replaced when its middleware has lost the names of existing nodes."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bot_console.tui.console.graph.observer import DISCOVERY_POLLS, TOPIC, UNNAM
 
 
 class Seen:
-    """A node that knows some nodes, and a number of endpoints without any."""
+    """A node that knows some nodes, and some endpoints that belong to none."""
 
     def __init__(self, *names: str, unnamed: int = 0) -> None:
         self.names = list(names)
@@ -61,7 +61,7 @@ def test_another_node_is_used_once_it_knows_all_nodes(observer: Observer, made: 
     other.names = ["console", "arm", "base"]
     observer.poll()
     assert observer.node is other
-    other.unnamed = 1  # and so on, if a node is lost again
+    other.unnamed = 1  # and again, if another node is lost
     for _ in range(UNNAMED_POLLS):
         observer.poll()
     made[1].names = ["console", "arm", "base"]

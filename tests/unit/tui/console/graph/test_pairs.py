@@ -1,6 +1,4 @@
-"""Reports of endpoints whose messages do not pass name the nodes, the reason and a remedy; other pairs are not
-mentioned.
-"""
+"""Reports of endpoints whose messages do not pass name the nodes, the reason and a remedy; others are not listed."""
 
 from types import SimpleNamespace
 

@@ -30,7 +30,7 @@ class Graph:
         self.learned += 1
 
     def has(self, *nodes: str, types: tuple[str, ...] = (SPOT,)) -> None:
-        """These nodes publish the types; another node uses a type that is available here."""
+        """Let these nodes publish the types; another node uses a type that is available here."""
         self._nodes = nodes
         topics = (Endpoint("/spots", types), Endpoint("/words", ("std_msgs/msg/String",)))
         self.reported.follow(GraphInfo(tuple(NodeInfo(each) for each in nodes), topics))

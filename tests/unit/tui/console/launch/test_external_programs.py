@@ -1,4 +1,4 @@
-"""Programs of other terminals: found by their nodes, named by who started them, and not found twice."""
+"""Programs of other terminals: found by their nodes, named after the program that started them, and listed once."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Machine:
             self.nodes[pid] = nodes
 
     def found(self, launch: LaunchInfo = NOTHING) -> tuple[ProcessInfo, ...]:
-        """What is found a second later."""
+        """The programs that are found a second later."""
         self.now += 1.0
         return self.search.merged_with(launch).processes
 

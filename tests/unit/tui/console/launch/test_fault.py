@@ -1,4 +1,4 @@
-"""Why a launch file cannot be run, both if launch records what it was doing and if it does not."""
+"""Why a launch file cannot be run, with and without launch's record of its current action."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def reported(error: Exception, file: str, line: int | None, entity: object = Non
 
 
 def as_upstream(error: BaseException) -> BaseException:
-    """An exception as raised by a launch that records nothing on it."""
+    """An exception as raised by a launch that attaches no record to it."""
     if error.__cause__ is not None:
         as_upstream(error.__cause__)
     error.__dict__.pop(ATTRIBUTE, None)

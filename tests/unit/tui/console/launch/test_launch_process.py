@@ -92,9 +92,7 @@ def test_end_of_the_action_before_the_exit_leaves_the_process_running():
 
 
 class Life(RuleBasedStateMachine):
-    """Any order of requests and events: each request is answered once all is quiet, and the displayed state is
-    correct.
-    """
+    """Any order of requests and events: each request is answered in the end, and the displayed state is correct."""
 
     def __init__(self):
         super().__init__()
@@ -186,7 +184,7 @@ def supervised(clock, *, attempts=3, delay=1.0, max_delay=3.0, program=None):
 
 
 def fail(process):
-    """Start it if that is necessary, and let it end with an error."""
+    """Start the process if necessary, and let it end with an error."""
     if not process.alive:
         process.started("node-1", 8)
     assert process.exited(1, respawns=False) is Order.NOTHING

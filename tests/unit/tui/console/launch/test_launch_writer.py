@@ -1,4 +1,4 @@
-"""A launch file and a parameter file written from what runs, and loaded again."""
+"""A launch file and a parameter file written from the running nodes, and loaded again."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ WORKERS = """[
 
 
 class System:
-    """A launcher in a domain of its own, and a console that sees its nodes."""
+    """A launcher in a separate domain, and a console that sees its nodes."""
 
     def __init__(self, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))

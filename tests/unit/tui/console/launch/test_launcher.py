@@ -23,7 +23,7 @@ def bench(tmp_path, monkeypatch):
 
 @pytest.fixture
 def supervising(tmp_path, monkeypatch):
-    """A bench whose settings restart what fails, twice and at once."""
+    """A bench whose settings restart failed processes, twice and at once."""
     monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
     made = Bench(tmp_path, policy=RestartPolicy(2, 0.0, 0.0), restarts=True)
@@ -234,7 +234,7 @@ def test_a_failed_launch_does_not_use_up_a_number(bench):
 SYNTAX = "def generate_launch_description(:\n    pass\n"
 RAISES = "def generate_launch_description():\n    return 1 / 0\n"
 RECURS = "def generate_launch_description():\n    raise RecursionError\n"
-"""As does a file that includes itself, when there are too many."""
+"""A file that includes itself does the same when there are too many levels."""
 NOTHING = "x = 1\n"
 EXITS = "import sys\nsys.exit('no robot today')\n"
 
@@ -341,7 +341,7 @@ def test_process_that_computes_without_pause_is_reported_once(bench, waiter, mon
     from bot_console.tui.console.launch import vitals as process_vitals
 
     monkeypatch.setattr(process_vitals, "CPU_POLL_S", 1e-6)
-    monkeypatch.setattr(process_vitals, "BUSY_SHARE", 0.0)  # Even one that waits counts as computing.
+    monkeypatch.setattr(process_vitals, "BUSY_SHARE", 0.0)  # Even a process that waits counts as computing.
     monkeypatch.setattr(launcher, "BUSY_S", 0.1)
     reports = lambda: [each.text for each in bench.info.timeline if "computing" in each.text]  # noqa: E731
     bench.until(reports, "its figures in the timeline")

@@ -1,4 +1,4 @@
-"""ROS arguments, taken apart."""
+"""Parsing ROS arguments."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Patterns, with google-re2 and where it is missing: only words are found then."""
+"""Patterns with google-re2, and without it: then only words are found."""
 
 from __future__ import annotations
 

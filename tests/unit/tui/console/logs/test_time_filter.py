@@ -16,7 +16,7 @@ from bot_console.tui.format import clock_text
 NOW = 1_792_913_400 * SECOND_NS
 """2026-10-25 07:30:00 UTC: a day on which clocks in Berlin are put back."""
 BERLIN = "CET-1CEST,M3.5.0,M10.5.0/3"
-"""Its rule: a small system has no files of time zones, and takes the name of one for UTC."""
+"""The time zone rule of Berlin: a small system has no time zone files, and takes a zone's name for UTC."""
 
 
 @pytest.fixture(autouse=True)

@@ -9,7 +9,7 @@ from bot_console.tui.console.model import LogFilter
 
 
 class Polled:
-    """A view, and how often its polls have woken the thread that searches."""
+    """A view that counts how often its polls have woken the searching thread."""
 
     def __init__(self, store: LogStore, folded: bool) -> None:
         self.wakes = 0

@@ -18,7 +18,7 @@ SPEED, RATE, MARGIN = ((NAVIGATOR, name) for name in ("max_speed", "turn_rate", 
 
 
 class Bench:
-    """The edits of a console whose thread that draws is this one."""
+    """The edits of a console whose drawing thread is this one."""
 
     def __init__(self) -> None:
         self.console: FakeConsole = live()[0]
@@ -58,7 +58,7 @@ class Bench:
         return self.value(key)
 
     def hold_answers(self, name: str) -> Future[tuple[SetOutcome, ...]]:
-        """Let a method of the port answer when the test says so."""
+        """Let a method of the port answer when the test sets the returned future."""
         answer: Future[tuple[SetOutcome, ...]] = Future()
         setattr(self.console.parameters, name, lambda *given, **named: answer)
         return answer

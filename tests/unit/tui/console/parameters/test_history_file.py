@@ -186,7 +186,7 @@ def test_only_one_of_two_consoles_moves_a_broken_file_aside(tmp_path: Path, monk
 
     @contextmanager
     def other_first(folder: Path, timeout_s: float) -> Iterator[bool]:
-        """The other console has finished when this one gets the lock."""
+        """Let the other console finish before this one gets the lock."""
         monkeypatch.setattr(history_module, "folder_lock", folder_lock)
         others.append(History(file, 1))
         others[0].add(change(1))

@@ -15,7 +15,7 @@ MANY = 4 * MAX_CONCURRENT_QUERIES
 
 
 class StubNode:
-    """Accepts what a mirror creates."""
+    """Accepts everything that a mirror creates."""
 
     def create_subscription(self, kind, topic, callback, qos):
         self.event = callback

@@ -1,4 +1,4 @@
-"""Frames as they are published, and what is found to be wrong with them."""
+"""Published frames, and the faults found in them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Topics, services and actions of real nodes: measured, received, published, called, sent goals."""
+"""Topics, services and actions of real nodes: topics measured, received and published, services called, goals sent."""
 
 from __future__ import annotations
 
@@ -27,7 +27,8 @@ TWIST, SET_BOOL, FIBONACCI = "geometry_msgs/msg/Twist", "std_srvs/srv/SetBool", 
 
 
 class Robot:
-    """Publishes odometry at 50 Hz, best effort; takes velocities, a service, and an action that waits for its end."""
+    """Publishes odometry at 50 Hz, best effort; offers a velocity topic, a service, and an action that waits to be
+    ended."""
 
     def __init__(self, domain: int) -> None:
         self.context = Context()

@@ -14,7 +14,7 @@ NO_TREES: Mapping[str, ParameterTree] = {}
 
 
 class Rig:
-    """Checks under a clock that the test steps."""
+    """Checks with a clock that the test steps."""
 
     def __init__(self) -> None:
         self.now = 0.0

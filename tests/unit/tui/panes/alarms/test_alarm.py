@@ -1,4 +1,4 @@
-"""Alarms: each crossing once, short ones too, and unknown values as such."""
+"""Alarms: each crossing counts once, even a short one, and unknown values are shown as unknown."""
 
 from __future__ import annotations
 

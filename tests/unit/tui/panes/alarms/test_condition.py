@@ -1,4 +1,4 @@
-"""Conditions: what they say of values, and what is refused, with the remedy; nothing typed is ever run."""
+"""Conditions: their meaning, and refusals with a remedy; nothing typed is ever run."""
 
 from __future__ import annotations
 

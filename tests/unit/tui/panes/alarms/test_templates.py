@@ -1,4 +1,4 @@
-"""Suggested alarms: only for topics that are there, each with a condition that can be read."""
+"""Suggested alarms: only for existing topics, each with a readable condition."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The tree of diagnostics: names by slashes, the worst level upwards, silence."""
+"""The tree of diagnostics: levels by slashes, the worst level of a branch at the top, stale entries."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The filter of the graph: connections that pass, fields, lists, and how a word may go on."""
+"""The filter of the graph: connections that pass, fields, lists, and the completion of words."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The frames as a tree, and who is asked for them."""
+"""The frames as a tree, and the nodes that provide them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is said about the selected item below the drawing."""
+"""The description of the selected item below the drawing."""
 
 from __future__ import annotations
 

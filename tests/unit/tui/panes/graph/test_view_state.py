@@ -1,4 +1,4 @@
-"""How the graph's picture is left: kept as plain data, and what cannot be read is the default."""
+"""The saved view of the graph: plain data, with defaults for parts that cannot be read."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the speed of the robot did after a change."""
+"""How the speed of the robot changed after a parameter change."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from bot_console.tui.panes.history.effect import WATCH_S, Effects
 
 
 def drive(effects: Effects, begin: float, seconds: float, speed: Callable[[float], float]) -> bool:
-    """Speeds ten times a second; whether more became known of a change."""
+    """Feed speeds ten times a second; return whether anything new became known about a change."""
     return any([effects.observe(speed(at / 10), begin + at / 10) for at in range(round(10 * seconds))])
 
 

@@ -1,4 +1,4 @@
-"""The exported history is read back by what reads such files: csv, YAML, and a shell."""
+"""The exported history can be read by the usual readers: csv, YAML, and a shell."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def test_changes_are_exported_as_yaml(tmp_path: Path) -> None:
 
 
 def test_script_sets_only_accepted_values(tmp_path: Path) -> None:
-    """A stand-in for `ros2` writes down with what words it was called."""
+    """A stand-in for `ros2` records the arguments with which it was called."""
     export(tmp_path / "h.sh", [*CHANGES, REFUSED])
     (tmp_path / "ros2").write_text('#!/bin/sh\nprintf "%s\\0" "$@" >> called\nprintf "\\n" >> called\n')
     (tmp_path / "ros2").chmod(0o755)

@@ -1,4 +1,4 @@
-"""Going back to a row means what its run had set by then, and nothing that is only guessed."""
+"""Going back to a row restores the values that its run had set by then, and guesses nothing."""
 
 from __future__ import annotations
 

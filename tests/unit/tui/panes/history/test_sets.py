@@ -1,4 +1,4 @@
-"""Changes that were made together are one row, and the line of time has a mark for each row."""
+"""Changes that were made together share a row, and the timeline has a mark for each row."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the launch pane gathers about each process: CPU over time, warnings and errors, and its newest lines."""
+"""What the launch pane collects about each process: CPU over time, warnings and errors, and the newest lines."""
 
 from __future__ import annotations
 

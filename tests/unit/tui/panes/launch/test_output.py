@@ -1,4 +1,4 @@
-"""The output below the processes: the newest lines, and few of them moved by a new one."""
+"""The output below the processes: the newest lines; a new line moves few of them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ ROOM = 9
 
 
 def texts(output: ProcessOutput, count: int, name: str = "zoo-1") -> list[str]:
-    """The drawn lines, once there have been so many."""
+    """The drawn lines, once there are `count` of them."""
     lines = [OutputLine(LogRecord(at, 0, Severity.INFO, "zoo", f"line {at}")) for at in range(count)]
     with patch.object(ProcessOutput, "size", Size(60, 1 + ROOM)), patch.object(ProcessOutput, "refresh"):
         output.show_lines(name, lines, named=False)

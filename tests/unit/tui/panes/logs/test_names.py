@@ -1,4 +1,4 @@
-"""The log spells nodes as the graph does."""
+"""The log spells node names as the graph does."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Rules of the log: their file, and what is like a line."""
+"""Rules of the log: their file, and which lines are similar."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the Parameters pane says of nodes that are gone or do not answer."""
+"""How the Parameters pane names nodes that have left or do not answer."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ def row(name: str) -> Row:
 
 
 def needed(own: Columns) -> int:
-    """Cells of all columns."""
+    """The number of cells that all columns need."""
     return MARKS_CELLS + own.name + GAP_CELLS + own.value + (GAP_CELLS + own.bar if own.bar else 0)
 
 

@@ -1,4 +1,4 @@
-"""The tree of parameters: namespaces, nodes and groups, each folded by itself, at a bounded cost."""
+"""The tree of parameters: namespaces, nodes and groups, each folded separately, at a bounded cost."""
 
 from __future__ import annotations
 
@@ -153,7 +153,7 @@ def many() -> dict[str, ParameterTree]:
 
 
 def test_five_thousand_parameters_cost_a_bounded_time_and_one_change_only_its_node() -> None:
-    """In processor time; the first tree against the limit, what follows against the first tree of the same run."""
+    """In CPU time: the first tree is compared with the limit, later ones with the first tree of the same run."""
     found, made = many(), TreeRows()
     assert sum(len(each.parameters) for each in found.values()) == 5_000
     begin = time.process_time()

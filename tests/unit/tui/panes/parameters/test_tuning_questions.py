@@ -1,4 +1,4 @@
-"""What is typed before a tuning: ranges, scores with completion, numbers."""
+"""The input before a tuning: ranges, scores with completion, numbers."""
 
 from __future__ import annotations
 

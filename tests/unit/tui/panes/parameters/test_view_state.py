@@ -1,4 +1,4 @@
-"""How the tree was left, as plain data and back."""
+"""The view state of the tree survives as plain data."""
 
 from __future__ import annotations
 

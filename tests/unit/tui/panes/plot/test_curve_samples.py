@@ -1,4 +1,4 @@
-"""What a curve keeps of the samples that come."""
+"""The samples that a curve keeps."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ from bot_console.tui.panes.plot.curves import MAX_SAMPLES, Curve
 
 
 class Source:
-    """Gives a number of samples at each look; each one's value is its number, its header's time half a second less."""
+    """Gives a number of new samples at each poll; a sample's value is its number, its header time half a second
+    earlier."""
 
     def __init__(self, each_time: int, *, headers: bool = True) -> None:
         self.each_time = each_time

@@ -1,4 +1,4 @@
-"""Expressions over paths: what is understood, what is refused in words, and which samples they need."""
+"""Expressions over paths: which are accepted, which are refused and why, and which samples they need."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Figures of step responses against curves whose figures are known by calculation."""
+"""Figures of step responses, compared with curves whose figures can be calculated."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is suggested for what was typed."""
+"""Suggestions for typed text."""
 
 from __future__ import annotations
 

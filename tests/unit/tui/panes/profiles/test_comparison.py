@@ -1,4 +1,4 @@
-"""Profiles side by side: which rows and columns there are, in which order, and what is marked."""
+"""Profiles side by side: the rows and columns, their order, and their marks."""
 
 from __future__ import annotations
 

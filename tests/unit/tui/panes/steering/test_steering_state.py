@@ -1,4 +1,4 @@
-"""Steering as arithmetic: limits, zero on the way, the dead-man time."""
+"""The arithmetic of steering: limits, stopping at zero, the dead-man time."""
 
 from __future__ import annotations
 

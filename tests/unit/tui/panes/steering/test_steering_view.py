@@ -1,4 +1,4 @@
-"""The steering pane as lines: the plane with what is asked and what the robot does, bars, and what fits a size."""
+"""The steering pane as lines: the plane with requested and actual velocity, bars, and what fits at each size."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from samples import driving
 
 ARMED = Steering(linear=1.0, angular=1.0, armed=True, greatest=(1.0, 1.0))
 INNER = (78, 19)
-"""The room for the pane on a screen of 80x24."""
+"""The size of the pane on a screen of 80x24."""
 
 
 def texts(state: Steering, drive: DriveInfo, size: tuple[int, int] = INNER) -> list[str]:

@@ -1,4 +1,4 @@
-"""The rows of the topics pane, as they are made from the graph."""
+"""The rows of the topics pane, made from the graph."""
 
 from __future__ import annotations
 

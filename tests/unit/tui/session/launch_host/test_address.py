@@ -41,7 +41,7 @@ def test_the_address_of_a_dead_host_is_removed_and_a_new_one_takes_its_place(tmp
     assert connect_to_host(str(tmp_path / "99.host")) is None
     assert host_addresses(str(tmp_path)) == []
     first = HostListener(str(tmp_path), lambda connection: None)
-    second = HostListener(str(tmp_path), lambda connection: None)  # of a process that has got the same id
+    second = HostListener(str(tmp_path), lambda connection: None)  # of another process that has got the same id
     connection = connect_to_host(second.path)
     assert connection is not None
     connection.close()
@@ -52,7 +52,7 @@ def test_the_address_of_a_dead_host_is_removed_and_a_new_one_takes_its_place(tmp
 def test_the_addresses_of_processes_that_have_ended_are_removed(tmp_path: Path) -> None:
     ended = subprocess.Popen([sys.executable, "-c", "pass"], stdout=subprocess.PIPE)
     assert ended.stdout is not None and ended.stdout.read() == b""
-    os.waitid(os.P_PID, ended.pid, os.WEXITED | os.WNOWAIT)  # it stays a zombie: nobody has taken note of its end
+    os.waitid(os.P_PID, ended.pid, os.WEXITED | os.WNOWAIT)  # it stays a zombie: its parent has not waited for it
     for pid in (ended.pid, os.getppid()):
         (tmp_path / f"{pid}.host").touch()
     remove_addresses_of_dead_hosts(str(tmp_path), lives)

@@ -1,4 +1,4 @@
-"""What a launch host sends of its state arrives whole."""
+"""The state that a launch host sends arrives complete."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A real ROS 2 is an `rclpy` that is not ours; which system to attach to is decided, asked, or refused."""
+"""A real ROS 2 is an `rclpy` that is not ours; the system to attach to is chosen, asked for, or refused."""
 
 import importlib.machinery
 import sys

@@ -1,4 +1,4 @@
-"""Lines that a machine's own `ros2` runs, each in a process."""
+"""Lines that the machine's own `ros2` runs, each in a separate process."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ signal.sigwait({{signal.SIGINT}})
 
 @pytest.fixture(autouse=True)
 def ros2(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A `ros2` that prints a line, without flushing it, and goes on until it is interrupted, from that moment on."""
+    """A `ros2` that prints a line without flushing it, and then runs until it is interrupted."""
     (tmp_path / "ros2").write_text(ROS2)
     (tmp_path / "ros2").chmod(0o755)
     monkeypatch.setenv("PATH", str(tmp_path))
