@@ -1,4 +1,4 @@
-"""The moment that all panes look at: chosen in one of them, followed by the others that have a time axis."""
+"""The time cursor: a moment that is chosen in one pane, and shown by all others that have a time axis."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ class FollowsTime(Protocol):
     """Something that shows the state at a moment."""
 
     def time_moved(self, stamp: int | None) -> None:
-        """Show a moment (ns since the epoch), or the present when it is None."""
+        """Show a moment (ns since the epoch), or for None the present."""
         ...
 
 
 class TimeCursor:
-    """One moment for everything that follows it; only the number is shared."""
+    """A moment, and the followers that are notified when it moves."""
 
     def __init__(self) -> None:
         self.stamp: int | None = None
@@ -27,12 +27,12 @@ class TimeCursor:
             self._followers.append(follower)
 
     def leave(self, follower: FollowsTime) -> None:
-        """Stop notifying it."""
+        """Stop notifying a follower."""
         if follower in self._followers:
             self._followers.remove(follower)
 
     def move(self, stamp: int | None, mover: FollowsTime | None = None) -> None:
-        """Look at another moment; whoever moves the cursor is not notified."""
+        """Move to another moment, and notify all followers but the `mover`."""
         if stamp == self.stamp:
             return
         self.stamp = stamp

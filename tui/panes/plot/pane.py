@@ -24,7 +24,7 @@ from textual.app import ComposeResult
 FORMS = ("framed", "strips", "lines")
 
 MIN_FRAME_LINES = 8
-"""Lines from which on a frame with axes leaves room for the trace."""
+"""Minimum height (lines) at which a frame with axes leaves room for the trace."""
 
 SCORED = ("rise", "overshoot", "settling", "error")
 """The figures of a response that a score may name."""
@@ -60,32 +60,30 @@ class PlotPane(PlotQuestions):
         self._responses = Responses(self.console.plots)
         self._form = "framed"
         self._expected: dict[str, str] = {}
-        """The paths that wait to be plotted, and why they cannot be yet where more is known than that they do not
-        exist.
-        """
+        """The paths that are waiting to be plotted, with the reason; empty if they just do not exist yet."""
         self._journal: JournalState | None = None
         self._graph: object = None
         self._parameters: object = None
         self._heartbeats = False
-        """Whether there are beats; without them each snapshot is drawn."""
+        """Whether `tick` is called; without it, each snapshot is drawn."""
         self._wanted = self._undrawn = False
-        """Whether something else than samples is to be drawn, and whether there are samples that were not drawn."""
+        """Whether something other than samples must be drawn, and whether there are samples not drawn yet."""
         self._moment: object = None
-        """When it was drawn, as far as moments differ in the picture."""
+        """`Timeline.moment` of the last drawing."""
 
     def compose(self) -> ComposeResult:
-        """The picture, the legend, a prompt."""
+        """The picture, the legend, and a prompt."""
         yield Picture(id="plot-picture")
         yield Picture(id="plot-legend")
         yield Prompt(id="plot-prompt")
         self.can_focus = True
 
     def focus_target(self) -> None:
-        """The pane itself takes the keys."""
+        """Focus the pane itself."""
         self.focus()
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Plot the speed when there is one and nothing else was asked for; mark new changes."""
+        """Plot the default curves unless the user has chosen others; mark new parameter changes."""
         known = (snapshot.graph, snapshot.parameters)
         if known[0] is not self._graph or known[1] is not self._parameters:
             self._graph, self._parameters = known
@@ -114,12 +112,12 @@ class PlotPane(PlotQuestions):
         self.add(name)
 
     def expect(self, wanted: Sequence[str]) -> None:
-        """Plot these topics or paths in place of the defaults, each as soon as it is there."""
+        """Plot these topics or paths instead of the defaults, each as soon as it exists."""
         if not self._touched:
             self.action_remove_all()
         self._touched = True
         self._expected |= {each: "" for each in wanted if each not in self._expected}
-        self._graph = None  # so that the next look tries them, though nothing has come meanwhile
+        self._graph = None  # so that the next `show` tries them even if nothing has changed
 
     def _take_expected(self, snapshot: ConsoleSnapshot) -> None:
         if not self._expected:
@@ -130,22 +128,22 @@ class PlotPane(PlotQuestions):
             found = matching(wanted, known)
             if found or wanted in topics:
                 del self._expected[wanted]
-                for path in found or [wanted]:  # of which the latter is refused with the reason
+                for path in found or [wanted]:  # adding a topic without numbers reports why it cannot be plotted
                     self.add(path)
             elif _within(wanted, known, topics):
-                answer = self._timeline.add(wanted)  # not refused for good: its own topic may be still to come
+                answer = self._timeline.add(wanted)  # a refusal is not final: its own topic may still appear
                 if answer.ok:
                     del self._expected[wanted]
                 else:
                     self._expected[wanted] = answer.text
 
     def tick(self) -> None:
-        """Fetch new samples, and draw when the newest lies beyond what a dot holds, or no other comes after it."""
+        """Fetch new samples; draw once the newest has moved by a dot, or no more follow."""
         self._heartbeats = True
         self.take_in(force=self._wanted)
 
     def take_in(self, *, force: bool = False) -> None:
-        """Fetch new samples and draw what can be told from what is seen, if the pane is seen."""
+        """Fetch new samples if the pane is visible, and draw them if that changes the picture; `force` always draws."""
         if not self.display or self.is_ending:
             return
         changed = self._timeline.take_in()
@@ -155,7 +153,7 @@ class PlotPane(PlotQuestions):
             self.draw()
 
     def draw(self) -> None:
-        """Draw the picture and its legend, and say which window is shown."""
+        """Draw the picture and its legend, and update the caption."""
         picture, legend = self.query_one("#plot-picture", Picture), self.query_one("#plot-legend", Picture)
         curves = self._timeline.curves
         width, height = picture.size
@@ -197,13 +195,13 @@ class PlotPane(PlotQuestions):
         return plot_view.framed(timeline.curves, timeline.marks, axes, width, height)
 
     def time_moved(self, stamp: int | None) -> None:
-        """Show another moment, and what was changed then."""
+        """Show the moment to which the time cursor has moved, and what was changed then."""
         self._timeline.watch_image(stamp)
         if self.display and not self.is_ending:
             self.draw()
 
     def action_mark(self, step: int) -> None:
-        """Go to the next changed parameter on the time axis, or back to the one before."""
+        """Go to the next or the previous mark of a parameter change on the time axis."""
         time = self._timeline.next_mark(step)
         if time is None:
             self.notify("No further change of a parameter is marked.")
@@ -213,30 +211,30 @@ class PlotPane(PlotQuestions):
             self._inspect(stamp)
 
     def action_now(self) -> None:
-        """Look at what is now again."""
+        """Return the time cursor to now."""
         self.time_cursor.move(None, self)
         self.time_moved(None)
 
     def _at_cursor(self) -> str:
-        """The changes at the moment under the cursor."""
+        """A text on the moment at the cursor, and the parameter changes there."""
         timeline, across = self._timeline, self.query_one("#plot-picture", Picture).size.width
         marks = timeline.axes(across).marks_at_cursor(timeline.marks, across)
         stamp = self.time_cursor.stamp
         return "  ".join([f"◆ {clock_text(stamp)}" if stamp is not None else "◆", *(each.text for each in marks)])
 
     def action_responses(self) -> None:
-        """The responses to set A and set B over each other, or the curves again."""
+        """Switch between the responses to set A and set B, overlaid, and the curves."""
         self._responses.shown = not self._responses.shown
         self.draw()
 
     def action_reference(self) -> None:
-        """Take the chosen curve for what a response should follow, or not any more."""
+        """Make the chosen curve the reference that a response should follow, or remove that reference."""
         path = self.paths[self._chosen] if self.paths else ""
         self._responses.reference = "" if path == self._responses.reference else path
         self.draw()
 
     def action_score(self) -> None:
-        """Ask for a score of responses."""
+        """Ask for a formula that scores responses."""
         label = f"score, of {', '.join(SCORED)} (such as overshoot + 0.5*settling)"
         self.ask(Asked(label, self._score_is, text=self._responses.formula, check=wrong_formula))
 
@@ -267,7 +265,7 @@ class PlotPane(PlotQuestions):
         return ", ".join(f"{each}: {why}" if why else each for each, why in self._expected.items())
 
     def _nothing(self) -> Placeholder:
-        """Why there is no curve."""
+        """The text that is shown while there is no curve."""
         if self._expected:
             text = f"Waits for {self._waiting()}: the curve begins with the first message."
             return Placeholder(text, (("a", "Add another curve"),))
@@ -287,18 +285,18 @@ class PlotPane(PlotQuestions):
         self.draw()
 
     def action_pause(self) -> None:
-        """Hold the picture, or go on."""
+        """Pause or resume the plot."""
         self._timeline.pause()
         self.draw()
 
     def action_window(self, step: int) -> None:
-        """Show more of the past, or less."""
+        """Make the time window longer or shorter."""
         at = WINDOWS_S.index(self._timeline.window) + step
         self._timeline.window = WINDOWS_S[max(0, min(at, len(WINDOWS_S) - 1))]
         self.draw()
 
     def action_cursor(self) -> None:
-        """A cursor at the newest sample, or none again."""
+        """Put a cursor at the newest sample, or remove the cursor."""
         if self._timeline.cursor is None:
             self._inspect(self._timeline.beside_cursor(0, self._across()))
         else:
@@ -312,7 +310,7 @@ class PlotPane(PlotQuestions):
         self.time_moved(stamp)
 
     def action_shift(self, step: int) -> None:
-        """Move the cursor; where there is none the window, which pauses."""
+        """Move the cursor; without one, pause and move the window."""
         if self._timeline.cursor is not None:
             self._inspect(self._timeline.beside_cursor(step, self._across()))
             return
@@ -327,25 +325,25 @@ class PlotPane(PlotQuestions):
         self.draw()
 
     def action_form(self) -> None:
-        """Framed plot, a strip for each curve, or a line for each."""
+        """Switch between a framed plot, a strip for each curve, and a line for each curve."""
         self._form = FORMS[(FORMS.index(self._form) + 1) % len(FORMS)]
         self.draw()
 
     def action_right_axis(self) -> None:
-        """Measure the chosen curve on the other axis."""
+        """Move the chosen curve to the other value axis."""
         if self.paths:
             curve = self._timeline.curves[self._chosen]
             curve.right = not curve.right
             self.draw()
 
     def action_against(self) -> None:
-        """The chosen curve in place of time, or time again."""
+        """Plot the other curves against the chosen one instead of time, or against time again."""
         path = self.paths[self._chosen] if self.paths else ""
         self._timeline.against = "" if self._timeline.against == path else path
         self.draw()
 
     def action_header_time(self) -> None:
-        """Place samples by the headers of messages, or by when these came."""
+        """Switch between the times in message headers and arrival times."""
         self._timeline.time_of(by_header=not self._timeline.by_header)
         self.draw()
 
@@ -356,9 +354,9 @@ class PlotPane(PlotQuestions):
 
 
 def _within(wanted: str, known: Collection[str], topics: Collection[str]) -> bool:
-    """Whether all that a path or an expression names is in a topic that is there, or is known itself.
+    """Whether every path in an expression is plottable, or lies in an existing topic.
 
-    What is known names the first element of an array only, and nothing of arrays of messages.
+    The plottable paths name only the first element of an array, and nothing in arrays of messages.
     """
     try:
         formula = read(wanted)

@@ -1,4 +1,4 @@
-"""The plot's questions to a person: for curves, limits, thresholds, names and files."""
+"""The plot's questions to the user: for curves, limits, thresholds, names and files."""
 
 from __future__ import annotations
 
@@ -19,22 +19,22 @@ from bot_console.tui.widgets.prompt.question import Line as Asked
 
 STAMP = re.compile(r"[/.](?:nano)?sec$")
 WIDTH_CELLS = 120
-"""Cells of the window that is saved."""
+"""Width (cells) of the plot that is saved."""
 
 
 class PlotQuestions(Pane):
-    """A plot's curves, and the questions about them."""
+    """The base of the plot pane: its curves, and the questions about them."""
 
     _timeline: Timeline
     _chosen = 0
     _touched = False
 
     def draw(self) -> None:
-        """Draw what there is."""
+        """Draw the plot."""
         raise NotImplementedError
 
     def take_in(self, *, force: bool = False) -> None:
-        """Fetch new samples, and draw what they change; with `force` in any case."""
+        """Fetch new samples, and draw if they change the picture; `force` always draws."""
         raise NotImplementedError
 
     @property
@@ -62,14 +62,14 @@ class PlotQuestions(Pane):
         return next((wrong for path in split(paths) if (wrong := self._added(path))), "")
 
     def add(self, path: str) -> bool:
-        """Plot a path or an expression, or say why not."""
+        """Plot a path or an expression; if that is not possible, notifies why and returns False."""
         wrong = self._added(path)
         if wrong:
             self.notify(wrong, title="Not plotted", severity="warning", markup=False)
         return not wrong
 
     def _added(self, path: str) -> str:
-        """Plot a path or an expression; returns why it cannot be plotted."""
+        """Plot a path or an expression; returns why it cannot be plotted, or an empty text."""
         self._touched = True
         path = path.strip()
         if not path or path in self.paths:
@@ -82,7 +82,7 @@ class PlotQuestions(Pane):
         return "" if answer.ok else answer.text
 
     def _hint_at_parameters(self, path: str) -> None:
-        """Say how a parameter is plotted if a topic, such as `/parameter_events`, has no numbers but its stamps."""
+        """If a topic such as `/parameter_events` has no numbers but stamps, notify how a parameter is plotted."""
         if not STAMP.search(path):
             return
         topics = [each.name for each in self.console.snapshot().graph.topics if path.startswith(f"{each.name}/")]
@@ -101,12 +101,12 @@ class PlotQuestions(Pane):
         self.draw()
 
     def action_limits(self) -> None:
-        """Ask for the limits of the values."""
+        """Ask for the limits of the value axis."""
         label = "minimum and maximum (empty: automatic)"
         self.ask(Asked(label, self._limit, text=self._limits_text(), check=wrong_limits))
 
     def action_zoom_values(self, factor: float) -> None:
-        """Scale what the value axis shows around the newest value of the chosen curve; `y` makes it automatic again."""
+        """Zoom the value axis around the value of the chosen curve at the cursor, or its newest one."""
         from bot_console.tui.panes.plot.view import limits, reach_of
 
         timeline = self._timeline
@@ -142,11 +142,11 @@ class PlotQuestions(Pane):
         self.ask(Asked("threshold, e.g. > 1.5 or < 0.2 (empty: none)", take, text=text, check=wrong_thresholds))
 
     def action_export(self) -> None:
-        """Ask where the samples go."""
+        """Ask for the file to save the samples to."""
         self.ask_file("save samples to", "plot.csv", self._save_samples)
 
     def action_picture(self) -> None:
-        """Ask where the picture goes."""
+        """Ask for the file to save the picture to."""
         self.ask_file("save picture to (.svg .png .html .txt)", "plot.svg", self._save_picture)
 
     def _save_samples(self, path: Path) -> Answer:
@@ -164,7 +164,7 @@ class PlotQuestions(Pane):
         return Answer(True, f"picture saved to {path}")
 
     def action_keep(self) -> None:
-        """Ask for a name for the curves that are shown."""
+        """Ask for a name under which the current curves are saved."""
         if self.paths:
             self.ask(Asked("save these curves as", self._keep, check=plot_presets.preset_name_problem))
         else:
@@ -182,7 +182,7 @@ class PlotQuestions(Pane):
             self.report(Answer(True, f"curves saved in {path}; p shows them again"))
 
     def action_kept(self) -> None:
-        """Ask which of the curves that were kept are to be shown."""
+        """Ask which saved curves to show."""
         names = plot_presets.preset_names()
         if not names:
             self.notify("No curves have been saved; w saves those that are shown.")
@@ -192,7 +192,7 @@ class PlotQuestions(Pane):
         self.ask(Choice("Curves", self.show_kept, find=find, hint="name", empty="No saved curves have this name."))
 
     def show_kept(self, name: str) -> None:
-        """Show the curves of a name in place of those that are shown."""
+        """Replace the current curves with those saved under a name."""
         timeline = self._timeline
         try:
             preset = plot_presets.read_preset(name)

@@ -1,4 +1,4 @@
-"""The responses to set A and set B overlaid, as lines of the plot, with their figures."""
+"""The overlaid responses to set A and set B, drawn in place of the plot, with their figures."""
 
 from __future__ import annotations
 
@@ -18,21 +18,21 @@ HOW = "No responses yet: mark values in the Parameters pane (m), then A there se
 
 @dataclass
 class Responses:
-    """The comparison: the chosen curve, against a reference, by a formula of one's own."""
+    """Compares the responses of a curve to the two sets, optionally with a reference curve and a scoring formula."""
 
     plots: Plots
     shown: bool = False
     reference: str = ""
-    """The path of the curve that the response should follow; empty: none."""
+    """The path of the curve that the response should follow; empty if there is none."""
     formula: str = ""
     _moments: dict[str, int] = field(default_factory=dict[str, int])
 
     def read(self, changes: Sequence[Change]) -> None:
-        """Learn when the sets were sent."""
+        """Find out when the sets were last sent."""
         self._moments = moments(changes)
 
     def of(self, curve: Curve, window: float) -> list[Response]:
-        """The responses of a curve, each as long as the window (s), or until the other set was sent."""
+        """The responses of a curve, each for `window` seconds or until the other set was sent."""
         starts = {name: self.plots.time(stamp) for name, stamp in self._moments.items()}
         found: list[Response] = []
         for name, start in sorted(starts.items()):
@@ -44,7 +44,7 @@ class Responses:
         return found
 
     def draw(self, curves: Sequence[Curve], chosen: int, window: float, size: tuple[int, int]) -> list[Line]:
-        """The picture: both responses from the moment of their change on, and a line of figures for each."""
+        """Draw both responses, aligned at the moments of their changes, and a line of figures for each."""
         width, height = size
         found = self.of(curves[chosen], window) if chosen < len(curves) else []
         if not found:

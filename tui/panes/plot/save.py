@@ -17,13 +17,14 @@ from bot_console.tui.panes.plot.pictures.vector_drawing import sheet
 from bot_console.tui.panes.plot.view import Axes, Mark
 
 SIZE_CELLS = (120, 34)
-"""Cells of the saved picture."""
+"""Width and height (cells) of the saved picture."""
 
 
 def samples(path: Path, curves: Sequence[Curve], axes: Axes, wall: Callable[[float], float]) -> int:
-    """Write what is seen as `series,time,seconds,value`; gives the number of samples; raises `NotSaved`.
+    """Write the visible samples as CSV with `series,time,seconds,value`; returns their number; raises `NotSaved`.
 
-    `time` is that of the clock on the wall with its zone, `seconds` the same since the epoch, by `wall`.
+    `time` is the wall-clock time in ISO 8601 with its zone, `seconds` the same in s since the epoch; `wall` converts
+    to it from a time on the axis.
     """
     count = 0
     file = io.StringIO(newline="")
@@ -44,7 +45,7 @@ def samples(path: Path, curves: Sequence[Curve], axes: Axes, wall: Callable[[flo
 def picture(
     path: Path, curves: Sequence[Curve], marks: Sequence[Mark], axes: Axes, wall: Callable[[float], float]
 ) -> None:
-    """Write what is seen as `.svg`, `.png` or `.html`, else as plain text; raises `NotSaved`."""
+    """Write the visible plot as `.svg`, `.png` or `.html`, otherwise as plain text; raises `NotSaved`."""
     if path.suffix in (".svg", ".png"):
         page = sheet(curves, marks, axes, wall)
         (image_files.write_svg if path.suffix == ".svg" else image_files.write_png)(path, page)
@@ -53,7 +54,7 @@ def picture(
 
 
 def _by_plotext(path: Path, curves: Sequence[Curve], axes: Axes) -> None:
-    # plotext takes longer to import than all panes together, and is needed here alone.
+    # plotext takes longer to import than all panes together, and is needed only here.
     import plotext  # pyright: ignore[reportMissingTypeStubs] -- it has no stubs
 
     kit: Any = plotext

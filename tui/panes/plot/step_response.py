@@ -1,4 +1,4 @@
-"""The effect of a change on a curve: the two newest responses side by side, with their figures. Pure."""
+"""Step responses: a curve after the values of a set were sent, and its figures. Pure."""
 
 from __future__ import annotations
 
@@ -14,29 +14,29 @@ from bot_console.tui.text.expression.numbers import evaluate
 SETS = ("set A", "set B")
 """The names of the two sets of changes whose responses are compared."""
 SETTLED_SHARE = 0.05
-"""The response has settled within this share of its step."""
+"""The response has settled once it stays within this share of its step."""
 RISE_SHARES = (0.1, 0.9)
 END_SHARE = 0.2
-"""The last part of a response, in which it is taken to stand."""
+"""The last part of a response, whose mean is taken as its final value."""
 FIGURES = ("rise", "overshoot", "settling", "error")
 
 
 @dataclass(frozen=True)
 class Response:
-    """A curve from the moment of a change on: times in s after it."""
+    """A curve after a change; times are in s since the change."""
 
     name: str
     times: Array
     values: Array
     before: float
-    """The value at the change."""
+    """The value before the change."""
 
 
 @dataclass(frozen=True)
 class Figures:
-    """Rise time (10 to 90 %), settling time (5 %) in s, overshoot as a share of the step, steady error.
+    """Rise time (s, 10 to 90 %), overshoot (share of the step), settling time (s, 5 %) and steady error.
 
-    NaN where there is no step, or where it has not come to that yet.
+    NaN if there is no step, or the response has not got that far yet.
     """
 
     rise: float = math.nan
@@ -46,7 +46,7 @@ class Figures:
 
 
 def moments(changes: Sequence[Change]) -> dict[str, int]:
-    """When (ns since the epoch) each of the sets was sent last; only those that were."""
+    """When each set was last sent (ns since the epoch), without sets that never were."""
     found: dict[str, int] = {}
     for each in reversed(changes):
         if each.accepted and each.by in SETS and each.by not in found:
@@ -57,7 +57,7 @@ def moments(changes: Sequence[Change]) -> dict[str, int]:
 
 
 def response(name: str, times: Array, values: Array, start: float, end: float) -> Response | None:
-    """The part of a curve from `start` to `end` (s); None where it has no sample."""
+    """The part of a curve from `start` to `end` (s); None if it has no sample there."""
     inside = (times >= start) & (times <= end) & np.isfinite(values)
     if not inside.any():
         return None
@@ -67,7 +67,7 @@ def response(name: str, times: Array, values: Array, start: float, end: float) -
 
 
 def figures(response: Response, reference: float | None = None) -> Figures:
-    """The figures of a step response; the steady error is the reference less what it came to stand at."""
+    """The figures of a step response; the steady error is the reference minus the final value."""
     times, values = response.times, response.values
     final = float(np.mean(values[times >= times[-1] * (1 - END_SHARE)]))
     error = math.nan if reference is None else reference - final
@@ -89,13 +89,13 @@ def _first(times: Array, where: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> f
 
 
 def score(formula: str, of: Figures) -> float:
-    """The score of the figures by a person's formula; raises `ValueError` with what is wrong with it."""
+    """Evaluate the user's formula on the figures; raises `ValueError` that says what is wrong with it."""
     names: Mapping[str, float] = {name: getattr(of, name) for name in FIGURES}
     return float(evaluate(formula, names))
 
 
 def figures_text(of: Figures, formula: str = "") -> str:
-    """The figures on one line, with the score of a formula."""
+    """The figures on one line, with the score if there is a formula."""
 
     def show(value: float, unit: str, digits: int = 2) -> str:
         return "–" if math.isnan(value) else f"{value:.{digits}f}{unit}"

@@ -1,4 +1,4 @@
-"""Limits that a person sets for a curve; values beyond one are marked and announced."""
+"""Thresholds that the user sets for a curve; values beyond one are marked."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ class Threshold:
     above: bool = True
 
     def crossed(self, value: float | None) -> bool:
-        """Whether a value lies beyond."""
+        """Whether a value is beyond the threshold; False for None."""
         return value is not None and (value > self.value if self.above else value < self.value)
 
     @property
     def text(self) -> str:
-        """As it is typed."""
+        """The threshold as the user would type it."""
         return f"{'>' if self.above else '<'} {self.value:g}"
 
 
 def thresholds_of(text: str) -> tuple[Threshold, ...]:
-    """The thresholds in a text such as `> 1.5, < 0.2`; empty for an empty text; raises `ValueError` with the remedy."""
+    """Parse thresholds such as `> 1.5, < 0.2`; raises `ValueError` that says how to write them."""
     found: list[Threshold] = []
     for part in filter(None, (each.strip() for each in text.split(","))):
         match = re.fullmatch(r"([<>])=?\s*(.+)", part)
@@ -47,10 +47,10 @@ def wrong_thresholds(text: str) -> str:
 
 
 def thresholds_text(thresholds: Sequence[Threshold]) -> str:
-    """As they are typed."""
+    """The thresholds as the user would type them."""
     return ", ".join(each.text for each in thresholds)
 
 
 def first_crossed(thresholds: Iterable[Threshold], value: float | None) -> Threshold | None:
-    """The first that a value lies beyond."""
+    """The first threshold that a value is beyond; None if there is none."""
     return next((each for each in thresholds if each.crossed(value)), None)

@@ -16,46 +16,46 @@ from bot_console.tui.panes.plot.view import Axes, Mark
 from bot_console.tui.text.value_text import value_text
 
 WINDOWS_S = (1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 120.0, 300.0, 600.0)
-"""Lengths of the time window, s."""
+"""The lengths (s) that the time window can have."""
 
 DEFAULTS = ("/odom/twist.twist.linear.x", "/robot_navigator:max_speed")
-"""The curves that are plotted before anybody has asked for something: ends of paths."""
+"""The curves plotted by default, as endings of paths."""
 
 COLOURS = 6
 
 PACE_S = 0.5
-"""Seconds for which the window stands still, where that is no more than a share of its width."""
+"""Seconds for which the window stands still between two steps, unless `MIN_STEPS` requires shorter ones."""
 
 LATEST_VALUE_S = 0.3
-"""Seconds after which the newest value is told, though it lies in the same dot as the one before."""
+"""Seconds after which the newest value is shown even if it falls into the same dot as the previous one."""
 
 MIN_STEPS = 20
-"""The window moves in at least so many steps through its own width."""
+"""Minimum number of steps in which the window moves by its own width."""
 
 
 class Timeline:
-    """Curves over a window of time that ends at the newest sample, or stands while paused."""
+    """Curves over a time window that ends at the newest sample, or stands still while paused."""
 
     def __init__(self, plots: Plots) -> None:
         self._plots = plots
         self.curves: list[Curve] = []
         self.against = ""
-        """The path of the curve that is drawn in place of time; empty: time."""
+        """The path of the curve against which the others are drawn; empty for time."""
         self.by_header = False
-        """Whether samples lie where the headers of their messages say."""
+        """Whether samples are placed by the times in message headers instead of their arrival times."""
         self._sources: dict[str, Curve] = {}
         self._uses: dict[str, tuple[str, ...]] = {}
-        """The paths that each curve needs."""
+        """The paths whose samples each curve needs, by the path of the curve."""
         self.marks: list[Mark] = []
         self.window = 30.0
         self.limits: tuple[float, float] | None = None
         self.paused_at: float | None = None
         self.new_samples = 0
         self.cursor: float | None = None
-        """The moment that is looked at, s."""
+        """The moment at the cursor (s, on the time axis); None without a cursor."""
 
     def add(self, text: str) -> Answer:
-        """One more curve, of a path or an expression, in the first free colour; says why not."""
+        """Add a curve of a path or an expression in the first free colour; the answer says why it was refused."""
         found: Formula | str = text
         if text not in self._plots.plottable():
             try:
@@ -90,7 +90,7 @@ class Timeline:
         return found
 
     def remove(self, at: int) -> None:
-        """Forget a curve, and its samples where no other one needs them."""
+        """Remove a curve, and its samples unless another curve needs them."""
         curve = self.curves.pop(at)
         self.against = "" if self.against == curve.path else self.against
         self._forget(self._uses.pop(curve.path))
@@ -103,19 +103,19 @@ class Timeline:
                 self._plots.unwatch(path)
 
     def time_of(self, by_header: bool) -> None:
-        """Place samples by the headers of messages, or by when these came."""
+        """Place samples by the times in message headers, or by their arrival times."""
         self.by_header = by_header
         for each in self._sources.values():
             each.by_header = by_header
 
     def clear(self) -> None:
-        """Forget all samples and marks."""
+        """Discard all samples and marks."""
         for each in self._sources.values():
             each.clear()
         self.marks.clear()
 
     def take_in(self) -> bool:
-        """Fetch new samples; whether anything has to be drawn."""
+        """Fetch new samples; returns whether anything has to be drawn."""
         before = sum(each.cursor for each in self._sources.values())
         changed = any([each.take_in(self._plots) for each in self._sources.values()])
         for each in self.curves:
@@ -126,7 +126,7 @@ class Timeline:
         return changed
 
     def set_window(self, seconds: float) -> None:
-        """The length of the window that is nearest to so many seconds."""
+        """Set the window to the available length nearest to `seconds`."""
         self.window = min(WINDOWS_S, key=lambda each: abs(each - seconds))
 
     def marks_of(self, changes: Sequence[Change]) -> None:
@@ -138,7 +138,7 @@ class Timeline:
         self.marks = [Mark(self._plots.time(each.stamp), not each.accepted, change_text(each)) for each in changes]
 
     def watch_image(self, stamp: int | None) -> None:
-        """Hold the window so that it shows a moment (ns since the epoch); at None let it follow again."""
+        """Pause the window so that it shows a moment (ns since the epoch); for None, resume."""
         if stamp is None:
             self.cursor = self.paused_at = None
             self.new_samples = 0
@@ -152,33 +152,33 @@ class Timeline:
             self.paused_at = self.cursor + self.window / 2
 
     def next_mark(self, step: int) -> float | None:
-        """The time of the next mark after the cursor, or before it; None where there is none."""
+        """The time of the next mark after the cursor, or before it for a negative step; None if there is none."""
         times = sorted({each.time for each in self.marks})
         at = self.cursor if self.cursor is not None else self.newest()
         later = [each for each in times if (each > at if step > 0 else each < at)]
         return None if not later else later[0] if step > 0 else later[-1]
 
     def pause(self) -> None:
-        """Hold the window where it is, or let it follow again."""
+        """Pause or resume the window."""
         self.paused_at = self.newest() if self.paused_at is None else None
         self.new_samples = 0
 
     def stamp_of(self, time: float) -> int:
-        """The moment (ns since the epoch) of a time of the axis."""
+        """The moment (ns since the epoch) of a time on the axis."""
         return round((time - self._plots.time(0)) * 1e9)
 
     def wall(self, time: float) -> float:
-        """The same in s."""
+        """The moment (s since the epoch) of a time on the axis."""
         return self.stamp_of(time) / 1e9
 
     def beside_cursor(self, step: int, across: int) -> int:
-        """The moment so many cells beside the cursor, or where there is none before the newest sample."""
+        """The moment (ns since the epoch) `step` cells from the cursor, or from the newest sample without a cursor."""
         axes = self.axes(across)
         at = self.cursor if self.cursor is not None else min(self.newest(), axes.end)
         return self.stamp_of(at + step * self.window / max(1, across))
 
     def crossed(self) -> list[str]:
-        """The paths whose value lies beyond one of its thresholds, at the cursor or else now."""
+        """Texts on the curves whose value, at the cursor or else now, is beyond one of their thresholds."""
         found: list[str] = []
         for each in self.curves:
             value = each.latest if self.cursor is None else each.at(self.cursor)
@@ -188,26 +188,24 @@ class Timeline:
         return found
 
     def shift(self, step: int) -> None:
-        """Move a held window by a tenth of its length."""
+        """Move a paused window by tenths of its length."""
         if self.paused_at is not None:
             self.paused_at += step * self.window / 10
 
     def newest(self) -> float:
-        """The time of the newest sample of a topic; with parameters alone, now."""
+        """The time of the newest sample of a topic; now if there are only parameters."""
         streams = [end for each in self.curves if not each.steps and (end := each.end) is not None]
         return max(streams) if streams else self._plots.time()
 
     def moment(self, across: int) -> object:
-        """The part of the present that a picture of so many cells shows; while it stays the same only the newest dots
-        may differ.
-        """
+        """A token for the time shown by a picture of `across` cells; while it is equal, no newer dot would be drawn."""
         if not self.curves:
             return None
         dot = min(self.window / max(1, 2 * across), LATEST_VALUE_S)
         return self.axes(across).end, math.floor(self.newest() / dot)
 
     def axes(self, across: int) -> Axes:
-        """The window; it moves in steps of some cells, so that between two steps only the newest cells are drawn."""
+        """The window; it moves in steps of several cells, so that between two steps only the newest cells are drawn."""
         cell = self.window / max(1, across)
         step = cell * max(1, min(across // MIN_STEPS, math.ceil(PACE_S / cell)))
         if self.paused_at is not None:
@@ -218,14 +216,14 @@ class Timeline:
 
 
 def change_text(change: Change) -> str:
-    """A change in few words: the parameter, its value, and the reason of a refusal."""
+    """A change in a few words: the parameter, its value, and the reason of a refusal."""
     if not change.accepted:
         return f"✗ {change.name} {value_text(change.new)}: {change.reason}"
     return f"▲ {change.name} {value_text(change.old)} → {value_text(change.new)}"
 
 
 def limits_of(text: str) -> tuple[float, float] | None:
-    """Two numbers, or None for an empty text; raises `ValueError` with the remedy."""
+    """Parse two limits; None for an empty text. Raises `ValueError` that says how to write them."""
     parts = text.replace(",", " ").replace("..", " ").split()
     if not parts:
         return None
@@ -241,13 +239,13 @@ def limits_of(text: str) -> tuple[float, float] | None:
 
 
 MIN_SPAN, MAX_SPAN = 1e-9, 1e12
-"""The least span of the value axis, as a share of its values, and the greatest one."""
+"""The minimum span of the value axis, as a share of its values, and the maximum span."""
 
 
 def zoomed(limits: tuple[float, float], value: float | None, factor: float) -> tuple[float, float]:
-    """Limits of `factor` times the span, with a value at its place; the same limits where that is too little or much.
+    """Limits with `factor` times the span, in which `value` keeps its place, or the middle if it is outside or None.
 
-    Without a value within the limits, their middle stays.
+    Returns the same limits if the span would become too small or too large.
     """
     low, high = limits
     at = value if value is not None and low <= value <= high else (low + high) / 2

@@ -19,18 +19,18 @@ LABEL_CELLS = 9
 """Cells of the value axis with its labels."""
 
 MIN_WIDE_CELLS = 130
-"""Cells from which on the legend says more of each curve."""
+"""Minimum width (cells) at which the legend has more statistics of each curve."""
 
 HEAD_ROOM_SHARE = 0.05
-"""Share of the span of all values that stays free above the highest one, so that a curve at its limit can be seen."""
+"""Share of the value span kept free above the highest value, so that a curve at its limit is visible."""
 
 MAX_VALUE = 1e300
-"""Values beyond are drawn here, so that the difference of two values is always a number."""
+"""Larger magnitudes are clipped to this, so that the difference of two values is always finite."""
 
 
 @dataclass(frozen=True)
 class Mark:
-    """A parameter change (or a refusal) on the time axis (s), and what it was."""
+    """A parameter change or a refusal on the time axis (s), with its description."""
 
     time: float
     refused: bool = False
@@ -39,18 +39,18 @@ class Mark:
 
 @dataclass(frozen=True)
 class Axes:
-    """The visible range: times in s, and the limits of the values where a person gave them."""
+    """The visible range: times in s, and the limits of the values if the user has set them."""
 
     start: float
     end: float
     limits: tuple[float, float] | None = None
     cursor: float | None = None
-    """The moment that is looked at."""
+    """The time at the cursor; None without a cursor."""
     since: bool = False
-    """Whether times are told from the left edge on, instead of back from now."""
+    """Whether the labels count up from the left edge, instead of back from now."""
 
     def column(self, time: float, across: int) -> int | None:
-        """The cell of a moment; None where it is not seen."""
+        """The cell of a time in an axis of `across` cells; None if it is outside the window."""
         if not self.start <= time <= self.end:
             return None
         return min(across - 1, int((time - self.start) / (self.end - self.start) * across))
@@ -62,9 +62,9 @@ class Axes:
 
 
 def framed(curves: Sequence[Curve], marks: Sequence[Mark], axes: Axes, width: int, height: int) -> list[Line]:
-    """All curves in one frame; `height` is at least 4 lines, two of them below the picture.
+    """Draw all curves in one frame; `height` is at least 4 lines, two of them below the picture.
 
-    Curves of the right axis have limits of their own, told on the right; `axes.limits` are those of the left one.
+    Curves on the right axis have their own limits, labelled on the right; `axes.limits` applies to the left axis.
     """
     right = [each.right for each in curves]
     both = any(right) and not all(right)
@@ -102,7 +102,7 @@ def _dotted(curve: Curve, low: float, high: float, across: int, down: int) -> np
 
 
 def _excursions(curves: Sequence[Curve], reaches: Sequence[Reach]) -> list[int]:
-    """The cells in which a curve begins to lie beyond one of its thresholds."""
+    """The cells in which a curve crosses one of its thresholds."""
     begins: set[int] = set()
     for curve, seen in zip(curves, reaches, strict=True):
         for each in curve.thresholds:
@@ -113,7 +113,7 @@ def _excursions(curves: Sequence[Curve], reaches: Sequence[Reach]) -> list[int]:
 
 
 def strips(curves: Sequence[Curve], axes: Axes, width: int, height: int, chosen: int) -> list[Line]:
-    """A strip for each curve below its name; the lines are shared out among them."""
+    """Draw a strip for each curve below its legend, dividing the lines among them."""
     lines: list[Line] = []
     room = max(2, height // max(1, len(curves)))
     for at, curve in enumerate(curves):
@@ -131,18 +131,18 @@ def style_of(curve: Curve) -> str:
 
 
 def reach_of(curve: Curve, axes: Axes, across: int) -> Reach:
-    """The part of a curve that is seen in so many cells."""
+    """The visible part of a curve, reduced to the columns of dots in `across` cells."""
     times, values = curve.between(axes.start, axes.end)
     return reach(times, values.clip(-MAX_VALUE, MAX_VALUE), axes.start, axes.end, across * 2)
 
 
 def limits_of_values(several: Sequence[npt.NDArray[np.float64]]) -> tuple[float, float]:
-    """Limits that hold all values, at round numbers."""
+    """Limits of the value axis at round numbers that contain all of these values."""
     return limits([Reach(each.clip(-MAX_VALUE, MAX_VALUE), each.clip(-MAX_VALUE, MAX_VALUE)) for each in several])
 
 
 def limits(reaches: Sequence[Reach]) -> tuple[float, float]:
-    """Limits of the value axis that hold all that is seen, at round numbers, with head-room above the highest value."""
+    """Limits of the value axis at round numbers that contain all visible values, with headroom above the highest."""
     low = min((float(np.nanmin(each.low)) for each in reaches if np.isfinite(each.low).any()), default=0.0)
     high = max((float(np.nanmax(each.high)) for each in reaches if np.isfinite(each.high).any()), default=1.0)
     if high - low < 1e-12 * max(1.0, abs(high)):
@@ -157,7 +157,7 @@ def limits(reaches: Sequence[Reach]) -> tuple[float, float]:
 
 
 def tick_step(span: float, maximum: int) -> float:
-    """The smallest of 1, 2 and 5 times a power of ten of which at most so many fit into a span."""
+    """The smallest step of 1, 2 or 5 times a power of ten of which at most `maximum` fit into a span."""
     raw = span / max(1, maximum)
     if not (math.isfinite(raw) and raw > 0):
         return 1.0
@@ -173,14 +173,14 @@ def canvas(seen: Reach, low: float, high: float, across: int, down: int) -> npt.
     with np.errstate(invalid="ignore"):
         top = np.round((high - seen.high) * scale)
         bottom = np.round((high - seen.low) * scale)
-        # A NaN compares false with everything, so its column stays empty.
+        # NaN compares false with everything, so its column stays empty.
         rows = np.arange(dots)[:, None]
         canvas.mask((rows >= top[None, :]) & (rows <= bottom[None, :]))
     return canvas.codes()
 
 
 def labels_of(low: float, high: float, down: int) -> dict[int, str]:
-    """The text of each labelled row."""
+    """The labels of the value axis, by row."""
     step = tick_step(high - low, max(2, down // 3))
     labels: dict[int, str] = {}
     for count in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-6) + 1):
@@ -234,7 +234,7 @@ def _time_axis(marks: Sequence[Mark], axes: Axes, across: int, beyond: Sequence[
 
 
 def legend(curve: Curve, axes: Axes, width: int, chosen: bool) -> Line:
-    """Name, value at the cursor, else the newest one, and what the samples that are seen amount to."""
+    """The name of a curve, its value at the cursor or else the newest one, and statistics of the visible samples."""
     start, style = ("▸ " if chosen else "  "), style_of(curve)
     facts = "  " + (sanitize(curve.problem) or (_facts(curve, axes, width) if width >= 60 else ""))
     if curve.latest is None and not curve.problem:
@@ -252,7 +252,7 @@ def _value(curve: Curve, axes: Axes) -> float | None:
 
 
 def legend_value(curve: Curve, axes: Axes) -> str:
-    """The value at the cursor, else the newest one; `!` before one beyond a threshold."""
+    """The value at the cursor or else the newest one; preceded by `!` if it is beyond a threshold."""
     value = _value(curve, axes)
     over = "!" if first_crossed(curve.thresholds, value) else ""
     return over + ("" if value is None else short_number(value))

@@ -10,7 +10,7 @@ from bot_console.tui.panes.plot.curves import Curve
 
 @dataclass(frozen=True)
 class WindowFacts:
-    """Least, greatest and mean value, standard deviation, samples per second, and samples that are no number."""
+    """Minimum, maximum and mean, standard deviation, samples per second, and the number of non-finite samples."""
 
     low: float
     high: float
@@ -21,7 +21,7 @@ class WindowFacts:
 
 
 def window_facts(curve: Curve, start: float, end: float) -> WindowFacts | None:
-    """The facts of a window (s); None where there is no number in it."""
+    """The statistics of a window (s); None if it contains no finite value."""
     times, values = curve.between(start, end)
     inside = (times >= start) & (times <= end)
     seen, moments = values[inside], times[inside]

@@ -1,4 +1,4 @@
-"""Compares profiles: columns are profiles, rows the values in which they differ, the riskiest first."""
+"""Compares profiles: the columns are profiles, the rows the parameters in which they differ, riskiest first."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from rich.cells import cell_len
 from rich.segment import Segment
 
 MIN_COLUMN, MAX_COLUMN = 12, 18
-"""Cells of the column of a profile."""
+"""Minimum and maximum cells of a profile's column."""
 NAME_CELLS, UNIT_CELLS, NODE_CELLS = 22, 6, 24
-"""Cells of a parameter's name, of its unit, and of its node, which is left out first."""
+"""Cells of a parameter's name, its unit, and its node, which is the first to be left out."""
 LAST = 9
-"""The rank of parameters that no rule of safety knows."""
+"""The rank of parameters that have no importance for safety."""
 
 
 @dataclass(frozen=True)
@@ -47,18 +47,18 @@ class ComparedValue:
 
 @dataclass(frozen=True)
 class Comparison:
-    """The titles of the columns, the first one being what runs, and the rows."""
+    """The titles of the columns, of which the first is the running system, and the rows."""
 
     titles: tuple[str, ...] = ()
     rows: tuple[ComparedValue, ...] = ()
     left_out: int = 0
-    """Profiles for whose columns there is no room."""
+    """Number of profiles for whose columns there is no room."""
     shown: int = -1
-    """The column of the selected profile."""
+    """The column of the selected profile; 0 if no profile is."""
 
 
 def columns_in(width: int) -> int:
-    """The number of columns that fit a width in cells, at least what runs and one profile."""
+    """The number of columns that fit into a width (cells): at least the running system and one profile."""
     return max(2, (width - NAME_CELLS - UNIT_CELLS) // MIN_COLUMN)
 
 
@@ -69,9 +69,10 @@ def compared(
     differences: Callable[[str], Sequence[ProfileDifference]],
     width: int,
 ) -> Comparison:
-    """Compare what runs with as many profiles as fit, the selected one among them.
+    """Compare the running system with as many profiles as fit, always including the selected one.
 
-    Launch profiles and unreadable files have no values. `differences` is what applying a profile would change.
+    Launch profiles and unreadable files are left out, as they have no values. `differences` returns what applying a
+    profile would change.
     """
     current = snapshot.active_profile
     unchanged = bool(current) and not snapshot.profile_changes
@@ -96,7 +97,7 @@ def compared(
 
 
 def _merged(rows: Iterable[ComparedValue]) -> tuple[ComparedValue, ...]:
-    """The rows, with one for all nodes that have the same parameter with the same values."""
+    """Merge the rows of nodes that have the same parameter with the same values."""
     found: dict[tuple[str, str, tuple[Cell, ...]], ComparedValue] = {}
     for row in rows:
         key = (row.name, row.unit, row.cells)
@@ -109,8 +110,7 @@ _Changes = Mapping[tuple[str, str], ProfileDifference]
 
 
 def _rank(parameter: ParameterInfo, changes: Sequence[_Changes]) -> tuple[bool, int]:
-    """Sort key: parameters that take from the robot's safety in any profile come first, then those that decide most of
-    how it drives.
+    """Sort key: first parameters that any profile makes less safe, then those that matter most to how the robot drives.
     """
     key = (parameter.node, parameter.name)
     unsafe = any(key in each and each[key].unsafe for each in changes)
@@ -131,7 +131,7 @@ def _row(parameter: ParameterInfo, changes: Sequence[_Changes]) -> ComparedValue
 
 
 class ComparisonRows(ItemList[ComparedValue]):
-    """The values in which profiles differ, one column for each profile."""
+    """The parameters in which profiles differ, with a column for each profile."""
 
     can_focus = False
 
@@ -141,7 +141,7 @@ class ComparisonRows(ItemList[ComparedValue]):
         self._repeated: set[str] = set()
 
     def key(self, item: ComparedValue) -> object:
-        """The parameter."""
+        """The nodes and the name of the parameter."""
         return item.nodes, item.name
 
     def show(self, comparison: Comparison) -> None:
@@ -154,7 +154,7 @@ class ComparisonRows(ItemList[ComparedValue]):
             self.refresh()
 
     def heading(self, width: int) -> Line:
-        """The titles of the columns, that of the selected profile in its own colour."""
+        """The titles of the columns, with the selected profile in the accent colour."""
         names, across, nodes = self._columns(width)
         parts = [(" " * (names + UNIT_CELLS), "")]
         for at, title in enumerate(self.comparison.titles):
@@ -168,7 +168,7 @@ class ComparisonRows(ItemList[ComparedValue]):
         return (*parts, ("  node" if nodes else "", "dim"), (left, "dim"))
 
     def _columns(self, width: int) -> tuple[int, int, int]:
-        """The cells of the names, of each profile and of the nodes."""
+        """The cells of the name column, of each profile's column, and of the node column."""
         count = max(1, len(self.comparison.titles))
         longest = max((cell_len(self._label(each)) for each in self.comparison.rows), default=0) + 2
         names = min(max(longest, 12), max(NAME_CELLS, width - UNIT_CELLS - count * MIN_COLUMN))

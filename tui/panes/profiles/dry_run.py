@@ -28,7 +28,7 @@ class Asking:
     later: Callable[..., object]
     heard: Callable[[], object]
     unasked: frozenset[str] = frozenset()
-    """The nodes that can't check in advance."""
+    """The nodes that cannot check values in advance."""
     concerned: int = 0
     """The number of nodes whose values would change."""
     answers: dict[str, Answer | None] = field(default_factory=dict[str, "Answer | None"])
@@ -47,8 +47,8 @@ class Asking:
         refused = {each.node for each in differences if each.refusal and not each.unknown}
         open_to_it = can_be_asked(snapshot.graph)
         self.concerned, self.unasked = len(wanted), frozenset(wanted) - open_to_it
-        # If the descriptor refuses a value, the node need not be asked, and its rules do not expect such values.
-        # A node may be known to the graph but not yet, or no longer, by its parameters.
+        # A node is not asked about a value that its descriptor refuses: the refusal is certain, and the node's own
+        # checks may not expect such values. A node in the graph may have no known parameters yet, or no longer.
         asked = open_to_it & snapshot.parameters.keys() - refused
         now = {node: values for node, values in wanted.items() if node in asked}
         for node in [each for each in self._asked if each not in now]:

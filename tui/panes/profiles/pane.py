@@ -43,9 +43,9 @@ from textual.app import ComposeResult
 
 ADDRESSES = ("https://", "http://")
 MAX_VISIBLE_PROFILES = 6
-"""Profiles that are seen at once."""
+"""Maximum number of profiles visible at once."""
 MAX_HEAD_ROWS, MAX_STATUS_ROWS = 4, 3
-"""Lines that what a profile is for, and what comes of it, take at most."""
+"""Maximum lines of the profile's description, and of the summary of its changes."""
 
 
 EMPTY = Placeholder(
@@ -78,7 +78,7 @@ class ProfilesPane(ListPane):
         self._reported = ""
         self._held = False
         self._comparing = False
-        """Whether the user wants the comparison even where there is something to preview."""
+        """Whether the user wants the comparison even if there are differences to preview."""
         self._own = OwnProfiles(self.console, self._later, self.ask, self.report)
         self._asking = Asking(self.console, self._later, self._compare)
 
@@ -86,7 +86,7 @@ class ProfilesPane(ListPane):
         self.host.call_later(work, *given)
 
     def compose(self) -> ComposeResult:
-        """The profiles, the differences, a line that sums them up."""
+        """The profiles, the differences or the comparison, a summary, and a prompt."""
         yield ProfileRows()
         yield StaticText(id="profile-head")
         yield DifferenceRows()
@@ -100,11 +100,11 @@ class ProfilesPane(ListPane):
         return self.query_one(ProfileRows)
 
     def focus_target(self) -> None:
-        """The profiles take the keys."""
+        """Focus the list of profiles."""
         self._list.focus()
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Take new profiles in, and work the differences out anew when a parameter has changed."""
+        """Update the profiles, and the differences if a parameter has changed."""
         before, self._snapshot = self._snapshot, snapshot
         shown = self._list
         if self._take_in():
@@ -114,14 +114,14 @@ class ProfilesPane(ListPane):
         self._compare()
 
     def _take_in(self) -> bool:
-        """Show the profiles that pass the filter; whether these are others than before."""
+        """Show the profiles that pass the filter; returns whether they have changed."""
         every = self._snapshot.profiles
         there = [each for each in every if self._query.matches(f"{each.name} {each.title} {each.world} {each.path}")]
         self.report_filter(len(there), len(every))
         return self._list.show(there, self._snapshot.active_profile, self._snapshot.profile_changes)
 
     def filter_is(self, words: str) -> None:
-        """Show the profiles that pass."""
+        """Show the profiles that pass the filter."""
         self._query = parse(words)
         if self._take_in():
             self.action_again()
@@ -144,7 +144,7 @@ class ProfilesPane(ListPane):
         )
 
     def _show_comparison(self, profile: Profile | None) -> bool:
-        """Compare all profiles if the user wants it, or there is nothing to preview; whether they differ at all."""
+        """Compare all profiles if the user wants that or there is nothing to preview; returns whether it is shown."""
         wanted = self._comparing or not (self._differences or self._outcomes or self._held)
         rows, width = self.query_one(ComparisonRows), self.size.width
         if wanted:
@@ -159,7 +159,7 @@ class ProfilesPane(ListPane):
         return compares
 
     def on_resize(self) -> None:
-        """Fold what is said anew."""
+        """Wrap the texts for the new width."""
         self._compare()
 
     def _head(self, profile: Profile | None) -> str:
@@ -200,34 +200,34 @@ class ProfilesPane(ListPane):
         return text + ("; w also resets the simulator into its world" if reset and profile.world else "")
 
     def _absent(self, profile: Profile) -> list[str]:
-        """The keys of a profile that mean no running node."""
+        """The node keys of a profile that match no running node."""
         keys = dict.fromkeys(key for key, _ in profile.values)
         return [key for key in keys if not any(means(key, node) for node in self._snapshot.parameters)]
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
-        """Another profile: its differences."""
+        """Show the differences of the newly selected profile."""
         event.stop()
         if event.rows is self._list:
             self.action_again()
 
     def action_again(self) -> None:
-        """Forget the outcome and compare anew."""
+        """Discard the outcome of the last application, and compare again."""
         self._outcomes, self._reported, self._held = {}, "", False
         self._compare()
 
     def action_compare(self) -> None:
-        """Compare all profiles, or preview the selected one again."""
+        """Switch between comparing all profiles and previewing the selected one."""
         self._comparing = not self._comparing
         self._compare()
 
     def action_scroll(self, step: int) -> None:
-        """Scroll what is below the list."""
+        """Scroll the part below the list."""
         comparison = self.query_one(ComparisonRows)
         shown = comparison if comparison.display else self.query_one(DifferenceRows)
         shown.scroll_relative(y=step * max(1, shown.size.height // 2), animate=False, force=True)
 
     def action_apply(self, reset_world: bool) -> None:
-        """Apply the profile; a refusal, or what takes from the robot's safety, is asked about first."""
+        """Apply the profile; ask first if it would be refused, or makes the robot less safe."""
         profile = self._list.current
         if profile is None or profile.problem or not self.may_change():
             return
@@ -267,7 +267,7 @@ class ProfilesPane(ListPane):
 
     def _apply(self, name: str, reset_world: bool) -> None:
         self._reported = f"applying {name} ..."
-        # The list stays while its values change one by one, and shows in the end what became of each.
+        # The list is kept while the values change one by one, so that it can show the outcome of each.
         self._held = True
         answer = self.console.profiles.apply(name, reset_world=reset_world)
         answer.add_done_callback(lambda done: self.host.call_later(self._outcome, name, reset_world, done))
@@ -285,7 +285,7 @@ class ProfilesPane(ListPane):
         self._compare()
 
     def action_open_file(self) -> None:
-        """Ask for a parameter file, the one saved or opened last at first, and show what it would change."""
+        """Ask for a parameter file, suggesting the last one saved or opened, and show what it would change."""
         last = self.state_store.get(LAST_FILE)
         text = last if isinstance(last, str) else ""
         self.ask(Line("parameter file, or https://", self._open, text=text, check=wrong_path))
@@ -303,7 +303,7 @@ class ProfilesPane(ListPane):
             self._opened(answer)
 
     def _opened(self, answer: Answer) -> None:
-        """Go to a profile that was taken in."""
+        """Select a profile that has been opened."""
         self._reported = ""
         self._compare()
         if not answer.ok:
@@ -316,21 +316,21 @@ class ProfilesPane(ListPane):
             self._list.cursor = names.index(answer.text)
 
     def action_save_profile(self) -> None:
-        """Ask for a name, then for what the profile is for, and save."""
+        """Ask for a name and a description, then save the running values as a profile."""
         self._own.save(self._snapshot)
 
     def action_rename_profile(self) -> None:
-        """Ask for another name for a profile of the person's."""
+        """Ask for a new name for the user's profile at the cursor."""
         if (profile := self._list.current) is not None:
             self._own.rename(profile)
 
     def action_delete_profile(self) -> None:
-        """Ask whether a profile of the person's is to be deleted."""
+        """Ask whether to delete the user's profile at the cursor."""
         if (profile := self._list.current) is not None:
             self._own.delete(profile)
 
     def action_presets(self) -> None:
-        """Show the presets that nodes keep as a service."""
+        """Show the presets that nodes offer as services."""
         PresetMenu(self.console, self.host.call_later, self.ask, self._preset_done).open(self._snapshot.graph)
 
     def _preset_done(self, answer: Answer) -> None:
@@ -338,7 +338,7 @@ class ProfilesPane(ListPane):
         self.action_again()
 
     def _ask_launch(self, profile: Profile) -> None:
-        """A launch profile takes the place of all that runs."""
+        """Ask whether a launch profile should replace everything that this console has started."""
         if self.console.launcher is None:
             self.notify("this console was started without a launcher")
             return
@@ -371,12 +371,12 @@ class ProfilesPane(ListPane):
 
     def _replaced(self, profile: Profile, answer: Answer) -> None:
         if answer.ok:
-            self.console.profiles.apply(profile.name)  # it has no values; the one of before is not in force any more
+            self.console.profiles.apply(profile.name)  # sets no values, but the previous profile is no longer active
         self._reported = answer.text
         self._compare()
 
     def action_undo(self) -> None:
-        """Undo the last change made here."""
+        """Undo the last change made in this console."""
         self.console.parameters.undo().add_done_callback(lambda done: self.host.call_later(self._undone, done))
 
     def _undone(self, done: Future[Answer]) -> None:

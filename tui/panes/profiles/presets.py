@@ -1,4 +1,4 @@
-"""Presets that nodes offer as services: which nodes do, and what can be done with them."""
+"""Presets that nodes offer as services: finding these nodes, and listing, applying, saving and deleting presets."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ UNSEEN = (
 
 
 def keepers(graph: GraphInfo) -> tuple[str, ...]:
-    """The common prefix of the preset services, such as `/presets`, of each node that offers all of them."""
+    """The common prefixes, such as `/presets`, of the preset services of all nodes that offer all four of them."""
     offered = {each.name: each.types for each in graph.services}
     lists = [name.removesuffix("/list") for name, types in offered.items() if name.endswith("/list") and LIST in types]
     verbs = ("apply", "save", "delete")
@@ -32,7 +32,7 @@ def keepers(graph: GraphInfo) -> tuple[str, ...]:
 
 @dataclass
 class PresetMenu:
-    """Lists the presets of all nodes that offer some, and what can be done with them.
+    """A menu of the presets of all nodes that offer some, with the actions for each.
 
     `later` runs a call in the panes' thread, `ask` asks the user, `report` shows the outcome.
     """
@@ -44,7 +44,7 @@ class PresetMenu:
     _lists: dict[str, Answer] = field(default_factory=dict[str, Answer])
 
     def open(self, graph: GraphInfo) -> None:
-        """Ask all of these nodes; the menu opens when the last one has answered."""
+        """Request the lists of all nodes with presets; the menu opens when the last one has answered."""
         asked = keepers(graph)
         if not asked:
             self.report(Answer(False, NOBODY))

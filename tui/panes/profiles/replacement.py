@@ -14,7 +14,7 @@ from bot_console.tui.console.model import Profile
 
 @dataclass
 class Replacement:
-    """Stops processes, launches a profile when all have ended, and reports the outcome."""
+    """Stops processes, launches a profile once all of them have ended, and reports the outcome."""
 
     launcher: Launcher
     keys: Sequence[str]
@@ -25,7 +25,7 @@ class Replacement:
     _lock: threading.Lock = field(default_factory=threading.Lock)
 
     def begin(self) -> None:
-        """Ask all of them to stop."""
+        """Ask all processes to stop."""
         self._left = len(self.keys)
         if not self.keys:
             self._launch()

@@ -17,15 +17,15 @@ from rich.cells import cell_len
 from rich.segment import Segment
 
 MAX_NAME_CELLS = 16
-"""Cells of the profile column, unless the names need less."""
+"""Minimum cells of the profile column."""
 MAX_PARAMETER_CELLS = 26
-"""Cells of the parameter column, unless the names need less."""
+"""Minimum cells of the parameter column, if there is room for that."""
 VALUE_CELLS = 12
-"""Cells of a value if there is no room for more."""
+"""Cells of the present value; the new one may be twice as long."""
 NOTE_CELLS = 12
 """Cells reserved for the note about a change."""
 REASON_INDENT_CELLS = 4
-"""Indentation of a reason in cells."""
+"""Indentation (cells) of a reason."""
 
 
 class ProfileRows(ItemList[Profile]):
@@ -59,7 +59,7 @@ class ProfileRows(ItemList[Profile]):
         return new
 
     def row(self, index: int, width: int) -> list[Segment]:
-        """Mark, name, title or problem."""
+        """Mark, name, number of changed values, and title or problem."""
         profile = self.rows[index]
         mark = "●" if profile.name == self.active else " "
         longest = max(cell_len(sanitize(each.name)) for each in self.rows) + 4
@@ -78,7 +78,7 @@ class ProfileRows(ItemList[Profile]):
 class Entry:
     """A line of the differences: a node, one of its values, or the reason of a refusal below either.
 
-    `outcome` is the result for the value when it was applied; `message` is the note beside a node with its style.
+    `outcome` is the result of applying the value; `message` is the note beside a node, with its style.
     """
 
     node: str

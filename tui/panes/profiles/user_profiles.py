@@ -18,7 +18,10 @@ from bot_console.tui.widgets.prompt.question import Confirmation, Line, Question
 
 @dataclass
 class OwnProfiles:
-    """`later` runs a call in the panes' thread, `ask` asks the user, `report` shows the outcome."""
+    """The actions on the user's profiles.
+
+    `later` runs a call in the panes' thread, `ask` asks the user, `report` shows the outcome.
+    """
 
     console: Console
     later: Callable[..., object]
@@ -26,7 +29,7 @@ class OwnProfiles:
     report: Callable[[Answer], object]
 
     def save(self, snapshot: ConsoleSnapshot) -> None:
-        """Ask for a name and a description, and save; ask before an existing profile is overwritten."""
+        """Ask for a name and a description, then save; ask before overwriting an existing profile."""
         text = snapshot.active_profile
         self.ask(Line("save what runs as profile", self._named, text=text, check=lambda name: _problem(name.strip())))
 
@@ -45,7 +48,7 @@ class OwnProfiles:
         self.report(self.console.profiles.save(name, description))
 
     def rename(self, profile: Profile) -> None:
-        """Ask for a new name."""
+        """Ask for a new name for a profile."""
         if not self._refused(profile, "renamed"):
             name = _file_name(profile)
             check = partial(self._name_problem, name)
@@ -60,7 +63,7 @@ class OwnProfiles:
         self.report(self.console.profiles.rename(name, to.strip()))
 
     def delete(self, profile: Profile) -> None:
-        """Ask whether to delete its file."""
+        """Ask whether to delete the file of a profile."""
         if not self._refused(profile, "deleted"):
             changed = f", changed {reported}" if (reported := _changed(profile.path)) else ""
             reasons = f"{profile.path}{changed}.\nThe values that run stay as they are. The file cannot be restored."
@@ -87,8 +90,8 @@ class OwnProfiles:
 
 
 def _file_name(profile: Profile) -> str:
-    """The name of its file. A profile with the same name as a built-in one is listed with a suffix, which the file
-    lacks.
+    """The name of a profile's file, without the suffix with which a profile that is named like a built-in one is
+    listed.
     """
     return os.path.splitext(os.path.basename(profile.path))[0]
 

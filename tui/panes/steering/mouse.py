@@ -10,8 +10,8 @@ from bot_console.tui.widgets.picture import Line
 
 
 def button(lines: Sequence[Line], x: int, y: int) -> tuple[int, int] | None:
-    """The axis (0 linear, 1 angular) and step (1 faster or left, 0 zero, -1 slower or right) of the button at a
-    cell.
+    """The axis (0 linear, 1 angular) and step (1 faster or left, 0 zero, -1 slower or right) of the button at a cell;
+    None if there is none.
     """
     text = "".join(text for text, _ in lines[y]) if 0 <= y < len(lines) else ""
     for axis, (word, (less, zero, more)) in enumerate(BUTTONS.items()):

@@ -33,12 +33,12 @@ from textual.events import MouseDown, MouseEvent, MouseMove, MouseUp
 from textual.timer import Timer
 
 FIGURES_S = 0.5
-"""Seconds for which plane, bars and figures stay while nobody steers here: faster ones cannot be read."""
+"""Minimum seconds between two updates of the figures while this pane does not steer, so that they can be read."""
 HELD = "The all-stop holds the robot; the line below shows how to release it."
 
 
 class SteeringPane(Pane):
-    """Sliders moved by keys, once armed."""
+    """Drives the robot with keys and sliders, once armed."""
 
     TITLE = "Steering"
     HELP = (
@@ -64,13 +64,13 @@ class SteeringPane(Pane):
         self.can_focus = True
         self._dragging = self._on_pad = False
         self._wanted = ""
-        """The topic to steer on as soon as somebody subscribes to it."""
+        """The topic to steer on as soon as a node subscribes to it."""
         self._rate: float | None = None
-        """The rate that every robot is steered at from the beginning."""
+        """The initial rate (Hz) for every robot; None for the default."""
         self._repeating: Timer | None = None
-        """Repeats the command at another rate than the ticks."""
+        """Repeats the command if its rate is not that of the ticks."""
         self._figures, self._figures_at = DriveInfo(), float("-inf")
-        """The velocities that are shown, and since when (s)."""
+        """The velocities shown, and when (s) they were last updated."""
 
     def compose(self) -> ComposeResult:
         """The picture, and a prompt for limits."""
@@ -79,9 +79,9 @@ class SteeringPane(Pane):
 
     @property
     def key_words(self) -> Mapping[str, str]:
-        """The action of Enter; none while somebody else holds the robot."""
+        """What Enter does; nothing while someone else holds the robot."""
         if self.state.armed:
-            return {"steering.arm": "Pause"}  # short: the keys that turn shall both fit at 80 columns
+            return {"steering.arm": "Pause"}  # short, so that both turning keys fit into 80 columns
         if self._snapshot.drive.stopped:
             return {"steering.arm": "Resume" if self._own_stop else ""}
         return {}
@@ -91,7 +91,7 @@ class SteeringPane(Pane):
         self.focus()
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Show what became of the command; the all-stop zeroes it."""
+        """Follow the robot's state: disarm if it is stopped, silent or replaced; show what became of the command."""
         before, self._snapshot = self._snapshot, snapshot
         drive = snapshot.drive
         if drive.robot != self._robot:
@@ -111,7 +111,7 @@ class SteeringPane(Pane):
         self._draw()
 
     def _take_robot(self, robot: str) -> None:
-        """Restore the settings of a robot; keys meant for another one never move it."""
+        """Switch to a robot and its settings; disarm first, so that keys meant for another one never move it."""
         if self._robot and self.state.armed:
             self._disarm("Disarmed: another robot is steered now." if robot else "Disarmed: the robot has left.")
         self._robot = robot
@@ -123,7 +123,7 @@ class SteeringPane(Pane):
         return Steering() if self._rate is None else Steering(rate=self._rate)
 
     def steer_on(self, topic: str, rate: float | None) -> None:
-        """Steer on a topic as soon as somebody subscribes to it, and at a rate (Hz); empty and None: as before."""
+        """Steer on a topic as soon as a node subscribes to it, and at a rate (Hz); empty or None changes nothing."""
         self._wanted = topic
         if rate is not None:
             self._rate = self.state.rate = rate
@@ -159,7 +159,7 @@ class SteeringPane(Pane):
         self.keys_changed()
 
     def _shown_figures(self) -> DriveInfo:
-        """The velocities to show: while nobody steers here, they stay long enough to be read."""
+        """The velocities to show; while this pane does not steer, they stay long enough to be read."""
         drive, held = self._snapshot.drive, self._figures
         if self.state.armed or self._are_figures_due() or not same_but_velocities(drive, held):
             self._figures, self._figures_at = drive, self.clock()
@@ -175,7 +175,7 @@ class SteeringPane(Pane):
         return [each.name for each in nodes if any(end.name == topic for end in each.publishers)]
 
     def _limit(self) -> None:
-        """Set the typed limits, or else those of the robot's parameters."""
+        """Apply the typed limits, or else those from the robot's parameters."""
         trees, drive = self._snapshot.parameters.values(), self._snapshot.drive
         self.state.limit(self.state.typed or greatest_of(trees, drive.topic, drive.others))
 
@@ -238,7 +238,7 @@ class SteeringPane(Pane):
         self._draw()
 
     def tick(self) -> None:
-        """Repeat the command, or stop if no key was pressed within the dead-man time."""
+        """Repeat the command; stop if no key was pressed within the dead-man time, or the pane has lost the focus."""
         if self.state.armed and not (self.has_focus and self.host.screen is self.screen):
             self._disarm("Disarmed: another pane has the keyboard.")
         if self.state.armed and (self._repeating is None or self.state.expires(self.clock())):
@@ -259,12 +259,12 @@ class SteeringPane(Pane):
             self._draw()
 
     def _stand(self, why: str) -> None:
-        """Lock before releasing the steering, so that the robot's own program does not drive in between."""
+        """Stop the robot before releasing the steering, so that its own program does not drive in between."""
         self.console.drive.stop(True, why)
         self.console.drive.steer(False)
 
     def _steer_no_more(self) -> None:
-        """Stop steering, with zero velocity."""
+        """Stop steering, with a zero velocity."""
         self.state.disarm()
         self._send()
         self.console.drive.steer(False)
@@ -279,15 +279,15 @@ class SteeringPane(Pane):
         self._draw()
 
     def on_blur(self) -> None:
-        """Disarm, since the pane has lost the keyboard."""
+        """Disarm, since the pane has lost the focus."""
         self._disarm()
 
     def on_unmount(self) -> None:
-        """Send zero velocity on exit; a steered robot stays locked."""
+        """Disarm with a zero velocity on exit; a steered robot stays stopped."""
         self.detach()
 
     def detach(self) -> None:
-        """Disarm with zero velocity; a steered robot stays locked."""
+        """Disarm with a zero velocity; a steered robot stays stopped."""
         if self.state.armed:
             self.state.disarm()
             self._send()
@@ -323,7 +323,7 @@ class SteeringPane(Pane):
         return stands_after_steering(self._snapshot.drive)
 
     def _arm(self) -> None:
-        """Take the steering before the lock is released: the robot stands until a key moves it."""
+        """Take the steering before releasing the stop, so that the robot stands still until a key moves it."""
         self.console.drive.steer(True)
         if self._snapshot.drive.stopped:
             self.console.drive.stop(False)
@@ -340,7 +340,7 @@ class SteeringPane(Pane):
             self.console.drive.stop(False)
 
     def action_disarm(self) -> None:
-        """Send zero velocity and ignore keys."""
+        """Disarm with a zero velocity."""
         self._disarm()
 
     def action_steer(self, linear: int, angular: int, steps: int) -> None:
@@ -395,7 +395,7 @@ class SteeringPane(Pane):
         self.ask(Choice("Steer which robot or topic?", choose, find=find, hint="type part of its name", empty=empty))
 
     def action_deadman(self) -> None:
-        """The next dead-man time."""
+        """Switch to the next dead-man time."""
         times = DEADMAN_TIMES_S
         self.state.deadman = times[(times.index(self.state.deadman) + 1) % len(times)]
         self._draw()

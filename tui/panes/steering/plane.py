@@ -1,4 +1,4 @@
-"""The plane of both velocities, with what is asked for and what the robot does. Pure."""
+"""The plane of both velocities, with the requested and the actual velocity. Pure."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ TOP, BOTTOM, LEFT, RIGHT = "forward", "backward", "left", "right"
 def plane(
     asked: Velocity | None, robot: Velocity | None, greatest: Velocity, size: tuple[int, int], *, moving: bool
 ) -> list[Line]:
-    """A frame around `size` cells, both odd: forward is up, a left turn is left, the corners are the limits.
+    """Draw a frame around `size` cells, both odd: forward is up, a left turn is left, the corners are the limits.
 
-    `moving`: somebody steers with what is asked for.
+    `moving` highlights the requested velocity, while the pane steers with it.
     """
     width, height = size
     across, down = width // 2, height // 2
@@ -46,7 +46,7 @@ def _share(value: float, greatest: float) -> float:
 
 
 def velocity_at(lines: Sequence[str], x: int, y: int, greatest: Velocity) -> Velocity | None:
-    """The velocity at a cell of a drawn plane; None beside it."""
+    """The velocity at a cell of a drawn plane; None outside it."""
     top = next((at for at, text in enumerate(lines) if f"{TOP}─" in text and "╭" in text), None)
     bottom = next((at for at, text in enumerate(lines) if f"{BOTTOM}─" in text and "╰" in text), None)
     if top is None or bottom is None:

@@ -18,7 +18,7 @@ DEADMAN_TIMES_S = (1.0, 2.0, 5.0, 10.0)
 """Seconds without a key after which the robot is stopped; terminals do not report key releases."""
 
 RATE_HZ = 10.0
-"""How often a velocity is repeated, unless another rate was given."""
+"""How often a velocity is repeated by default."""
 
 DEFAULT_LIMITS = (1.0, 3.0)
 """Limits (m/s, rad/s) if no parameter provides them."""
@@ -27,10 +27,10 @@ DEAD_MAN, LEFT = "dead-man: no key came", "the steering was left"
 SILENT = "held the steering and fell silent"
 """The reason for which the robot stops itself if this console was frozen or cut off; see `docs/safety.md`."""
 OWN_REASONS = (DEAD_MAN, LEFT, SILENT)
-"""Reasons for which the robot stands after steering, until someone resumes steering or hands it back."""
+"""Reasons for which steering leaves the robot stopped, until someone resumes steering or hands the robot back."""
 
 MAX_LIMIT = 10.0
-"""The maximum of a typed limit, m/s and rad/s."""
+"""Maximum of a typed limit (m/s and rad/s)."""
 
 SPEED_PARAMETER, TURN_PARAMETER = "max_speed", "turn_rate"
 
@@ -42,21 +42,21 @@ class Steering:
     linear: float = 0.0
     angular: float = 0.0
     sideways: float = 0.0
-    """To the left, in m/s; holonomic bases alone obey it."""
+    """Velocity to the left, in m/s; only holonomic bases obey it."""
     armed: bool = False
     deadman: float = DEADMAN_TIMES_S[1]
     rate: float = RATE_HZ
-    """How often the command is sent while it is not zero, in Hz."""
+    """How often (Hz) the command is sent while it is not zero."""
     greatest: tuple[float, float] = DEFAULT_LIMITS
     last_key: float = 0.0
     typed: tuple[float, float] | None = None
-    """Limits typed by the user, which replace those of the parameters."""
+    """Limits typed by the user, which replace those from the parameters."""
     sent_zero: bool = True
     expired: bool = False
-    """Whether the dead-man time has expired and nobody has resumed steering since."""
+    """Whether the dead-man time has expired and steering has not been resumed since."""
 
     def arm(self, now: float) -> None:
-        """Accept keys; the robot stands until one moves it."""
+        """Accept keys; the robot stands still until one moves it."""
         self.armed, self.last_key, self.expired = True, now, False
         self.linear = self.angular = self.sideways = 0.0
 
@@ -66,7 +66,7 @@ class Steering:
         self.zero()
 
     def zero(self) -> None:
-        """Stop; the zero is sent even if it was sent before."""
+        """Stop; a zero is sent even if one was sent before."""
         self.linear = self.angular = self.sideways = 0.0
         self.sent_zero = False
 
@@ -85,7 +85,7 @@ class Steering:
         self.angular = _moved(self.angular, angular * steps, self.greatest[1])
 
     def slide(self, steps: int, now: float) -> None:
-        """Change the sideways velocity by steps to the left; its limit is that of the linear one."""
+        """Change the sideways velocity by steps to the left; the linear limit applies to it."""
         self.last_key, self.expired = now, False
         self.sideways = _moved(self.sideways, steps, self.greatest[0])
 
@@ -109,8 +109,8 @@ class Steering:
         return max(0.0, min(1.0, 1.0 - (now - self.last_key) / self.deadman)) if self.armed else 0.0
 
     def command(self, now: float) -> tuple[float, float, float] | None:
-        """The command to send now, if any: linear, angular and sideways velocity repeatedly, a zero once. The dead-man
-        timeout ends the steering.
+        """The linear, angular and sideways velocity to send now; None if there is nothing to send. A zero is sent only
+        once. Disarms if the dead-man time has expired.
         """
         moving = self.moving
         if self.expires(now):
@@ -122,7 +122,7 @@ class Steering:
         return self.linear, self.angular, self.sideways
 
     def expires(self, now: float) -> bool:
-        """Whether the dead-man time is over."""
+        """Whether the dead-man time has expired while the robot is being driven."""
         return self.armed and self.moving and now - self.last_key >= self.deadman
 
     @property
@@ -141,14 +141,14 @@ def _moved(value: float, steps: int, greatest: float) -> float:
 
 
 def stands_after_steering(drive: DriveInfo) -> bool:
-    """Whether only this pane holds the robot, so that one key may resume or hand back the steering."""
-    if not drive.lockable:  # only this console's zeros hold it, sent for one of these reasons
+    """Whether only this pane holds the robot, so that one key may resume steering or hand the robot back."""
+    if not drive.lockable:  # it is held only by this console's zeros
         return drive.stopped_here and drive.stop_reason in OWN_REASONS
     return bool(drive.stops) and all(each.here and each.reason in OWN_REASONS for each in drive.stops)
 
 
 def parse_rate(text: str) -> float:
-    """Parse a rate in Hz; empty: the default; raises `ValueError`."""
+    """Parse a rate in Hz; an empty text is the default; raises `ValueError`."""
     if not text.strip():
         return RATE_HZ
     rate = parse_number(text)
@@ -158,7 +158,7 @@ def parse_rate(text: str) -> float:
 
 
 def robot_of(topic: str, robots: Iterable[str]) -> str:
-    """The robot that takes commands on a topic; empty if none does. One that is named by its topic is that itself."""
+    """The robot that takes commands on a topic; empty if there is none. Robots may be named by their topics."""
     name = topic if topic.startswith("/") else f"/{topic}"
     namespace, _, token = name.rpartition("/")
     known = set(robots)

@@ -17,24 +17,25 @@ from bot_console.tui.widgets.picture import Line
 BAR_CELLS = 10
 """Cells of a bar."""
 MAX_PLANE_CELLS, LARGE_PLANE_CELLS = (53, 19), (101, 37)
-"""Cells of the plane of both velocities at most, odd so that it has a middle; and from `MIN_LARGE_CELLS` on."""
+"""Maximum width and height (cells) of the plane, normally and from `MIN_LARGE_CELLS` on; odd, so that it has a centre.
+"""
 MIN_LARGE_CELLS = 160
 CELLS_PER_ROW = 3
-"""The greatest width of the plane, for each of its rows: it shall not look flat."""
+"""Maximum cells of the plane's width per row, so that it does not look flat."""
 NARROW_PLANE_CELLS = 27
-"""Its width beside the bars on fewer than `MIN_WIDE_CELLS` cells."""
+"""Width of the plane in a pane of fewer than `MIN_WIDE_CELLS` cells."""
 MIN_WIDE_CELLS = 100
 MIN_ROWS = 5
-"""Rows of the plane at least; with less room there is none."""
+"""Minimum rows of the plane; with less room it is left out."""
 BARS_CELLS = 45
 """Cells that the bars need beside the plane."""
 GAP_CELLS, FRAME_CELLS = 2, 3
-"""Cells between plane and bars, and those of the frame of the plane with the blank before it."""
+"""Cells between plane and bars, and of the frame of the plane with the blank before it."""
 WORDS_CELLS, STAGE_CELLS = 9, 8
 BUTTONS = {"linear": ("[-]", "[0]", "[+]"), "angular": ("[<]", "[0]", "[>]")}
-"""For the mouse, behind each slider: less or to the left, zero, more or to the right."""
+"""Mouse buttons after each slider: less or to the left, zero, more or to the right."""
 MIN_CELLS_FOR_BUTTONS = 60
-"""Cells of width from which on there is room for them."""
+"""Minimum width (cells) at which there is room for the buttons."""
 
 
 def lines(
@@ -46,10 +47,11 @@ def lines(
     others: Sequence[str] = (),
     figures: DriveInfo | None = None,
 ) -> list[Line]:
-    """Switch, dead-man time, sliders, and what became of the command; the least important lines go first.
+    """Arming state, sliders, dead-man time, and what became of the command; if there is little room, the least
+    important lines are left out first.
 
-    `others` are nodes that publish commands where this pane does; `figures` are the velocities shown on the plane, as
-    bars and as numbers, by default the newest ones.
+    `left` is the remaining share of the dead-man time, `others` are nodes that publish commands on the same topic, and
+    `figures` holds the velocities to show, by default the newest ones.
     """
     figures = figures or drive
     top = [_switch(state, drive, width), *_others(others, drive.topic)]
@@ -70,7 +72,7 @@ def lines(
 
 
 def same_but_velocities(one: DriveInfo, other: DriveInfo) -> bool:
-    """Whether two states differ in nothing but how fast something moves."""
+    """Whether two states differ in nothing but the values of their velocities."""
     velocities = ("asked", "limited", "final", "actual")
     if any((getattr(one, each) is None) != (getattr(other, each) is None) for each in velocities):
         return False
@@ -78,7 +80,7 @@ def same_but_velocities(one: DriveInfo, other: DriveInfo) -> bool:
 
 
 def _plane_size(width: int, rows: int) -> tuple[int, int] | None:
-    """The cells of the plane beside the bars; None if there is no room."""
+    """The width and height of the plane beside the bars; None if there is no room."""
     most = LARGE_PLANE_CELLS if width >= MIN_LARGE_CELLS else MAX_PLANE_CELLS
     room, down = width - FRAME_CELLS - GAP_CELLS - BARS_CELLS, min(most[1], rows)
     across = (
@@ -101,7 +103,7 @@ def _plane(state: Steering, drive: DriveInfo, size: tuple[int, int]) -> list[Lin
 
 
 def _beside(left: Sequence[Line], right: Sequence[Line]) -> list[Line]:
-    """Two blocks side by side, the right one in the middle of the left one."""
+    """Two blocks side by side, the right one centred vertically."""
     above = max(0, (len(left) - len(right)) // 2)
     blank: Line = ()
     rows = [*[blank] * above, *right]
@@ -109,7 +111,7 @@ def _beside(left: Sequence[Line], right: Sequence[Line]) -> list[Line]:
 
 
 def _sideways(state: Steering) -> list[Line]:
-    """The sideways velocity, while there is one: few bases have any."""
+    """The sideways velocity, unless it is zero, as on most bases it always is."""
     if not state.sideways:
         return []
     where = "to the left" if state.sideways > 0 else "to the right"
@@ -119,7 +121,7 @@ def _sideways(state: Steering) -> list[Line]:
 def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
     topic = sanitize(drive.topic) or "no robot listens for commands"
     if len(drive.robots) > 1 and drive.robot in drive.robots:
-        # Of one robot or of several: from a graph nobody can tell where two topics end.
+        # Counted as topics, since the graph does not show whether two topics belong to the same robot.
         topic += f"  topic {drive.robots.index(drive.robot) + 1} of {len(drive.robots)}, r: the next one"
     if drive.unsent:
         return ((" STOP NOT SENT ", "error"), (f" {drive.unsent}", ""))
@@ -145,7 +147,7 @@ def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
 
 
 def _others(nodes: Sequence[str], topic: str) -> list[Line]:
-    """That nobody chooses between the pane's commands and those of other nodes."""
+    """A warning that nothing arbitrates between the pane's commands and those of other nodes."""
     if not nodes:
         return []
     who = f"{sanitize(nodes[0])} and {len(nodes) - 1} more" if len(nodes) > 1 else sanitize(nodes[0])
@@ -153,7 +155,7 @@ def _others(nodes: Sequence[str], topic: str) -> list[Line]:
 
 
 def _highlighted(drive: DriveInfo, topic: str) -> Line:
-    """Where nothing may be steered or released: no key is named that would be refused."""
+    """The state while this console may neither steer nor release: it names no key that would be refused."""
     if drive.stopped:
         return ((" ALL STOP ", "error"), (f" released elsewhere: held{held_by(drive)}", ""))
     return ((" ○ ", "dim"), (f" {drive.refused}  ", "strong"), (topic, "dim"))
@@ -164,7 +166,7 @@ def _unconfirmed(drive: DriveInfo) -> str:
 
 
 def _slider(word: str, value: float, greatest: float, unit: str, width: int, *, turned: bool = False) -> Line:
-    """A slider with its ends; an angular one shows left turns on the left, as they are felt."""
+    """A slider with its ends; the angular one shows left turns on the left."""
     shown = -value if turned else value
     ends = ("left", "right") if turned else (f"{-greatest:+.1f}", f"{greatest:+.1f}")
     buttons = "  " + " ".join(BUTTONS[word]) if width >= MIN_CELLS_FOR_BUTTONS else ""
@@ -194,9 +196,9 @@ def _deadman(state: Steering, left: float) -> Line:
 
 
 def _chain(state: Steering, drive: DriveInfo, *, narrow: bool = False) -> list[Line]:
-    """Asked, limited, sent, robot: what became of the command on its way, as bars and numbers.
+    """The velocity at each stage of the command (asked, limited, sent, robot), as bars and numbers.
 
-    With `narrow`, the reason for a limit has a line of its own, which is blank without one.
+    With `narrow`, the reason for a limit has a line of its own, which is blank if there is none.
     """
     rows: list[Line] = []
     stages = (("asked", drive.asked), ("limited", drive.limited), ("sent", drive.final), ("robot", drive.actual))

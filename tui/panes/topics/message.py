@@ -12,7 +12,7 @@ from rich.segment import Segment
 
 
 def unfolded(fields: Sequence[Field], closed: frozenset[str], opened: frozenset[str]) -> list[Field]:
-    """The lines that are seen: those below a closed one are left out."""
+    """The visible lines, without those below a folded one."""
     found: list[Field] = []
     skip = 0
     for field in fields:
@@ -26,12 +26,12 @@ def unfolded(fields: Sequence[Field], closed: frozenset[str], opened: frozenset[
 
 
 def is_closed(field: Field, closed: frozenset[str], opened: frozenset[str]) -> bool:
-    """Whether what a line holds is not shown."""
+    """Whether a line is folded."""
     return field.holds > 0 and (field.path in closed or (field.closed and field.path not in opened))
 
 
 class MessageRows(RowList):
-    """Lines of a message."""
+    """The lines of a message."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -47,11 +47,11 @@ class MessageRows(RowList):
         return self.lines[self.cursor] if self.cursor < len(self.lines) else None
 
     def show_message(self, message: LiveMessage) -> None:
-        """Show the lines of a message; only those that differ are drawn."""
+        """Show the lines of a message; only changed ones are redrawn."""
         self.show_fields(message.fields)
 
     def show_fields(self, fields: Sequence[Field]) -> None:
-        """Show these lines; only those that differ are drawn."""
+        """Show these lines; only changed ones are redrawn."""
         if fields is self.fields:
             return
         self.fields = fields
@@ -67,7 +67,7 @@ class MessageRows(RowList):
                 self.row_changed(index)
 
     def fold(self, closed: bool | None = None) -> bool:
-        """Close or open the line at the cursor, or turn it; whether there was anything to fold."""
+        """Fold or unfold the line at the cursor, or with None toggle it; returns whether there is anything to fold."""
         line = self.current
         if line is None or not line.holds:
             return False
@@ -80,7 +80,7 @@ class MessageRows(RowList):
         return True
 
     def row_count(self) -> int:
-        """How many lines there are."""
+        """The number of lines."""
         return len(self.lines)
 
     def row(self, index: int, width: int) -> list[Segment]:

@@ -1,4 +1,4 @@
-"""The topics pane: what is published and how often, live messages, and publishing, service calls and goals."""
+"""The topics pane: topics with their rates and live messages, publishing, service calls and action goals."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ from textual.app import ComposeResult
 from textual.containers import Container
 
 MEASURE_POLL_S = 1.0
-"""Seconds between two readings of what was measured."""
+"""Seconds between two polls of the measurements."""
 MESSAGE_POLL_S = 0.25
-"""Seconds between two readings of the message that is open."""
+"""Seconds between two polls of the open message."""
 EXPECTED_FILE = "expected-rates-file"
 MAX_STATE_LINES = 3
 MIN_SIDE_BY_SIDE_CELLS = 110
-"""Cells from which list and message stand side by side."""
+"""Minimum width (cells) at which the list and the message are shown side by side."""
 
 
 class TopicsPane(ListPane):
@@ -52,7 +52,7 @@ class TopicsPane(ListPane):
     BINDINGS = keymap.bindings("topics")
 
     clock: Callable[[], float] = staticmethod(time.monotonic)
-    """Seconds of a steady clock; tests give one that they step."""
+    """A monotonic clock (s); tests replace it with one that they step."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
@@ -63,20 +63,20 @@ class TopicsPane(ListPane):
         self._every = self._listed = 0
         self._hidden = False
         self._folded: frozenset[str] | None = None
-        """The namespaces that a person has left folded; None: nobody has folded or unfolded any."""
+        """The namespaces that the user has folded; None until the user folds or unfolds one."""
         self._folded_matches: frozenset[str] = frozenset()
-        """The namespaces that were folded since the filter was set."""
+        """The namespaces that have been folded since the filter was set."""
         self._measuring: list[str] = []
         self._topic = ""
         """The topic whose message is open."""
         self._qos: dict[str, RequestedQos] = {}
-        """The QoS with which topics are heard otherwise than as they are offered."""
+        """The QoS of subscriptions that differs from the offered one, by topic."""
         self._shown = LiveMessage()
         self._frozen = False
         self._polled = self._message_polled_at = 0.0
 
     def compose(self) -> ComposeResult:
-        """Titles, the list and the message beside it, a line on what is at the cursor, a prompt."""
+        """The headings, the list and the message, a status line on the row at the cursor, and a prompt."""
         yield StaticText(id="topics-heading")
         with Container(id="topics-body"):
             yield TopicRows()
@@ -88,7 +88,7 @@ class TopicsPane(ListPane):
 
     @property
     def key_words(self) -> Mapping[str, str]:
-        """The action of Enter, if there is one, and no key that is for topics alone where others are listed."""
+        """What Enter does; keys that only apply to topics are hidden while services or actions are listed."""
         if self._kind is Kind.TOPICS:
             return {}
         for_topics = dict.fromkeys(("topics.fill", "topics.plot", "topics.freeze"), "")
@@ -107,15 +107,15 @@ class TopicsPane(ListPane):
 
     @property
     def _in_message(self) -> bool:
-        """Whether keys are for the message."""
+        """Whether keys act on the message rather than on the list."""
         return bool(self._topic) and (self._message.has_focus or not self._list.display)
 
     def focus_target(self) -> None:
-        """The message takes the keys while it is open, else the list."""
+        """Focus the message if one is open, otherwise the list."""
         (self._message if self._topic else self._list).focus()
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """List anew when the graph is another object; what was measured is looked at no more often than by `tick`."""
+        """Update the list if the graph is a different object; measurements are polled no more often than in `tick`."""
         is_arranged = snapshot.graph is not self._info or snapshot.problem != self._problem
         if is_arranged:
             self._info, self._problem = snapshot.graph, snapshot.problem
@@ -157,7 +157,7 @@ class TopicsPane(ListPane):
             self.query_one("#topics-heading", StaticText).show_text(heading(shown.columns(shown.across), self._kind))
 
     def tick(self) -> None:
-        """Measure what is in view and show it; nothing of that while the pane is hidden."""
+        """Measure the visible rows and update them; while the pane is hidden, measure nothing."""
         if not self.display:
             if self._measuring:
                 self._measure([])
@@ -185,7 +185,7 @@ class TopicsPane(ListPane):
             self._list.cursor = names.index(name)
 
     def detach(self) -> None:
-        """Measure no more."""
+        """Stop measuring and listening."""
         self._measure([])
         self.console.topics.listen("")
 
@@ -195,7 +195,7 @@ class TopicsPane(ListPane):
             self.console.topics.measure(topics, "topics")
 
     def _poll(self, now: float) -> None:
-        """Show what was measured since the last look, and measure what is in view now."""
+        """Show the measurements, and measure the rows that are visible now."""
         self._polled = now
         shown, traffic = self._list, self.console.topics
         self._measure(shown.in_view if self._kind is Kind.TOPICS and shown.display else [])
@@ -209,7 +209,7 @@ class TopicsPane(ListPane):
         self._report()
 
     def _poll_message(self, now: float) -> None:
-        """Show the newest message, or, while frozen, how many have come since."""
+        """Show the newest message, or while frozen, how many have arrived since."""
         if not self._message_polled_at:
             self.console.topics.listen(self._topic, self._qos.get(self._topic))
         self._message_polled_at = now
@@ -236,7 +236,7 @@ class TopicsPane(ListPane):
         return f"{self._topic}  {qos}{', '.join(filter(None, parts))}"
 
     def _report(self) -> None:
-        """Report the list, and everything about the row at the cursor."""
+        """Update the caption, the placeholder, and the status line on the row at the cursor."""
         shown, row = self._list, self._list.current
         self.report_filter(self._listed, self._every, "hidden ones too" if self._hidden else "")
         shown.show_placeholder(FILTERED_OUT if self.words else _empty(self._kind))
@@ -268,12 +268,12 @@ class TopicsPane(ListPane):
         return f"{expected}{row.type}  {ends}{qos}"
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
-        """Tell of the row at the cursor."""
+        """Describe the row at the cursor."""
         event.stop()
         self._report()
 
     def on_resize(self) -> None:
-        """List and message side by side where there is room."""
+        """Show the list and the message side by side if there is room."""
         self.set_class(self.size.width >= MIN_SIDE_BY_SIDE_CELLS, "side")
 
     def on_row_list_resized(self, event: RowList.Resized) -> None:
@@ -282,13 +282,13 @@ class TopicsPane(ListPane):
         self._laid_out()
 
     def _laid_out(self) -> None:
-        """Other rows are in view now."""
+        """Update the heading and the measurements for the rows that are visible now."""
         self._head()
         if self.display:
             self._poll(self.clock())
 
     def action_open(self) -> None:
-        """Open the newest message of the topic, fold a line of it, or fill in a request or a goal."""
+        """Open the topic's newest message, fold a line or a namespace, or fill in a request or a goal."""
         row = self._list.current
         if self._in_message:
             self._message.fold()
@@ -318,14 +318,14 @@ class TopicsPane(ListPane):
         self.call_after_refresh(self._laid_out)
 
     def action_clear_filter(self) -> None:
-        """Close the message, or take the filter away."""
+        """Close the message; if none is open, clear the filter."""
         if self._topic:
             self._close()
         else:
             self.set_filter("")
 
     def action_fold(self, closed: bool) -> None:
-        """Fold or unfold what a line of the message contains, or the namespace at the cursor."""
+        """Fold or unfold the line of the message, or the namespace, at the cursor."""
         row = self._list.current
         if self._in_message:
             self._message.fold(closed)
@@ -354,13 +354,13 @@ class TopicsPane(ListPane):
         self._poll(self.clock())
 
     def action_freeze(self) -> None:
-        """Let the message stand still, or go on."""
+        """Freeze or resume the message."""
         if self._topic:
             self._frozen = not self._frozen
             self._poll_message(self.clock())
 
     def action_qos(self) -> None:
-        """Ask for the QoS with which the topic is heard."""
+        """Ask for the QoS with which to subscribe to the topic."""
         row = self._current
         topic = self._topic or (row.name if row is not None and self._kind is Kind.TOPICS else "")
         if topic:
@@ -376,7 +376,7 @@ class TopicsPane(ListPane):
         self._open(topic)
 
     def action_kind(self) -> None:
-        """Topics, services, actions."""
+        """Switch between topics, services and actions."""
         if self._topic:
             self._close()
         self._kind = _next(self._kind)
@@ -387,12 +387,12 @@ class TopicsPane(ListPane):
         self._poll(self.clock())
 
     def action_hidden(self) -> None:
-        """Show hidden and built-in ones too, or no more."""
+        """Show or hide hidden and built-in names."""
         self._hidden = not self._hidden
         self._arrange()
 
     def filter_is(self, words: str) -> None:
-        """Show what passes."""
+        """Show the rows that pass the filter."""
         self._folded_matches = frozenset()
         super().filter_is(words)
 
@@ -425,7 +425,7 @@ class TopicsPane(ListPane):
             self.notify(f"copied: {text}", markup=False)
 
     def action_stop(self) -> None:
-        """Publish no more, or cancel the goal."""
+        """Stop publishing to the topic, or cancel the goal."""
         row = self._current
         if row is None:
             return
@@ -439,7 +439,7 @@ class TopicsPane(ListPane):
             self.notify(f"Nothing is published to {row.name} from here at a rate.", severity="warning")
 
     def action_expect(self) -> None:
-        """Ask for a file that expects rates, the one of last time at first; an empty name ends the checks."""
+        """Ask for a file of expected rates, suggesting the last one; an empty name ends the checks."""
         last = self.state_store.get(EXPECTED_FILE)
         text = last if isinstance(last, str) else ""
         self.ask(Line("file of expected rates", self._expect, text=text, check=_wrong_or_none))

@@ -1,4 +1,4 @@
-"""The QoS of a subscription as a form, and why nothing may arrive with it. Pure."""
+"""The form for the QoS of a subscription, and why no messages may arrive with that QoS. Pure."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def qos_fields(now: RequestedQos) -> Sequence[LaunchArgument]:
 
 
 def wrong_qos(changed: Mapping[str, str]) -> str:
-    """Why what was typed cannot be used; empty if it can."""
+    """The problem with the typed values; empty if there is none."""
     depth = changed.get(DEPTH, OFFERED)
     if depth == OFFERED or (depth.isascii() and depth.isdigit() and len(depth) < 8 and 1 <= int(depth) <= MAX_DEPTH):
         return ""
@@ -40,14 +40,14 @@ def wrong_qos(changed: Mapping[str, str]) -> str:
 
 
 def changed_qos(now: RequestedQos, changed: Mapping[str, str]) -> RequestedQos:
-    """The QoS with other values, as the form returns them."""
+    """Apply the changed values of the form to a QoS."""
     values = {name: "" if text == OFFERED else text for name, text in changed.items()}
     depth = values.pop(DEPTH, str(now.depth))
     return replace(now, **values, depth=int(depth or 0))
 
 
 def unheard(asked: RequestedQos, topic: str, info: GraphInfo | None) -> str:
-    """Why no message arrives, if the publishers offer less than was asked for."""
+    """Why no messages arrive, if publishers offer less than was requested; otherwise empty."""
     offers = [end.qos for node in (info.nodes if info else ()) for end in node.publishers if end.name == topic]
     wanted = {"best effort": asked.reliability == "reliable", "volatile": asked.durability == "transient_local"}
     for less, matters in wanted.items():

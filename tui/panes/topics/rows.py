@@ -13,17 +13,17 @@ from bot_console.tui.text.namespaces import outermost
 from bot_console.tui.text.natural import natural_key
 
 OWN = "/_bot_console"
-"""How the names of the console's nodes begin, which listen so that something can be shown: none of the system."""
+"""Prefix of the console's own nodes, which subscribe only to show something and are not part of the system."""
 
 BUILT_IN = (
     "/describe_parameters", "/get_parameter_types", "/get_parameters", "/list_parameters", "/set_parameters",
     "/set_parameters_atomically", "/get_type_description", "/get_logger_levels", "/set_logger_levels",
 )  # fmt: skip
-"""How the names of the services end that every node has."""
+"""Suffixes of the services that every node has."""
 
 
 class Kind(Enum):
-    """The kinds of things that are listed."""
+    """What the pane lists."""
 
     TOPICS = "topics"
     SERVICES = "services"
@@ -31,14 +31,15 @@ class Kind(Enum):
 
     @property
     def payload(self) -> Payload:
-        """The form for one of them."""
+        """The payload that is filled in for this kind."""
         return {Kind.TOPICS: Payload.MESSAGE, Kind.SERVICES: Payload.REQUEST, Kind.ACTIONS: Payload.GOAL}[self]
 
 
 @dataclass(frozen=True)
 class Row:
-    """A topic, service or action: its types, and who gives and takes (publishers and subscribers, or servers and
-    clients).
+    """A topic, service or action with its types and nodes, or a namespace.
+
+    `gives` are the publishers or servers, `takes` the subscribers or clients.
     """
 
     name: str
@@ -46,24 +47,24 @@ class Row:
     gives: tuple[str, ...] = ()
     takes: tuple[str, ...] = ()
     qos: str = ""
-    """The offered QoS; of several different ones the first, and a plus."""
+    """The offered QoS; if there are different ones, the first with a plus."""
     problem: str = ""
-    """The problem with it, in words."""
+    """A description of what is wrong; empty if nothing is."""
     space: str = ""
-    """The namespace below which it is listed; empty: none."""
+    """The namespace row below which it is listed; empty if there is none."""
     members: tuple[str, ...] = ()
-    """The names in it, if the row is a namespace."""
+    """The names in the namespace, if the row is one."""
     is_folded: bool = False
-    """Whether those are not listed."""
+    """Whether the row is a folded namespace."""
 
     @property
     def type(self) -> str:
-        """The type that counts."""
+        """The first type; empty if none is known."""
         return self.types[0] if self.types else ""
 
     @property
     def label(self) -> str:
-        """The visible part of its name: below a namespace the rest of it."""
+        """The name as shown: relative to the namespace row above."""
         return self.name.removeprefix(f"{self.space}/") if self.space else self.name
 
 
@@ -78,7 +79,7 @@ class _Endpoints:
 
 
 def rows(info: GraphInfo, kind: Kind, *, hidden: bool) -> list[Row]:
-    """The rows of a kind, by name; hidden and built-in ones only where asked for."""
+    """The rows of a kind in order of name; hidden and built-in ones only if `hidden` is set."""
     found: dict[str, _Endpoints] = {}
     for node in info.nodes:
         gives, takes = _ends(node, kind)
@@ -113,7 +114,7 @@ def _ends(node: NodeInfo, kind: Kind) -> tuple[Iterable[Endpoint], Iterable[Endp
 
 
 def is_built_in(name: str, kind: Kind) -> bool:
-    """Whether it is one of those that every node has, or hidden."""
+    """Whether a name is hidden, or a service that every node has."""
     return "/_" in name or (kind is Kind.SERVICES and name.endswith(BUILT_IN))
 
 
@@ -135,16 +136,16 @@ def _problem(found: _Endpoints, kind: Kind, broken: Sequence[IncompatiblePair]) 
 
 
 MAX_OPEN_ROWS = 40
-"""Rows of a list that starts open; with more of them its namespaces start folded."""
+"""Maximum rows of a list that starts unfolded; in a longer one, namespaces start folded."""
 
 
 def folds_at_start(every: Sequence[Row]) -> frozenset[str]:
-    """The namespaces that are folded in a list that nobody has folded or opened yet."""
+    """The namespaces that are folded before the user has folded or unfolded anything."""
     return outermost(each.name for each in every) if len(every) > MAX_OPEN_ROWS else frozenset()
 
 
 def grouped(every: Sequence[Row], folded: Collection[str]) -> list[Row]:
-    """The rows with one before those of each namespace with several of them, and without those of a folded one."""
+    """Group rows by namespace: each namespace of several rows gets a row above them, and hides them if it is folded."""
     spaces = outermost(each.name for each in every)
     inside: dict[str, list[Row]] = {}
     listed: list[Row | str] = []
@@ -169,7 +170,7 @@ def _namespace(space: str, rows: Sequence[Row], is_folded: bool) -> list[Row]:
 
 
 def matches(query: Query, row: Row) -> bool:
-    """Whether a filter lets a row through, by its name, its types or one of its nodes."""
+    """Whether a row passes a filter by its name, its types or one of its nodes."""
     if not query.terms:
         return True
     nodes = row.gives + row.takes

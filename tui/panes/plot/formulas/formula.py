@@ -1,6 +1,6 @@
 """Expressions over curves: `/a/x - /b/x`, `deg(/yaw/data)`, `mean(/odom/..., 1 s)`; parsed, and evaluated in NumPy.
 
-There is a value at each sample of the topic named first; every other path contributes its last value at that time.
+A formula has a value at each sample of the topic named first; every other path contributes its last value before that.
 """
 
 from __future__ import annotations
@@ -39,12 +39,12 @@ class Held:
     times: Array
     values: Array
     steps: bool = False
-    """Whether it is a parameter's, which has no rhythm of its own."""
+    """Whether the path is a parameter, which has no sample times of its own."""
 
 
 @dataclass(frozen=True)
 class Formula:
-    """An expression over paths, read and found sound."""
+    """A valid, parsed expression over paths."""
 
     text: str
     tree: Tree
@@ -52,16 +52,16 @@ class Formula:
 
     @property
     def lead(self) -> str:
-        """The path at whose samples values are told: the first topic; empty where there are parameters alone."""
+        """The path whose sample times the formula uses: the first topic; empty if there are parameters only."""
         return next((each for each in self.paths if not is_parameter(each)), "")
 
     def values(self, known: Mapping[str, Held], start: float = -np.inf, end: float = np.inf) -> tuple[Array, Array]:
-        """Times (s) and values from `start` to `end`, and one more on either side."""
+        """Times (s) and values from `start` to `end`, plus one sample on either side."""
         times = self._times(known)
         back, before = _reach_back(self.tree)
         first = max(0, int(np.searchsorted(times, start - back)) - 1 - before)
         last = int(np.searchsorted(times, end, side="right")) + 1
-        times = times[first : last + before]  # a function that looks at samples before its own looks at later ones, too
+        times = times[first : last + before]  # functions that need earlier samples may need as many later ones
         with np.errstate(all="ignore"):
             values = _worked_out(self.tree, times, known)
         shown = max(0, int(np.searchsorted(times, start)) - 1)
@@ -74,7 +74,7 @@ class Formula:
 
 
 def read(text: str) -> Formula | str:
-    """A formula, or the path where there is nothing else; raises `ValueError` with what is wrong."""
+    """Parse a formula; returns the path if the text is only a path. Raises `ValueError` that says what is wrong."""
     tree = parse(text, paths=True)
     if isinstance(tree, Path):
         return tree.text
@@ -92,7 +92,7 @@ def read(text: str) -> Formula | str:
 
 
 def split(text: str) -> list[str]:
-    """Several expressions, apart by commas outside of brackets."""
+    """Split expressions at commas outside brackets."""
     parts: list[str] = []
     depth = begin = 0
     for at, character in enumerate(text):
@@ -132,7 +132,7 @@ def _check_call(call: Call) -> None:
 
 
 def _reach_back(tree: Tree) -> tuple[float, int]:
-    """How far back a value looks: the seconds, and the samples, before its own."""
+    """How far back a value depends on its arguments: the seconds and the samples before its own."""
     parts = [_reach_back(each) for each in children(tree)]
     seconds, samples = max((each[0] for each in parts), default=0.0), max((each[1] for each in parts), default=0)
     if isinstance(tree, Call):
@@ -176,7 +176,7 @@ def _called(call: Call, times: Array, known: Mapping[str, Held]) -> Array:
 
 
 def held(path: Held, times: Array) -> Array:
-    """The value that a path had last at each of some times; NaN before its first."""
+    """The last value of a path at each of these times; NaN before its first."""
     at = np.searchsorted(path.times, times, side="right") - 1
     if not len(path.values):
         return np.full(len(times), np.nan)

@@ -14,7 +14,7 @@ Array = npt.NDArray[np.float64]
 OverTime: TypeAlias = "Callable[[Array, Array, float], Array]"
 
 MAX_ARGUMENTS = 9
-"""Values that a function of any number takes at most."""
+"""Maximum number of arguments of a variadic function."""
 
 
 def _power(left: Array, right: Array) -> Array:
@@ -22,7 +22,7 @@ def _power(left: Array, right: Array) -> Array:
 
 
 def _wrap(angle: Array) -> Array:
-    """An angle in -pi to pi."""
+    """Wrap an angle to -pi..pi."""
     return np.remainder(angle + np.pi, 2 * np.pi) - np.pi
 
 
@@ -48,11 +48,11 @@ PLAIN: Mapping[str, tuple[int, int, Callable[..., Array]]] = {
     "min": (2, MAX_ARGUMENTS, lambda *given: reduce(np.minimum, given)),
     "max": (2, MAX_ARGUMENTS, lambda *given: reduce(np.maximum, given)),
 }
-"""How many values a function takes, least and most, and the function."""
+"""The minimum and maximum number of arguments of each function, and the function."""
 
 
 def derivative(times: Array, values: Array) -> Array:
-    """The change per second since the sample before; NaN at the first, and where no time has passed."""
+    """The change per second since the previous sample; NaN at the first one, and where no time has passed."""
     slope = np.full(len(times), np.nan)
     passed = np.diff(times)
     slope[1:] = np.where(passed > 0, np.diff(values) / np.where(passed > 0, passed, 1.0), np.nan)
@@ -60,15 +60,15 @@ def derivative(times: Array, values: Array) -> Array:
 
 
 def integral(times: Array, values: Array) -> Array:
-    """The area below the curve since its first sample, by trapezoids; what is not finite adds nothing."""
+    """The area below the curve since its first sample, by the trapezoidal rule; non-finite values add nothing."""
     pieces = np.diff(times) * (values[1:] + values[:-1]) / 2
     return np.concatenate([np.zeros(min(1, len(times))), np.cumsum(np.where(np.isfinite(pieces), pieces, 0.0))])
 
 
 NEIGHBOURS_PER_SIDE = 4
-"""Samples on either side of one that is compared with them."""
+"""Samples on either side with which a sample is compared."""
 MAX_DEVIATION = 4.0
-"""How far a sample may be from the median of its neighbours, in multiples of their median deviation from it."""
+"""Maximum distance of a sample from the median of its neighbours, in multiples of their median deviation."""
 
 
 def despike(times: Array, values: Array) -> Array:
@@ -78,7 +78,7 @@ def despike(times: Array, values: Array) -> Array:
     padded = np.pad(values, NEIGHBOURS_PER_SIDE, constant_values=np.nan)
     near = np.lib.stride_tricks.sliding_window_view(padded, 2 * NEIGHBOURS_PER_SIDE + 1)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)  # of samples whose neighbours are all NaN
+        warnings.simplefilter("ignore", RuntimeWarning)  # raised where all neighbours are NaN
         middle = np.nanmedian(near, axis=1)
         deviation = np.nanmedian(np.abs(near - middle[:, None]), axis=1)
     far = np.abs(values - middle) > MAX_DEVIATION * np.maximum(deviation, 1e-9 * np.abs(middle))
@@ -94,7 +94,7 @@ OF_CURVES: Mapping[str, Callable[[Array, Array], Array]] = {
 
 
 def _begins(times: Array, seconds: float) -> npt.NDArray[np.intp]:
-    """Where the samples of the last seconds begin, for each sample: those later than so long ago."""
+    """For each sample, the index of the first one in the span of `seconds` that ends at it."""
     return np.minimum(np.searchsorted(times, times - seconds, side="right"), np.arange(len(times)))
 
 
@@ -104,18 +104,18 @@ def _sums(values: Array, begins: npt.NDArray[np.intp]) -> Array:
 
 
 def mean(times: Array, values: Array, seconds: float) -> Array:
-    """The mean of the finite values of the last seconds."""
+    """The mean of the finite values within the last `seconds` of each sample."""
     return _moments(times, values, seconds)[0]
 
 
 def std(times: Array, values: Array, seconds: float) -> Array:
-    """Their standard deviation."""
+    """The standard deviation of the finite values within the last `seconds` of each sample."""
     return _moments(times, values, seconds)[1]
 
 
 def _moments(times: Array, values: Array, seconds: float) -> tuple[Array, Array]:
     fine = np.isfinite(values)
-    middle = float(np.mean(values[fine])) if fine.any() else 0.0  # sums of what is near 0 lose fewer digits
+    middle = float(np.mean(values[fine])) if fine.any() else 0.0  # sums of small numbers lose fewer digits
     begins = _begins(times, seconds)
     count = _sums(fine.astype(float), begins)
     count = np.where(count > 0, count, np.nan)
@@ -126,18 +126,18 @@ def _moments(times: Array, values: Array, seconds: float) -> tuple[Array, Array]
 
 
 def rms(times: Array, values: Array, seconds: float) -> Array:
-    """The root of the mean of their squares."""
+    """The root mean square of the finite values within the last `seconds` of each sample."""
     middle, spread = _moments(times, values, seconds)
     return np.hypot(middle, spread)
 
 
 def least(times: Array, values: Array, seconds: float) -> Array:
-    """The least value of the last seconds; NaN counts for nothing."""
+    """The minimum within the last `seconds` of each sample, ignoring NaN."""
     return _extreme(np.fmin, times, values, seconds)
 
 
 def greatest(times: Array, values: Array, seconds: float) -> Array:
-    """The greatest one."""
+    """The maximum within the last `seconds` of each sample, ignoring NaN."""
     return _extreme(np.fmax, times, values, seconds)
 
 

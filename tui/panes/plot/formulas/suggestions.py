@@ -11,14 +11,14 @@ from bot_console.tui.widgets.prompt.question import Option
 from textual.fuzzy import Matcher
 
 MAX_SUGGESTIONS = 200
-"""Options at most; who wants another one types more of it."""
+"""Maximum number of options; typing more narrows them."""
 
 PATH = re.compile(r"(/\w+)+(/|:)\w[\w.\[\]]*")
 LAST_PATH = re.compile(r"(.*[-+*/%(,]\s*)(/[^\s()+*%,-]*)")
 
 
 def suggested(known: Sequence[str], typed: str) -> list[Option]:
-    """The options for a text, the best first. `known` has fields before elements and what is made of arrays."""
+    """The options for a typed text, best first. `known` lists fields before array elements and functions of arrays."""
     text = typed.strip()
     if not text:
         return [Option(each, _about(each)) for each in known[:MAX_SUGGESTIONS]]
@@ -37,7 +37,7 @@ def suggested(known: Sequence[str], typed: str) -> list[Option]:
 
 
 def _as_typed(text: str, found: Sequence[Option]) -> list[Option]:
-    """The text itself, where it is an expression or nothing that is known has its letters."""
+    """The text itself as an option, if it is an expression or no known path matches it."""
     try:
         formula = read(text)
     except ValueError as error:
@@ -48,7 +48,7 @@ def _as_typed(text: str, found: Sequence[Option]) -> list[Option]:
 
 
 def _to_come(text: str, found: Sequence[Option]) -> list[Option]:
-    """A path that is not there, behind those that only have its letters: it may come."""
+    """The typed path as an option even if it does not exist yet, after known paths that only match it loosely."""
     if not found or any(text in each.title for each in found) or not PATH.fullmatch(text):
         return []
     return [Option(text, "is not there yet")]
@@ -67,7 +67,7 @@ def _best(known: Sequence[str], typed: str) -> list[str]:
 
 
 def _rank(path: str) -> int:
-    """Numbers before elements of arrays, these before what is made of whole arrays."""
+    """Sort key: scalar fields first, then elements of arrays, then functions of whole arrays."""
     return 2 if path.endswith("()") else int(path.endswith("]"))
 
 

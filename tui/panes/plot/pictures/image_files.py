@@ -1,4 +1,4 @@
-"""Saves a sheet: SVG directly, PNG with OpenCV where that is installed."""
+"""Saves a vector drawing as SVG, or with OpenCV, if that is installed, as PNG."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def write_svg(path: Path, page: VectorDrawing) -> None:
 
 
 def write_png(path: Path, page: VectorDrawing) -> None:
-    """Write a PNG of twice the size; raises `NotSaved`, also where there is no OpenCV."""
+    """Write a PNG of twice the size; raises `NotSaved`, also if OpenCV is not installed."""
     try:
         import cv2  # pyright: ignore[reportMissingImports] -- an extra
     except ImportError:
@@ -44,7 +44,7 @@ def write_png(path: Path, page: VectorDrawing) -> None:
         points = np.array([[round(x * 32), round(y * 32)] for x, y in each.points], np.int32)  # sixteenths of a pixel
         kit.polylines(image, [points], False, _bgr(each.colour), max(1, round(each.width * 2)), kit.LINE_AA, 4)
     for word in page.words:
-        text = word.text.encode("ascii", "replace").decode()  # OpenCV's letters are these
+        text = word.text.encode("ascii", "replace").decode()  # OpenCV's fonts are ASCII only
         (width, _), _ = kit.getTextSize(text, kit.FONT_HERSHEY_SIMPLEX, 0.7, 1)
         x = word.x * 2 - {"start": 0, "middle": width / 2, "end": width}[word.anchor]
         place = (round(x), round(word.y * 2))

@@ -12,12 +12,12 @@ from bot_console.tui.widgets.braille import layered
 from bot_console.tui.widgets.picture import Line
 
 FIGURE_CELLS = 9
-"""Cells of one figure."""
+"""Cells of each figure."""
 MIN_TRACE_COLUMNS = 12
 
 
 def sparklines(curves: Sequence[Curve], axes: Axes, width: int, height: int, chosen: int) -> list[Line]:
-    """A heading and a line for each curve that there is room for, the chosen one among them."""
+    """A heading, and a line for each curve for which there is room, always including the chosen one."""
     columns = ["value", "rate", "min", "max"]
     while len(columns) > 1 and width < 24 + FIGURE_CELLS * len(columns) + MIN_TRACE_COLUMNS:
         columns.pop()

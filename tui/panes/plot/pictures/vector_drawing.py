@@ -1,4 +1,4 @@
-"""The layout of a plot for a file: positions of lines and words on a sheet, for any format (SVG, PNG)."""
+"""The layout of a plot for a file: positions of lines and texts, independent of the format (SVG, PNG)."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from bot_console.tui.text.sanitize import sanitize
 
 WIDTH_PX, HEIGHT_PX = 1000, 560
 LEFT_PX, RIGHT_PX, TOP_PX, BOTTOM_PX = 70, 70, 20, 40
-"""Margins of the frame; below it, and below its labels, is a line for each curve."""
+"""Margins of the frame; below it and its labels, the legend has a line for each curve."""
 ROW_PX = 20
 INK, GRID = "#1b1f27", "#d5d9e2"
 COLOURS = ("#1f6feb", "#d9480f", "#2b8a3e", "#9c36b5", "#0b7285", "#a61e4d")
@@ -52,7 +52,7 @@ class VectorDrawing:
 
 
 def sheet(curves: Sequence[Curve], marks: Sequence[Mark], axes: Axes, wall: Callable[[float], float]) -> VectorDrawing:
-    """The plot as it is seen; `wall` takes a time of the axis to one of the clock on the wall (s since the epoch)."""
+    """Lay out the visible plot; `wall` converts a time on the axis to wall-clock time (s since the epoch)."""
     page = VectorDrawing(height=HEIGHT_PX + ROW_PX * len(curves) + 12)
     right = [each.right for each in curves]
     both = any(right) and not all(right)
@@ -121,7 +121,7 @@ def _times(page: VectorDrawing, marks: Sequence[Mark], axes: Axes, wall: Callabl
 
 
 def _traces(seen: Reach, span: tuple[float, float]) -> list[tuple[tuple[float, float], ...]]:
-    """The lowest and highest value of each column in turn, apart where there is nothing."""
+    """Polylines through the lowest and highest value of each column, interrupted where there is none."""
     fine = np.flatnonzero(np.isfinite(seen.low))
     runs = np.split(fine, np.flatnonzero(np.diff(fine) > 1) + 1) if len(fine) else []
     scale = (WIDTH_PX - LEFT_PX - RIGHT_PX) / len(seen.low)

@@ -20,11 +20,11 @@ from bot_console.tui.widgets.braille import BrailleCanvas, layered
 from bot_console.tui.widgets.picture import Line
 
 MAX_DOTS = 200_000
-"""Dots of one trace at most, whatever its values."""
+"""Maximum number of dots of a trace, whatever its values."""
 
 
 def pairs(across: Curve, curve: Curve, axes: Axes) -> tuple[Array, Array]:
-    """The values of both at each sample of the curve in the window; NaN where one of them has none."""
+    """The values of both curves at each sample of `curve` in the window; NaN in both where one of them has none."""
     times, values = curve.between(axes.start, axes.end)
     inside = (times >= axes.start) & (times <= axes.end)
     times, values = times[inside], values[inside]
@@ -36,7 +36,7 @@ def pairs(across: Curve, curve: Curve, axes: Axes) -> tuple[Array, Array]:
 
 
 def against(across: Curve, curves: Sequence[Curve], axes: Axes, width: int, height: int) -> list[Line]:
-    """The picture: a frame with the values of both; ◆ is where they were at the cursor."""
+    """Draw curves against the curve `across` in a frame with both value axes; ◆ marks the values at the cursor."""
     wide, down = max(4, width - LABEL_CELLS), max(2, height - 2)
     shown = [each for each in curves if each is not across]
     found = [pairs(across, each, axes) for each in shown]
@@ -58,7 +58,7 @@ def against(across: Curve, curves: Sequence[Curve], axes: Axes, width: int, heig
 
 
 def _trace(x: Array, y: Array, wide: int, down: int) -> np.ndarray[tuple[int, ...], np.dtype[np.uint8]]:
-    """Straight lines from point to point, in dots."""
+    """The braille codes of straight lines from point to point; coordinates are in dots."""
     canvas = BrailleCanvas(wide, down)
     fine = np.isfinite(x) & np.isfinite(y)
     canvas.points(x[fine], y[fine])
@@ -80,7 +80,7 @@ def _put(lines: list[Line], row: int, column: int) -> None:
 
 
 def _bottom(left: float, right: float, wide: int) -> list[Line]:
-    """The axis of the values across, with its labels."""
+    """The horizontal axis, with its labels."""
     step = tick_step(right - left, max(2, wide // 12))
     axis, labels = ["─"] * wide, [" "] * (LABEL_CELLS + wide)
     for count in range(int(np.ceil(left / step - 1e-9)), int(np.floor(right / step + 1e-6)) + 1):
