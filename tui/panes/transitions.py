@@ -1,4 +1,4 @@
-"""Asks which transition a lifecycle node is to make."""
+"""Asks which transition a lifecycle node should make."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.prompt.question import Choice, Option
 
 FINAL = ("shutdown",)
-"""Transitions from which there is no way back."""
+"""Transitions that cannot be undone."""
 
 
 def ask_transition(pane: Pane, graph: GraphInfo, nodes: Sequence[str]) -> None:
-    """Ask for a transition of one of these nodes, and request it; says why if there is none."""
+    """Ask for a transition of one of these nodes and request it; notifies why if none is possible."""
     managed = [each for each in nodes if each in graph.lifecycle]
     if not managed:
         pane.notify("This is no lifecycle node.", severity="warning")
@@ -41,5 +41,5 @@ def ask_transition(pane: Pane, graph: GraphInfo, nodes: Sequence[str]) -> None:
 
 
 def about(state: str, verb: str) -> str:
-    """The text behind a transition."""
+    """The description of a transition."""
     return f"is {state}" + (", for good" if verb in FINAL else "")

@@ -1,4 +1,4 @@
-"""Arranging the panes with keys: they stay visible and live, and the keys change splits until Escape."""
+"""The mode in which keys arrange the panes, until Escape; the panes stay visible and live."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ DROPPED = (
     "arrange.beside",
     "arrange.left",
 )
-"""Keys that the line leaves out if there is little room, the first one first; the others are always shown."""
+"""Keys that the line leaves out if there is little room, in this order; the others are always shown."""
 
 
 class Arranger(Protocol):
@@ -66,11 +66,11 @@ class Arranger(Protocol):
         ...
 
     def even(self) -> None:
-        """Share the space equally."""
+        """Give all panes equal space."""
         ...
 
     def turn(self) -> None:
-        """Turn the split: panes beside it move below it, and vice versa."""
+        """Turn the split: panes that are side by side move one below the other, and vice versa."""
         ...
 
     def undo(self) -> None:
@@ -111,11 +111,11 @@ class ArrangeScreen(DimmedScreen):
         self._show_keys(event.size.width)
 
     def on_descendant_focus(self) -> None:
-        """Name the keys of the line that is typed."""
+        """Show the keys of the prompt while it is open."""
         self._show_keys(self.size.width)
 
     def on_descendant_blur(self) -> None:
-        """Name the keys that arrange panes again."""
+        """Show the keys that arrange panes again."""
         self._show_keys(self.size.width)
 
     def _show_keys(self, width: int) -> None:
@@ -131,7 +131,7 @@ class ArrangeScreen(DimmedScreen):
         return open_prompt(self) is None and super().check_action(action, parameters)
 
     def action_help(self) -> None:
-        """All keys that arrange panes."""
+        """Show all keys that arrange panes."""
         self.app.push_screen(HelpScreen(("arrange",), "Arranging the panes", HELP, alone=True))  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
 
     def action_select(self, dx: int, dy: int) -> None:
@@ -159,7 +159,7 @@ class ArrangeScreen(DimmedScreen):
         self._arranger.grow(columns, lines)
 
     def action_even(self) -> None:
-        """Share the space equally."""
+        """Give all panes equal space."""
         self._arranger.even()
 
     def action_turn(self) -> None:
@@ -179,13 +179,13 @@ class ArrangeScreen(DimmedScreen):
         self.query_one(Prompt).ask(self._arranger.name_question())
 
     def action_done(self) -> None:
-        """Back to the panes."""
+        """Return to the panes."""
         self.app.screen_stack[0].remove_class("arranging")  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
         self.dismiss()
 
 
 def keys_line(columns: int) -> Text:
-    """The most important keys that fit."""
+    """The keys with their descriptions, as many as fit; the most important ones always."""
     keys = [key for key in TABLE["arrange"] if key.footer]
     for id in DROPPED:
         if _line(keys).cell_len <= columns:

@@ -25,7 +25,7 @@ from textual.binding import BindingType
 
 Element: TypeAlias = "bool | int | float | str | bytes"
 HINT = "s Set · Enter Edit · i Insert · a Add · d Delete · J K Move · u Undo"
-"""Its parts by importance: a narrow terminal cuts the end."""
+"""The keys, most important first, as a narrow terminal cuts the end."""
 
 
 class ElementRows(RowList):
@@ -181,7 +181,7 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
             self.give_up()
 
     def action_give_up(self) -> None:
-        """Close; changes are discarded only at a second request."""
+        """Close the screen; if there are changes, only when asked a second time."""
         if not self._changed or self._leaving:
             self.give_up()
             return

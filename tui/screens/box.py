@@ -28,5 +28,5 @@ class Boxed(Widget):
         self._box.scroll_relative(y=step * max(1, self._box.size.height - 1), animate=False)
 
     def action_end_of_box(self, end: int) -> None:
-        """To the top, or to the bottom."""
+        """Scroll to the top or the bottom."""
         self._box.scroll_to(y=0 if end < 0 else self._box.max_scroll_y, animate=False)

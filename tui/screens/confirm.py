@@ -18,10 +18,10 @@ from textual.events import Click
 from textual.widgets import Static
 
 YES, NO = range(12, 17), range(4, 9)
-"""Cells from the right end of the lower edge at which the two answers are written."""
+"""The positions of the two answers in the bottom border, in cells from its right end."""
 
 MAX_TITLE_CELLS = 56
-"""Cells of a question that fit into the frame at 80 columns; a longer one is repeated in full inside."""
+"""Maximum cells of a question that fits into the border at 80 columns; a longer one is repeated inside the box."""
 
 
 class ConfirmScreen(QuestionScreen[None], Boxed):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
@@ -51,7 +51,7 @@ class ConfirmScreen(QuestionScreen[None], Boxed):  # pyright: ignore[reportIncom
             yield Static(text)
 
     def on_click(self, event: Click) -> None:
-        """Answer on a click on an answer; give up on one outside the box."""
+        """Answer the question on a click on an answer; give up on a click outside the box."""
         box = self.query_one(VerticalScroll).region
         if not box.contains(event.screen_x, event.screen_y):
             self.give_up()
@@ -63,5 +63,5 @@ class ConfirmScreen(QuestionScreen[None], Boxed):  # pyright: ignore[reportIncom
                 self.give_up()
 
     def action_yes(self) -> None:
-        """Do it."""
+        """Confirm the action."""
         self.answer(None)

@@ -1,4 +1,4 @@
-"""Facts about one item: lines under headings."""
+"""The screen with all facts about one item: lines under headings."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Section = tuple[str, Sequence[str]]
 
 
 class FactsScreen(Overlay):
-    """Shows sections one below the other, without empty ones."""
+    """Shows sections one below the other, leaving out empty ones."""
 
     def __init__(self, title: str, sections: Sequence[Section]) -> None:
         super().__init__(title)

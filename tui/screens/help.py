@@ -17,7 +17,7 @@ from textual.events import Click
 from textual.widget import Widget
 
 LINE_END = re.compile(r"(?<=\S)\n(?=\S)")
-"""The end of a line within a paragraph: paragraphs are wrapped to the screen, the indented lines of a list are not."""
+"""The end of a line within a paragraph. Paragraphs are wrapped to the screen, indented lines of a list are not."""
 
 
 class HelpScreen(Overlay):
@@ -26,7 +26,7 @@ class HelpScreen(Overlay):
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("help")]
 
     def __init__(self, scopes: Sequence[str], title: str, text: str, *, alone: bool = False) -> None:
-        """`alone`: the help of a mode in which the global keys do not work."""
+        """Create the screen; with `alone` it omits the global keys, for a mode in which these do not work."""
         super().__init__(title or "Help")
         self._alone = alone
         self._scopes = scopes

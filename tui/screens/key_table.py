@@ -1,6 +1,6 @@
-"""Keys and what they do, in rows, rendered only as far as they are visible.
+"""A table of keys and what they do; only visible lines are rendered.
 
-Rich computes a whole table before its first line can be shown, which was a third of the time to open the help.
+Rich lays out a whole table before its first line can be shown, which was a third of the time to open the help.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ KEY = "pressed_key"
 """The key of a line's metadata that holds the key to press."""
 GAP_CELLS = 2
 MIN_KEY_CELLS = 12
-"""Cells between a key and what it does, and those that keys take at least."""
+"""Cells between a key and its description, and minimum cells of the key column."""
 
 BOLD = Style(bold=True)
 
 
 class Line(NamedTuple):
-    """A line: the text of its two columns, and the key that a click on it presses."""
+    """A line: the texts of its two columns, and the key that a click on it presses."""
 
     key: str
     text: str
@@ -34,7 +34,7 @@ class Line(NamedTuple):
 
 
 class KeyTable(StyledByPart):
-    """Two columns: keys, and what they do, wrapped as needed."""
+    """Two columns: keys and their descriptions, wrapped as needed."""
 
     DEFAULT_CSS = """
     KeyTable { height: auto; }

@@ -19,7 +19,7 @@ from textual.widgets import Input, Static
 
 
 class ArgumentsScreen(QuestionScreen[dict[str, str]]):
-    """Asks for launch arguments, or for other named values; the answer is those that differ from their defaults."""
+    """Asks for launch arguments or other named values; the answer contains those that differ from their defaults."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("form")]
     DEFAULT_CSS = """
@@ -93,7 +93,7 @@ class ArgumentsScreen(QuestionScreen[dict[str, str]]):
             line.update(choices_line(self._arguments[at], event.value))
 
     def on_input_submitted(self, event: Input.Submitted) -> None:
-        """Launch, if all required values are given."""
+        """Answer with the values, if they are complete and valid."""
         event.stop()
         values = {each.name: field.value for each, field in zip(self._arguments, self.query(Input), strict=True)}
         wrong = [

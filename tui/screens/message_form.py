@@ -29,7 +29,7 @@ WORDS = {
     Payload.GOAL: ("Goal for", "s Send · x Cancel"),
 }
 USUAL_RATE = "10"
-"""The rate in Hz that is offered first."""
+"""The rate (Hz) that is suggested."""
 
 
 class SlotRows(RowList):
@@ -50,7 +50,7 @@ class SlotRows(RowList):
         return len(self.slots)
 
     def row(self, index: int, width: int) -> list[Segment]:
-        """One slot."""
+        """Name, value with its unit, and type or choices."""
         slot = self.slots[index]
         longest = max(2 * each.depth + cell_len(each.name) for each in self.slots) + 4
         names = min(longest, max(8, width // 2))
@@ -106,7 +106,7 @@ class FillScreen(QuestionScreen[None]):
         self._asked = question
         self._values: dict[str, str] = {}
         self._back = 0
-        """How many sent forms back the shown one is; 0: the unsent draft."""
+        """How many sent forms back the shown one is; 0 for the unsent draft."""
         self._draft: dict[str, str] = {}
         self._goal: Goal | None = None
         self._sent = 0
@@ -149,7 +149,7 @@ class FillScreen(QuestionScreen[None]):
         state.set_class(ok is False, "wrong")
 
     def action_edit(self) -> None:
-        """Edit the value of the slot; on a heading, go to the first slot below it."""
+        """Edit the value of the field at the cursor; on a heading, go to the first field below it."""
         rows, slot = self._rows, self._rows.current
         if slot is None:
             return
@@ -193,7 +193,7 @@ class FillScreen(QuestionScreen[None]):
         self._show_text(f"{back} of {len(known)} earlier ones" if back else "what was being typed")
 
     def action_send(self) -> None:
-        """Publish once, call, or send the goal."""
+        """Publish the message once, call the service, or send the goal."""
         asked, traffic = self._asked, self._asked.traffic
         if asked.payload is Payload.REQUEST:
             self._show_text(f"{asked.name} was called ...")
@@ -237,7 +237,7 @@ class FillScreen(QuestionScreen[None]):
         return super().poll()
 
     def action_repeat(self) -> None:
-        """Ask for a rate (Hz) and publish at it."""
+        """Ask for a rate (Hz), and publish the message repeatedly."""
         if self._asked.payload is Payload.MESSAGE:
             line = Line("rate (Hz)", self._repeat, text=USUAL_RATE, check=_wrong_rate)
             self.query_one(Prompt).ask(line)

@@ -1,4 +1,4 @@
-"""Opens the screens that lie over the panes, for keys and for panes."""
+"""Opens the screens over the panes, at the request of keys and panes."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from textual.app import App
 
 
 class ScreenOpener:
-    """Opens them, and knows which questions are open."""
+    """Opens screens over the panes, and finds the open questions."""
 
     def __init__(self, app: App[None], stage: Stage) -> None:
         self._app = app
         self._stage = stage
 
     def arrange(self) -> None:
-        """Arrange the panes with keys, if there is room for that."""
+        """Start to arrange the panes with keys, if there is room for that."""
         if self._stage.arranging.begin():
             self._app.push_screen(ArrangeScreen(self._stage.arranging))
 
@@ -34,7 +34,7 @@ class ScreenOpener:
         self._app.push_screen(HelpScreen(pane.scopes, pane.TITLE, text))
 
     def tune(self, tuner: Tuner | None, wanted: Pane.TuningWanted) -> None:
-        """Start a tuning that a pane asks for, or say why it cannot be; None: this console tunes nothing."""
+        """Start a tuning that a pane has requested, or notify why not; `tuner` is None if this console has none."""
         problem = tuner.problem(wanted.specification) if tuner else NO_TUNER
         if tuner is None or problem:
             self._app.notify(problem, severity="warning", markup=False)
@@ -43,8 +43,8 @@ class ScreenOpener:
 
     def requesters(self) -> list[Requester[Any]]:
         """Everything that has an open question."""
-        # An open prompt has the keyboard; nobody has it while the terminal has lost it. To look through all that is on
-        # the screen at each snapshot takes a tenth of what the thread that draws does in a pane where nothing changes.
+        # An open prompt has the focus, so its ancestors are enough, unless the terminal has lost the focus. Walking
+        # all widgets at each snapshot takes a tenth of the drawing thread's time while nothing changes in a pane.
         screen = self._app.screen_stack[0]
         within = screen.focused.ancestors if screen.focused is not None else screen.walk_children(Prompt)
         found: list[Requester[Any]] = [each for each in within if isinstance(each, Prompt) and each.is_open]

@@ -1,4 +1,4 @@
-"""The output of a command line."""
+"""The screen with the output of a command."""
 
 from __future__ import annotations
 

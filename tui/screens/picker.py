@@ -24,7 +24,7 @@ class OptionRows(ItemList[Option]):
     can_focus = False
 
     def row(self, index: int, width: int) -> list[Segment]:
-        """One option."""
+        """Title and description; the option at the cursor is marked."""
         option = self.rows[index]
         chosen = index == self.cursor
         style = self.row_style("strong" if chosen else "plain")
@@ -88,7 +88,7 @@ class PickerScreen(QuestionScreen[str]):
         line.set_class(wrong, "wrong")
 
     def on_input_submitted(self, event: Input.Submitted) -> None:
-        """Take the option at the cursor."""
+        """Answer with the option at the cursor, unless the attempt to use it fails."""
         event.stop()
         option = self._list.current
         if option is None:

@@ -25,7 +25,7 @@ class QuestionScreen(Requester[A], DimmedScreen):
 
     @property
     def host(self) -> App[object]:
-        """The app, with the type that Textual's own property leaves open."""
+        """The app, with a type that Textual's own property leaves unknown."""
         return self.app  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType] -- Textual's App is generic
 
     def close(self) -> None:

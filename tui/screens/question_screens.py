@@ -1,4 +1,4 @@
-"""Which screen asks which kind of question that needs more than a line; imported on first use."""
+"""The screens for the questions that need more than a line; each is imported on first use."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A tuning in progress: how far it is, the scores as a curve and a table, and what to do with the best setting."""
+"""The screen of a running tuning: its progress, the scores as a curve and a table, and actions for a setting."""
 
 from __future__ import annotations
 
@@ -43,14 +43,14 @@ class SettingRows(RowList):
         self._specification = specification
         self.rows: tuple[SettingResult, ...] = ()
         self.first: SettingResult | None = None
-        """The setting before the tuning."""
+        """The result of the setting from before the tuning."""
 
     def row_count(self) -> int:
         """The number of evaluated settings."""
         return len(self.rows)
 
     def row(self, index: int, width: int) -> list[Segment]:
-        """Rank, score, values, and what happened."""
+        """Score, values, collisions and problem."""
         each = self.rows[index]
         dim = self.row_style("dim")
         warn = self.row_style("warn")
@@ -90,7 +90,7 @@ class TuningScreen(DimmedScreen):
     """
 
     def __init__(self, specification: TuningSpecification, tuning: Tuning, take: Callable[[Setting], None]) -> None:
-        """`take` is called with the setting chosen for the running system."""
+        """Create the screen; `take` is called with the setting chosen for the running system."""
         super().__init__()
         self._specification = specification
         self._tuning = tuning
@@ -185,7 +185,7 @@ class TuningScreen(DimmedScreen):
         self.query_one(Prompt).ask(Line("save as profile", save, text="tuned"))
 
     def action_leave(self) -> None:
-        """Close; unfinished runs are ended only at a second request."""
+        """Close the screen and end the runs; if some are unfinished, only when asked a second time."""
         if self._progress is None or self._progress.ended or self._leaving:
             self._tuning.stop()
             self.dismiss()
@@ -212,7 +212,7 @@ def _minutes(seconds: float) -> str:
 
 
 def verdict(progress: Progress) -> str:
-    """The result, and whether it holds on other seeds."""
+    """A text on the best score, and whether it is better on other seeds, too."""
     best = progress.best
     if best is None or not progress.rows:
         return progress.problem

@@ -1,4 +1,4 @@
-"""The framed box that a screen over the panes consists of."""
+"""The framed box of a screen over the panes."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from textual.containers import Vertical
 
 
 class Box(Vertical):
-    """A box set off from what is below it, including its lists and lines; the screen sets its size."""
+    """A box whose background, also that of its lists and lines, differs from the panes below; the screen sizes it."""
 
     DEFAULT_CSS = """
     Box { background: $panel; border: round $primary; padding: 0 1; }

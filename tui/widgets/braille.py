@@ -52,7 +52,7 @@ class BrailleCanvas:
         return codes
 
     def rows(self) -> list[str]:
-        """The picture as lines of text; empty cells are blanks, which cost one byte and not three."""
+        """The picture as lines of text; empty cells are blanks, which cost one byte instead of three."""
         return characters(self.codes())
 
 
@@ -65,9 +65,9 @@ def characters(codes: npt.NDArray[np.uint8]) -> list[str]:
 def layered(
     layers: Sequence[npt.NDArray[np.uint8]], styles: Sequence[str], across: int, down: int
 ) -> list[list[Piece]]:
-    """One picture of several canvases' codes; where they share a cell, the first one gives the style.
+    """Combine the codes of several canvases; in a cell that they share, the first one determines the style.
 
-    Blanks belong to the run before them, since each change of style costs bytes.
+    Blanks have the style of the run before them, since each change of style costs bytes.
     """
     if not layers:
         return [[(" " * across, "")] for _ in range(down)]

@@ -18,11 +18,11 @@ from textual.widgets import Input, Label, Static
 HINT = "Tab Complete · ↑ ↓ History · ^r Search history · Esc Close"
 
 AROUND_COLUMNS = 4
-"""Columns of the colon, and at the end of the line."""
+"""Columns for the colon, and after the end of the line."""
 
 
 class Lines(Protocol):
-    """Runs lines."""
+    """Checks, explains and runs command lines."""
 
     def wrong(self, line: str) -> str:
         """The problem with a line; empty if there is none."""
@@ -33,7 +33,7 @@ class Lines(Protocol):
         ...
 
     def run(self, line: str) -> None:
-        """Run it."""
+        """Run a line."""
         ...
 
 
@@ -59,7 +59,7 @@ class CommandField(Vertical):
         self._history = LineHistory()
         self._before: Widget | None = None
         self._tried = -1
-        """The index of the candidate in the line; -1: what was typed."""
+        """The index of the candidate that is in the line; -1 for the typed text."""
         self._typed = ""
         """The text that was typed before the first candidate replaced it."""
         self._own_change = ""
@@ -87,12 +87,12 @@ class CommandField(Vertical):
         self._history.stay()
         self._put("")
         self.add_class("open")
-        # At once, instead of by `focus`, which takes effect after keys that are already queued.
+        # Immediately: `focus` would take effect only after keys that are already queued.
         self.screen.set_focus(self._field)
         self._begin()
 
     def take_focus(self) -> None:
-        """Take the keys again, after the line was hidden."""
+        """Take the focus again, after the line was hidden."""
         self.screen.set_focus(self._field)
 
     def close(self) -> None:
@@ -104,7 +104,7 @@ class CommandField(Vertical):
         self._before = None
 
     def poll(self) -> None:
-        """Show candidates that have arrived meanwhile; called now and then."""
+        """Show candidates that have arrived in the meantime; called periodically."""
         if self.is_open and self._tried < 0:
             self._show()
 
@@ -149,7 +149,7 @@ class CommandField(Vertical):
     def _complain(self, wrong: str) -> None:
         message = wrong or self._lines.preview(self._field.value)
         self._wrong.update(sanitize(message))
-        # The width that the line leaves, but at least a third, so that an error can be read in two or three lines.
+        # At least a third of the width, so that an error can be read in two or three lines.
         width = self.size.width
         self._wrong.styles.max_width = max(width - cell_len(self._field.value) - AROUND_COLUMNS, width // 3, 10)
 

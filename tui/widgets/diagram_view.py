@@ -27,11 +27,11 @@ from textual.scroll_view import ScrollView
 from textual.strip import Strip
 
 MIN_THREADED_ITEMS = 60
-"""Number of items from which a graph is laid out in a thread."""
+"""A graph with more items than this is laid out in a thread."""
 
 Content: TypeAlias = Digraph | Chart | Listing
 Manner: TypeAlias = ArrowDirection | Size
-"""How to lay something out: a graph in a direction, everything else for a window of a size."""
+"""How to lay out the content: a graph in a direction, anything else for a window size."""
 
 MARGIN_CELLS = 2
 """Cells kept free around the selected item when the picture is scrolled to it."""
@@ -137,7 +137,7 @@ class DiagramView(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  #
         return isinstance(content, Digraph) and len(content.items) > MIN_THREADED_ITEMS
 
     def _manners(self) -> tuple[Manner, ...]:
-        """The ways in which the content may be drawn here."""
+        """The manners in which the content may be drawn."""
         if not isinstance(self._content, Digraph):
             return (self._window,)
         if self.is_large:
@@ -148,12 +148,13 @@ class DiagramView(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  #
     def _window(self) -> Size:
         """The room for a picture without scroll bars.
 
-        A hidden widget has no size, and shown again at its old one it is not resized: what fits is what fitted there.
+        A hidden widget has no size, and if it is shown again in its old size, it is not resized; so the outer size
+        counts.
         """
         return self.outer_size or self.size
 
     def _lay_out(self) -> None:
-        """Draw what is not drawn yet, and choose; a large picture in a thread."""
+        """Draw the manners that are not drawn yet, and choose one; a large picture is drawn in a thread."""
         manners = self._manners()
         missing = [each for each in manners if each not in self._drawings]
         if missing and self.is_large:
@@ -166,9 +167,9 @@ class DiagramView(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  #
         self._choose(manners)
 
     async def _draw_beside(self) -> None:
-        """Lay out a large picture in a thread, in one manner only, while the previous drawing stays.
+        """Lay out a large picture in a thread, in one manner only, while the previous drawing stays visible.
 
-        One at a time: changes in the meantime, such as new rates, wait for the next round.
+        Only one layout runs at a time; changes in the meantime, such as new rates, wait for the next round.
         """
         try:
             while self.is_large and (manner := self._manners()[0]) not in self._drawings:
@@ -182,7 +183,7 @@ class DiagramView(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  #
             self._drawing_beside = False
 
     def _choose(self, manners: Sequence[Manner]) -> None:
-        """Show the drawing of which more is visible at once."""
+        """Show the drawing of which the largest part is visible."""
         manner = min(manners, key=self._excess)
         self._present(self._drawings[manner], manner)
 
@@ -209,13 +210,13 @@ class DiagramView(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  #
 
     @property
     def free_rows(self) -> int:
-        """The rows below the drawing."""
+        """The number of free rows below the drawing."""
         return max(0, self.size.height - len(self.drawing.rows))
 
     def set_footer(self, lines: Sequence[str], legend: str) -> None:
-        """Write lines into the last of the free rows, below a rule; the first line is a heading.
+        """Show lines in the last free rows, below a rule; the first line is a heading.
 
-        The legend stands above them if there is another free row.
+        The legend is shown above them if there is another free row.
         """
         if (tuple(lines), legend) != (self._footer, self._legend):
             self._footer, self._legend = tuple(lines), legend
@@ -236,7 +237,7 @@ class DiagramView(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  #
             self.selected = item
 
     def action_turn(self) -> None:
-        """Switch between arrows to the right, down, and as it fits."""
+        """Switch between arrows to the right, arrows down, and whichever fits better."""
         order: tuple[ArrowDirection | None, ...] = (None, RIGHT, DOWN)
         self._direction = order[(order.index(self._direction) + 1) % 3]
         self._lay_out()
@@ -250,7 +251,7 @@ class DiagramView(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  #
         return min(self.places, key=order, default="")
 
     def render_line(self, y: int) -> Strip:
-        """One line of the picture."""
+        """Render a line of the picture, the footer or the placeholder."""
         row = y + self.scroll_offset.y
         width = self.size.width
         base = self.own_style
@@ -307,7 +308,7 @@ class DiagramView(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  #
 
     @property
     def _indent(self) -> int:
-        """The indent in cells that centres a picture narrower than the widget."""
+        """The indentation (cells) that centres a picture that is narrower than the widget."""
         return max(0, (self.size.width - self.drawing.width) // 2)
 
     def _style(self, run: Run) -> Style:
@@ -367,7 +368,7 @@ class DiagramView(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  #
 
     def _distance(self, here: Place, item: str, across: int, down: int) -> tuple[int, str]:
         place = self.places[item]
-        # A cell is about twice as high as wide.
+        # A cell is about twice as high as it is wide.
         dx = _apart(here.x, here.width, place.x, place.width)
         dy = 2 * _apart(here.y, here.height, place.y, place.height)
         ends = (self.selected, item) if across + down > 0 else (item, self.selected)
@@ -392,7 +393,7 @@ class DiagramView(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  #
         """Choose the direction again, and keep the selected item in view."""
         self._lay_out()
         self.show_selected()
-        if self.outer_size != self._room:  # without the scroll bars, which come and go with what is drawn
+        if self.outer_size != self._room:  # unlike `size`, it does not depend on scroll bars
             self._room = self.outer_size
             self.post_message(self.Resized())
 

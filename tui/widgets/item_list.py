@@ -1,4 +1,4 @@
-"""A list of items that come, go and change: the cursor follows its item, and only rows that differ are drawn."""
+"""A list of items that come, go and change; the cursor follows its item, and only changed rows are redrawn."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ T = TypeVar("T")
 
 
 class ItemList(RowList, Generic[T]):
-    """A list with one item per row. Subclasses define `row`, and `key` if an item can change and still be the same."""
+    """A list with one item per row. Subclasses define `row`, and `key` if a changed item remains the same item."""
 
     def __init__(self, rows: Sequence[T] = ()) -> None:
         super().__init__()
@@ -31,7 +31,7 @@ class ItemList(RowList, Generic[T]):
         return self.rows[self.cursor] if self.cursor < len(self.rows) else None
 
     def exchange(self, rows: Sequence[T], *, stay: bool = True) -> None:
-        """Show other items. With `stay` the cursor silently follows its item, or stays near its position."""
+        """Show these items. With `stay`, the cursor silently follows its item, or stays near its position."""
         before, at, place = self.rows, self.current, self.cursor
         self.rows = rows
         if at is not None and stay:
@@ -49,7 +49,7 @@ class ItemList(RowList, Generic[T]):
             self.show_cursor()
 
     def begin_at(self, index: int) -> None:
-        """Put the cursor on a row silently, as if the list had begun with it there."""
+        """Put the cursor on a row silently, as if it had been there from the start."""
         before = self.cursor
         if index != before:
             self.set_reactive(RowList.cursor, index)

@@ -1,4 +1,4 @@
-"""The last line: the keys of a mode, of the focused pane, and those that work everywhere; from the key table."""
+"""The last line of the screen: the keys of a mode, of the focused pane, and those that work everywhere."""
 
 from __future__ import annotations
 
@@ -17,25 +17,25 @@ from textual.widgets import Static
 GAP = "  "
 NO_OTHERS: Mapping[str, str] = MappingProxyType({})
 FILTER = "slash"
-"""The key of the pane that is left out last."""
+"""The last of the pane's keys to be left out."""
 FIRST_DROPPED = ("app.line", "app.quit")
-"""Global keys that a short bar leaves out first, before those of the pane, since the help names them."""
+"""Global keys that a short bar leaves out before those of the pane, since the help names them."""
 STOP = "app.stop"
 
 
 class Shown(NamedTuple):
-    """A key in the bar."""
+    """A key as it is shown in the bar."""
 
     written: str
     word: str
     """The word for its action."""
     key: str
-    """Its name for Textual."""
+    """Textual's name of the key."""
     id: str
 
 
 class KeyBar(Static):
-    """Shows keys and what they do, as many as there is room for. A click presses the key."""
+    """Shows as many keys with their actions as fit. A click presses the key."""
 
     DEFAULT_CSS = "KeyBar { height: 1; padding: 0 1; background: $panel; color: $text; text-wrap: nowrap; }"
 
@@ -54,10 +54,10 @@ class KeyBar(Static):
         words: Mapping[str, str] = NO_OTHERS,
         mode: Mode = NO_MODE,
     ) -> None:
-        """Show the keys of some scopes of the key table; while typing, those of a text field.
+        """Show the keys of some scopes of the key table; while `typing`, those of a text field.
 
-        `columns` is the width of the bar if it has not been laid out yet; `words` replace those of the table, by the
-        ids of the keys, and a key whose word is empty is omitted. The keys of a `mode` come first.
+        `columns` is the width of the bar if it has not been laid out yet. `words` replaces words of the table, by the
+        ids of the keys; a key whose word is empty is omitted. The keys of a `mode` come first.
         """
         self._asked = (scopes, typing, colour, columns, words, mode)
         width = (self.size.width or columns) - 2
@@ -91,7 +91,7 @@ class KeyBar(Static):
 
 
 def fitting(first: Sequence[Shown], keys: Sequence[Shown], columns: int) -> list[Shown]:
-    """The keys that fit: `FIRST_DROPPED` are left out first, then the pane's keys, help, and last those of a mode."""
+    """The keys that fit: `FIRST_DROPPED` are left out first, then the pane's keys, other global keys, and mode keys."""
     kept = [*first, *keys]
     own = [each for each in keys if not each.id.startswith("app.")]
     everywhere = [each for each in keys if each.id.startswith("app.") and each.id != STOP]
@@ -110,7 +110,7 @@ def fitting(first: Sequence[Shown], keys: Sequence[Shown], columns: int) -> list
 
 
 def named(keys: Iterable[Key], words: Mapping[str, str]) -> Iterator[Shown]:
-    """The keys that the bar names."""
+    """The keys that the bar shows, with their words."""
     for key in keys:
         word = words.get(key.id, key.footer)
         if key.footer and word:
@@ -122,7 +122,7 @@ def _shown(key: Key, word: str) -> Shown:
 
 
 def _line(keys: Iterable[Shown], colour: str = "", first: int = 0) -> Text:
-    """The keys and their words; the `first` ones stand out."""
+    """The keys and their words; the first `first` keys are highlighted."""
     text = Text(no_wrap=True)
     for at, each in enumerate(keys):
         text.append(GAP if text else "")

@@ -1,4 +1,4 @@
-"""A container whose parts are made when it is first shown, since most panes of a run are never looked at."""
+"""A container whose parts are made when it is first shown, since most panes are never opened in a run."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from textual.widget import Widget
 class LazyParts(Container):
     """A container that composes itself as usual, unless `come_late` was called before it is mounted.
 
-    A query for its parts creates them at the latest.
+    The parts are then created by `make_parts`, or by the first query for them.
     """
 
     _late = False
-    """Whether `make_parts` makes the parts, also if it was called before the mount is complete."""
+    """Whether `make_parts` makes the parts instead of the mount, even after it has made them."""
     _missing = False
 
     def __init__(self, *children: Widget, **how: Any) -> None:
@@ -28,17 +28,17 @@ class LazyParts(Container):
 
     @property
     def has_parts(self) -> bool:
-        """Whether the parts exist: not before they are made, nor at the end, when the screen is dismantled."""
+        """Whether the parts exist: false before they are made, and while the screen is being dismantled."""
         return bool(self.children) and not self._is_closing
 
     @property
     def is_ending(self) -> bool:
-        """Whether the screen, and this with it, is being dismantled."""
+        """Whether the container is being dismantled with its screen."""
         return self._is_closing or not (self.is_attached if self._missing else self.children)
 
     @property
     def _is_closing(self) -> bool:
-        """Whether the parts disappear one after another; Textual has no public word for it before the unmount."""
+        """Whether the parts are being removed one by one; before the unmount, Textual has no public API for this."""
         private = cast(Any, self)
         return bool(private._closing or private._pruning)
 
@@ -56,7 +56,7 @@ class LazyParts(Container):
         if not self._late:
             await super()._compose()
 
-    if not TYPE_CHECKING:  # the parent's overloads are the types that count
+    if not TYPE_CHECKING:  # type checkers should see the parent's overloads
 
         def query(self, *what: Any, **how: Any) -> Any:
             """The matching parts, made if necessary."""
@@ -72,7 +72,7 @@ class LazyParts(Container):
 def put(parent: Widget, widgets: Sequence[Widget]) -> None:
     """Mount widgets and their children in a parent that is not displayed yet, without a layout.
 
-    Textual's own mount lays the screen out a second time, and mounts nested parts a little later.
+    Textual's own mount would lay out the screen again, and mount nested parts only later.
     """
     if not widgets:
         return

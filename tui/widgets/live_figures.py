@@ -15,12 +15,12 @@ FIGURE = re.compile(r" *[-+↶↷]?\d*(?:\.\d+|\d)")
 
 
 class LiveFigures(StaticText):
-    """Shows changed words at once, and changed figures at most every `EVERY_S`, so the newest may be delayed."""
+    """Shows changed words at once, but changed figures at most every `EVERY_S`, so that they can be read."""
 
     EVERY_S: ClassVar[float] = 0.5
-    """Seconds for which figures stay before others replace them."""
+    """Minimum seconds for which figures are shown."""
     clock: Callable[[], float] = staticmethod(time.monotonic)
-    """Seconds of a steady clock; tests give one that they step."""
+    """A monotonic clock (s); tests replace it with one that they step."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
@@ -62,5 +62,5 @@ class LiveFigures(StaticText):
 
 
 def _words(text: str) -> str:
-    """The text without its figures, wherever they stand: one that comes or goes changes no word."""
+    """The text without its figures, so that a figure that appears or disappears does not count as a changed word."""
     return " ".join(FIGURE.sub(" ", text).split())

@@ -1,4 +1,4 @@
-"""The area of the panes: the tree of splits places them, and borders are moved with the mouse."""
+"""The area of the panes: a tree of splits places them, and the mouse moves the borders between them."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from textual.widget import Widget
 
 
 class PanePlaceholder(Container):
-    """Takes a pane's place in the first frame: its border and title, and nothing that takes keys."""
+    """Stands in for a pane in the first frame: its border and title, without anything that takes keys."""
 
     def __init__(self, stands_for: str, title: str, *, chosen: bool) -> None:
-        """`stands_for` is the id of the pane, `chosen` says whether that one gets the focus."""
+        """Create the placeholder; `stands_for` is the id of the pane, `chosen` whether that will get the focus."""
         super().__init__(classes="chosen" if chosen else "")
         self.stands_for = stands_for
         self.border_title = title
@@ -31,7 +31,7 @@ class TreeLayout(Layout):
         self.tree: Tree = ""
 
     def arrange(self, parent: Widget, children: list[Widget], size: Size, greedy: bool = True) -> ArrangeResult:
-        """The placements of the children that are in the tree."""
+        """Place the children that are in the tree; others are not shown."""
         places = boxes(self.tree, Box(0, 0, size.width, size.height))
         named = [(child.stands_for if isinstance(child, PanePlaceholder) else child.id, child) for child in children]
         return [

@@ -17,19 +17,19 @@ from textual.message import Message
 from textual.strip import Strip
 
 Piece: TypeAlias = "tuple[str, str]"
-"""Text and the name of its style, one of `Picture.STYLES`; empty for the plain one.
+"""Text and the name of its style: one of `Picture.STYLES`, or empty for the plain style.
 
-If the colours are data, as in a drawing, the name contains them: `#b3b8ff on #4556ff`.
+If the colours are data, as in a drawing, the name specifies them: `#b3b8ff on #4556ff`.
 """
 
 Line: TypeAlias = "tuple[Piece, ...]"
 
 MAX_REDRAWN_CELLS = 10
-"""Number of cells that cost about as much to draw as a cursor move over them."""
+"""Unchanged cells up to this number are redrawn, as skipping them with a cursor move would cost about as much."""
 
 
 def merged_line(cells: Iterable[Piece]) -> Line:
-    """Cells as a line, in which neighbours of the same style are one piece."""
+    """A line of cells, with adjacent cells of the same style merged into one piece."""
     return tuple(("".join(text for text, _ in run), style) for style, run in groupby(cells, lambda each: each[1]))
 
 
@@ -93,7 +93,7 @@ class Picture(StyledByPart, WithPlaceholder):
         return _colors(name) if "#" in name else self.part_style(f"picture--{name}")
 
     def on_resize(self) -> None:
-        """Post `Resized`, so that lines of the new size are made."""
+        """Post `Resized`, so that the lines are made for the new size."""
         self.post_message(self.Resized())
 
 
@@ -103,7 +103,7 @@ def _colors(name: str) -> Style:
 
 
 def joined(cells: Iterable[Piece]) -> Line:
-    """Cells as a line, neighbours of the same style as one piece."""
+    """A line of pieces, with adjacent pieces of the same style merged."""
     found: list[Piece] = []
     for text, style in cells:
         if found and found[-1][1] == style:

@@ -1,4 +1,4 @@
-"""The text in the middle of an empty part of a pane: what the part is for, and keys that lead on."""
+"""The text in the middle of an empty part of a pane: what the part is for, and keys to press next."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Line = tuple[tuple[str, str], ...]
 
 
 class Placeholder(NamedTuple):
-    """A sentence, and keys with what they do."""
+    """A sentence, and keys with their actions."""
 
     sentence: str = ""
     actions: Sequence[tuple[str, str]] = ()
@@ -41,7 +41,7 @@ class WithPlaceholder(Widget):
 
 
 def placeholder_lines(placeholder: Placeholder, width: int, height: int) -> Sequence[Line]:
-    """The lines of a placeholder, centred in a part of a pane; keys are left out if there is no room for them."""
+    """The lines of a placeholder, centred in `width` x `height` cells; keys are left out if they do not fit."""
     columns = min(width - 2 * MARGIN_COLUMNS, MAX_COLUMNS)
     if not placeholder.sentence or columns < 8 or height < 1:
         return ()

@@ -1,4 +1,4 @@
-"""A virtual list: only visible rows are drawn, so that a million cost what forty do."""
+"""A virtual list: only visible rows are drawn, so that a million rows cost no more than forty."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from textual.strip import Strip
 LOUD = ("warn", "error", "good")
 """Styles whose colour has a meaning."""
 UNCUT_CELLS = 1000
-"""Cells that a row is given when it is searched, so that nothing is cut off."""
+"""Width (cells) with which a row is drawn for a search, so that nothing is cut off."""
 
 
 class RowList(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  # pyright: ignore[reportIncompatibleMethodOverride] -- Textual's own
@@ -40,7 +40,7 @@ class RowList(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  # pyr
     """The row that keys act on."""
 
     class Moved(Message):
-        """The cursor has moved to another row: `by_person`, or because rows have come or gone."""
+        """The cursor has moved to another row: by the user (`by_person`), or because rows have come or gone."""
 
         def __init__(self, rows: RowList, index: int, *, by_person: bool) -> None:
             super().__init__()
@@ -54,7 +54,7 @@ class RowList(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  # pyr
             return self.rows
 
     class Resized(Message):
-        """The size of the list has changed, and with it the width of its columns and the rows in view."""
+        """The size of the list has changed, and with it the widths of its columns and the visible rows."""
 
     _by_person = False
     """Whether the user is moving the cursor."""
@@ -68,7 +68,7 @@ class RowList(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  # pyr
         raise NotImplementedError
 
     def row_style(self, name: str) -> Style:
-        """The style of a segment by its name, such as `dim`; see `COMPONENT_CLASSES`."""
+        """A style of segments by its name, such as `dim`; see `COMPONENT_CLASSES`."""
         return self.part_style(f"row-list--{name}")
 
     @property
@@ -87,9 +87,9 @@ class RowList(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  # pyr
         self.refresh()
 
     def _extend(self, size: Size) -> None:
-        """Set the size of all rows, with a layout of the screen only if the scroll bar appears or disappears.
+        """Set the virtual size; lay out the screen only if the scroll bar appears or disappears.
 
-        Textual lays it out for each new line of a log, which takes a tenth of the drawing thread's time.
+        Textual would lay it out for each new line of a log, which takes a tenth of the drawing thread's time.
         """
         stays = self.show_vertical_scrollbar and min(size.height, self.virtual_size.height) > self.size.height
         if not stays or size.width != self.virtual_size.width:
@@ -140,7 +140,7 @@ class RowList(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  # pyr
         self.post_message(self.Moved(self, after, by_person=self._by_person))
 
     def choose(self, index: int) -> None:
-        """Move the cursor for the user, by key, mouse or search."""
+        """Move the cursor on behalf of the user: by key, mouse or search."""
         self._by_person = True
         try:
             self.cursor = index
@@ -171,7 +171,7 @@ class RowList(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  # pyr
             self.post_message(self.Moved(self, before, by_person=True))
 
     def matches(self, index: int, query: Query) -> bool:
-        """Whether a row matches a filter; by default decided by its drawn text."""
+        """Whether a row matches a filter; by default, its drawn text decides."""
         return query.matches("".join(each.text for each in self.row(index, UNCUT_CELLS)))
 
     def find(self, query: Query, step: int) -> bool:
@@ -209,7 +209,7 @@ class RowList(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  # pyr
 
 
 def _fitted(strip: Strip, width: int, style: Style) -> Strip:
-    """A row padded or truncated to a width in cells; a truncated one ends with an ellipsis."""
+    """A row padded or truncated to a width (cells); a truncated row ends with an ellipsis."""
     if strip.cell_length <= width or width < 1:
         return strip.adjust_cell_length(width, style)
     kept = strip.crop(0, width - 1)
@@ -218,5 +218,5 @@ def _fitted(strip: Strip, width: int, style: Style) -> Strip:
 
 
 def _on(strip: Strip, base: Style) -> Strip:
-    """Put segments without a background on the list's."""
+    """Draw segments that have no background on the background of the list."""
     return Strip([Segment(text, base + style if style else base) for text, style, _ in strip], strip.cell_length)

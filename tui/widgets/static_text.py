@@ -27,7 +27,7 @@ class StaticText(Static):
         self._last_message: str | Text = ""
         self._lines: Sequence[Text] = ()
         self._other: Sequence[Region] = ()
-        """The only regions to be drawn next."""
+        """The only regions to redraw in the next refresh; empty for the whole widget."""
 
     def show_text(self, what: str | Text) -> None:
         """Show a text without a layout, redrawing only changed lines."""
@@ -43,8 +43,8 @@ class StaticText(Static):
                 self._other = ()
 
     def show_or_hide(self, what: str | Text) -> None:
-        """Show a text; without one, leave the room to others."""
-        self.styles.display = None if what else "none"  # at once; a class takes effect with the next idle moment
+        """Show a text; hide the widget if the text is empty."""
+        self.styles.display = None if what else "none"  # immediate; a class would take effect only when idle
         self.show_text(what)
 
     def show_whole(self, what: str, maximum: int) -> None:
@@ -58,7 +58,7 @@ class StaticText(Static):
         self.show_text(what)
 
     def _differing(self, message: str | Text) -> Sequence[Region]:
-        """The regions of the lines that have changed; none if that is unknown."""
+        """The regions of the lines that have changed; empty if that is unknown."""
         width, height = self.size
         before, self._lines = self._lines, ()
         if isinstance(message, Text) and height > 1 and self.styles.text_wrap == "nowrap":
@@ -69,7 +69,7 @@ class StaticText(Static):
         return [Region(0, y, width, 1) for y, (old, new) in both if old is None or new is None or not _same(old, new)]
 
     def refresh(self: W, *regions: Region, repaint: bool = True, layout: bool = False, recompose: bool = False) -> W:
-        """Refresh like Textual, but by default only the lines that have changed."""
+        """Refresh like Textual, but if no regions are given, only the lines that have changed."""
         return super().refresh(*(regions or self._other), repaint=repaint, layout=layout, recompose=recompose)
 
 

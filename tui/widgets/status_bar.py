@@ -1,4 +1,4 @@
-"""One line that begins with the state of the robot; changed words show at once, speeds at most once a second."""
+"""The status line, which begins with the robot's state; words are updated at once, speeds at most once a second."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from rich.style import Style
 from rich.text import Text
 
 STATE_COLUMNS = 25
-"""Columns of the state and its reason, so that the figures after it do not move; a longer text takes what it needs."""
+"""Minimum columns of the state and its reason, so that the figures after it do not move."""
 MAX_NAMED_TOPICS = 3
-"""Topics that are late, or missing in a recording, and named one by one."""
+"""Maximum number of topics named if they are late, or missing in a recording."""
 UNKNOWN = NO_ROBOT, NO_DATA = "no robot yet", "no command and no odometry yet"
 LEFT, RIGHT = "↶↷"
 COLOURS = {
@@ -26,11 +26,11 @@ COLOURS = {
     "STOPPED": "error",
     "SILENT": "error",
 }
-"""The theme's colour for the first word of the line; other words have none."""
+"""The theme colours of the words for the robot's state; other words have none."""
 
 
 class StatusBar(LiveFigures):
-    """The state of the robot, its speeds, processes that have ended, errors, the profile."""
+    """Shows the state of the robot, its speeds, processes that have ended, errors, and the profile."""
 
     DEFAULT_CSS = """
     StatusBar { height: 1; padding: 0 1; background: $panel; color: $text; }
@@ -57,7 +57,7 @@ class StatusBar(LiveFigures):
             self.show(*self._shown)
 
     def styled(self, text: str) -> Text:
-        """The text with the word for the state in its colour."""
+        """The text with its first word coloured, if that is a state."""
         shown = Text(sanitize(text))
         word = text.partition(" ")[0]
         if word in COLOURS and not self.has_class("stopped"):
@@ -82,10 +82,10 @@ def status_text(
     alarms: Sequence[str] = (),
     columns: int | None = None,
 ) -> str:
-    """The text of the line: the state, figures, problems, and further notes.
+    """The text of the line: the state, figures, problems, and other notes.
 
     `acknowledged` errors are not counted, and `alarms` are the names of the active ones. If not everything fits into
-    `columns`, the least important parts are left out.
+    `columns`, the least important parts are shortened or left out.
     """
     state, problem = state_text(snapshot), sanitize(snapshot.problem)
     if problem:
@@ -105,7 +105,7 @@ def status_text(
         if rest:
             rest.pop()
         elif len(figures) > 1 and wordy:
-            figures.pop(0)  # the request first: what the robot does matters most
+            figures.pop(0)  # drop the requested velocity first: what the robot does matters most
         elif wordy:
             wordy = False
         elif figures:
@@ -116,14 +116,14 @@ def status_text(
 
 
 def _line(essential: Sequence[str], figures: Sequence[str], rest: Sequence[str]) -> str:
-    """The state, padded so that the figures stay in place, then everything else."""
+    """Join the state, padded so that the figures stay in place, and everything else."""
     state, *problems = essential
     begin = f"{state:<{STATE_COLUMNS}}" if state and figures else state
     return "  ".join(each for each in (begin, *figures, *problems, *rest) if each).rstrip()
 
 
 def _problems(snapshot: ConsoleSnapshot, acknowledged: int, alarms: Sequence[str]) -> Iterator[tuple[str, str]]:
-    """Problems, alarms and the recording, each in a long and a short form; the worst first."""
+    """Problems, alarms and the recording, each in a long and a short form, worst first."""
     if snapshot.drive.stopped and snapshot.link.silent_s:
         yield _both(link_text(snapshot.link))
     if snapshot.drive.means_news and not snapshot.drive.stopped:
@@ -155,7 +155,7 @@ def _problems(snapshot: ConsoleSnapshot, acknowledged: int, alarms: Sequence[str
 
 
 def _both(text: str) -> tuple[str, str]:
-    """The long and the short form of a text that is short enough anyway."""
+    """The long and the short form of a text that has only one."""
     return text, text
 
 
@@ -202,12 +202,12 @@ def _fixed(value: float) -> str:
 
 
 def _is_visible(value: float) -> bool:
-    """Whether a speed is not zero once it is rounded to be shown; an infinite or undefined one is not zero."""
+    """Whether a speed is still not zero when it is rounded for display; infinite and undefined speeds are not zero."""
     return not abs(value) < 0.005
 
 
 def link_text(link: LinkInfo) -> str:
-    """The state of the link to a robot: silent, or its delay and the number of lost messages."""
+    """The state of the link to a robot: that it is silent, or its delay and the number of lost messages."""
     if link.silent_s:
         return f"NO ANSWER {link.silent_s} s: all that is shown is that old  {sanitize(link.to)}"
     delay = "" if link.delay_ms is None else f" {link.delay_ms} ms"

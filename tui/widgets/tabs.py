@@ -20,12 +20,12 @@ class Tab(NamedTuple):
     title: str
     short: str
     pane: str
-    """Its id."""
+    """The id of the pane."""
     shown: bool
 
 
 class Tabs(Static):
-    """Keys and titles; a click shows the pane."""
+    """Shows keys and titles of the panes; a click on one shows the pane."""
 
     class Chosen(Message):
         """A tab was clicked."""
@@ -39,11 +39,11 @@ class Tabs(Static):
         self._ends: list[tuple[int, str]] = []
 
     def show(self, tabs: Sequence[Tab], width: int, colour: str) -> None:
-        """Show the tabs as wide as there is room."""
+        """Show the tabs, shortened as far as the width requires."""
         parts = tab_texts(tabs, width, colour)
         end = 0
         self._ends = []
-        for part, tab in zip(parts, tabs, strict=False):  # none if there is no room at all
+        for part, tab in zip(parts, tabs, strict=False):  # there are no parts if there is no room at all
             end += part.cell_len
             self._ends.append((end, tab.pane))
         self.update(Text.assemble(*parts, no_wrap=True), layout=False)
@@ -57,13 +57,13 @@ class Tabs(Static):
 
 
 LENGTHS = 4
-"""Number of lengths of a title: with room around it, short, three characters, and none."""
+"""Number of lengths of a title: with spaces around it, short, three characters, and none."""
 
 
 def tab_texts(tabs: Sequence[Tab], width: int, colour: str) -> list[Text]:
-    """Keys and titles of the panes, in parts that follow each other without a gap.
+    """The keys and titles of the panes, as parts that follow each other without a gap.
 
-    If there is little room, titles are shortened, the last ones first, and that of the shown pane after all others.
+    If there is little room, titles are shortened, starting with the last one; the shown pane's title comes last.
     """
     order = sorted(reversed(range(len(tabs))), key=lambda at: tabs[at].shown)
     lengths = [0] * len(tabs)
@@ -72,14 +72,14 @@ def tab_texts(tabs: Sequence[Tab], width: int, colour: str) -> list[Text]:
             lengths[at] = length
         parts = _parts(tabs, lengths, colour)
         if tabs[-1].shown and sum(part.cell_len for part in parts) > width:
-            parts[0] = parts[0][1:]  # the blank before the first one gives its room to the bracket behind the last one
+            parts[0] = parts[0][1:]  # frees a cell for the bracket after the last one
         if sum(part.cell_len for part in parts) <= width:
             return parts
     return []
 
 
 def _parts(tabs: Sequence[Tab], lengths: Sequence[int], colour: str) -> list[Text]:
-    """Brackets around the shown tab take the place of the gaps beside it."""
+    """The tabs as texts; the brackets of the shown one replace the gaps beside it."""
     parts: list[Text] = []
     for at, (tab, length) in enumerate(zip(tabs, lengths, strict=True)):
         label = _label(tab, length)
@@ -95,6 +95,6 @@ def _parts(tabs: Sequence[Tab], lengths: Sequence[int], colour: str) -> list[Tex
 
 def _label(tab: Tab, length: int) -> str:
     word = (tab.title, tab.short, tab.short[:3], "")[length]
-    # A key that is the first character of such a short title is not written in front of it.
+    # In front of a title this short, the key is omitted if it is the title's first character.
     merged = length == LENGTHS - 2 and word.startswith(tab.key)
     return sanitize(word if merged else f"{tab.key} {word}".strip())

@@ -1,4 +1,4 @@
-"""Places notifications above the status line, but never over the row or the text field that has the keyboard."""
+"""Places notifications above the status line, but never over the row at the cursor or a text field in use."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from textual.widget import Widget
 from textual.widgets import Input
 
 BELOW_ROWS = 2
-"""Lines of the status line and the key bar, below notifications on a screen without panes."""
+"""Lines kept free below notifications, for the status line and the key bar."""
 MAX_LINES = 6
 """Maximum lines of a notification, as in the style sheet."""
 LEFT_COLUMNS = 2
-"""Columns to the left of notifications; the right end of a pane's lower edge is left visible."""
+"""Columns to the left of notifications; the right end of a pane's bottom border stays visible."""
 RACK = "#textual-toastrack"
 
 
 def place_toasts(screen: Screen[object], *, another: bool = False) -> None:
-    """Show the newest notification of a screen, or none if `another` follows; the row at the cursor stays visible."""
+    """Show only the newest notification of a screen, or none if `another` follows, without covering the line in use."""
     try:
         rack = screen.query_one(RACK)
     except (NoMatches, ScreenStackError):
         return
-    # The style sheet does so for new notifications, but not for the one before a notification that is removed.
+    # The style sheet does this when notifications are added, but not when the newest one is removed.
     for each in rack.children:
         each.display = not another and each is rack.children[-1]
     below = lines_below(line_in_use(screen.focused), screen.size.height, _foot(screen))
@@ -42,7 +42,7 @@ def _foot(screen: Screen[object]) -> int:
 
 
 def lines_below(line: int | None, height: int, foot: int = BELOW_ROWS) -> int:
-    """The lines to leave free below a notification on a screen of a `height`, if a `line` must stay visible.
+    """The lines to keep free below a notification on a screen of `height` lines, so that `line` stays visible.
 
     The last `foot` lines are never covered.
     """
@@ -51,7 +51,7 @@ def lines_below(line: int | None, height: int, foot: int = BELOW_ROWS) -> int:
 
 
 def line_in_use(focused: Widget | None) -> int | None:
-    """The line on the screen of the row at the cursor, or of a text field; None if neither has the keyboard."""
+    """The screen line of the focused list's cursor, or of the focused text field; None if neither has the focus."""
     if isinstance(focused, RowList) and focused.row_count():
         return focused.content_region.y + focused.cursor - focused.scroll_offset.y
     return focused.region.y if isinstance(focused, Input) else None

@@ -110,8 +110,7 @@ _Changes = Mapping[tuple[str, str], ProfileDifference]
 
 
 def _rank(parameter: ParameterInfo, changes: Sequence[_Changes]) -> tuple[bool, int]:
-    """Sort key: first parameters that any profile makes less safe, then those that matter most to how the robot drives.
-    """
+    """Sort key: parameters that a profile makes less safe, then those that matter most to how the robot drives."""
     key = (parameter.node, parameter.name)
     unsafe = any(key in each and each[key].unsafe for each in changes)
     rank = importance(parameter)

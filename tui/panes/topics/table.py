@@ -15,24 +15,24 @@ from rich.cells import cell_len
 from rich.segment import Segment
 
 ENDS_CELLS, RATE_CELLS, AMOUNT_CELLS, AGE_CELLS, LATENCY_CELLS = 6, 6, 8, 7, 8
-"""Cells of the columns of figures, their gaps included."""
+"""Cells of the columns of figures, including their gaps."""
 MIN_NAME_CELLS = 14
-"""Cells that a name has at least."""
+"""Minimum cells of a name."""
 
 MIN_WIDE_CELLS = 56
-"""Cells from which all figures are shown, even if names are cut; below, only the rate where they would be."""
+"""Minimum width (cells) at which all figures are shown even if names are cut; below it, only the rate is then shown."""
 QOS_CELLS = 32
 MIN_VALUE_CELLS, MIN_WIDE_VALUE_CELLS = 12, 26
-"""Cells that the newest value has at least, and before types and QoS are shown."""
+"""Minimum cells of the newest value, and its minimum before types and QoS are shown."""
 MAX_VALUE_CELLS = 50
-"""Cells of the newest value at most."""
+"""Maximum cells of the newest value."""
 MIN_TYPE_CELLS = 16
-"""Cells that a type has at least."""
+"""Minimum cells of a type."""
 
 
 @dataclass(frozen=True)
 class Columns:
-    """Cells of each column; 0: the column is left out."""
+    """Cells of each column; 0 if the column is left out."""
 
     name: int
     type: int
@@ -46,7 +46,7 @@ class Columns:
 
 
 def columns(rows: Sequence[Row], kind: Kind, width: int) -> Columns:
-    """Share a width: names first, then figures, types, and what else has room."""
+    """Divide `width` cells: names come first, then figures, the newest value, types and QoS."""
     longest = max((cell_len(_label(each)) + 3 for each in rows), default=MIN_NAME_CELLS)
     figures = kind is Kind.TOPICS
     latency = figures and width >= 90
@@ -98,20 +98,20 @@ def _short(type_name: str) -> str:
 
 
 def _type_text(type_name: str, width: int) -> str:
-    """A type in so many cells: without its package if it would be cut."""
+    """A type without its package if it would not fit into `width` cells otherwise."""
     short = _short(type_name)
     return short if cell_len(short) <= width else short.rpartition("/")[2]
 
 
 def _label(row: Row) -> str:
-    """The name as it is listed: of a namespace with an arrow, of its members indented."""
+    """The name as listed: a namespace has an arrow, its members are indented."""
     if row.members:
         return f"{'▸' if row.is_folded else '▾'} {sanitize(row.name)}"
     return ("  " if row.space else "") + sanitize(row.label)
 
 
 class TopicRows(ItemList[Row]):
-    """One row for each; figures only where they are known."""
+    """One topic, service, action or namespace per row."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -119,27 +119,27 @@ class TopicRows(ItemList[Row]):
         self.repeated: Mapping[str, Repeated] = {}
         self.goals: Mapping[str, Goal] = {}
         self.opened = ""
-        """Whose message stands beside the list."""
+        """The topic whose message is shown beside the list."""
 
         self.checks: Mapping[str, RateCheck] = {}
-        """The expectations of topics."""
+        """The expected rates, by topic."""
         self._measured: dict[str, Measure] = {}
         self._values: Mapping[str, str] = {}
         self._texts: dict[object, str] = {}
         self._columns: tuple[object, Columns] | None = None
 
     def key(self, item: Row) -> object:
-        """Its name; a namespace can be named as a topic is."""
+        """The name, and whether the row is a namespace: a topic may have the same name."""
         return item.name, bool(item.members)
 
     @property
     def in_view(self) -> list[str]:
-        """The names in view."""
+        """The names in the visible rows, without namespaces."""
         top = self.scroll_offset.y
         return [each.name for each in self.rows[top : top + self.size.height] if not each.members]
 
     def columns(self, width: int) -> Columns:
-        """The columns for a width, worked out once for the same rows."""
+        """The columns for a width, cached for the same rows."""
         key = (self.rows, self.kind, width)
         known = self._columns
         if known is None or known[0] != key:
@@ -149,7 +149,7 @@ class TopicRows(ItemList[Row]):
     def show_measured(
         self, measured: Mapping[str, Measure], repeated: Mapping[str, Repeated], values: Mapping[str, str]
     ) -> None:
-        """Take new figures and values, and draw the rows that say something else now."""
+        """Update figures and values, and redraw the visible rows whose texts have changed."""
         before = self._measured
         self._measured = {topic: _steady(before.get(topic), each) for topic, each in measured.items()}
         self.repeated, self._values = repeated, values
@@ -172,7 +172,7 @@ class TopicRows(ItemList[Row]):
         return "▶" if name in self.repeated or (goal is not None and goal.active) else " "
 
     def is_late(self, name: str) -> bool:
-        """Whether a topic is not as expected."""
+        """Whether a topic misses its expected rate."""
         return self.kind is Kind.TOPICS and name in self.checks and self.checks[name].late is True
 
     def _is_row_late(self, row: Row) -> bool:
@@ -230,7 +230,7 @@ def _steady(before: Measure | None, now: Measure) -> Measure:
 
 
 def _steady_span(before: float | None, now: float | None) -> float | None:
-    """Latencies tremble more than rates: only a change by a fifth, or by a millisecond, counts."""
+    """The latency to show: it fluctuates more than a rate, so changes below a fifth or a millisecond are ignored."""
     if before is None or now is None:
         return now
     return before if abs(now - before) <= max(1e-3, abs(before) / 5) else now

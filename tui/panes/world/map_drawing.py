@@ -13,7 +13,7 @@ from bot_console.tui.widgets.braille import BrailleCanvas, layered
 from bot_console.tui.widgets.picture import Line, Piece
 
 OCCUPIED_PERCENT = 50
-"""Percent from which a cell of an occupancy grid counts as a wall."""
+"""Minimum occupancy (percent) of a grid cell that counts as a wall."""
 
 UNKNOWN = 255
 ARROWS = "→↗↑↖←↙↓↘"
@@ -29,7 +29,7 @@ class Window:
 
 
 def fitting(world: WorldInfo, width: int, height: int) -> Window:
-    """The window that shows the whole map, or 10 m around the robot where there is none."""
+    """The window that shows the whole map, or 10 m around the robot if there is none."""
     grid = world.map
     if grid is None:
         pose = world.pose or Pose()
@@ -40,14 +40,14 @@ def fitting(world: WorldInfo, width: int, height: int) -> Window:
 
 
 def following(world: WorldInfo, width: int, height: int, zoom: float) -> Window:
-    """A window around the robot, `zoom` times nearer than the one that shows all."""
+    """A window around the robot, magnified `zoom` times compared with the one that shows everything."""
     whole = fitting(world, width, height)
     pose = world.pose
     return whole if pose is None or zoom <= 1 else Window(pose.x, pose.y, whole.scale * zoom)
 
 
 class WorldDrawing:
-    """Draws a world; the walls are kept while map and window stay the same."""
+    """Draws a world; the walls are cached while map and window stay the same."""
 
     def __init__(self) -> None:
         self._key: object = None
@@ -77,7 +77,7 @@ class WorldDrawing:
 
 
 def _sample(grid: GridMap, window: Window, width: int, height: int) -> npt.NDArray[np.bool_]:
-    """Which dots show a wall: a dot does when any of the cells below it is occupied."""
+    """The dots that show a wall: those with at least one occupied grid cell below them."""
     flat: Any = np.frombuffer(grid.cells, np.uint8)
     cells: npt.NDArray[np.uint8] = flat.reshape(grid.height, grid.width)
     rows, columns = np.nonzero((cells >= OCCUPIED_PERCENT) & (cells != UNKNOWN))
@@ -103,7 +103,7 @@ def _dots(
 
 
 def _written(pieces: list[Piece], column: int, character: str, style: str) -> list[Piece]:
-    """A row with one letter put over what stands there."""
+    """A row in which one character is replaced."""
     result: list[Piece] = []
     at = 0
     for text, name in pieces:
@@ -117,14 +117,12 @@ def _written(pieces: list[Piece], column: int, character: str, style: str) -> li
 
 
 def visible_content(world: WorldInfo, window: Window, width: int, height: int) -> object:
-    """The data that a drawing shows; worlds of which it tells the same look the same, though the robot has moved a
-    little.
-    """
+    """A token for what a drawing shows: worlds with equal tokens look the same, even if the robot moved a little."""
     return world.map, world.hits, world.trail, window, width, height, _characters(world, window, width, height)
 
 
 def _characters(world: WorldInfo, window: Window, width: int, height: int) -> list[tuple[tuple[int, int], str, str]]:
-    """Letters with column and row of their cells."""
+    """The characters for goal and robot, each with the column and row of its cell, and its style."""
     characters: list[tuple[tuple[int, int], str, str]] = []
     if world.goal is not None:
         characters.append((_cell(*world.goal, window, width, height), "✚", "good"))
@@ -145,7 +143,7 @@ def arrow(heading: float) -> str:
 
 
 def scale_text(window: Window, width: int, room: int | None = None) -> str:
-    """A bar and its length in metres, about a fifth of the width; a shorter one where so many cells are no room."""
+    """A scale bar of about a fifth of the width with its length in metres, or a shorter one that fits into `room`."""
     metres = width * 2 / 5 / window.scale
     power = 10.0 ** math.floor(math.log10(metres)) if metres > 0 else 1.0
     lengths = [each * power for each in (5, 2, 1, 0.5, 0.2, 0.1) if each * power <= metres] or [power]

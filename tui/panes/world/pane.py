@@ -28,7 +28,7 @@ ZOOMS = (1.0, 2.0, 4.0, 8.0)
 
 
 DRAWINGS_PER_HITS = 3
-"""Every so many drawings the LIDAR hits are drawn anew."""
+"""The LIDAR hits are updated once in this many drawings."""
 
 EMPTY = Placeholder(
     "The robot on its map: there is no map and no pose yet (no OccupancyGrid, no Odometry).",
@@ -37,7 +37,7 @@ EMPTY = Placeholder(
 
 
 class WorldMap(Picture):
-    """The drawing itself."""
+    """The drawing of a robot on its map, or of a turtlesim field."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -45,18 +45,18 @@ class WorldMap(Picture):
         self._drawing: WorldDrawing | None = None
         self._field_drawing: FieldDrawing | None = None
         self._reported: object = None
-        """The object that the lines describe; None where they show something else."""
+        """What the lines show, as returned by `visible_content`; None if they show no map."""
         self._age = -1
         self._field = ""
-        """The node of the field that is shown; empty for a robot's place."""
+        """The node of the chosen turtlesim field; empty for a robot's place."""
         self.zoom = 1.0
         self.scale = ""
         self.scale_within: Callable[[int], str] = lambda room: ""
-        """The scale in so many cells at most."""
+        """Returns the scale in at most a number of cells."""
 
     def show(self, world: WorldInfo) -> None:
         """Draw a world."""
-        # Ranges are noisy, so hits flicker all over the map: they are what costs bytes.
+        # Ranges are noisy, so hits flicker all over the map and cost most of the bytes.
         self._age = (self._age + 1) % DRAWINGS_PER_HITS
         keep = self._age and self._world.hits and world.hits
         self._world = replace(world, hits=self._world.hits) if keep else world
@@ -64,14 +64,14 @@ class WorldMap(Picture):
 
     @property
     def places(self) -> list[str | TurtleField]:
-        """What can be shown: each robot, by its name, and each field of turtles."""
+        """The places that can be shown: each robot, by its name, and each turtlesim field."""
         world = self._world
         here = [world.robot] if world.pose or world.map or not world.fields else []
         return [*(world.robots if len(world.robots) > 1 else here), *world.fields]
 
     @property
     def place(self) -> str | TurtleField:
-        """The place that is shown: the steered robot's, unless a field was chosen or is all there is."""
+        """The shown place: the steered robot's, unless a field was chosen or there are only fields."""
         world = self._world
         chosen = next((each for each in world.fields if each.node == self._field), None)
         first = self.places[0]
@@ -79,12 +79,12 @@ class WorldMap(Picture):
 
     @property
     def field(self) -> TurtleField | None:
-        """The field that is shown; None for a robot's place."""
+        """The shown field; None for a robot's place."""
         place = self.place
         return place if isinstance(place, TurtleField) else None
 
     def next_place(self) -> str:
-        """Go to the next one of `places`; returns the robot that is to be shown, empty for a field."""
+        """Go to the next of the `places`; returns the robot to show, or an empty text for a field."""
         places, now = self.places, self.place
         place = places[(places.index(now) + 1) % len(places) if now in places else 0]
         self._field = place.node if isinstance(place, TurtleField) else ""
@@ -92,7 +92,7 @@ class WorldMap(Picture):
         return "" if isinstance(place, TurtleField) else place
 
     def draw(self) -> None:
-        """Make the lines for the size that there is."""
+        """Draw the world in the current size."""
         width, height = self.size
         if width < 4 or height < 2:
             return
@@ -107,7 +107,7 @@ class WorldMap(Picture):
             self._reported = None
             self.set_lines(())
             return
-        # NumPy is imported after the first frame: it is a third of the start-up time.
+        # NumPy is imported after the first frame: it would take a third of the start-up time.
         from bot_console.tui.panes.world.map_drawing import WorldDrawing, following, scale_text, visible_content
 
         self._drawing = self._drawing or WorldDrawing()
@@ -139,22 +139,22 @@ class WorldPane(Pane):
         super().__init__(*args, **kwargs)
         self._world: WorldInfo | None = None
         self._then: Pose | None = None
-        """Where the robot was at the moment that is looked at; None: now, or nobody knows."""
+        """Where the robot was at the time cursor; None if that is at now, or the pose is unknown."""
         self._snapshot = ConsoleSnapshot()
         self.can_focus = True
 
     def compose(self) -> ComposeResult:
-        """The map and a line of facts."""
+        """The map, a line of facts, and a prompt."""
         yield WorldMap()
         yield LiveFigures(id="world-facts")
         yield Prompt(id="world-prompt")
 
     def focus_target(self) -> None:
-        """The pane itself takes the keys."""
+        """Focus the pane itself."""
         self.focus()
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
-        """Draw the world anew when it is another object."""
+        """Redraw the world if it is a different object."""
         before, self._snapshot = self._snapshot, snapshot
         if snapshot.problem != before.problem or snapshot.capabilities is not before.capabilities:
             self._facts()
@@ -163,7 +163,7 @@ class WorldPane(Pane):
             self._draw(live=True)
 
     def tick(self) -> None:
-        """Show the figures that have waited."""
+        """Show figures that are due."""
         if self.display:
             self.query_one(LiveFigures).heartbeat()
 
@@ -175,7 +175,7 @@ class WorldPane(Pane):
         self._facts(live)
 
     def time_moved(self, stamp: int | None) -> None:
-        """Show where the robot was at another moment."""
+        """Show where the robot was at the moment to which the time cursor has moved."""
         self._then = None if stamp is None else self.console.drive.pose_at(stamp)
         if not self.is_ending:
             self._draw()
@@ -204,7 +204,7 @@ class WorldPane(Pane):
             where = f"{whose}{where}"
             text = f"{where}  {speed}  nearest {near}  "
             width = self.query_one(LiveFigures).content_size.width
-            if width and cell_len(text + more) > width:  # what may hit something matters more than where
+            if width and cell_len(text + more) > width:  # speed and distance matter more than the position
                 text = f"{speed}  nearest {near}  "
             room = width - cell_len(text + more)
             text += (drawn.scale if len(drawn.scale) <= room or not width else drawn.scale_within(room)) + more
@@ -216,14 +216,14 @@ class WorldPane(Pane):
         (facts.show_live if live else facts.show_now)(text)
 
     def action_next_place(self) -> None:
-        """The next robot, or a field of turtles."""
+        """Go to the next robot or turtlesim field."""
         robot = self.query_one(WorldMap).next_place()
         if robot and robot != self._snapshot.world.robot:
             self.console.drive.choose(robot)
         self._facts()
 
     def action_zoom_map(self, step: int) -> None:
-        """Nearer, or farther."""
+        """Zoom in or out."""
         drawn = self.query_one(WorldMap)
         at = ZOOMS.index(drawn.zoom)
         drawn.zoom = ZOOMS[min(max(0, at + step), len(ZOOMS) - 1)]
@@ -231,7 +231,7 @@ class WorldPane(Pane):
         self._facts()
 
     def action_fit(self) -> None:
-        """The whole map, or near the robot."""
+        """Switch between the whole map and a closer view of the robot."""
         drawn = self.query_one(WorldMap)
         drawn.zoom = 1.0 if drawn.zoom > 1 else 4.0
         drawn.draw()
@@ -239,7 +239,7 @@ class WorldPane(Pane):
 
 
 def _of_turtles(field: TurtleField) -> str:
-    """Where the turtles are, the first ones first: the line may be short."""
+    """A line on a field with its turtles in order, as the line may be cut."""
     each = (
         f"{turtle.name} {figure(turtle.pose.x)}, {figure(turtle.pose.y)} {figure(turtle.speed)} m/s"
         for turtle in field.turtles

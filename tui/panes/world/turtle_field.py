@@ -1,4 +1,4 @@
-"""A turtlesim field as lines of braille, in the colours that the turtles have drawn with. Pure."""
+"""A turtlesim field as lines of braille, in the colours with which the turtles have drawn. Pure."""
 
 from __future__ import annotations
 
@@ -14,27 +14,27 @@ from bot_console.tui.widgets.picture import Line, merged_line
 SIDE_M = 499 / 45
 """Width and height of a field (m)."""
 PEN, BACKGROUND = 0xB3B8FF, 0x4556FF
-"""Colours of a trail, and behind it, where the drawing is not known: turtlesim's own."""
+"""Colours of a trail and of the background if the drawing is unknown: turtlesim's defaults."""
 SIDE_PX = 500
-"""Width and height of a drawing that is made of trails."""
+"""Width and height of a drawing made from trails."""
 
 Cell = tuple[str, str]
 
 
 class FieldDrawing:
-    """Draws a field; what has been drawn is kept while it and the size stay the same."""
+    """Draws a field; the turtles' drawing is cached while it and the size stay the same."""
 
     def __init__(self) -> None:
         self._key: object = None
         self._cells: list[list[Cell]] = []
 
     def rows(self, field: TurtleField, width: int, height: int) -> list[Line]:
-        """The drawing with an arrow for each turtle, and its name where there are several."""
+        """The drawing with an arrow for each turtle, and the names if there are several."""
         drawing = field.drawing or _of_trails(field)
         key = (drawing.pixels if field.drawing is None else id(drawing), width, height)
         if key != self._key:
             self._key = key
-            self._kept = drawing  # its id is the key
+            self._kept = drawing  # keeps the object alive whose id is part of the key
             self._cells = _cells(drawing, width, height)
         cells = [list(row) for row in self._cells]
         for turtle in field.turtles:
@@ -43,7 +43,7 @@ class FieldDrawing:
 
 
 def _of_trails(field: TurtleField) -> Drawing:
-    """A drawing made of the places where the turtles have been."""
+    """A drawing made from the trails of the turtles."""
     pixels = np.zeros((SIDE_PX, SIDE_PX, 4), np.uint8)
     pixels[:] = (*BACKGROUND.to_bytes(3, "big"), 0)
     scale = (SIDE_PX - 1) / SIDE_M
@@ -55,7 +55,7 @@ def _of_trails(field: TurtleField) -> Drawing:
 
 
 def _size(width: int, height: int) -> tuple[int, int, int, int]:
-    """The first column and row of the field, its columns and rows: a cell is twice as high as it is wide."""
+    """First column, first row, columns and rows of a square field, as a cell is twice as high as it is wide."""
     down = min(height, width // 2)
     across = min(width, down * 2)
     return (width - across) // 2, (height - down) // 2, across, down

@@ -1,6 +1,6 @@
-"""The direction of the arrows, and what it means for sizes. Pure.
+"""The direction of the arrows, and the sizes that depend on it. Pure.
 
-Layout knows two directions only: along the arrows and across them. `ArrowDirection` gives the cells that things take
+The layout works in two directions: along the arrows and across them. `ArrowDirection` tells how many cells things take
 in each.
 """
 
@@ -14,7 +14,7 @@ from rich.cells import cell_len
 
 @dataclass(frozen=True)
 class ArrowDirection:
-    """A direction of arrows with suitable distances for it, in cells."""
+    """A direction of arrows, with suitable distances in cells."""
 
     downward: bool
     track: int
@@ -22,11 +22,11 @@ class ArrowDirection:
     port: int
     """From one arrow head to the next at an item."""
     gap: int
-    """Between two items that stand across."""
+    """Between two items of a column, across the arrows."""
     lane: int
     """From one backward line to the next."""
     shortest: int
-    """The length of an arrow that runs straight."""
+    """The minimum length of a straight arrow."""
 
     def along(self, item: Item) -> int:
         """The size of an item in cells in the direction of the arrows."""

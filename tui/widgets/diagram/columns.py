@@ -57,9 +57,9 @@ def _boxes_reached(start: str, after: Mapping[str, set[str]], items: Mapping[str
 
 
 def greedy_order(nodes: Iterable[str], after: Mapping[str, set[str]], gives: Mapping[str, int]) -> list[str]:
-    """The order of Eades, Lin and Smyth: sources first, sinks last, else by the largest out-degree minus in-degree.
+    """Order nodes as Eades, Lin and Smyth do: sources first, sinks last, else the largest out-degree minus in-degree.
 
-    `gives` breaks ties: the number of outgoing minus incoming arrows.
+    `gives`, the number of outgoing minus incoming arrows, breaks ties.
     """
     left = set(nodes)
     ahead = {each: {one for one in after[each] if one in left} for each in left}
@@ -105,7 +105,7 @@ def _columns(items: Mapping[str, Item], forward: Iterable[Edge], rank: Mapping[s
         for target in after[each]:
             column[target] = max(column[target], column[each] + 1)
     for each in reversed(order):
-        # Items without predecessors move next to their successors, for shorter arrows.
+        # Items without predecessors move next to their successors, which shortens their arrows.
         if each not in has_cause and after[each]:
             column[each] = max(items[each].least, min(column[target] for target in after[each]) - 1)
     return column

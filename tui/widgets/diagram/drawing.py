@@ -1,4 +1,4 @@
-"""The finished picture: rows of runs, each a piece of text and the item or edges it shows. Pure."""
+"""Lays out and draws a graph as rows of runs, each a piece of text with the item or edges it shows. Pure."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def draw(graph: Digraph, direction: ArrowDirection = RIGHT) -> Drawing:
         blocked = {key for each in plan.channels for key in each.blocked}
         if not blocked:
             break
-        # Two arrows would share a row: one item moves a row down.
+        # Where two arrows would share a row, one of the items moves a row down.
         for key in blocked:
             pushed[key] = pushed.get(key, 0) + 1
         plan = _Plan(items, found, columns, placed(columns, items, arrows_in, pushed, direction), direction)
@@ -272,7 +272,7 @@ def _centred(text: str, width: int) -> str:
 
 
 class Rows(Sequence[tuple[Run, ...]]):
-    """Rows that are assembled on access: of a large picture only few are ever shown."""
+    """Rows that are assembled on access, as only a few rows of a large picture are ever shown."""
 
     def __init__(self, count: int, lines: Lines, boxes: Mapping[int, list[Run]]) -> None:
         self._count = count

@@ -1,4 +1,4 @@
-"""The graph to be drawn: items, and directed edges between them."""
+"""The graph to draw: items, and directed edges between them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 class Item:
     """A node to draw: a box with a frame, or (`boxed` false) a chip, which is a name on its line.
 
-    `least` is the leftmost column allowed for it.
+    `least` is the leftmost column in which it may be placed.
     """
 
     id: str
@@ -20,7 +20,7 @@ class Item:
 
 @dataclass(frozen=True)
 class Digraph:
-    """Items, and edges as pairs of ids; an edge with an end that is not among the items is ignored."""
+    """Items, and edges as pairs of ids; edges to or from unknown items are ignored."""
 
     items: tuple[Item, ...] = ()
     edges: tuple[tuple[str, str], ...] = ()

@@ -31,21 +31,21 @@ TURNS = tuple(sum(turned for stroke, turned in TURNED.items() if strokes & strok
 """Strokes with rows and columns exchanged."""
 BY_STROKES = tuple(CHARACTERS.get(strokes, " ") for strokes in range(16))
 CROSSED = 16
-"""Instead of strokes: lines of two items meet here."""
+"""Marks a cell, instead of strokes, in which lines of two items cross."""
 HEAD = 32
-"""Instead of strokes: the head of an arrow."""
+"""Marks a cell, instead of strokes, with an arrow head."""
 HEAD_BACK = 64
-"""Instead of strokes: the head of an arrow that runs against the direction of the others."""
+"""Marks a cell, instead of strokes, with the head of an arrow that runs against the direction of the others."""
 
 Cell = tuple[str, int, frozenset[Edge]]
-"""Whose line it is, its strokes, and the edges it belongs to."""
+"""The owner of a line in a cell, the strokes, and the edges they belong to."""
 
 
 class Lines:
-    """Strokes by cell and by the item whose arrows they are; lines of one item join, those of two cross.
+    """The strokes in each cell; lines of the same owner join, lines of different owners cross.
 
-    Everything is given for arrows that run to the right; `downward` exchanges rows and columns. Cells of one line share
-    one set of edges: a graph of some hundred nodes has a hundred thousand cells.
+    All coordinates are for arrows that run to the right; `downward` swaps rows and columns. The cells of a line share
+    one set of edges, as a graph of a few hundred nodes has a hundred thousand cells.
     """
 
     def __init__(self, downward: bool = False) -> None:
@@ -78,14 +78,14 @@ class Lines:
         key = (a, b)
         found = self._unions.get(key)
         if found is None:
-            united = a | b  # one of the two if it contains all: equal sets should be one object
+            united = a | b  # use `a` or `b` itself if it is equal, so that equal sets are one object
             found = self._unions[key] = next((each for each in key if len(each) == len(united)), united)
         return found
 
     def across(self, y: int, start: int, end: int, edges: frozenset[Edge], owner: str = "") -> None:
-        """A horizontal line from `start` to `end`; it ends in the middle of a bend at either place.
+        """Draw a horizontal line from `start` to `end`, with half a stroke in either cell so that bends can join it.
 
-        Without an `owner`, the line is that of the item at which the edges begin.
+        Without an `owner`, the line belongs to the item at which the edges begin.
         """
         if not edges or start >= end:
             return
@@ -96,7 +96,7 @@ class Lines:
         self._add(end, y, LEFT, owner, edges)
 
     def down(self, x: int, start: int, end: int, edges: frozenset[Edge], owner: str = "") -> None:
-        """A vertical line between two rows."""
+        """Draw a vertical line between two rows."""
         top, bottom = min(start, end), max(start, end)
         if not edges or top == bottom:
             return
@@ -107,7 +107,7 @@ class Lines:
         self._add(x, bottom, UP, owner, edges)
 
     def branches(self, x: int, origin: int, ends: Iterable[tuple[int, frozenset[Edge]]]) -> None:
-        """Vertical lines of one item from one row to many: each piece belongs to the edges that continue beyond it."""
+        """Draw vertical lines from one row to several; each piece belongs to the edges that continue beyond it."""
         above = sorted((each for each in ends if each[0] < origin), key=lambda each: each[0])
         below = sorted((each for each in ends if each[0] > origin), key=lambda each: -each[0])
         for side in (above, below):
@@ -125,20 +125,20 @@ class Lines:
         self._lanes[owner] = (y, x, x)
 
     def arrow(self, x: int, y: int, edges: frozenset[Edge]) -> None:
-        """An arrow head."""
+        """Draw an arrow head."""
         if edges:
             self._add(x, y, HEAD, next(iter(edges))[0], edges)
 
     def stub(self, x: int, y: int, strokes: int, edges: frozenset[Edge], owner: str) -> None:
-        """Half of a cell: where a line touches a box."""
+        """Draw half a stroke in a cell, where a line touches a box."""
         self._add(x, y, strokes, owner, edges)
 
     def arrow_back(self, x: int, y: int, edges: frozenset[Edge], owner: str) -> None:
-        """An arrow head that points to the left."""
+        """Draw an arrow head that points to the left."""
         self._add(x, y, HEAD_BACK, owner, edges)
 
     def erase(self, y: int, start: int, end: int) -> None:
-        """Make room for a text from `start` to before `end`."""
+        """Erase the cells from `start` to before `end`, to make room for a text."""
         row = self._cells.get(y, {})
         for x in range(start, end):
             row.pop(x, None)

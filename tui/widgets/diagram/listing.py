@@ -9,7 +9,7 @@ from rich.cells import cell_len
 
 INDENT_CELLS = 4
 MIN_ROW_CELLS = 20
-"""Minimum cells of a row; in less room, the list is cut at the edge."""
+"""Minimum cells of a row; in a narrower window, the list is cut at the edge."""
 
 
 @dataclass(frozen=True)
@@ -20,7 +20,7 @@ class Listing:
 
 
 def draw_listing(listing: Listing, width: int) -> Drawing:
-    """Draw the entries in rows of a width, broken at blanks."""
+    """Draw the entries in rows of at most `width` cells, wrapped at blanks."""
     rows: list[tuple[Run, ...]] = []
     places: dict[str, Place] = {}
     for item, text in listing.entries:

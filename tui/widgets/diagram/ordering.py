@@ -47,7 +47,7 @@ def ordered(layers: Layers) -> Columns:
 
 
 def _steps(layers: Layers, columns: list[list[Key]]) -> dict[Key, list[Key]]:
-    """One shared path for all arrows of an item, which splits as late as possible."""
+    """Build one shared path for all arrows of each item, which splits as late as possible."""
     targets: dict[str, list[str]] = {}
     for a, b in layers.forward:
         targets.setdefault(a, []).append(b)

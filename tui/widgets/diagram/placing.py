@@ -1,6 +1,6 @@
 """Assigns items to rows: near the middle of their neighbours, in order, without touching. Pure.
 
-Rows and columns are meant for arrows that run to the right; for arrows that run down they are swapped.
+Rows and columns are named for arrows that run to the right; for arrows that run down they are swapped.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from bot_console.tui.widgets.diagram.ordering import ITEM, Columns, Key
 
 SWEEPS = 7
 STRAIGHT = 8.0
-"""The weight of keeping an arrow straight if it is the only one of its item."""
+"""The weight of keeping the only arrow of an item straight."""
 
 MAX_BEND_CELLS = 6
 """Maximum cells by which an item is moved to straighten an arrow."""

@@ -13,13 +13,13 @@ from functools import cached_property
 from bot_console.tui.widgets.diagram.ordering import Key
 
 MANY = 40
-"""Trunks in one channel from which on they are no longer sorted pair by pair."""
+"""Maximum number of trunks in a channel that are still compared pair by pair."""
 
 
 @dataclass(frozen=True)
 class Trunk:
-    """The arrows of one item in one channel: it comes in from the left on `enters` (None: from below), branches off to
-    the right on the rows `leaves`, and may run down to the row `down`.
+    """The arrows of one item in one channel: the trunk enters from the left on row `enters` (None: from below),
+    branches off to the right on the rows `leaves`, and may run down to row `down`.
     """
 
     owner: str
@@ -36,7 +36,7 @@ class Trunk:
 
     @property
     def straight(self) -> bool:
-        """Whether it needs no vertical line."""
+        """Whether the trunk needs no vertical line."""
         return self.span[0] == self.span[1]
 
 
@@ -68,7 +68,7 @@ def channel(trunks: Sequence[Trunk]) -> Channel:
 
 
 def _left_of(trunks: Sequence[Trunk]) -> dict[str, set[str]]:
-    """For each trunk those that must be left of it: they enter on a row on which it leaves, and would overlap it."""
+    """For each trunk, the owners of those that must be left of it: they enter on rows on which it leaves."""
     entering = {each.enters: each.owner for each in trunks if each.enters is not None}
     return {each.owner: {entering[row] for row, _ in each.leaves if row in entering} - {each.owner} for each in trunks}
 

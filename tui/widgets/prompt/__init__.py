@@ -1,1 +1,1 @@
-"""Questions to the person at the keyboard: each carries what to do with its answer."""
+"""Questions to the user, each with a callback for its answer."""

@@ -19,7 +19,7 @@ def wrong_filter(text: str) -> str:
 
 
 def filter_line(words: str, apply: Callable[[str], object], then: Callable[[str], object]) -> Line:
-    """Ask for a filter, applied while it is typed; `then` gets the last one; cancelling removes it."""
+    """Ask for a filter, applied while it is typed; `then` is called with the final one; cancelling removes it."""
     return Line("filter", then, given_up=lambda: apply(""), text=words, check=wrong_filter, typed=apply)
 
 

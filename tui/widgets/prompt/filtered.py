@@ -1,4 +1,4 @@
-"""Widgets with a filter: one way to ask for it, to clear it, and to go from match to match."""
+"""The base of widgets with a filter: asking for it, clearing it, and moving between matches."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from textual.widget import Widget
 
 
 class Findable(Widget):
-    """A widget with a search: `/` asks for words, n and N go to the next and the previous match."""
+    """A widget that can be searched: `/` asks for words, n and N go to the next and the previous match."""
 
     BINDINGS: ClassVar[list[BindingType]] = keymap.bindings("find")
 
@@ -62,7 +62,7 @@ class Findable(Widget):
 
 
 class Narrowed(Findable):
-    """Shows only what passes the filter; Escape shows everything again."""
+    """A widget that shows only what passes the filter; Escape shows everything again."""
 
     BINDINGS: ClassVar[list[BindingType]] = keymap.bindings("narrowed")
 

@@ -17,9 +17,9 @@ from textual.widget import Widget
 from textual.widgets import Input, Label
 
 KEYS = "Enter OK · Esc Cancel"
-"""The keys that act while a line is typed in a box."""
+"""The keys shown at the bottom of a box while a line is typed in it."""
 AROUND_COLUMNS = 5
-"""Columns around the label and at the end of the text."""
+"""Columns around the label and after the text."""
 
 
 class _Completing(Suggester):
@@ -53,7 +53,7 @@ class Prompt(Requester[str], Horizontal):
     _line: Line | None = None
     _before: Widget | None = None
     _keys_around: str | None = None
-    """The keys that the box around it names while nothing is typed; None: it is in a pane."""
+    """The keys that the surrounding box shows while nothing is typed; None if the prompt is closed or in a pane."""
 
     def _make(self) -> None:
         self._label = Label("", markup=False)
@@ -82,7 +82,7 @@ class Prompt(Requester[str], Horizontal):
         self._before = self.screen.focused
         if isinstance(self.parent, Box):
             self._keys_around, self.parent.border_subtitle = self.parent.border_subtitle, KEYS
-        # At once, instead of by `focus`, which takes effect after keys that are already queued.
+        # Immediately: `focus` would take effect only after keys that are already queued.
         self.screen.set_focus(field)
 
     def _complain(self, text: str) -> str:
@@ -93,7 +93,7 @@ class Prompt(Requester[str], Horizontal):
         return wrong
 
     def _room_beside(self, text: str) -> int:
-        """The width for the message about the text: what text and label leave, but at least a third of the line."""
+        """The width for the message about the text: the rest of the line, but at least a third of it."""
         width = self.parent.content_size.width if isinstance(self.parent, Widget) else 0
         taken = cell_len(self._line.label if self._line else "") + cell_len(text) + AROUND_COLUMNS
         return max(width - taken, width // 3, 1)
@@ -121,7 +121,7 @@ class Prompt(Requester[str], Horizontal):
             self.give_up()
 
     def take_focus(self) -> None:
-        """Take the keys again; the text stays selected or not, as it was."""
+        """Take the focus again, without changing whether the text is selected."""
         self._field.select_on_focus = False
         self.screen.set_focus(self._field)
 
@@ -144,5 +144,5 @@ class Prompt(Requester[str], Horizontal):
 
 
 def open_prompt(widget: Widget) -> Prompt | None:
-    """The prompt that is open in a widget, so that all keys belong to its text."""
+    """The open prompt in a widget, which receives all keys; None if there is none."""
     return next((each for each in widget.query(Prompt) if each.is_open), None)

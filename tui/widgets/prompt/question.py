@@ -1,4 +1,4 @@
-"""Questions: what is asked, about what, and what to do with the answer."""
+"""The kinds of questions to the user: what is asked, and the callbacks for the answer."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ def _none(_: str) -> Sequence[Option]:
 
 @dataclass(frozen=True)
 class Question(Generic[A]):
-    """A question bound to its subject, so that the answer needs no look-up."""
+    """A question whose callbacks are bound to its subject, so that the answer needs no lookup."""
 
     label: str
     then: Callable[[A], object]
-    """Called once, with the answer."""
+    """Called once with the answer."""
 
     gone: Callable[[], str] = _all_well
-    """Why nobody can answer any more, for instance that a node has left; empty as long as the question makes sense."""
+    """Why the question has become pointless, for instance because a node has left; empty as long as it makes sense."""
 
     given_up: Callable[[], object] = _nothing
-    """Called once, instead of `then`."""
+    """Called once instead of `then` if the question is not answered."""
 
 
 @dataclass(frozen=True)
@@ -54,10 +54,10 @@ class Line(Question[str]):
     """Called with each valid text while it is being typed."""
 
     suggestions: Sequence[str] = ()
-    """The first one that begins like the text is shown dim; the right arrow key accepts it."""
+    """Suggested texts: the first that begins with the typed text is shown dim; the right arrow key accepts it."""
 
     complete: Callable[[str], str] | None = None
-    """The continuation of a text, also shown dim; empty if it is complete or unknown."""
+    """Returns the completed text, which is also shown dim; empty if there is no completion."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ class Confirmation(Question[None]):
     """A request for confirmation; the only answer is yes."""
 
     reasons: str = ""
-    """Why it is asked, line by line."""
+    """Why confirmation is needed, as lines of text."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ class Option:
     """Shown dim after the title: a folder, a key."""
 
     value: str = ""
-    """The answer; empty: the title."""
+    """The answer; empty if it is the title."""
 
 
 def narrowed(options: Iterable[Option], typed: str) -> list[Option]:
@@ -91,27 +91,27 @@ class Choice(Question[str]):
     """One of several options, narrowed by typing."""
 
     attempt: Callable[[str], str] = _all_well
-    """Acts on an answer before `then`, or returns why it cannot; the question stays open in that case."""
+    """Called with an answer before `then`; may act on it, or return why it cannot, so that the question stays open."""
 
     find: Callable[[str], Sequence[Option]] = _none
-    """The options for what was typed, the best first."""
+    """Returns the options for the typed text, best first."""
 
     hint: str = ""
     """Shown in the empty field."""
 
     empty: str = ""
-    """Shown if nothing is found."""
+    """Shown if there are no options."""
 
 
 @dataclass(frozen=True)
 class Form(Question[dict[str, str]]):
-    """Named values, such as the arguments of a launch file; the answer is those that differ from their defaults."""
+    """Named values, such as launch arguments; the answer contains those that differ from their defaults."""
 
     arguments: Sequence[LaunchArgument] = ()
     verb: str = "Launch"
-    """The word for the action of Enter."""
+    """What Enter does, in a word."""
     check: Callable[[dict[str, str]], str] = lambda _: ""
-    """Why the answer cannot be taken; empty if it can."""
+    """Returns why the answer is invalid; empty if it is valid."""
 
 
 @dataclass(frozen=True)
@@ -131,11 +131,11 @@ class Fill(Question[None]):
     """The name of the topic, service or action."""
     type: str
     traffic: Topics
-    """The service that sends it."""
+    """The port through which it is sent."""
 
 
 class Requester(Generic[A]):
-    """Shows a question, which ends exactly once: answered, cancelled, or closed because its subject is gone."""
+    """Shows a question, which ends exactly once: by an answer, by being cancelled, or because its subject is gone."""
 
     _question: Question[A] | None = None
 

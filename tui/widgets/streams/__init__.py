@@ -1,1 +1,1 @@
-"""Command lines that keep running below the panes."""
+"""The panels of commands that keep running below the panes."""

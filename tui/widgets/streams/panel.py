@@ -1,4 +1,4 @@
-"""The panel of a running command line: its last lines; it never takes the focus."""
+"""The panel of a running command, with its last lines of output; it never takes the focus."""
 
 from __future__ import annotations
 
@@ -51,11 +51,11 @@ class StreamPanel(Static):
         return self._stream.ended
 
     def call(self, number: int, key: str) -> None:
-        """Set the title: line and state; `number` distinguishes it from other panels, 0 if there are none."""
+        """Set the title to the command and its state; `number` is the number among several panels, or 0."""
         named = self.line.removeprefix("ros2 ") if number else self.line
         title = f"{number} {named}" if number else f"{named} · {self.state} · {key} closes"
         self.border_title = Text(sanitize(title))  # Textual parses a str as markup, but brackets in a line are literal
-        # Next to other panels there is no room for both in the title.
+        # Beside other panels, the title has no room for both.
         self.border_subtitle = f"{self.state} · {key} closes one" if number else ""
 
     def poll(self, rows: int) -> None:

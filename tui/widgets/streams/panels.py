@@ -1,4 +1,4 @@
-"""The running command lines, side by side below the panes, as many as fit the terminal."""
+"""The panels of running commands, side by side below the panes, as many as fit."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from textual.containers import Container
 from textual.geometry import Size
 
 MIN_COLUMNS = 30
-"""Minimum columns of a panel beside others: the output of `topic echo` is narrow and long."""
+"""Minimum columns of a panel beside others; the output of `topic echo` is narrow and long."""
 MAX_PANEL_ROWS, MIN_PANEL_ROWS = 8, 5
 """Maximum and minimum rows of a panel, with its border."""
 CHROME_ROWS = 3
-"""Rows of the terminal for tabs, status line and key bar; the panes keep half of the rest."""
+"""Rows of the terminal for tabs, status line and key bar; panels take at most half of the rest."""
 MAX_STREAMS = 6
-"""Maximum number of running lines, in a terminal of any size."""
+"""Maximum number of running commands, in a terminal of any size."""
 
 
 def _across(size: Size) -> int:
@@ -63,7 +63,7 @@ class StreamPanels(Container):
         return self.app.size  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
 
     def problem(self, words: Sequence[str]) -> str:
-        """Why a `ros2` command, given without that word, cannot be started; empty if it can."""
+        """Why a `ros2` command (its words without `ros2`) cannot be started; empty if it can."""
         if not goes_on(words) or any(each.has_ended for each in self._panels):
             return ""
         has = room(self._terminal)
@@ -73,7 +73,7 @@ class StreamPanels(Container):
         return f"no room: {len(self._panels)} run below the panes already; {self._key} ends one{larger}"
 
     def begin(self, line: str, stream: Stream) -> None:
-        """Show a stream; if there is no room for it, the oldest ended one is removed."""
+        """Show a stream; if there is no room for it, remove the oldest one that has ended."""
         if len(self._panels) >= room(self._terminal):
             ended = [each for each in self._panels if each.has_ended]
             for each in ended[:1]:
@@ -97,7 +97,7 @@ class StreamPanels(Container):
             each.stop()
 
     def poll(self) -> None:
-        """Show new lines, after a layout if the terminal's size or the panels have changed."""
+        """Show new lines; first lay out the panels if they or the terminal's size have changed."""
         now = (self._terminal, *((each, each.state) for each in self._panels))
         if now != self._laid_out:
             self._laid_out = now
@@ -107,7 +107,7 @@ class StreamPanels(Container):
 
     def _lay_out(self, size: Size) -> None:
         self.set_class(bool(self._panels), "open")
-        # In a terminal that was made smaller only the newest are visible; the others continue.
+        # If the terminal has become smaller, only the newest panels are visible; the others keep running.
         seen = self._panels[-room(size) :]
         for number, each in enumerate(self._panels, 1):
             each.display = each in seen

@@ -1,1 +1,1 @@
-"""A flow chart drawn as text: boxes as stairs, and one line with words on it for each pair of boxes."""
+"""A flow chart drawn as text: boxes arranged as stairs, and one labelled line for each pair of linked boxes."""

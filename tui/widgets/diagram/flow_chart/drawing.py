@@ -16,7 +16,7 @@ from bot_console.tui.widgets.diagram.lines import LEFT, RIGHT, UP, Lines
 from rich.cells import cell_len
 
 MIN_WIDE_COLUMNS = 116
-"""Columns from which a chain of boxes runs from left to right instead of down."""
+"""Minimum width (columns) at which a chain of boxes may run from left to right instead of down."""
 RIGHTWARD = (99, 3, 2, 1, 0)
 SLACK = (0, 4, 10)
 WORDS = (
@@ -24,20 +24,20 @@ WORDS = (
     Style(pad=0, words=3), Style(pad=0, words=3, framed=False), Style(pad=0, words=3, framed=False, cells=10),
     Style(pad=0, words=1, framed=False, cells=7),
 )  # fmt: skip
-"""Styles from roomy to narrow: with blanks around the words and with frames as long as there is room for them."""
+"""Styles from spacious to compact: blanks around the words, then frames, are the first things to be left out."""
 SOME_LINKS, MANY_LINKS = 24, 80
-"""Numbers of links from which few plans are tried, and only one."""
+"""Above these numbers of links, only a few plans are tried, or only one."""
 
 
 def best_plan(chart: Chart, width: int, height: int) -> Plan:
-    """The first plan that fits, else the one with the largest visible part."""
+    """The first plan that fits, or the one with the largest visible part."""
     lengths = (replace(each, words=tuple("─" * cell_len(word) for word in each.words)) for each in chart.links)
     return planned(chart, _best_style(Chart(chart.boxes, tuple(lengths)), width, height), width)
 
 
 @lru_cache(maxsize=8)
 def _best_style(shape: Chart, width: int, height: int) -> Style:
-    """How to draw a chart with words of these lengths; rates change every few seconds, what fits does not."""
+    """The best style for a chart whose words have these lengths; cached, as rates change but their lengths do not."""
     styles = list(_styles(shape, width))
     if len(styles) == 1:
         return styles[0]
@@ -66,7 +66,7 @@ def _styles(chart: Chart, width: int) -> Iterator[Style]:
 
 
 def draw_chart(chart: Chart, width: int, height: int) -> Drawing:
-    """Draw a chart for a window of a size."""
+    """Draw a chart for a window of `width` x `height` cells."""
     return drawn(chart, spread(best_plan(chart, width, height), height))
 
 
@@ -137,7 +137,7 @@ def _draw_back(lines: Lines, plan: Plan, link: ChartLink) -> None:
 
 
 def _draw_bracket(lines: Lines, target: Placed, x: int, port: int, edges: frozenset[Edge], side: int) -> None:
-    """From one line, draw an arrow to each member; the lines of several sources join here."""
+    """Split a line into an arrow to each member of a box; the lines of several sources join here."""
     owner = f"{target.box.id} {side}"
     rows = target.member_rows()
     lines.down(x, min(port, *rows), max(port, *rows), edges, owner)

@@ -1,4 +1,4 @@
-"""The flow chart to be drawn: boxes, and links whose words stand on their lines."""
+"""The flow chart to draw: boxes, and links with words on their lines."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ class ChartBox:
     members: tuple[tuple[str, str], ...]
     """The item and the label of each row."""
     loop: str = ""
-    """The topics that lead from the box to itself; written into its upper edge."""
+    """The topics that lead from the box to itself, written into its top border."""
 
     def texts(self, framed: bool) -> list[str]:
-        """The text of each row; without a frame, what leads from the box to itself stands in the first one."""
+        """The text of each row; without a frame, the first row also names the topics from the box to itself."""
         labels = [label for _, label in self.members]
         return labels if framed or not self.loop else [f"{labels[0]} {self.loop}", *labels[1:]]
 
@@ -33,7 +33,7 @@ class ChartBox:
 
 @dataclass(frozen=True)
 class ChartLink:
-    """Everything that leads from one box to another: one line with these words on it."""
+    """Everything that leads from one box to another, drawn as one line with these words on it."""
 
     id: str
     source: str
@@ -41,7 +41,7 @@ class ChartLink:
     words: tuple[str, ...]
 
     def label(self, maximum: int, cells: int) -> str:
-        """At most so many words, each name (without its rate) of at most so many cells, and how many are left out."""
+        """The first `maximum` words, with names (not rates) cut to `cells`, and the number of words left out."""
         parts = (each.partition(" ") for each in self.words[:maximum])
         words = [f"{cut_name(name, cells)}{blank}{rest}" for name, blank, rest in parts]
         return "  ".join([*words, *([f"+{len(self.words) - maximum}"] if len(self.words) > maximum else [])])

@@ -1,4 +1,4 @@
-"""The order in which the boxes of a flow chart are placed: along the longest chains, with few links that run back.
+"""The order in which the boxes of a flow chart are placed: along the longest chains, with few backward links.
 
 Pure.
 """
@@ -12,7 +12,7 @@ from bot_console.tui.widgets.diagram.flow_chart.model import Chart
 
 
 def ordered(chart: Chart) -> list[list[str]]:
-    """The ids of all linked boxes, one list for each group of connected boxes, the largest first."""
+    """The ids of all linked boxes in order, one list for each group of connected boxes, largest group first."""
     after: dict[str, set[str]] = {each.id: set() for each in chart.boxes}
     near: dict[str, set[str]] = {each.id: set() for each in chart.boxes}
     for link in chart.links:
@@ -50,7 +50,7 @@ def _along_chains(boxes: list[str], after: Mapping[str, set[str]]) -> list[str]:
     while ready:
         on = {each for each in ready if found and each in after[found[-1]]}
         best = min(on or ready, key=lambda each: (-length[each], at[each]))
-        # The chain goes on with a short side branch only when nothing longer waits.
+        # The chain continues with a short side branch only if nothing longer is ready.
         if on and length[best] == 1:
             best = min(ready, key=lambda each: (-length[each], each not in on, at[each]))
         ready.remove(best)

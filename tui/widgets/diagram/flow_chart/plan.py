@@ -1,7 +1,7 @@
 """Places the boxes of a flow chart as stairs, each right of the lines that still lead past it, and routes the links.
 
-A box has one trunk, from which a branch leads to each later box: a line of its own, with the words on it, that ends at
-the left side of its target. What leads back to an earlier box runs on the right and ends at the right side. Pure.
+A box has one trunk, from which a branch with its words leads to the left side of each later box that it is linked to.
+Links to earlier boxes run on the right, and end at the right sides of their targets. Pure.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from bot_console.tui.widgets.diagram.flow_chart.order import ordered
 from rich.cells import cell_len
 
 BRACKET = 2
-"""Cells between a box of several members and the line from which an arrow leads to each of them, with the arrow."""
+"""Cells between a box of several members and the line that splits into an arrow to each, including the arrow."""
 LOOK_BACK_ROWS = 40
-"""Rows above the lowest box in which a place for the next one is searched."""
+"""Rows above the lowest box in which to search for a place for the next one."""
 
 
 @dataclass(frozen=True)
 class Style:
-    """How a chart is drawn: `rightward` boxes have their trunk on the right, the others below."""
+    """How a chart is drawn. The first `rightward` boxes have their trunks on the right, the others below."""
 
     rightward: int = 0
     slack: int = 0
@@ -32,24 +32,24 @@ class Style:
     pad: int = 1
     """Cells kept free on both sides of the words."""
     framed: bool = True
-    """Whether boxes have a frame; without one, a box takes only a row for each name and each arrow."""
+    """Whether boxes have frames; without one, a box takes only one row for each name and each arrow."""
     cells: int = 99
     """Maximum length of a word in cells."""
 
     @property
     def frame(self) -> int:
-        """The rows of the upper and of the lower edge of a box."""
+        """The rows of the top border of a box, and of the bottom border."""
         return int(self.framed)
 
     @property
     def dash(self) -> int:
-        """The minimum cells of line between words and what they lead to."""
+        """The minimum cells of line on either side of the words."""
         return int(self.framed)
 
 
 @dataclass
 class Placed:
-    """A box with its position; `out` is the row on which its trunk leaves it, `trunk` the column of that."""
+    """A box with its position; `trunk` is the column of its trunk, `out` the row on which that leaves the box."""
 
     box: ChartBox
     x: int
@@ -71,12 +71,12 @@ class Placed:
 
     @property
     def right(self) -> int:
-        """The first column right of it."""
+        """The first column right of the box."""
         return self.x + self.width
 
     @property
     def bottom(self) -> int:
-        """The row of its lower edge."""
+        """The last row of the box."""
         return self.y + self.height - 1
 
     def member_rows(self) -> list[int]:
@@ -98,7 +98,7 @@ class Label:
 
 @dataclass
 class Plan:
-    """The positions of everything: boxes by id, forward and backward links, the lanes of the latter, and the labels."""
+    """The positions of boxes by id, the forward and the backward links, the lanes of the latter, and the labels."""
 
     placed: dict[str, Placed] = field(default_factory=lambda: {})
     forward: list[ChartLink] = field(default_factory=lambda: [])
@@ -130,7 +130,7 @@ class _Builder:
         self._cells = Cells()
         self._trunk_end: dict[str, int] = {}
         self._left: dict[str, set[str]] = {}
-        """The targets of each trunk that are not placed yet."""
+        """The targets of each trunk that have not been placed yet."""
         self._rightward = style.rightward
 
     def place_group(self, group: Sequence[str]) -> None:
@@ -163,7 +163,7 @@ class _Builder:
         inner = max((1 + style.framed) * (len(box.members) - 1) + 1, len(ins), right_ports, 1)
         inner += (
             several and back_out and not style.framed
-        )  # a row of its own, which is the lower edge where there is one
+        )  # an extra row; with a frame, the bottom border serves as that row
         wants = _Wants(box, ins, outs, back_in, back_out, rightward, inner + 2 * style.frame, style)
         spot = self._spot(wants)
         self._settle(wants, spot)
@@ -232,7 +232,7 @@ class _Builder:
         return self._gap(link, port, end, wants) is not None
 
     def _gap(self, link: ChartLink, port: int, end: int, wants: _Wants) -> int | None:
-        """Where on the row the words have room: the last such place before the arrow."""
+        """The column at which the words have room on the row, as near to the arrow as possible; None if nowhere."""
         name = wants.box.id
         passing = {
             self.plan.placed[each].trunk for each, left in self._left.items() if left - {name} and each != link.source
@@ -260,7 +260,7 @@ class _Builder:
             assert gap is not None
             label = Label(link.id, gap, port, self._label(link))
             self.plan.labels.append(label)
-            # No line of a later box may run down through the words or the arrow head.
+            # Lines of later boxes must not run down through the words or the arrow head.
             cells.add(cells.down, ((gap + at, port) for at in range(cell_len(label.text))))
             source = self.plan.placed[link.source]
             first = self._trunk_end[link.source] + 1
@@ -293,7 +293,7 @@ class _Builder:
         self.plan.height = self._cells.bottom
 
     def add_lanes(self) -> None:
-        """Lead back, on the right, what ends at an earlier box; short ways inside long ones."""
+        """Route the backward links on the right, short ones inside long ones."""
         spans: list[tuple[int, int, str]] = []
         for source in dict.fromkeys(each.source for each in self.plan.back):
             rows = [self.plan.placed[source].back_row]
@@ -339,7 +339,7 @@ class _Builder:
         return None
 
     def add_alone(self, boxes: Sequence[ChartBox], room: int) -> None:
-        """Boxes without links, in rows below the others."""
+        """Place the boxes without links in rows below the others."""
         style = self._style
         x, top, high = 0, self._cells.bottom, 0
         for box in boxes:
@@ -356,7 +356,7 @@ class _Builder:
 
 @dataclass(frozen=True)
 class _Wants:
-    """The needs of a box at its place."""
+    """What a box needs at its place: its links in and out, and its height."""
 
     box: ChartBox
     ins: list[ChartLink]
@@ -373,7 +373,7 @@ class _Wants:
         return self.box.width(self.style.framed)
 
     def right_rows(self, top: int) -> list[int]:
-        """The rows of the lines that lead back: those that end here first, the one that begins here last."""
+        """The rows of the backward lines: first those that end at this box, last the one that begins here."""
         several = len(self.box.members) > 1
         count = len(self.back_in) + (self.back_out and not several)
         start = top + (self.height - count - self.rightward) // 2

@@ -1,4 +1,4 @@
-"""Spreads a flow chart over rows that would stay free. Pure."""
+"""Spreads a flow chart vertically over rows that would otherwise stay free. Pure."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from dataclasses import replace
 from bot_console.tui.widgets.diagram.flow_chart.plan import Plan
 
 KEPT_ROWS = 14
-"""Rows of the window that are left for what is said about the selected item."""
+"""Rows of the window reserved for the description of the selected item."""
 MAX_FACTOR = 2
 MIN_ROWS = 6
-"""Rows of a plan from which on it is spread: a short chain is seen at a glance as it is."""
+"""Minimum rows of a plan that is spread: a short chain can be taken in at a glance as it is."""
 
 
 def spread(plan: Plan, height: int) -> Plan:
-    """The plan with boxes and gaps so many times as high as a window of this height has room for.
+    """Multiply the height of boxes and gaps as far as a window of this height has room, at most by `MAX_FACTOR`.
 
-    Boxes without a frame or without links, and those of several members, stay close.
+    A plan without links, or with boxes that have no frame or several members, is not changed.
     """
     factor = min(MAX_FACTOR, (height - KEPT_ROWS - 1) // max(1, plan.height - 1))
     roomy = all(each.framed and len(each.box.members) == 1 for each in plan.placed.values())
