@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, cast
 
 from bot_console.tui import keymap
-from bot_console.tui.arrangement.arrival import COMING_STATUS, ORDERED, Arrival, System
 from bot_console.tui.arrangement.opening import Opening
 from bot_console.tui.arrangement.stage import Stage
+from bot_console.tui.arrangement.startup import ORDERED, STATUS_PLACEHOLDER, StartupSequence, System
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.files.crash import keep, reason
 from bot_console.tui.keys.keyboard import MAX_PASTE_CHARACTERS, Keyboard
@@ -95,7 +95,7 @@ class BotConsoleApp(GuardedApp):
         self._on_first_frame = on_first_frame
         self.stage = Stage(self, appearance.arrangement, self._opening.pane, lambda: self._snapshot)
         self._plugins = plugins
-        self._keyboard = Keyboard(self, self._deal, self.stage.typing)
+        self._keyboard = Keyboard(self, self._handle_event, self.stage.typing)
         self.key_watch = self.early_stop = EarlyStop(
             lambda: self.input_is_handled and self._keyboard.is_idle, self.stage.typing,
             lambda: self._snapshot.drive.own_stops if self._reached else frozenset(),
@@ -129,23 +129,23 @@ class BotConsoleApp(GuardedApp):
     async def on_event(self, event: events.Event) -> None:
         """Handle keys one at a time and in order, except those that quit from anywhere, which act at once."""
         if not isinstance(event, (events.Key, events.Paste)) or event.is_forwarded:
-            await self._deal(event)
+            await self._handle_event(event)
         elif isinstance(event, events.Paste) and len(event.text) > MAX_PASTE_CHARACTERS:
             self.notify(
                 f"{len(event.text):,} characters were pasted and ignored: {MAX_PASTE_CHARACTERS:,} at most",
                 severity="error",
             )
-        elif isinstance(event, events.Key) and keymap.quits_at_once(event.key):
+        elif isinstance(event, events.Key) and keymap.is_quit_now_key(event.key):
             self._keyboard.overtake(event)
-            await self._deal(event)
+            await self._handle_event(event)
         else:
             await self._keyboard.typed(event)
 
-    async def _deal(self, event: events.Event) -> None:
-        if not (isinstance(event, events.Key) and self._is_spent(event)):
+    async def _handle_event(self, event: events.Event) -> None:
+        if not (isinstance(event, events.Key) and self._is_obsolete(event)):
             await super().on_event(event)
 
-    def _is_spent(self, key: events.Key) -> bool:
+    def _is_obsolete(self, key: events.Key) -> bool:
         """Whether a key is to be ignored: its stop has taken effect already, or a later key has asked to quit.
 
         Keys typed before that one must not answer the question whether to quit.
@@ -153,9 +153,9 @@ class BotConsoleApp(GuardedApp):
         overtaken = self._keyboard.was_overtaken(key)
         if not self._reached:
             return False
-        return (overtaken and not keymap.stops(key.key) and self.controls.quitting.asking) or self.early_stop.has_acted(
-            key
-        )
+        if overtaken and not keymap.is_stop_key(key.key) and self.controls.quitting.asking:
+            return True
+        return self.early_stop.has_acted(key)
 
     def compose(self) -> ComposeResult:
         """Compose tabs, panes, status bar, key bar, and a notice for terminals that are too small.
@@ -168,17 +168,18 @@ class BotConsoleApp(GuardedApp):
                 yield from self._all_panes()
             else:
                 yield from (
-                    PanePlaceholder(id, title, chosen=chosen) for id, title, chosen in self.stage.at_first(self.size)
+                    PanePlaceholder(id, title, chosen=chosen)
+                    for id, title, chosen in self.stage.initial_panes(self.size)
                 )
-        yield from self._below if self._reached else (Static("", id=COMING_STATUS, markup=False),)
+        yield from self._below if self._reached else (Static("", id=STATUS_PLACEHOLDER, markup=False),)
         yield KeyBar()
         yield Static("", id="too-small", markup=False)
 
     def _all_panes(self) -> Iterator[Pane]:
         """Make all panes; hidden ones compose their content later."""
-        seen = self.stage.seen_at(self.size)
+        seen = self.stage.visible_at(self.size)
         for each in ORDERED:
-            pane = self.controls.panes.made(each.load(), each.id)
+            pane = self.controls.panes.make(each.load(), each.id)
             if each.id not in seen:
                 pane.come_late()
             yield pane
@@ -189,14 +190,14 @@ class BotConsoleApp(GuardedApp):
         self.stage.resized(self.size)
         self.theme_changed_signal.subscribe(self, lambda _: self.stage.recolour())
         if self._reached:
-            self.begin_to_pull()
+            self.start_polling()
             self._open_first()
             self.call_after_refresh(self._on_first_frame)
             self.call_after_refresh(self._add_plugins)
         elif self._reach is not None:
-            Arrival(self, self, self.stage, self._keyboard).begin(self._reach, self._all_there)
+            StartupSequence(self, self, self.stage, self._keyboard).begin(self._reach, self._on_complete)
 
-    def begin_to_pull(self) -> None:
+    def start_polling(self) -> None:
         """Start polling for snapshots."""
         self.pull()
         if self._refresh_hz > 0:
@@ -208,13 +209,13 @@ class BotConsoleApp(GuardedApp):
 
     def make_pane(self, entry: PaneEntry) -> Pane:
         """Make a pane, or a placeholder that says why it cannot be made."""
-        return self.controls.faults.made(entry)
+        return self.controls.faults.make_pane(entry)
 
-    def waits_for_answer(self) -> bool:
+    def has_recent_key(self) -> bool:
         """Whether a key was pressed just now: its effect should be drawn before anything else."""
         return self.gate.is_eager
 
-    def _all_there(self) -> None:
+    def _on_complete(self) -> None:
         self._open_first()
         self._on_first_frame()
         self.call_later(self._keyboard.detach)

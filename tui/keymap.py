@@ -461,7 +461,7 @@ TABLE: dict[str, tuple[Key, ...]] = {
     ),
 }
 
-CHANGING: Mapping[str, str] = MappingProxyType(
+READ_ONLY_WORDS: Mapping[str, str] = MappingProxyType(
     dict.fromkeys(
         (
             *("parameters.edit", "parameters.more", "parameters.less", "parameters.undo"),
@@ -475,12 +475,12 @@ CHANGING: Mapping[str, str] = MappingProxyType(
 """Empty key bar words for the actions that a read-only console does not name."""
 
 
-def stops(key: str) -> bool:
+def is_stop_key(key: str) -> bool:
     """Whether a key stops the robot."""
     return _is_of("app.stop", key)
 
 
-def quits_at_once(key: str) -> bool:
+def is_quit_now_key(key: str) -> bool:
     """Whether a key quits without waiting for the keys typed before it."""
     return _is_of("app.quit_now", key)
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from bot_console.tui.arrangement.faults import Faults
+from bot_console.tui.arrangement.faults import FaultHandler
 from bot_console.tui.arrangement.opening import Opening
 from bot_console.tui.arrangement.pane_maker import PaneMaker
 from bot_console.tui.arrangement.stage import Stage
@@ -41,7 +41,7 @@ class Controls:
     recording: BagRecording
     screens: ScreenOpener
     panes: PaneMaker
-    faults: Faults
+    faults: FaultHandler
     safety_news: SafetyNews
     status: StatusBar
 
@@ -76,7 +76,7 @@ def controls_of(
         recording=BagRecording(console.bags),
         screens=ScreenOpener(app, stage),
         panes=panes,
-        faults=Faults(app, panes, changed),
+        faults=FaultHandler(app, panes, changed),
         safety_news=SafetyNews(console.parameters),
         status=StatusBar(),
     )

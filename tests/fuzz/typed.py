@@ -62,10 +62,10 @@ def console_line(words: Sequence[str]) -> None:
 
 
 def line(text: str) -> None:
-    from bot_console.tui.arrangement.opening import is_rqt, rqt_opening
+    from bot_console.tui.arrangement.opening import is_rqt, parse_rqt_command
 
     if is_rqt(text.split()):
-        rqt_opening(text.split())
+        parse_rqt_command(text.split())
     else:
         shlex.split(text)
 

@@ -58,12 +58,12 @@ NEWS = (
 
 def terminal_input(text: str) -> None:
     """Terminal input: keys, pastes, mouse reports and answers to queries; a stop key after it is noticed."""
-    from bot_console.tui.keymap import stops
+    from bot_console.tui.keymap import is_stop_key
     from bot_console.tui.keys.terminal_events import TerminalEvents
     from textual import events
 
     noticed: list[events.Key] = []
-    reader = TerminalEvents(False, lambda key: stops(key.key), lambda key, alone: noticed.append(key))
+    reader = TerminalEvents(False, lambda key: is_stop_key(key.key), lambda key, alone: noticed.append(key))
     data = text.encode("utf-8", "surrogatepass")
     for at in range(0, len(data), 50):
         reader.feed(data[at : at + 50], at)

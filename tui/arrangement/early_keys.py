@@ -38,5 +38,5 @@ def panes_needed(app: App[None], stage: Stage, key: str) -> Sequence[str] | None
     if id in AT_ONCE or (id in NEXT and len(stage.visible()) > 1):
         return ()
     if active.node is app and action.startswith(PANE):
-        return stage.seen_with(action.removeprefix(PANE).removesuffix("')"))
+        return stage.visible_with(action.removeprefix(PANE).removesuffix("')"))
     return None

@@ -17,7 +17,7 @@ from textual.containers import Container
 from textual.dom import DOMNode
 
 
-class Faults:
+class FaultHandler:
     """Ends only the pane or screen at fault, and reopens panes."""
 
     def __init__(self, app: App[None], maker: PaneMaker, changed: Callable[[], None]) -> None:
@@ -49,11 +49,11 @@ class Faults:
         pane.display = False
         with contextlib.suppress(Exception):  # `detach` may be faulty too
             pane.detach()
-        self._app.call_later(self._replace, pane, self._broken(pane.id or "", error))
+        self._app.call_later(self._replace, pane, self._make_placeholder(pane.id or "", error))
 
-    def _broken(self, id: str, error: Exception) -> BrokenPane:
+    def _make_placeholder(self, id: str, error: Exception) -> BrokenPane:
         title = next((each.title for each in self._maker.entries() if each.id == id), "")
-        return self._maker.made(BrokenPane, id, title=title, why=reason(error), details=keep(error))
+        return self._maker.make(BrokenPane, id, title=title, why=reason(error), details=keep(error))
 
     def _end_screens(self, error: Exception) -> None:
         while len(self._app.screen_stack) > 1:
@@ -64,11 +64,11 @@ class Faults:
     async def reopen(self, broken: BrokenPane) -> None:
         """Make the pane again, in the place of its placeholder."""
         entry = next(each for each in self._maker.entries() if each.id == broken.id)
-        await self._replace(broken, self.made(entry))
+        await self._replace(broken, self.make_pane(entry))
 
     async def add(self, entries: Sequence[PaneEntry]) -> None:
         """Add the panes of plug-ins after the built-in ones, with a placeholder for each that cannot be made."""
-        made = [self.made(entry) for entry in entries]
+        made = [self.make_pane(entry) for entry in entries]
         for pane in made:
             pane.display = False
         panes = self._app.screen_stack[0].query_one("#panes", Container)
@@ -76,12 +76,12 @@ class Faults:
             await panes.mount(*made)
             self._changed()
 
-    def made(self, entry: PaneEntry) -> Pane:
+    def make_pane(self, entry: PaneEntry) -> Pane:
         """Make a pane, or a placeholder that says why it cannot be made."""
         try:
-            return self._maker.made(entry.load(), entry.id)
+            return self._maker.make(entry.load(), entry.id)
         except Exception as error:  # the code of others, which may not even be importable
-            return self._broken(entry.id, error)
+            return self._make_placeholder(entry.id, error)
 
     async def _replace(self, old: Pane, new: Pane) -> None:
         container = self._app.screen_stack[0].query_one("#panes", Container)

@@ -19,7 +19,7 @@ STEP = 0.05
 NAME = re.compile(r"\w[\w .-]{0,40}")
 
 
-class Screen(Protocol):
+class ArrangingHost(Protocol):
     """The operations of the app that arranging needs."""
 
     def cells(self) -> tuple[int, int]:
@@ -51,10 +51,10 @@ class Screen(Protocol):
         ...
 
 
-class Arranging:
+class LayoutEditor:
     """Carries out the keys of the arranging screen."""
 
-    def __init__(self, screen: Screen, arrangement: Arrangement) -> None:
+    def __init__(self, screen: ArrangingHost, arrangement: Arrangement) -> None:
         self._screen = screen
         self.arrangement = arrangement
 

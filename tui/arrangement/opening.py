@@ -81,10 +81,10 @@ def names_system(words: Sequence[str]) -> bool:
 
     `rqt_plot /a/b outdoor` does. Raises `ValueError` if the words do not name an rqt program.
     """
-    return any(not each.startswith("-") for each in rqt_opening(words)[1][:1])
+    return any(not each.startswith("-") for each in parse_rqt_command(words)[1][:1])
 
 
-def rqt_opening(words: Sequence[str]) -> tuple[Opening, list[str]]:
+def parse_rqt_command(words: Sequence[str]) -> tuple[Opening, list[str]]:
     """The pane that the command line of an rqt program asks for, and the words that are not rqt's.
 
     Raises `ValueError` if the words do not name an rqt program.

@@ -22,6 +22,6 @@ class PaneMaker:
         self._time_cursor = time_cursor
         self.entries = entries
 
-    def made(self, kind: type[P], id: str, **facts: Any) -> P:
+    def make(self, kind: type[P], id: str, **facts: Any) -> P:
         """Make a pane of a class."""
         return kind(self._console, id=id, time_cursor=self._time_cursor, **facts)

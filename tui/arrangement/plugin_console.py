@@ -9,7 +9,7 @@ from typing import Any
 
 from bot_console.tui.console.protocol import Console
 
-EARLIER_NAMES: Mapping[str, str] = {
+FORMER_NAMES: Mapping[str, str] = {
     "set_parameters": "parameters.set",
     "set_all": "parameters.set_all",
     "undo": "parameters.undo",
@@ -53,17 +53,17 @@ class PluginConsole:
 
     def __init__(self, console: Console) -> None:
         self._console = console
-        self.drive = _EarlierDrive(console)
+        self.drive = _CallableDrive(console)
 
     def __getattr__(self, name: str) -> Any:
-        now = EARLIER_NAMES.get(name)
+        now = FORMER_NAMES.get(name)
         if now is None:
             return getattr(self._console, name)
         _warn(f"console.{name} is called console.{now} from now on")
         return attrgetter(now)(self._console)
 
 
-class _EarlierDrive:
+class _CallableDrive:
     """The port for the robot, which can still be called as the method that it was before."""
 
     def __init__(self, console: Console) -> None:

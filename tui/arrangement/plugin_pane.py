@@ -64,15 +64,15 @@ class PluginPane(Pane):
 
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Pass the snapshot on."""
-        self._hand_on("show", snapshot)
+        self._forward("show", snapshot)
 
     def tick(self) -> None:
         """Pass the timer tick on."""
-        self._hand_on("tick")
+        self._forward("tick")
 
     def detach(self) -> None:
         """Detach the widget, which is about to be removed."""
-        self._hand_on("detach" if hasattr(self._widget, "detach") else "let_go")
+        self._forward("detach" if hasattr(self._widget, "detach") else "let_go")
 
     def focus_target(self) -> None:
         """Focus the first focusable part of the widget, else the frame."""
@@ -90,7 +90,7 @@ class PluginPane(Pane):
     def _parts(self) -> list[Widget]:
         return [each for each in self.query(Widget) if each.focusable]
 
-    def _hand_on(self, name: str, *args: object) -> None:
+    def _forward(self, name: str, *args: object) -> None:
         method = getattr(self._widget, name, None)
         if callable(method):
             method(*args)

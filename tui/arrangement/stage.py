@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, cast
 
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.keymap import CHANGING
+from bot_console.tui.keymap import READ_ONLY_WORDS
 from bot_console.tui.keys.key import NO_MODE
 from bot_console.tui.layout.current_layout import Arrangement
 from bot_console.tui.layout.named import OVERVIEW
@@ -23,7 +23,7 @@ from textual.geometry import Size
 from textual.widgets import Input, Static
 
 if TYPE_CHECKING:
-    from bot_console.tui.arrangement.layout_keys import Arranging
+    from bot_console.tui.arrangement.layout_keys import LayoutEditor
     from bot_console.tui.panes.pane import Pane
     from bot_console.tui.widgets.command_line import CommandField
     from bot_console.tui.widgets.prompt.question import Question
@@ -55,11 +55,11 @@ class Stage:
         """The panes that were shown alone, even for a moment."""
 
     @cached_property
-    def arranging(self) -> Arranging:
+    def arranging(self) -> LayoutEditor:
         """The object that changes the arrangement; made on first use, so that the first frame need not wait for it."""
-        from bot_console.tui.arrangement.layout_keys import Arranging
+        from bot_console.tui.arrangement.layout_keys import LayoutEditor
 
-        return Arranging(self, self.arrangement)
+        return LayoutEditor(self, self.arrangement)
 
     def entries(self) -> Sequence[PaneEntry]:
         """All available panes."""
@@ -126,14 +126,14 @@ class Stage:
         """Show a notification."""
         self._app.notify(text, markup=False)
 
-    def at_first(self, size: Size) -> list[tuple[str, str, bool]]:
+    def initial_panes(self, size: Size) -> list[tuple[str, str, bool]]:
         """The panes that a terminal of this size shows first: id, title, and whether it gets the focus."""
-        shown = self.seen_at(size)
+        shown = self.visible_at(size)
         if self._focused not in shown:
             self._focused = shown[0]
         return [(each.id, each.title, each.id == self._focused) for each in PANES if each.id in shown]
 
-    def seen_at(self, size: Size) -> Sequence[str]:
+    def visible_at(self, size: Size) -> Sequence[str]:
         """The ids of the panes that a terminal of this size shows; also records the size as that of the screen."""
         self._extent = size
         return panes(self._shown())
@@ -143,18 +143,18 @@ class Stage:
         self._extent = size
         self.lay_out()
 
-    def poll_again(self) -> None:
+    def forget_panes(self) -> None:
         """Register a new hidden pane."""
         self._panes = []
 
-    def seen_with(self, name: str) -> Sequence[str]:
+    def visible_with(self, name: str) -> Sequence[str]:
         """The ids of the panes that are visible once a pane, or the layout, is chosen."""
         tree = self._tree() if name == OVERVIEW else None
         return panes(tree or (self._focused if name == OVERVIEW else name))
 
     def changed(self) -> None:
         """Lay out again after a pane was replaced or added."""
-        self.poll_again()
+        self.forget_panes()
         if self._app.is_running:  # else the screen is being removed
             self.lay_out()
 
@@ -232,7 +232,7 @@ class Stage:
             screen, pane = self._app.screen_stack[0], self.current()
             scopes, typing = pane.scopes if pane else (self._focused,), isinstance(screen.focused, Input)
             words, mode = (pane.key_words, pane.mode) if pane else (NO_OTHERS, NO_MODE)
-            words = words if self._changes else {**words, **CHANGING}
+            words = words if self._changes else {**words, **READ_ONLY_WORDS}
             screen.query_one(KeyBar).show(scopes, typing, self._primary(), self._extent.width, words, mode)
 
     def recolour(self) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from bot_console.tui import __version__
-from bot_console.tui.arrangement.opening import Opening, is_rqt, rqt_opening
+from bot_console.tui.arrangement.opening import Opening, is_rqt, parse_rqt_command
 from bot_console.tui.cli.numbers import positive, seed
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.session.embedded.named_profile import (
@@ -107,7 +107,7 @@ def attach_parser() -> argparse.ArgumentParser:
 
 def parse_attach(words: Sequence[str], parser: argparse.ArgumentParser) -> tuple[Options, argparse.Namespace]:
     """Parse the words after `attach`; ends the program with exit code 2 for wrong usage."""
-    opening, words = rqt_opening(words) if is_rqt(words) else (None, words)
+    opening, words = parse_rqt_command(words) if is_rqt(words) else (None, words)
     given = parser.parse_args(words)
     _check_pane(parser, given.pane)
     opening = _with_perspective(opening or Opening(given.pane), given)
@@ -152,7 +152,7 @@ def parse(words: Sequence[str], commands: Collection[str] = ()) -> Options:
     If a word is mistyped, a similar one of `commands` is suggested.
     """
     parser = option_parser()
-    opening, words = rqt_opening(words) if is_rqt(words) else (None, words)
+    opening, words = parse_rqt_command(words) if is_rqt(words) else (None, words)
     given = parser.parse_args(words)
     _check_pane(parser, given.pane)
     profile, name, pairs = _words(parser, given, commands)

@@ -9,7 +9,7 @@ from typing import Any
 from bot_console.tui.arrangement.opening import Opening
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.child_command import child_command
-from bot_console.tui.commanding.completing import Completion
+from bot_console.tui.commanding.completion import Completion
 from bot_console.tui.commanding.palette import Command, all_commands, options_for
 from bot_console.tui.commanding.runner import LineRunner
 from bot_console.tui.console.command_line import CommandLine, Stream
@@ -67,7 +67,7 @@ class CommandHandler:
 
     def palette(self) -> None:
         """Open the palette, which finds actions and runs command lines."""
-        known = {**all_commands(self._app, self._stage.current(), self._go), **self._plugins()}
+        known = {**all_commands(self._app, self._stage.current(), self._show_pane), **self._plugins()}
         self._app.push_screen(
             screen_for(
                 Choice(
@@ -80,7 +80,7 @@ class CommandHandler:
             )
         )
 
-    def _go(self, name: str) -> Pane | None:
+    def _show_pane(self, name: str) -> Pane | None:
         """Show a pane and return it, if it can be shown."""
         self._stage.go(name)
         return next((each for each in self._stage.panes() if each.id == name), None)

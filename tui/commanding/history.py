@@ -43,11 +43,11 @@ class LineHistory:
         """Add a line; a repeated one becomes the newest. If the file cannot be written, it is kept for this run."""
         known = self.lines()
         self._lines = [*(each for each in known if each != line), line][-MAX_LINES:]
-        self.stay()
+        self.restart_walk()
         with contextlib.suppress(NotSaved):
             save_file(self.file, "".join(f"{each}\n" for each in self._lines))
 
-    def stay(self) -> None:
+    def restart_walk(self) -> None:
         """Make the next step start a new walk, since the text was edited."""
         self._sought = None
 

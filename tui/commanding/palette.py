@@ -85,10 +85,10 @@ class Command:
     """The only words by which it is found; empty: also by its text and `words`."""
 
 
-def all_commands(app: App[None], pane: Pane | None, go: Callable[[str], Pane | None]) -> Mapping[str, Command]:
+def all_commands(app: App[None], pane: Pane | None, show_pane: Callable[[str], Pane | None]) -> Mapping[str, Command]:
     """The actions available now, by the id of their key: first those of the pane, last those of other panes.
 
-    `go` shows another pane.
+    `show_pane` shows another pane.
     """
     scopes = [(each, pane) for each in pane.scopes if each not in INSIDE] if pane is not None else []
     found: dict[str, Command] = {}
@@ -97,7 +97,7 @@ def all_commands(app: App[None], pane: Pane | None, go: Callable[[str], Pane | N
             found[key.id] = _command(key, key.text, partial(app.call_later, app.run_action, key.action, target))
 
     async def run_there(name: str, action: str) -> None:
-        if (target := go(name)) is not None:
+        if (target := show_pane(name)) is not None:
             await app.run_action(action, target)
 
     titles = {each.id: each.title for each in PANES}

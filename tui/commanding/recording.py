@@ -39,10 +39,10 @@ class BagRecording:
     def _ask(self, pane: Pane, label: str, ending: str, order: Callable[[str], Future[Answer]]) -> None:
         name = f"rosbag2_{time.strftime('%Y_%m_%d-%H_%M_%S')}{ending}"
         pane.ask(
-            Line(label, lambda text: pane.report_later(order(str(typed_path(text)))), text=name, check=_wrong_folder)
+            Line(label, lambda text: pane.report_later(order(str(typed_path(text)))), text=name, check=_folder_problem)
         )
 
 
-def _wrong_folder(text: str) -> str:
+def _folder_problem(text: str) -> str:
     """Why a bag cannot be written to a path, for example because it exists; empty if it can."""
     return wrong_path(text) or (f"{text.strip()} exists already" if os.path.lexists(typed_path(text)) else "")

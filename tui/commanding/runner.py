@@ -9,8 +9,8 @@ from concurrent.futures import Future
 from difflib import get_close_matches
 from typing import Any, Protocol
 
-from bot_console.tui.arrangement.opening import RQT_PANES, Opening, is_rqt, rqt_opening
-from bot_console.tui.commanding.verbs import VERBS, curves_of, places, setting_of, wrong_bag, wrong_use
+from bot_console.tui.arrangement.opening import RQT_PANES, Opening, is_rqt, parse_rqt_command
+from bot_console.tui.commanding.verbs import VERBS, bag_problem, parse_setting, places, split_curves, usage_problem
 from bot_console.tui.console.answer import Answer, answer_of
 from bot_console.tui.console.command_gate import done
 from bot_console.tui.console.command_line import CommandLine, Stream
@@ -97,10 +97,10 @@ class LineRunner:
         return f"there is no command {verb}; {hint}"
 
     def _wrong_verb(self, words: Sequence[str]) -> str:
-        wrong = wrong_use(words)
+        wrong = usage_problem(words)
         if not wrong and words[0] == "set":
             try:
-                setting_of(words[1:], self._console.snapshot())
+                parse_setting(words[1:], self._console.snapshot())
             except ValueError as error:
                 return str(error)
         if not wrong and words[0] == "layout" and words[1] not in self._host.layouts():
@@ -108,7 +108,7 @@ class LineRunner:
         if not wrong and words[0] == "help" and len(words) > 1 and words[1] not in VERBS:
             return f"no verb of the console is {words[1]}; ros2 {words[1]} -h tells of those of ros2"
         if not wrong and words[0] == "bag":
-            return wrong_bag(words)
+            return bag_problem(words)
         return wrong
 
     def preview(self, line: str) -> str:
@@ -147,7 +147,7 @@ class LineRunner:
             self._ros2(line)
 
     def _open(self, words: Sequence[str]) -> None:
-        opening, left = rqt_opening(words)
+        opening, left = parse_rqt_command(words)
         notes = [*opening.notes, *(f"{each} is ignored" for each in left)]
         if opening.perspective:
             file = opening.perspective
@@ -190,7 +190,7 @@ class LineRunner:
         self._host.show_bag(words[1], play=words[0] == "play")
 
     def _plot(self, words: Sequence[str]) -> None:
-        self._host.open(Opening("plot", tuple(curves_of(words))))
+        self._host.open(Opening("plot", tuple(split_curves(words))))
 
     def _stop(self, _: Sequence[str]) -> None:
         self._host.hold_robot(True)
@@ -199,7 +199,7 @@ class LineRunner:
         self._host.hold_robot(False)
 
     def _set(self, words: Sequence[str]) -> None:
-        wanted = setting_of(words, self._console.snapshot())
+        wanted = parse_setting(words, self._console.snapshot())
         answer = self._console.parameters.set(wanted.node, {wanted.name: wanted.value}, ChangeSource.EDIT)
         answer.add_done_callback(lambda done: self._host.call_later(self._report_set, done))
 

@@ -43,7 +43,7 @@ class Setting:
     value: Value
 
 
-def setting_of(words: Sequence[str], snapshot: ConsoleSnapshot) -> Setting:
+def parse_setting(words: Sequence[str], snapshot: ConsoleSnapshot) -> Setting:
     """Parse `set NODE PARAMETER VALUE`; raises `ValueError` that says how to fix it."""
     node, name, text = words[0], words[1], " ".join(words[2:])
     parameter = _parameter(node, name, snapshot)
@@ -64,13 +64,13 @@ CONTINUATIONS = tuple("+-*^%,)<>=")
 """First characters of a word that continues an expression; `/` also begins a topic."""
 
 
-def wrong_use(words: Sequence[str]) -> str:
+def usage_problem(words: Sequence[str]) -> str:
     """The problem with the number of arguments of one of our verbs; empty if there is none."""
     verb = VERBS[words[0]]
     return "" if verb.least <= len(words) - 1 <= verb.maximum else f"write it as: {verb.usage}"
 
 
-def wrong_bag(words: Sequence[str]) -> str:
+def bag_problem(words: Sequence[str]) -> str:
     """The problem with `bag open FOLDER` or `bag play FOLDER`; empty if there is none."""
     if words[1] not in ("open", "play"):
         begun = "write it as: bag open FOLDER, or bag play FOLDER"
@@ -78,7 +78,7 @@ def wrong_bag(words: Sequence[str]) -> str:
     return "" if os.path.exists(words[2]) else f"there is no bag {words[2]}"
 
 
-def curves_of(words: Sequence[str]) -> list[str]:
+def split_curves(words: Sequence[str]) -> list[str]:
     """The expressions in the arguments of `plot`: blanks separate curves, but may also be part of one."""
     curves: list[str] = []
     for word in words:

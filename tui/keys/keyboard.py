@@ -12,7 +12,7 @@ from functools import partial
 from itertools import islice
 from typing import TypeAlias
 
-from bot_console.tui.keymap import stops
+from bot_console.tui.keymap import is_stop_key
 from bot_console.tui.keys.escape_parser import split_alt_key
 from textual import events
 from textual.app import App
@@ -99,7 +99,7 @@ class Keyboard:
             self._wait_for_key()
 
     def _is_one_too_many(self, event: Typed) -> bool:
-        if len(self._waiting) < MAX_REPEATS or (isinstance(event, events.Key) and stops(event.key)):
+        if len(self._waiting) < MAX_REPEATS or (isinstance(event, events.Key) and is_stop_key(event.key)):
             return False
         if len(self._waiting) >= MAX_WAITING_KEYS:
             return True

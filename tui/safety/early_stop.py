@@ -9,7 +9,7 @@ from collections.abc import Callable, Set
 from dataclasses import dataclass
 from typing import Protocol
 
-from bot_console.tui.keymap import stops
+from bot_console.tui.keymap import is_stop_key
 from bot_console.tui.keys.escape_parser import ALT
 from textual import events
 
@@ -89,7 +89,7 @@ class EarlyStop:
     def is_stop(self, event: events.Key) -> bool:
         """Whether a key may stop the robot; with Alt it may be two keys, Esc and the stop key."""
         character = event.character if event.key.startswith(ALT) else None
-        return stops(event.key) or (character is not None and stops(character))
+        return is_stop_key(event.key) or (character is not None and is_stop_key(character))
 
     def typed(self, event: events.Key, *, alone: bool) -> None:
         """Take note of a stop key; `alone` says whether it was read with nothing before it."""
@@ -131,7 +131,7 @@ class EarlyStop:
             if press is None:
                 return False
             self._presses.remove(press)
-        is_text = not stops(event.key) or (event.is_printable and self._typing())
+        is_text = not is_stop_key(event.key) or (event.is_printable and self._typing())
         releases = bool(press.seen & self._own_stops())
         if press.is_held and self._holder is not None:
             # Otherwise a key that is to release would only find its own stop, which is not acknowledged yet.
@@ -142,4 +142,4 @@ class EarlyStop:
 
 
 def _is_of(event: events.Key, press: Press) -> bool:
-    return event is press.event or (event.time == press.event.time and stops(event.key))
+    return event is press.event or (event.time == press.event.time and is_stop_key(event.key))

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from bot_console.tui.arrangement.arrival import System
+from bot_console.tui.arrangement.startup import System
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.tune.background_tuner import LocalTuner
 from bot_console.tui.console.bags.port import SnapshotKeeper

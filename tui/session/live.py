@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from bot_console.tui.app import BotConsoleApp
-from bot_console.tui.arrangement.arrival import System
+from bot_console.tui.arrangement.startup import System
 from bot_console.tui.cli.appearance import appearance_of
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.foreground.foreground import Foreground

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar, Protocol
 
-from bot_console.tui.commanding.completing import Completion, extended, split
+from bot_console.tui.commanding.completion import Completion, common_extension, split
 from bot_console.tui.commanding.history import LineHistory
 from bot_console.tui.keymap import bindings
 from bot_console.tui.text.sanitize import sanitize
@@ -84,7 +84,7 @@ class CommandField(Vertical):
         if not self.children:
             self._make()
         self._before = self.screen.focused
-        self._history.stay()
+        self._history.restart_walk()
         self._put("")
         self.add_class("open")
         # Immediately: `focus` would take effect only after keys that are already queued.
@@ -124,7 +124,7 @@ class CommandField(Vertical):
         event.stop()
         if self.is_open and event.value != self._own_change:
             self._own_change = "\0"
-            self._history.stay()
+            self._history.restart_walk()
             self._begin()
 
     def on_input_submitted(self, event: Input.Submitted) -> None:
@@ -178,7 +178,7 @@ class CommandField(Vertical):
         if not found:
             return
         before, begun = split(self._typed)
-        longer = extended(found, begun)
+        longer = common_extension(found, begun)
         if self._tried < 0 and len(longer) > len(begun) and len(found) > 1:
             self._put(" ".join([*before, longer]))
             self._begin()

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from concurrent.futures import Future
 from typing import Any
 
-from bot_console.tui.commanding.completing import live_names
+from bot_console.tui.commanding.completion import live_names
 from bot_console.tui.console.command_gate import done
 from bot_console.tui.console.command_line import Stream
 from bot_console.tui.console.model import ConsoleSnapshot

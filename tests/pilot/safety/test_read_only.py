@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import pytest
 from bot_console.tui.console.command_gate import READ_ONLY
 from bot_console.tui.console.model import Capabilities, Kind
-from bot_console.tui.keymap import CHANGING, TABLE
+from bot_console.tui.keymap import READ_ONLY_WORDS, TABLE
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.widgets.prompt.line import Prompt
 from piloting import Session, run
@@ -49,7 +49,7 @@ def test_key_bar_of_a_read_only_console_names_only_keys_that_it_obeys(digits: st
                 assert word not in words, (pane, word)
             assert {"?", "!"} <= {*words}, "help and stop are named"
         ids = {key.id for keys in TABLE.values() for key in keys}
-        assert CHANGING.keys() <= ids
+        assert READ_ONLY_WORDS.keys() <= ids
 
     run(live(), play, (200, 50))
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 
 import pytest
-from bot_console.tui.arrangement.arrival import ORDERED
+from bot_console.tui.arrangement.startup import ORDERED
 from bot_console.tui.panes.alarms.pane import AlarmsPane
 from bot_console.tui.panes.broken_pane import BrokenPane
 from bot_console.tui.panes.pane import Pane

@@ -13,7 +13,7 @@ from bot_console.runtime.process import NodeProcess
 from bot_console.tui.cli.completion import candidates
 from bot_console.tui.cli.started_lines import launched_by
 from bot_console.tui.cli.verbs.colcon import answers
-from bot_console.tui.commanding.completing import live_names
+from bot_console.tui.commanding.completion import live_names
 from bot_console.tui.console.command_line import Stream
 from bot_console.tui.console.in_background import in_background
 from bot_console.tui.console.launch.port import Launcher

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import pytest
-from bot_console.tui.arrangement.opening import RQT_PANES, Opening, is_rqt, matching, rqt_opening
+from bot_console.tui.arrangement.opening import RQT_PANES, Opening, is_rqt, matching, parse_rqt_command
 from bot_console.tui.cli.arguments import parse
 
 
 def opening(line: str) -> Opening:
-    return rqt_opening(line.split())[0]
+    return parse_rqt_command(line.split())[0]
 
 
 @pytest.mark.parametrize(
@@ -49,7 +49,7 @@ def test_node_is_preselected(line: str) -> None:
 )
 def test_steering_takes_topic_and_rate_from_its_parameters(line: str) -> None:
     assert opening(line) == Opening("steering", topic="/base/cmd", rate=20.0)
-    assert rqt_opening(line.split())[1] == []
+    assert parse_rqt_command(line.split())[1] == []
 
 
 @pytest.mark.parametrize(("program", "pane"), RQT_PANES.items())

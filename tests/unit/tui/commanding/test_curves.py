@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from bot_console.tui.commanding.verbs import curves_of
+from bot_console.tui.commanding.verbs import split_curves
 
 
 @pytest.mark.parametrize(
@@ -22,4 +22,4 @@ from bot_console.tui.commanding.verbs import curves_of
     ],
 )
 def test_blanks_within_an_expression_do_not_start_another_curve(line: str, curves: list[str]) -> None:
-    assert curves_of(line.split()) == curves
+    assert split_curves(line.split()) == curves

@@ -26,12 +26,12 @@ def test_up_recalls_lines_with_the_typed_prefix_and_down_returns(tmp_path: Path)
         typed = history.step(typed, step)
         seen.append(typed)
     assert seen == ["topic hz /odom", "topic list", "topic list", "topic hz /odom", "topic", "topic"]
-    history.stay()
+    history.restart_walk()
     assert history.step("no", -1) == "node list"
-    history.stay()
+    history.restart_walk()
     assert history.step("list", -1, anywhere=True) == "node list"
     assert history.step("node list", -1, anywhere=True) == "topic list"
-    history.stay()
+    history.restart_walk()
     assert history.step("topic hz /odom", -1) == "topic hz /odom", "there is no other one that begins so"
     history.add("topic hz")
     assert history.step("topic hz", -1) == "topic hz /odom", "the line that stands there already is passed by"

@@ -6,7 +6,7 @@ import itertools
 from typing import Any
 
 import pytest
-from bot_console.tui.keymap import TABLE, stops
+from bot_console.tui.keymap import TABLE, is_stop_key
 from bot_console.tui.keys.input_queue import MAX_WHEEL_STEPS
 from bot_console.tui.keys.sequences import PASTE_BEGIN, PASTE_END
 from bot_console.tui.keys.terminal_events import TerminalEvents
@@ -32,7 +32,7 @@ INPUT = st.lists(st.one_of(st.sampled_from(SANITIZED), st.sampled_from(STOPS), s
 
 
 def is_stop(event: events.Key) -> bool:
-    return stops(event.key)
+    return is_stop_key(event.key)
 
 
 def facts(event: Any) -> tuple[Any, ...]:
@@ -65,7 +65,7 @@ def test_bytes_of_pastes_reports_and_answers_are_never_a_stop(data: bytes) -> No
 def test_every_way_in_which_a_terminal_sends_the_key_is_a_stop(data: bytes) -> None:
     reader = Reader()
     found = reader.read(data)
-    assert [event for event, _ in reader.noticed] == [each for each in found if stops(each.key)] != []
+    assert [event for event, _ in reader.noticed] == [each for each in found if is_stop_key(each.key)] != []
 
 
 @given(pieces=INPUT, draw=st.data())

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from concurrent.futures import Future
 
-from bot_console.tui.commanding.completing import Completion, extended, fitting, live_names, split
+from bot_console.tui.commanding.completion import Completion, common_extension, live_names, matching_candidates, split
 from fakes.console import FakeConsole
 from samples import live
 
@@ -17,11 +17,11 @@ def test_line_is_split_into_complete_words_and_the_unfinished_one() -> None:
 
 
 def test_prefix_matches_precede_other_matches() -> None:
-    assert fitting(["/odom", "/odom/filtered", "/scan"], "/od") == ["/odom", "/odom/filtered"]
-    assert fitting(["/odom", "/scan"], "SCAN") == ["/scan"]
-    assert extended(["/odom", "/odometry"], "/o") == "/odom"
-    assert extended(["/scan", "/robot/scan"], "scan") == "scan"
-    assert extended([], "x") == "x"
+    assert matching_candidates(["/odom", "/odom/filtered", "/scan"], "/od") == ["/odom", "/odom/filtered"]
+    assert matching_candidates(["/odom", "/scan"], "SCAN") == ["/scan"]
+    assert common_extension(["/odom", "/odometry"], "/o") == "/odom"
+    assert common_extension(["/scan", "/robot/scan"], "scan") == "scan"
+    assert common_extension([], "x") == "x"
 
 
 def test_completions_are_queried_once_per_position() -> None:

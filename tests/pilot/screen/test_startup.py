@@ -8,9 +8,9 @@ from typing import cast
 
 import pytest
 from bot_console.tui.app import BotConsoleApp
-from bot_console.tui.arrangement import arrival
-from bot_console.tui.arrangement.arrival import ORDERED, Arrival, System
+from bot_console.tui.arrangement import startup
 from bot_console.tui.arrangement.opening import Opening
+from bot_console.tui.arrangement.startup import ORDERED, StartupSequence, System
 from bot_console.tui.layout.named import BUILT_IN, OVERVIEW
 from bot_console.tui.layout.tree import panes
 from bot_console.tui.pane_table import PaneEntry
@@ -98,10 +98,10 @@ def test_panes_made_one_by_one_look_in_the_end_like_panes_made_at_once() -> None
 
 
 def test_first_frame_has_tabs_keys_and_the_positions_of_the_panes(monkeypatch: pytest.MonkeyPatch) -> None:
-    async def never(arrival: Arrival) -> None:
+    async def never(sequence: StartupSequence) -> None:
         return
 
-    monkeypatch.setattr(Arrival, "bring_next", never)
+    monkeypatch.setattr(StartupSequence, "run_next_step", never)
 
     async def main() -> None:
         app = BotConsoleApp(reach=lambda: System(live()[0]), refresh_hz=0)
@@ -208,7 +208,7 @@ def eager(monkeypatch: pytest.MonkeyPatch, asked: Callable[[], bool]) -> list[in
         await mount_unseen(parent, widget, before)
 
     monkeypatch.setattr(AnswerGate, "is_eager", property(is_eager))
-    monkeypatch.setattr(arrival, "mount_unseen", mount)
+    monkeypatch.setattr(startup, "mount_unseen", mount)
     return came
 
 
@@ -224,7 +224,7 @@ def test_hidden_panes_are_made_while_no_key_is_pressed(monkeypatch: pytest.Monke
 
 @pytest.mark.slow
 def test_hidden_panes_are_made_even_if_keys_are_pressed_all_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(arrival, "MAX_HIDDEN_PANE_PAUSE_S", 0.1)
+    monkeypatch.setattr(startup, "MAX_HIDDEN_PANE_PAUSE_S", 0.1)
     eager(monkeypatch, lambda: True)
 
     async def play(session: Session) -> None:
@@ -234,7 +234,7 @@ def test_hidden_panes_are_made_even_if_keys_are_pressed_all_the_time(monkeypatch
 
 
 def test_a_pane_that_a_key_is_for_is_made_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(arrival, "MAX_HIDDEN_PANE_PAUSE_S", float("inf"))
+    monkeypatch.setattr(startup, "MAX_HIDDEN_PANE_PAUSE_S", float("inf"))
     came = eager(monkeypatch, lambda: True)
 
     async def play(session: Session) -> None:

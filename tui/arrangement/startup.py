@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from bot_console.tui.arrangement.early_keys import panes_needed
 from bot_console.tui.arrangement.stage import Stage
-from bot_console.tui.keymap import stops
+from bot_console.tui.keymap import is_stop_key
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.screens.question_screens import prepare
 from bot_console.tui.terminal.visible_screen import mount_unseen
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from bot_console.tui.keys.keyboard import Keyboard, Typed
     from bot_console.tui.panes.pane import Pane
 
-COMING_STATUS = "coming-status"
+STATUS_PLACEHOLDER = "coming-status"
 """The id of the placeholder for the status bar."""
 KEY_POLL_S = 0.005
 """Seconds between two checks whether a key has been handled."""
@@ -43,7 +43,7 @@ class System(NamedTuple):
     command_line: CommandLine | None = None
 
 
-class Host(Protocol):
+class StartupHost(Protocol):
     """The operations of the app that its start needs."""
 
     def attach(self, system: System) -> Sequence[Widget]:
@@ -54,7 +54,7 @@ class Host(Protocol):
         """Make a pane of the system."""
         ...
 
-    def begin_to_pull(self) -> None:
+    def start_polling(self) -> None:
         """Start polling for snapshots."""
         ...
 
@@ -62,43 +62,43 @@ class Host(Protocol):
         """Lay out again, and show the snapshot in all panes."""
         ...
 
-    def waits_for_answer(self) -> bool:
+    def has_recent_key(self) -> bool:
         """Whether a key was pressed just now: its effect should be drawn before anything else."""
         ...
 
 
-class Arrival:
+class StartupSequence:
     """Creates one part after the other, and lets the app handle its messages in between.
 
     Stop keys are handled at once, keys for the visible panes as soon as those exist, all others once every pane exists.
     """
 
-    def __init__(self, app: App[None], host: Host, stage: Stage, keyboard: Keyboard) -> None:
+    def __init__(self, app: App[None], host: StartupHost, stage: Stage, keyboard: Keyboard) -> None:
         self._app = app
         self._host = host
         self._stage = stage
         self._keyboard = keyboard
-        self._only_unseen = False
+        self._only_hidden_left = False
         """Whether everything visible exists, and only hidden panes are still missing."""
-        self._rests = 0
+        self._pauses = 0
         self._steps: deque[Callable[[], Awaitable[None]]] = deque()
 
-    def begin(self, reach: Callable[[], System], there: Callable[[], None]) -> None:
-        """Create everything; `reach` connects to the system, `there` is called once every pane exists."""
-        self._there = there
-        self._steps.append(partial(self._bring_system, reach))
-        self._app.call_after_refresh(self.bring_next)
+    def begin(self, reach: Callable[[], System], on_complete: Callable[[], None]) -> None:
+        """Create everything; `reach` connects to the system, `on_complete` is called once every pane exists."""
+        self._on_complete = on_complete
+        self._steps.append(partial(self._connect, reach))
+        self._app.call_after_refresh(self.run_next_step)
 
-    async def bring_next(self) -> None:
+    async def run_next_step(self) -> None:
         """Create the next part, and continue once the app has handled its messages."""
         if not self._app.is_running:
             return
         if self._keyboard.is_busy:
-            self._app.set_timer(KEY_POLL_S, self.bring_next)
+            self._app.set_timer(KEY_POLL_S, self.run_next_step)
             return
-        if self._is_resting():
-            self._rests += 1
-            self._app.set_timer(HIDDEN_PANE_PAUSE_S, self.bring_next)
+        if self._should_pause():
+            self._pauses += 1
+            self._app.set_timer(HIDDEN_PANE_PAUSE_S, self.run_next_step)
             return
         try:
             await self._steps.popleft()()
@@ -107,34 +107,34 @@ class Arrival:
                 raise
             return  # a signal has ended the app meanwhile
         if self._steps:
-            self._app.call_later(self.bring_next)
+            self._app.call_later(self.run_next_step)
         else:
-            self._there()
+            self._on_complete()
 
-    def _is_resting(self) -> bool:
+    def _should_pause(self) -> bool:
         """Whether hidden panes should wait, so that they do not delay the next key."""
         return (
-            self._only_unseen
-            and self._host.waits_for_answer()
+            self._only_hidden_left
+            and self._host.has_recent_key()
             and self._keyboard.next is None
-            and self._rests * HIDDEN_PANE_PAUSE_S < MAX_HIDDEN_PANE_PAUSE_S
+            and self._pauses * HIDDEN_PANE_PAUSE_S < MAX_HIDDEN_PANE_PAUSE_S
         )
 
-    async def _bring_system(self, reach: Callable[[], System]) -> None:
+    async def _connect(self, reach: Callable[[], System]) -> None:
         widgets = self._host.attach(reach())
         screen = self._app.screen_stack[0]
         with self._app.batch_update():
-            await screen.query_one(f"#{COMING_STATUS}").remove()
+            await screen.query_one(f"#{STATUS_PLACEHOLDER}").remove()
             await screen.mount(*widgets, before=screen.query_one(KeyBar))
-        self._host.begin_to_pull()
+        self._host.start_polling()
         await self._keyboard.hold(is_stop)
-        places = {each for each, _, _ in self._stage.at_first(self._app.size)}
+        places = {each for each, _, _ in self._stage.initial_panes(self._app.size)}
         seen = [each for each in ORDERED if each.id in places]
         self._steps += [partial(self._import_pane, each) for each in seen]
         hidden = deque(each for each in ORDERED if each not in seen)
         self._steps += [
-            partial(self._bring_seen, seen),
-            *[partial(self._choose_hidden, hidden)] * len(hidden),
+            partial(self._mount_visible, seen),
+            *[partial(self._pick_hidden, hidden)] * len(hidden),
             self._complete,
         ]
 
@@ -145,50 +145,50 @@ class Arrival:
         except Exception:  # importing a pane may raise anything
             return
 
-    async def _bring_seen(self, entries: list[PaneEntry]) -> None:
+    async def _mount_visible(self, entries: list[PaneEntry]) -> None:
         area = self._app.screen_stack[0].query_one(PaneArea)
-        await area.mount(*map(self._made, entries))
+        await area.mount(*map(self._make_pane, entries))
         coming = area.query(PanePlaceholder)
         for each in coming:  # all at once, so that no frame without panes is drawn in between
             each.display = False
         self._host.panes_changed()
         await coming.remove()
-        self._only_unseen = True
+        self._only_hidden_left = True
         await self._keyboard.hold(self._may_act)
 
-    async def _choose_hidden(self, hidden: deque[PaneEntry]) -> None:
+    async def _pick_hidden(self, hidden: deque[PaneEntry]) -> None:
         """Create the next hidden pane: one that a key is waiting for, if there is one."""
-        wanted = self._awaited()
+        wanted = self._panes_for_next_key()
         entry = next((each for each in hidden if each.id in wanted), hidden[0])
         hidden.remove(entry)
-        self._steps.extendleft((partial(self._bring_hidden, entry), partial(self._import_pane, entry)))
+        self._steps.extendleft((partial(self._mount_hidden, entry), partial(self._import_pane, entry)))
 
-    async def _bring_hidden(self, entry: PaneEntry) -> None:
+    async def _mount_hidden(self, entry: PaneEntry) -> None:
         area = self._app.screen_stack[0].query_one(PaneArea)
         behind = {each.id for each in ORDERED[ORDERED.index(entry) + 1 :]}
         before = next((each for each in area.children if each.id in behind), None)
-        pane = self._made(entry)
+        pane = self._make_pane(entry)
         pane.come_late()
         await mount_unseen(area, pane, before)
-        self._stage.poll_again()
+        self._stage.forget_panes()
         await self._keyboard.hold(self._may_act)
 
-    def _awaited(self) -> Sequence[str]:
+    def _panes_for_next_key(self) -> Sequence[str]:
         key = self._keyboard.next
-        return self._needed(key) or () if key is not None else ()
+        return self._panes_for(key) or () if key is not None else ()
 
     def _may_act(self, key: Typed) -> bool:
-        wanted = () if is_stop(key) else self._needed(key)
+        wanted = () if is_stop(key) else self._panes_for(key)
         return wanted is not None and {*wanted} <= {each.id for each in self._stage.panes()}
 
-    def _needed(self, key: Typed) -> Sequence[str] | None:
+    def _panes_for(self, key: Typed) -> Sequence[str] | None:
         return panes_needed(self._app, self._stage, key.key) if isinstance(key, events.Key) else None
 
     async def _complete(self) -> None:
         self._host.panes_changed()
         prepare()
 
-    def _made(self, entry: PaneEntry) -> Pane:
+    def _make_pane(self, entry: PaneEntry) -> Pane:
         pane = self._host.make_pane(entry)
         pane.display = False  # until it is laid out and has the newest snapshot
         return pane
@@ -196,4 +196,4 @@ class Arrival:
 
 def is_stop(key: Typed) -> bool:
     """Whether a key stops the robot."""
-    return isinstance(key, events.Key) and stops(key.key)
+    return isinstance(key, events.Key) and is_stop_key(key.key)

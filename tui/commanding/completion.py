@@ -18,13 +18,13 @@ def split(text: str) -> tuple[list[str], str]:
     return (words, "") if not words or text[-1:].isspace() else (words[:-1], words[-1])
 
 
-def fitting(offered: Sequence[str], begun: str) -> list[str]:
+def matching_candidates(offered: Sequence[str], begun: str) -> list[str]:
     """The candidates that begin with the word; if there are none, those that contain it."""
     first = [each for each in offered if each.startswith(begun)]
     return first or [each for each in offered if begun.lower() in each.lower()]
 
 
-def extended(found: Sequence[str], begun: str) -> str:
+def common_extension(found: Sequence[str], begun: str) -> str:
     """The word, extended to the longest common prefix of the candidates."""
     first, last = min(found, default=""), max(found, default="")
     # The common prefix of the first and the last candidate in sorted order is that of all candidates.
@@ -64,7 +64,7 @@ class Completion:
             self._asked, self._answer = place, self._ask(place)
         if not self._answer.done() or self._answer.exception() is not None:
             return []
-        return fitting(sorted(self._answer.result()), begun)
+        return matching_candidates(sorted(self._answer.result()), begun)
 
     def forget(self) -> None:
         """Forget the candidates when the line is closed, since they may change until the next one."""
