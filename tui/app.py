@@ -13,7 +13,7 @@ from bot_console.tui.arrangement.opening import Opening
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.arrangement.startup import ORDERED, STATUS_PLACEHOLDER, StartupSequence, System
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.files.crash import keep, reason
+from bot_console.tui.files.crash import reason, save_traceback
 from bot_console.tui.keys.keyboard import MAX_PASTE_CHARACTERS, Keyboard
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.pane_table import PANES, PaneEntry
@@ -106,7 +106,7 @@ class BotConsoleApp(GuardedApp):
         if console is not None:
             self._below = self.attach(System(console, command_line))
         else:
-            self._keyboard.passes = lambda _: False
+            self._keyboard.may_handle = lambda _: False
 
     def attach(self, system: System) -> Sequence[Widget]:
         """Start acting on a system; returns the widgets between the panes and the key bar."""
@@ -242,7 +242,7 @@ class BotConsoleApp(GuardedApp):
 
     def pull(self) -> None:
         """Take the newest snapshot and let the visible panes draw what has changed."""
-        snapshot = self.controls.stopping.with_key(self.console_of_robot.snapshot())
+        snapshot = self.controls.stopping.with_key_meaning(self.console_of_robot.snapshot())
         if snapshot is self._snapshot and not self._snapshot.problem:
             return
         self._snapshot = snapshot
@@ -254,7 +254,7 @@ class BotConsoleApp(GuardedApp):
                 self.controls.status.show(snapshot, self.gate.held_back)
         for requester in self.controls.screens.requesters():
             requester.poll()
-        for text in self.controls.safety_news.since(snapshot):
+        for text in self.controls.safety_announcements.announcements(snapshot):
             self.notify(text, severity="warning")
 
     def panes(self) -> list[Pane]:
@@ -320,7 +320,7 @@ class BotConsoleApp(GuardedApp):
     async def action_quit(self) -> None:
         """Quit, but ask first when values would be lost."""
         if self._reached:
-            self.controls.quitting.wanted()
+            self.controls.quitting.request()
         else:
             self.exit()
 
@@ -465,7 +465,7 @@ class BotConsoleApp(GuardedApp):
         """Stop the robot, save the traceback, and return a one-line summary."""
         with contextlib.suppress(Exception):  # after a fault, nothing may keep the terminal from being restored
             self.console_of_robot.drive.stop(True, "bot-console has failed")
-        details = keep(error)
+        details = save_traceback(error)
         text = f"bot-console: ended by a fault of its own, the robot was stopped: {reason(error)}"
         return text + (f"; details in {details}" if details else "")
 

@@ -477,15 +477,15 @@ READ_ONLY_WORDS: Mapping[str, str] = MappingProxyType(
 
 def is_stop_key(key: str) -> bool:
     """Whether a key stops the robot."""
-    return _is_of("app.stop", key)
+    return _belongs_to("app.stop", key)
 
 
 def is_quit_now_key(key: str) -> bool:
     """Whether a key quits without waiting for the keys typed before it."""
-    return _is_of("app.quit_now", key)
+    return _belongs_to("app.quit_now", key)
 
 
-def _is_of(id: str, pressed: str) -> bool:
+def _belongs_to(id: str, pressed: str) -> bool:
     """Whether a key belongs to an action; looked up each time, since a person may have remapped it."""
     return any(key.id == id and pressed in key.keys.split(",") for key in TABLE["app"])
 

@@ -22,10 +22,10 @@ from bot_console.tui.console.protocol import Console
 from bot_console.tui.panes.time_cursor import TimeCursor
 from bot_console.tui.safety.early_stop import EarlyStop
 from bot_console.tui.safety.quitting import Quitting
-from bot_console.tui.safety.safety_news import SafetyNews
+from bot_console.tui.safety.safety_announcements import SafetyAnnouncements
 from bot_console.tui.safety.stopping import Stopping
 from bot_console.tui.screens.opener import ScreenOpener
-from bot_console.tui.terminal.suspension import Leaving
+from bot_console.tui.terminal.suspension import TerminalHandover
 from bot_console.tui.widgets.status_bar import StatusBar
 from textual.app import App
 
@@ -36,13 +36,13 @@ class Controls:
 
     quitting: Quitting
     stopping: Stopping
-    leaving: Leaving
+    leaving: TerminalHandover
     commands: CommandHandler
     recording: BagRecording
     screens: ScreenOpener
     panes: PaneMaker
     faults: FaultHandler
-    safety_news: SafetyNews
+    safety_announcements: SafetyAnnouncements
     status: StatusBar
 
 
@@ -64,8 +64,8 @@ def controls_of(
     """
     quitting = Quitting(app, console)
     stopping = Stopping(app, console, quitting, stage.typing)
-    early_stop.attach(console.drive, stopping.pressed_early, lambda: console.snapshot().drive.own_stops)
-    leaving = Leaving(app, console, redraw, holds=not console.gate.read_only)
+    early_stop.attach(console.drive, stopping.on_early_key, lambda: console.snapshot().drive.own_stops)
+    leaving = TerminalHandover(app, console, redraw, holds=not console.gate.read_only)
     gated = GatedLines(console.gate, lines)
     panes = PaneMaker(console, time_cursor, stage.entries)
     return Controls(
@@ -77,6 +77,6 @@ def controls_of(
         screens=ScreenOpener(app, stage),
         panes=panes,
         faults=FaultHandler(app, panes, changed),
-        safety_news=SafetyNews(console.parameters),
+        safety_announcements=SafetyAnnouncements(console.parameters),
         status=StatusBar(),
     )

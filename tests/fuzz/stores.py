@@ -126,10 +126,10 @@ def pane_states(text: str) -> None:
     from bot_console.tui.panes.alarms.alarm import texts_of
     from bot_console.tui.panes.graph.view_state import view_state_of
     from bot_console.tui.panes.parameters.view_state import left_of
-    from bot_console.tui.settings.yaml_reader import NotPlainData, read
+    from bot_console.tui.settings.yaml_reader import NotPlainData, read_yaml
 
     try:
-        data = read(text.encode("utf-8", "surrogatepass"))
+        data = read_yaml(text.encode("utf-8", "surrogatepass"))
     except NotPlainData:
         return
     view_state_of(data)

@@ -47,9 +47,9 @@ def targets() -> list[Target]:
     from bot_console.tui.console.bags.damage import NoBag
     from bot_console.tui.console.plot.arrays import NotPlottable
     from bot_console.tui.files.jsonc import JsoncError
-    from bot_console.tui.files.plot_presets import NoPreset
+    from bot_console.tui.files.plot_presets import PlotPresetError
     from bot_console.tui.files.save_file import NotSaved
-    from bot_console.tui.layout.form import NoLayout
+    from bot_console.tui.layout.form import LayoutError
     from bot_console_robot.preset_files import PresetError
     from bot_console_robot.safety.stop_file import StopFileError
     from bot_console_robot.simulation.world import WorldError
@@ -161,9 +161,9 @@ def targets() -> list[Target]:
             "layout",
             seeds.texts("layout:\n  beside: [parameters, {below: [logs, plot]}]\n  share: [1, 2]\n"),
             files.layout("yaml"),
-            (NoLayout,),
+            (LayoutError,),
         ),
-        Target("perspective", seeds.texts(seeds.PERSPECTIVE), files.layout("perspective"), (NoLayout,)),
+        Target("perspective", seeds.texts(seeds.PERSPECTIVE), files.layout("perspective"), (LayoutError,)),
         Target("package.xml", seeds.texts(seeds.PACKAGE), files.package, (ValueError,)),
         Target("node file", seeds.files("nodes/telemetry_node.py"), files.plain_file),
         Target("printed lines", seeds.texts(seeds.TRACEBACK), messages.printed),
@@ -184,7 +184,7 @@ def targets() -> list[Target]:
         Target("states of panes", seeds.texts(*seeds.STATES), stores.pane_states),
         Target("lines of stores", seeds.texts(*seeds.STORED_LINES), stores.lines_of_stores),
         Target("progress in a course", seeds.texts(seeds.PROGRESS), stores.progress),
-        Target("preset of curves", seeds.texts(seeds.CURVES), stores.preset_of_curves, (NoPreset,)),
+        Target("preset of curves", seeds.texts(seeds.CURVES), stores.preset_of_curves, (PlotPresetError,)),
         Target("system in the background", seeds.texts(seeds.BACKGROUND), stores.background),
         Target("control topics in MCAP", bags.control_seeds("mcap"), bags.control_bag(".mcap"), (NoBag,), share=0.5),
         Target(

@@ -6,7 +6,7 @@ import contextlib
 from collections.abc import Callable, Sequence
 
 from bot_console.tui.arrangement.pane_maker import PaneMaker
-from bot_console.tui.files.crash import keep, reason
+from bot_console.tui.files.crash import reason, save_traceback
 from bot_console.tui.pane_table import PaneEntry
 from bot_console.tui.panes.broken_pane import BrokenPane
 from bot_console.tui.panes.pane import Pane
@@ -53,12 +53,12 @@ class FaultHandler:
 
     def _make_placeholder(self, id: str, error: Exception) -> BrokenPane:
         title = next((each.title for each in self._maker.entries() if each.id == id), "")
-        return self._maker.make(BrokenPane, id, title=title, why=reason(error), details=keep(error))
+        return self._maker.make(BrokenPane, id, title=title, why=reason(error), details=save_traceback(error))
 
     def _end_screens(self, error: Exception) -> None:
         while len(self._app.screen_stack) > 1:
             self._app.pop_screen()
-        details = keep(error)
+        details = save_traceback(error)
         self._app.notify(f"{reason(error)}{f', details: {details}' if details else ''}", title="Closed")
 
     async def reopen(self, broken: BrokenPane) -> None:

@@ -67,7 +67,7 @@ class LayoutEditor:
 
     def _needs(self) -> str:
         """A text with the size that the hidden layout needs, and the size of the terminal."""
-        least, there = self.arrangement.least(), self._screen.cells()
+        least, there = self.arrangement.min_size(), self._screen.cells()
         return f"needs {least[0]}x{least[1]}, this terminal has {there[0]}x{there[1]}"
 
     @property

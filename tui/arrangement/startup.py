@@ -22,7 +22,7 @@ from textual.widget import MountError, Widget
 if TYPE_CHECKING:
     from bot_console.tui.console.command_line import CommandLine
     from bot_console.tui.console.protocol import Console
-    from bot_console.tui.keys.keyboard import Keyboard, Typed
+    from bot_console.tui.keys.keyboard import Keyboard, KeyInput
     from bot_console.tui.panes.pane import Pane
 
 STATUS_PLACEHOLDER = "coming-status"
@@ -177,11 +177,11 @@ class StartupSequence:
         key = self._keyboard.next
         return self._panes_for(key) or () if key is not None else ()
 
-    def _may_act(self, key: Typed) -> bool:
+    def _may_act(self, key: KeyInput) -> bool:
         wanted = () if is_stop(key) else self._panes_for(key)
         return wanted is not None and {*wanted} <= {each.id for each in self._stage.panes()}
 
-    def _panes_for(self, key: Typed) -> Sequence[str] | None:
+    def _panes_for(self, key: KeyInput) -> Sequence[str] | None:
         return panes_needed(self._app, self._stage, key.key) if isinstance(key, events.Key) else None
 
     async def _complete(self) -> None:
@@ -194,6 +194,6 @@ class StartupSequence:
         return pane
 
 
-def is_stop(key: Typed) -> bool:
+def is_stop(key: KeyInput) -> bool:
     """Whether a key stops the robot."""
     return isinstance(key, events.Key) and is_stop_key(key.key)

@@ -10,7 +10,7 @@ from bot_console.tui.cli.arguments import Options
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from bot_console.tui.keys.remapping import remap
 from bot_console.tui.layout.current_layout import Arrangement
-from bot_console.tui.layout.form import NoLayout
+from bot_console.tui.layout.form import LayoutError
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.learn.layout import NAME as LESSON_LAYOUT
 from bot_console.tui.learn.layout import WithLesson
@@ -57,7 +57,7 @@ def _arrangement(options: Options, settings: Settings, store: FileLayouts, notes
         try:
             path = typed_path(options.opening.perspective)
             tree, left = store.from_file(path)
-        except (NoLayout, NotSaved, OSError) as error:
+        except (LayoutError, NotSaved, OSError) as error:
             reason = error.strerror if isinstance(error, OSError) and error.strerror else error
             notes.append(f"perspective {options.opening.perspective}: {reason}")
         else:

@@ -21,7 +21,7 @@ def reason(error: BaseException) -> str:
     return f"{type(error).__name__}{': ' + text if text else ''}{where}"
 
 
-def keep(error: BaseException) -> str:
+def save_traceback(error: BaseException) -> str:
     """Write the traceback to a file and return its path; empty if nothing can be written."""
     text = "".join(traceback.format_exception(type(error), error, error.__traceback__))
     name = f"crash-{time.strftime('%Y%m%d-%H%M%S')}-{os.getpid()}.txt"

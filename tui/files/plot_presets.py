@@ -18,12 +18,12 @@ MAX_FILE_BYTES = 1_000_000
 MAX_CURVES = 200
 
 
-class NoPreset(ValueError):
+class PlotPresetError(ValueError):
     """A preset does not exist or cannot be read; the message says why."""
 
 
 @dataclass(frozen=True)
-class KeptCurve:
+class SavedCurve:
     """A curve as the user requested it."""
 
     curve: str
@@ -35,7 +35,7 @@ class KeptCurve:
 class Preset:
     """Curves, the length of the time window (s), the limits of the value axis, and the curve of the x axis, if any."""
 
-    curves: tuple[KeptCurve, ...]
+    curves: tuple[SavedCurve, ...]
     window: float = 30.0
     limits: str = ""
     against: str = ""
@@ -52,7 +52,7 @@ def preset_name_problem(text: str) -> str:
     return "" if fits else "letters, digits, blanks, dots and dashes make a name"
 
 
-def keep_preset(name: str, preset: Preset) -> Path:
+def save_preset(name: str, preset: Preset) -> Path:
     """Save curves under a name, replacing any earlier ones; raises `NotSaved`."""
     path = _folder() / f"{name.strip()}.json"
     save_file(path, json.dumps(asdict(preset), indent=1, ensure_ascii=False) + "\n")
@@ -60,21 +60,21 @@ def keep_preset(name: str, preset: Preset) -> Path:
 
 
 def read_preset(name: str) -> Preset:
-    """The curves saved under a name; raises `NoPreset`."""
+    """The curves saved under a name; raises `PlotPresetError`."""
     path = _folder() / f"{name}.json"
     try:
         data: Any = json.loads(read_store(path, MAX_FILE_BYTES))
         curves = tuple(_curve(each) for each in data["curves"][:MAX_CURVES])
         return Preset(curves, float(data["window"]), _text(data, "limits"), _text(data, "against"))
     except OSError as error:
-        raise NoPreset(f"{path}: {error.strerror or error}") from None
+        raise PlotPresetError(f"{path}: {error.strerror or error}") from None
     except (ValueError, TypeError, KeyError, AttributeError, OverflowError, RecursionError) as error:
-        raise NoPreset(f"{path}: holds no curves ({error})") from None
+        raise PlotPresetError(f"{path}: holds no curves ({error})") from None
 
 
-def _curve(data: Any) -> KeptCurve:
+def _curve(data: Any) -> SavedCurve:
     found = cast("dict[str, Any]", data)
-    return KeptCurve(_text(found, "curve"), bool(found.get("right")), _text(found, "thresholds"))
+    return SavedCurve(_text(found, "curve"), bool(found.get("right")), _text(found, "thresholds"))
 
 
 def _text(data: dict[str, Any], name: str) -> str:

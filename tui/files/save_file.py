@@ -13,7 +13,7 @@ PREFIX, SUFFIX = ".bot-console-", ".saving"
 """Prefix and suffix of the temporary file; it does not contain the file's own name, which may have the maximum length
 already.
 """
-LEFT_OVER_AGE_S = 600.0
+LEFTOVER_AGE_S = 600.0
 """Seconds after which a temporary file counts as left behind by a killed program."""
 
 
@@ -71,12 +71,12 @@ def _save(path: Path, content: bytes, check: Callable[[bytes], None] | None) -> 
         target.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise NotSaved(f"{path}: its folder cannot be made: {_reason(target, error)}") from error
-    _clear_left_overs(target.parent)
+    _delete_leftovers(target.parent)
     temporary = target.parent / f"{PREFIX}{os.urandom(4).hex()}{SUFFIX}"
     try:
         _write(temporary, content, 0o666 if old is None else 0o600)
         if old is not None:
-            _take_after(temporary, old, path)
+            _copy_owner_and_mode(temporary, old, path)
         written = temporary.read_bytes()
         if written != content:
             raise NotSaved(f"{path}: the disk gives back something else than was written")
@@ -86,7 +86,7 @@ def _save(path: Path, content: bytes, check: Callable[[bytes], None] | None) -> 
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
-    _put_on_disk(target.parent)
+    _sync_folder(target.parent)
 
 
 def _replaceable(path: Path, target: Path) -> os.stat_result | None:
@@ -113,7 +113,7 @@ def _write(path: Path, content: bytes, mode: int) -> None:
         os.fsync(file.fileno())
 
 
-def _take_after(new: Path, old: os.stat_result, path: Path) -> None:
+def _copy_owner_and_mode(new: Path, old: os.stat_result, path: Path) -> None:
     """Give a file the owner and mode of the one it replaces."""
     now = new.stat()
     if hasattr(os, "chown") and (now.st_uid, now.st_gid) != (old.st_uid, old.st_gid):
@@ -125,7 +125,7 @@ def _take_after(new: Path, old: os.stat_result, path: Path) -> None:
     new.chmod(stat.S_IMODE(old.st_mode))
 
 
-def _put_on_disk(folder: Path) -> None:
+def _sync_folder(folder: Path) -> None:
     """Make the rename survive a power failure, where folders can be opened and the file system syncs them."""
     if os.name == "posix":
         with contextlib.suppress(OSError):
@@ -136,9 +136,9 @@ def _put_on_disk(folder: Path) -> None:
                 os.close(descriptor)
 
 
-def _clear_left_overs(folder: Path) -> None:
+def _delete_leftovers(folder: Path) -> None:
     """Delete what an interrupted save left behind."""
     for each in folder.glob(f"{PREFIX}*{SUFFIX}"):
         with contextlib.suppress(OSError):
-            if time.time() - each.stat().st_mtime > LEFT_OVER_AGE_S:
+            if time.time() - each.stat().st_mtime > LEFTOVER_AGE_S:
                 each.unlink()

@@ -20,7 +20,7 @@ class StateStore(Protocol):
         ...
 
 
-def texts_in(data: object) -> list[str]:
+def strings_in(data: object) -> list[str]:
     """The texts in a stored list, ignoring other elements; none if the data are not a list."""
     found = cast("list[object]", data) if isinstance(data, list) else list[object]()
     return [each for each in found if isinstance(each, str)]

@@ -42,7 +42,7 @@ class EscapeParser(XTermParser):
         """Whether the parser waits for the rest of a sequence."""
         return self._timeout_time is not None
 
-    def begin_again(self) -> None:
+    def reset(self) -> None:
         """Forget a sequence that the parser does not know."""
         self._timeout_time = None
         self._tokens.clear()
@@ -50,7 +50,7 @@ class EscapeParser(XTermParser):
         self._gen = parser.parse(self._tokens.append)
         self._awaiting = next(self._gen)
 
-    def given_up(self) -> Iterable[Message]:
+    def flush(self) -> Iterable[Message]:
         """The keys of an unfinished sequence that will not be completed."""
         if self.is_waiting:
             self._timeout_time = None

@@ -50,7 +50,7 @@ class InputQueue:
             merge(self._waiting, message)
             begins, self._is_handling = not self._is_handling, True
         if begins:
-            self._loop.call_soon_threadsafe(self._hand_over)
+            self._loop.call_soon_threadsafe(self._pass_on)
 
     def resized(self, event: Callable[[], events.Resize]) -> None:
         """Pass on a resize; `event` is called when the app handles it, so that it has the size of that time.
@@ -65,7 +65,7 @@ class InputQueue:
         self._has_resized = False
         self.put(event())
 
-    def _hand_over(self) -> None:
+    def _pass_on(self) -> None:
         with self._lock:
             batch = [*self._waiting]
             self._waiting.clear()
@@ -73,14 +73,14 @@ class InputQueue:
         for each in batch:
             self._app.post_message(each)
         if batch:
-            self._after_app(lambda: self._after_screen(lambda: self._after_app(self._hand_over)))
+            self._call_after_app(lambda: self._call_after_screen(lambda: self._call_after_app(self._pass_on)))
 
-    def _after_app(self, then: Callable[[], None]) -> None:
+    def _call_after_app(self, then: Callable[[], None]) -> None:
         """Call `then` once the app has handled its input."""
         if not self._app.call_later(then):
             self._loop.call_soon(then)
 
-    def _after_screen(self, then: Callable[[], None]) -> None:
+    def _call_after_screen(self, then: Callable[[], None]) -> None:
         # The app forwards mouse moves and resizes to the screen.
         screens = self._app.screen_stack
         if not (screens and screens[-1].is_running and screens[-1].call_later(then)):

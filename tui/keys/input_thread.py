@@ -33,7 +33,7 @@ MAX_READ_BYTES = 65536
 INPUT = (events.InputEvent, events.Resize, events.AppFocus, events.AppBlur)
 
 
-class Ending(threading.Event):
+class WakeableEvent(threading.Event):
     """An event that also wakes a thread waiting for a descriptor; if no descriptors are free, it has to be polled."""
 
     def __init__(self) -> None:
@@ -68,7 +68,7 @@ class Ending(threading.Event):
         return descriptor in ready
 
 
-class Watch(Protocol):
+class StopKeyWatch(Protocol):
     """Receives keys that stop the robot, in the thread that reads them."""
 
     @property
@@ -89,8 +89,8 @@ class Watch(Protocol):
         ...
 
 
-class Unwatched:
-    """A `Watch` without keys that stop the robot."""
+class NoStopKeyWatch:
+    """A `StopKeyWatch` without keys that stop the robot."""
 
     due = None
 
@@ -105,11 +105,11 @@ class Unwatched:
         """Do nothing."""
 
 
-def reads_input(driver: Any, app: Any, watch: Watch) -> InputQueue:
+def install_input_thread(driver: Any, app: Any, watch: StopKeyWatch) -> InputQueue:
     """Make Textual's Linux driver read in our thread, and merge input that is not handled in time."""
-    driver.exit_event = ending = Ending()
+    driver.exit_event = ending = WakeableEvent()
     queue = InputQueue(app, driver._loop)
-    driver.run_input_thread = partial(take_keys, driver, ending, watch)
+    driver.run_input_thread = partial(read_keys, driver, ending, watch)
     send, start = driver.send_message, driver.start_application_mode
 
     def pass_on(message: Message) -> None:
@@ -133,7 +133,7 @@ def reads_input(driver: Any, app: Any, watch: Watch) -> InputQueue:
     return queue
 
 
-def take_keys(driver: Any, ending: Ending, watch: Watch) -> None:
+def read_keys(driver: Any, ending: WakeableEvent, watch: StopKeyWatch) -> None:
     """Pass on input until asked to end, or until the terminal closes.
 
     Bytes that are not UTF-8 become replacement characters.
@@ -146,8 +146,8 @@ def take_keys(driver: Any, ending: Ending, watch: Watch) -> None:
             typed = _read(driver.fileno)
             if typed is None:  # the terminal is gone, and would stay readable forever
                 break
-            _hand_on(driver, source.feed(typed, time.monotonic()))
-        _hand_on(driver, source.expire(time.monotonic()))
+            _forward(driver, source.feed(typed, time.monotonic()))
+        _forward(driver, source.expire(time.monotonic()))
         watch.poll()
 
 
@@ -164,6 +164,6 @@ def _read(descriptor: int) -> bytes | None:
     return typed
 
 
-def _hand_on(driver: Any, messages: Iterable[Message]) -> None:
+def _forward(driver: Any, messages: Iterable[Message]) -> None:
     for message in messages:
         driver.process_message(message)

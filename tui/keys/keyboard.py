@@ -36,12 +36,12 @@ continue for seconds after its release.
 MAX_WAITING_KEYS = 2_000
 """Maximum number of waiting keys of any kind; nobody types that many without seeing an effect."""
 
-PASSES = 2
+BUBBLING_PASSES = 2
 """A key bubbles from the focused widget up to the app, where its binding acts; then what the action sent must be
 handled.
 """
 
-Typed: TypeAlias = "events.Key | events.Paste"
+KeyInput: TypeAlias = "events.Key | events.Paste"
 
 
 class Keyboard:
@@ -51,16 +51,18 @@ class Keyboard:
     stop.
     """
 
-    def __init__(self, app: App[None], deliver: Callable[[Typed], Awaitable[None]], typing: Callable[[], bool]) -> None:
+    def __init__(
+        self, app: App[None], deliver: Callable[[KeyInput], Awaitable[None]], typing: Callable[[], bool]
+    ) -> None:
         """`typing` returns whether a text field has the focus."""
         self._app = app
         self._deliver = deliver
         self._typing = typing
-        self._waiting: deque[Typed] = deque()
-        self._under_way = 0
+        self._waiting: deque[KeyInput] = deque()
+        self._current = 0
         """The number of the key being handled; 0 if none is."""
         self._count = 0
-        self.passes: Callable[[Typed], bool] = lambda _: True
+        self.may_handle: Callable[[KeyInput], bool] = lambda _: True
         """Whether a key may be handled yet; a key that may not also holds up those behind it."""
         self._overtaken = 0.0
         """When the last key that overtook others was typed, by the clock of Textual's events."""
@@ -68,15 +70,15 @@ class Keyboard:
     @property
     def is_idle(self) -> bool:
         """Whether all keys have been handled, with their effects."""
-        return not (self._under_way or self._waiting)
+        return not (self._current or self._waiting)
 
     @property
     def is_busy(self) -> bool:
         """Whether the effects of a key are still in progress."""
-        return bool(self._under_way)
+        return bool(self._current)
 
     @property
-    def next(self) -> Typed | None:
+    def next(self) -> KeyInput | None:
         """The key to be handled next, if keys are being held."""
         return self._waiting[0] if self._waiting else None
 
@@ -88,17 +90,17 @@ class Keyboard:
         """Whether a key was typed before one that has overtaken it."""
         return event.time < self._overtaken
 
-    async def typed(self, event: Typed) -> None:
+    async def typed(self, event: KeyInput) -> None:
         """Handle a key now, or after those typed before it."""
-        if self._is_one_too_many(event):
+        if self._exceeds_limit(event):
             return
         self._waiting.append(event)
-        if not self._under_way:
+        if not self._current:
             await self._next()
         elif len(self._waiting) == 1:
             self._wait_for_key()
 
-    def _is_one_too_many(self, event: Typed) -> bool:
+    def _exceeds_limit(self, event: KeyInput) -> bool:
         if len(self._waiting) < MAX_REPEATS or (isinstance(event, events.Key) and is_stop_key(event.key)):
             return False
         if len(self._waiting) >= MAX_WAITING_KEYS:
@@ -107,17 +109,17 @@ class Keyboard:
         return not self._typing() and all(_is_same_key(each, event) for each in last)
 
     async def _next(self) -> None:
-        while self._waiting and not self._under_way and self.passes(self._first()):
+        while self._waiting and not self._current and self.may_handle(self._first()):
             event = self._waiting.popleft()
             self._count += 1
-            self._under_way = number = self._count
+            self._current = number = self._count
             target = self._app.focused or self._app.screen
             await self._deliver(event)
-            self._follow(number, [*target.ancestors_with_self] * PASSES)
+            self._follow(number, [*target.ancestors_with_self] * BUBBLING_PASSES)
             if self._waiting:
                 self._wait_for_key()
 
-    def _first(self) -> Typed:
+    def _first(self) -> KeyInput:
         """The next key to handle; a key with Alt is split into two if the focused screen has no binding for it."""
         event = self._waiting[0]
         if isinstance(event, events.Key) and (both := split_alt_key(event, self._app.screen)):
@@ -125,9 +127,9 @@ class Keyboard:
             self._waiting.extendleft(reversed(both))
         return self._waiting[0]
 
-    async def hold(self, passes: Callable[[Typed], bool]) -> None:
-        """From now on, handle the first waiting key only if `passes` allows it."""
-        self.passes = passes
+    async def hold(self, may_handle: Callable[[KeyInput], bool]) -> None:
+        """From now on, handle the first waiting key only if `may_handle` allows it."""
+        self.may_handle = may_handle
         await self._next()
 
     async def detach(self) -> None:
@@ -136,10 +138,10 @@ class Keyboard:
 
     def release(self) -> None:
         """Continue with the next key, since the widget that received the last one has ended."""
-        self._app.call_later(self._done, self._under_way)
+        self._app.call_later(self._done, self._current)
 
     def _wait_for_key(self) -> None:
-        self._app.set_timer(KEY_TIMEOUT_S, partial(self._done, self._under_way))
+        self._app.set_timer(KEY_TIMEOUT_S, partial(self._done, self._current))
 
     def _follow(self, number: int, path: Sequence[DOMNode]) -> None:
         """Wait until each widget on the path has handled what it has received so far."""
@@ -153,10 +155,10 @@ class Keyboard:
             self._app.call_later(self._done, number)
 
     async def _done(self, number: int) -> None:
-        if number == self._under_way:
-            self._under_way = 0
+        if number == self._current:
+            self._current = 0
             await self._next()
 
 
-def _is_same_key(one: Typed, other: Typed) -> bool:
+def _is_same_key(one: KeyInput, other: KeyInput) -> bool:
     return isinstance(one, events.Key) and isinstance(other, events.Key) and one.key == other.key

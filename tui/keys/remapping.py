@@ -45,12 +45,12 @@ def wrong_keys(keys: Mapping[str, str]) -> str:
             for key in keys_of_scope:
                 for each in _with_own(key, keys.get(key.id, key.keys)).split(","):
                     other = taken.setdefault(each, key.id)
-                    if other != key.id and (_new(known[other], keys, each) or _new(key, keys, each)):
+                    if other != key.id and (_is_new_key(known[other], keys, each) or _is_new_key(key, keys, each)):
                         return f"{each} is taken by {other} and {key.id}"
     return ""
 
 
-def _new(key: Key, keys: Mapping[str, str], pressed: str) -> bool:
+def _is_new_key(key: Key, keys: Mapping[str, str], pressed: str) -> bool:
     """Whether an action has a key only because of the remapping."""
     return key.id in keys and pressed not in key.keys.split(",")
 

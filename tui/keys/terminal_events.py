@@ -65,23 +65,23 @@ class TerminalEvents:
         return self._events(self._splitter.expire(now))
 
     def _events(self, pieces: list[Piece]) -> list[Message]:
-        parts = [*self._without_stops(_without_needless_moves(pieces))]
+        parts = [*self._without_stops(_without_redundant_moves(pieces))]
         parsed: dict[int, list[Message]] = {}
         for at, (kind, text) in enumerate(parts):
             if (kind in (Kind.SEQUENCE, Kind.KEYS) and not MOUSE.fullmatch(text)) or kind is Kind.STOP:
-                parsed[at] = self._parsed(kind, text)
+                parsed[at] = self._parse(kind, text)
                 for number, each in enumerate(parsed[at]):
                     if isinstance(each, events.Key) and self._stops(each):
                         self._notice(each, at == number == 0)
         return [
             event for at, (kind, text) in enumerate(parts)
-            for event in (parsed[at] if at in parsed else self._parsed(kind, text))
+            for event in (parsed[at] if at in parsed else self._parse(kind, text))
         ]  # fmt: skip
 
     def _without_stops(self, pieces: Iterable[Piece]) -> Iterator[Piece]:
         """The pieces, with keys that stop the robot taken out of texts."""
         for piece in pieces:
-            found = {each for each in set(piece.text) if any(map(self._is_stop, self._parsed(Kind.TEXT, each)))} if (
+            found = {each for each in set(piece.text) if any(map(self._is_stop, self._parse(Kind.TEXT, each)))} if (
                 piece.kind is Kind.TEXT) else set[str]()  # fmt: skip
             if not found:
                 yield piece
@@ -95,20 +95,20 @@ class TerminalEvents:
     def _is_stop(self, message: Message) -> bool:
         return isinstance(message, events.Key) and self._stops(message)
 
-    def _parsed(self, kind: Kind, text: str) -> list[Message]:
+    def _parse(self, kind: Kind, text: str) -> list[Message]:
         try:
             if kind is Kind.PASTE:
                 return [events.Paste(text)]
             if kind is Kind.SEQUENCE:
-                return self._once(text, self._sequence)
+                return self._parse_cached(text, self._sequence)
             if kind is Kind.KEYS:
                 return self._keys(text)
-            return [event for each in text for event in self._once(each, self._fed)]
+            return [event for each in text for event in self._parse_cached(each, self._parse_text)]
         except Exception:  # an invalid number, or one that is too large
-            self._parser.begin_again()
+            self._parser.reset()
             return []
 
-    def _once(self, text: str, parse: Callable[[str], list[Message]]) -> list[Message]:
+    def _parse_cached(self, text: str, parse: Callable[[str], list[Message]]) -> list[Message]:
         """Parse a text, and cache the result if it consists of keys only."""
         known = self._known.get(text)
         if known is not None:
@@ -119,16 +119,16 @@ class TerminalEvents:
             self._known[text] = keys
         return found
 
-    def _fed(self, text: str) -> list[Message]:
+    def _parse_text(self, text: str) -> list[Message]:
         return list(self._parser.feed(text))
 
     def _sequence(self, text: str) -> list[Message]:
         if text[1] in STRINGS:
             return []
-        given = with_text(text)
-        found = self._fed(given) if given else []
+        given = with_key_text(text)
+        found = self._parse_text(given) if given else []
         if self._parser.is_waiting:
-            self._parser.begin_again()
+            self._parser.reset()
             if not text.startswith(f"{ESC}["):
                 return self._keys(text)
         return found
@@ -136,10 +136,10 @@ class TerminalEvents:
     def _keys(self, text: str) -> list[Message]:
         if text == ESC:
             return [events.Key("escape", ESC)]
-        return [*self._fed(text), *self._parser.given_up()]
+        return [*self._parse_text(text), *self._parser.flush()]
 
 
-def _without_needless_moves(pieces: Iterable[Piece]) -> Iterator[Piece]:
+def _without_redundant_moves(pieces: Iterable[Piece]) -> Iterator[Piece]:
     """The pieces without redundant ones: of consecutive mouse moves with the same button, the last one is kept, and of
     wheel steps the last few.
     """
@@ -157,7 +157,7 @@ def _moved_button(piece: Piece) -> str | None:
     return button if button and button[0] == "<" and int(button[1:]) & (MOVE | WHEEL) else None
 
 
-def with_text(sequence: str) -> str:
+def with_key_text(sequence: str) -> str:
     """Add the text of a key of the keyboard protocol, so that Textual can read it; empty for a released key."""
     match = KEYBOARD_PROTOCOL.fullmatch(sequence)
     other = OTHER_KEYS.fullmatch(sequence)

@@ -21,7 +21,7 @@ IN_PLACE_OF_EMPTY = "graph"
 """The pane that takes the place of one that would stay empty, unless it is on the screen already."""
 
 
-def without(tree: Tree, pane: str) -> Tree:
+def without_pane(tree: Tree, pane: str) -> Tree:
     """The tree without a pane: `IN_PLACE_OF_EMPTY` takes its place, or else its neighbours grow."""
     shown = panes(tree)
     if pane not in shown:
@@ -45,7 +45,7 @@ class LayoutStore(Protocol):
         ...
 
 
-class Forgetful:
+class MemoryLayoutStore:
     """A store that keeps layouts only while the program runs."""
 
     def __init__(self) -> None:
@@ -69,7 +69,7 @@ class Arrangement:
 
     def __init__(self, store: LayoutStore | None = None, name: str = OVERVIEW, tree: Tree | None = None) -> None:
         """Begin with a layout, or with a tree derived from it; raises `LookupError` for an unknown name."""
-        self._store = store or Forgetful()
+        self._store = store or MemoryLayoutStore()
         self._known: Mapping[str, Layout] = {}
         self._changed = tree
         self.empty: frozenset[str] = frozenset()
@@ -93,10 +93,10 @@ class Arrangement:
         """The tree for a terminal of a size in cells; None if not all of it fits."""
         tree = self._changed if self._changed is not None else self._layout().form(width, height)
         for pane in self.empty:
-            tree = without(tree, pane)
+            tree = without_pane(tree, pane)
         return tree if fits(boxes(tree, Box(0, 0, width, height - CHROME_ROWS))) else None
 
-    def least(self) -> tuple[int, int]:
+    def min_size(self) -> tuple[int, int]:
         """The minimum columns and lines of a terminal that can show it."""
         columns = next(
             (each for each in range(1, MAX_TERMINAL_CELLS) if self.tree(each, MAX_TERMINAL_CELLS) is not None),

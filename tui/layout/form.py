@@ -10,46 +10,46 @@ from bot_console.tui.layout.tree import Split, Tree, panes
 MAX_DEPTH = 8
 
 
-class NoLayout(ValueError):
+class LayoutError(ValueError):
     """The data do not describe a layout; the message says what is wrong and what is expected."""
 
 
-def data_of(tree: Tree) -> object:
+def tree_to_data(tree: Tree) -> object:
     """A tree as names, lists and mappings: `{beside: [parameters, {below: [world, plot]}], share: [3, 2]}`."""
     if isinstance(tree, str):
         return tree
-    data: dict[str, object] = {tree.way: [data_of(part) for part in tree.parts]}
+    data: dict[str, object] = {tree.way: [tree_to_data(part) for part in tree.parts]}
     if len(set(tree.shares)) > 1:
         data["share"] = list(tree.shares)
     return data
 
 
-def tree_of(data: object, known: Collection[str]) -> Tree:
-    """The tree that data describe; raises `NoLayout`."""
+def tree_from_data(data: object, known: Collection[str]) -> Tree:
+    """The tree that data describe; raises `LayoutError`."""
     tree = _tree(data, known, 0)
     twice = sorted({pane for pane in panes(tree) if panes(tree).count(pane) > 1})
     if twice:
-        raise NoLayout(f"{twice[0]} is listed twice; a pane can be shown only once")
+        raise LayoutError(f"{twice[0]} is listed twice; a pane can be shown only once")
     return tree
 
 
 def _tree(data: object, known: Collection[str], depth: int) -> Tree:
     if isinstance(data, str):
         if data not in known:
-            raise NoLayout(f"there is no pane '{data[:40]}'; panes: {', '.join(sorted(known))}")
+            raise LayoutError(f"there is no pane '{data[:40]}'; panes: {', '.join(sorted(known))}")
         return data
     if depth > MAX_DEPTH:
-        raise NoLayout(f"splits are nested deeper than {MAX_DEPTH}")
+        raise LayoutError(f"splits are nested deeper than {MAX_DEPTH}")
     if not isinstance(data, Mapping):
-        raise NoLayout(f"a pane's name, or a mapping with 'beside' or 'below', not {_kind(data)}")
+        raise LayoutError(f"a pane's name, or a mapping with 'beside' or 'below', not {_kind(data)}")
     given = cast("Mapping[object, Any]", data)
     unknown = [str(key) for key in given if key not in ("beside", "below", "share")]
     ways = [way for way in ("beside", "below") if way in given]
     if unknown or len(ways) != 1:
-        raise NoLayout(f"'{unknown[0][:40]}' is not known here" if unknown else "give either 'beside' or 'below'")
+        raise LayoutError(f"'{unknown[0][:40]}' is not known here" if unknown else "give either 'beside' or 'below'")
     parts = given[ways[0]]
     if not isinstance(parts, list) or len(cast("list[object]", parts)) < 2:
-        raise NoLayout(f"'{ways[0]}' has a list of two parts or more")
+        raise LayoutError(f"'{ways[0]}' has a list of two parts or more")
     trees = tuple(_tree(part, known, depth + 1) for part in cast("list[object]", parts))
     return Split("beside" if ways[0] == "beside" else "below", trees, _shares(given.get("share"), len(trees)))
 
@@ -60,7 +60,7 @@ def _shares(given: object, count: int) -> tuple[int, ...]:
     shares = cast("list[object]", given) if isinstance(given, list) else []
     whole = [each for each in shares if isinstance(each, int) and not isinstance(each, bool) and 0 < each <= 10_000]
     if len(whole) != count or len(shares) != count:
-        raise NoLayout(f"'share' has a positive whole number for each of the {count} parts")
+        raise LayoutError(f"'share' has a positive whole number for each of the {count} parts")
     return tuple(whole)
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from bot_console.tui.layout.form import NoLayout
+from bot_console.tui.layout.form import LayoutError
 from bot_console.tui.layout.tree import Tree, below, beside
 
 RUNNING = re.compile(r"""['"](rqt_[a-z0-9_]{1,60})/\w{1,60}\\?['"]\s*:\s*\[\s*\d""")
@@ -19,15 +19,15 @@ OPEN = re.compile(r"plugin__(rqt_[a-z0-9_]{1,60}?)__[A-Z]\w{0,60}?__\d")
 def perspective_tree(text: str, panes: Mapping[str, str]) -> tuple[Tree, list[str]]:
     """The panes that match a perspective's plug-ins, and the plug-ins that have no match.
 
-    `panes` maps a package of rqt to a pane. Raises `NoLayout` if the text is not a perspective, or no pane is left.
+    `panes` maps a package of rqt to a pane. Raises `LayoutError` if the text is not a perspective, or no pane is left.
     """
     packages = list(dict.fromkeys(RUNNING.findall(text) or OPEN.findall(text)))
     if not packages:
-        raise NoLayout("no plug-in of rqt is named in it; a layout file or a perspective of rqt is needed")
+        raise LayoutError("no plug-in of rqt is named in it; a layout file or a perspective of rqt is needed")
     wanted = list(dict.fromkeys(panes[each] for each in packages if each in panes))
     unknown = [each for each in packages if each not in panes]
     if not wanted:
-        raise NoLayout(f"there is no pane for {', '.join(unknown)}")
+        raise LayoutError(f"there is no pane for {', '.join(unknown)}")
     return tiled(wanted), unknown
 
 

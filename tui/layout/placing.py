@@ -83,11 +83,11 @@ def fits(places: Mapping[str, Box]) -> bool:
 def neighbour(places: Mapping[str, Box], pane: str, dx: int, dy: int) -> str:
     """The next pane in a direction; `pane` itself if there is none."""
     here = places[pane]
-    others = [(name, box) for name, box in places.items() if name != pane and _lies(here, box, dx, dy)]
+    others = [(name, box) for name, box in places.items() if name != pane and _is_in_direction(here, box, dx, dy)]
     return min(others, key=lambda each: _distance(here, each[1], dx, dy), default=(pane, here))[0]
 
 
-def _lies(here: Box, there: Box, dx: int, dy: int) -> bool:
+def _is_in_direction(here: Box, there: Box, dx: int, dy: int) -> bool:
     if dx:
         return there.x >= here.x + here.width if dx > 0 else there.x + there.width <= here.x
     return there.y >= here.y + here.height if dy > 0 else there.y + there.height <= here.y
@@ -97,10 +97,10 @@ def _distance(here: Box, there: Box, dx: int, dy: int) -> tuple[int, int]:
     """The distance of a box in the direction, then how far its centre is to the side, as a key for sorting."""
     if dx:
         ahead = there.x - here.x - here.width if dx > 0 else here.x - there.x - there.width
-        return ahead, _apart((here.y, here.height), (there.y, there.height))
+        return ahead, _centre_offset((here.y, here.height), (there.y, there.height))
     ahead = there.y - here.y - here.height if dy > 0 else here.y - there.y - there.height
-    return ahead, _apart((here.x, here.width), (there.x, there.width))
+    return ahead, _centre_offset((here.x, here.width), (there.x, there.width))
 
 
-def _apart(one: Sequence[int], other: Sequence[int]) -> int:
+def _centre_offset(one: Sequence[int], other: Sequence[int]) -> int:
     return abs(2 * one[0] + one[1] - 2 * other[0] - other[1])

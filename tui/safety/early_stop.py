@@ -127,7 +127,7 @@ class EarlyStop:
         stops the robot: the person may have seen it move before the screen said so.
         """
         with self._lock:
-            press = next((each for each in self._presses if _is_of(event, each)), None)
+            press = next((each for each in self._presses if _is_event_of(event, each)), None)
             if press is None:
                 return False
             self._presses.remove(press)
@@ -141,5 +141,5 @@ class EarlyStop:
         return not (is_text or releases)
 
 
-def _is_of(event: events.Key, press: Press) -> bool:
+def _is_event_of(event: events.Key, press: Press) -> bool:
     return event is press.event or (event.time == press.event.time and is_stop_key(event.key))

@@ -26,10 +26,10 @@ class Quitting:
         self.holding = False
         """Whether the robot is held only during the question, and may move again if the answer is no."""
 
-    def wanted(self) -> None:
+    def request(self) -> None:
         """Quit, or ask first if values would be lost; a second request while the question is open quits at once."""
         snapshot = self._console.snapshot()
-        if self.asking or not lost_names(snapshot):
+        if self.asking or not unsaved_names(snapshot):
             self._app.exit()
             return
         self.asking = True
@@ -42,13 +42,13 @@ class Quitting:
                 Confirmation(
                     "Quit without saving?",
                     lambda _: self._app.exit(),
-                    given_up=self._go_on,
-                    reasons=f"{lost(snapshot)}\n\n{held}s in the Parameters pane saves.",
+                    given_up=self._cancel,
+                    reasons=f"{unsaved_text(snapshot)}\n\n{held}s in the Parameters pane saves.",
                 )
             )
         )
 
-    def keeps_held(self) -> bool:
+    def keep_held(self) -> bool:
         """Turn the stop for the question into one that only a person releases; returns whether there was one."""
         if not self.holding:
             return False
@@ -56,21 +56,21 @@ class Quitting:
         self._app.notify("The robot stays held.")
         return True
 
-    def _go_on(self) -> None:
+    def _cancel(self) -> None:
         self.asking = False
         if self.holding:
             self.holding = False
             self._console.drive.stop(False)  # withdraws only this console's stop
 
 
-def lost_names(snapshot: ConsoleSnapshot) -> list[tuple[str, str]]:
+def unsaved_names(snapshot: ConsoleSnapshot) -> list[tuple[str, str]]:
     """Node and name of the values saved in no file, without those of ended nodes, which can no longer be saved."""
     return [each for each in snapshot.journal.unsaved if each[0] in snapshot.parameters]
 
 
-def lost(snapshot: ConsoleSnapshot) -> str:
+def unsaved_text(snapshot: ConsoleSnapshot) -> str:
     """A text that lists the values not saved in any file, one per line."""
-    names = lost_names(snapshot)
+    names = unsaved_names(snapshot)
     lines = [f"{counted(len(names), 'value')} set here and saved nowhere:"]
     for node, name in names[:MAX_NAMED_VALUES]:
         tree = snapshot.parameters.get(node)

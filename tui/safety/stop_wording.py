@@ -21,22 +21,22 @@ def stop_text(drive: DriveInfo) -> str:
     if drive.unsent:
         return f"STOP NOT SENT: {drive.unsent}"
     if drive.awaits_robot:
-        return f"STOP NOT CONFIRMED: looking for the robot ({stop_key(drive, 'ends it')})"
+        return f"STOP NOT CONFIRMED: looking for the robot ({stop_key_text(drive, 'ends it')})"
     if drive.nothing_to_stop:
-        key = stop_key(drive, "ends it")
+        key = stop_key_text(drive, "ends it")
         return f"STOP REACHES NOBODY: no robot listens for commands ({key})"
     if not drive.lockable and drive.stop_confirmed:
-        return f"ALL STOP held by {sanitize(drive.held_by_means)} ({stop_key(drive, 'releases')})"
+        return f"ALL STOP held by {sanitize(drive.held_by_means)} ({stop_key_text(drive, 'releases')})"
     if not drive.lockable:
-        return f"STOP SENT, NOT CONFIRMED: {may_move(drive)} ({stop_key(drive, 'ends it')})"
+        return f"STOP SENT, NOT CONFIRMED: {may_move_text(drive)} ({stop_key_text(drive, 'ends it')})"
     if not drive.stop_confirmed:
-        return f"STOP SENT, NOT CONFIRMED: THE ROBOT MAY MOVE ({sending_key(drive)})"
+        return f"STOP SENT, NOT CONFIRMED: THE ROBOT MAY MOVE ({sending_key_text(drive)})"
     # The key comes first: a narrow terminal cuts off the end of the line.
-    loose = f"  {may_move(drive)}" if drive.stopped_here and drive.unlocked and not drive.held_by_means else ""
-    return f"ALL STOP held ({stop_key(drive, 'releases')}){loose}{held_by(drive)}"
+    loose = f"  {may_move_text(drive)}" if drive.stopped_here and drive.unlocked and not drive.held_by_means else ""
+    return f"ALL STOP held ({stop_key_text(drive, 'releases')}){loose}{held_by(drive)}"
 
 
-def stop_key(drive: DriveInfo, ends: str) -> str:
+def stop_key_text(drive: DriveInfo, ends: str) -> str:
     """The effect of the stop key on a stopped robot; `ends` is the word for ending this console's stop."""
     if drive.refused:
         return "released elsewhere: read-only console"
@@ -55,12 +55,12 @@ def stop_key(drive: DriveInfo, ends: str) -> str:
     return f"! holds it too, once more {ends}"
 
 
-def sending_key(drive: DriveInfo) -> str:
+def sending_key_text(drive: DriveInfo) -> str:
     """What the stop key does while no lock has acknowledged the stop."""
     return IS_TEXT if drive.key_is_text else "! sends it again"
 
 
-def may_move(drive: DriveInfo) -> str:
+def may_move_text(drive: DriveInfo) -> str:
     """A warning that robots without an emergency stop may move, and what is being tried to stop them."""
     who = sanitize(", ".join(drive.unlocked)) if drive.lockable else "THE ROBOT"
     return f"{who} MAY MOVE, {sanitize(drive.means_news) or 'zeros only'}"
@@ -80,20 +80,20 @@ def holder_is_gone(drive: DriveInfo) -> bool:
     return bool(drive.stops) and drive.stops[0].gone
 
 
-def stops_of_ending(snapshot: ConsoleSnapshot, processes: Sequence[ProcessInfo]) -> list[str]:
+def ended_lock_warning(snapshot: ConsoleSnapshot, processes: Sequence[ProcessInfo]) -> list[str]:
     """Lines that name who holds the robot, if ending these processes would end a lock; empty otherwise."""
     stops = snapshot.drive.stops
     locks = {node.name for node in snapshot.graph.nodes if any(map(_is_lock, node.publishers))}
     if not stops or not any(locks.intersection(each.nodes) for each in processes):
         return []
-    return ["⚠ This ends an emergency stop that holds the robot:", *_lines(stops), HOLDS_AGAIN]
+    return ["⚠ This ends an emergency stop that holds the robot:", *_stop_lines(stops), HOLDS_AGAIN]
 
 
 def _is_lock(topic: Endpoint) -> bool:
     return "/emergency_stop/" in topic.name and not topic.name.endswith("/request")
 
 
-def _lines(stops: Sequence[RobotStop]) -> list[str]:
+def _stop_lines(stops: Sequence[RobotStop]) -> list[str]:
     lines = [f"  {sanitize(each.who)}: {sanitize(each.reason)}" for each in stops[:MAX_NAMED_STOPS]]
     return lines + ([f"  and {len(stops) - MAX_NAMED_STOPS} more"] if len(stops) > MAX_NAMED_STOPS else [])
 
@@ -102,5 +102,10 @@ def release_question(
     others: Sequence[RobotStop], then: Callable[[None], object], gone: Callable[[], str]
 ) -> Confirmation:
     """The question whether to release the stops of others; `gone` returns a text once these have been released."""
-    reasons = ["These stops are not this console's:", *_lines(others), "", "With no the robot stays held, by you too."]
+    reasons = [
+        "These stops are not this console's:",
+        *_stop_lines(others),
+        "",
+        "With no the robot stays held, by you too.",
+    ]
     return Confirmation("Release the robot all the same?", then, gone, reasons="\n".join(reasons))

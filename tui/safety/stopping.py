@@ -27,7 +27,7 @@ class Stopping:
         self._question: Screen[None] | None = None
         """The question whether to release the stops of others; may have been answered already."""
         self._marked: tuple[ConsoleSnapshot, ConsoleSnapshot] | None = None
-        """The last snapshot that `with_key` has changed, as given and as returned."""
+        """The last snapshot that `with_key_meaning` has changed, as given and as returned."""
 
     def pressed(self) -> None:
         """Hold the robot, or release it; a stop that nobody has acknowledged is sent again.
@@ -36,19 +36,19 @@ class Stopping:
         While the console asks whether to release the stops of others, which has its own keys, it keeps the robot held.
         """
         drive = self._console.snapshot().drive
-        holds = self._quitting.keeps_held() or self._asking
+        holds = self._quitting.keep_held() or self._asking
         is_pending = drive.awaits_robot or (drive.lockable and not drive.stop_confirmed)
         if holds or not drive.stopped_here or is_pending:
             self.hold()
         else:
             self.release()
 
-    def pressed_early(self) -> None:
+    def on_early_key(self) -> None:
         """Hold the robot for a key that was pressed behind other input; it never releases."""
-        self._quitting.keeps_held()
+        self._quitting.keep_held()
         self.hold()
 
-    def with_key(self, snapshot: ConsoleSnapshot) -> ConsoleSnapshot:
+    def with_key_meaning(self, snapshot: ConsoleSnapshot) -> ConsoleSnapshot:
         """The snapshot, marked if the stop key is text in a text field, or can only hold while a question is open."""
         is_text, only_holds = self._typing(), self._asking or self._quitting.holding
         if not (is_text or only_holds):

@@ -12,11 +12,11 @@ from bot_console.tui.arrangement.opening import RQT_PANES
 from bot_console.tui.files.folders import config_folder, state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
 from bot_console.tui.files.store_file import read_store
-from bot_console.tui.layout.form import NoLayout, data_of, tree_of
+from bot_console.tui.layout.form import LayoutError, tree_from_data, tree_to_data
 from bot_console.tui.layout.named import OVERVIEW, Layout
 from bot_console.tui.layout.perspective import perspective_tree
 from bot_console.tui.layout.tree import Tree
-from bot_console.tui.settings.yaml_reader import NotPlainData, read, written
+from bot_console.tui.settings.yaml_reader import NotPlainData, read_yaml, to_yaml
 
 HEAD = """\
 # A layout of bot-console. `beside` and `below` hold panes or further splits; `share` says how they share the room.
@@ -43,14 +43,14 @@ class FileLayouts:
                 found[path.stem] = Layout(self._read(path), about=str(path))
             except OSError as error:
                 self.problems.append(f"{path}: {error.strerror or error}")
-            except NoLayout as error:
+            except LayoutError as error:
                 self.problems.append(f"{path}: {error}")
         return found
 
     def save(self, name: str, tree: Tree) -> str:
         """Save a tree under a name and return the file; raises `NotSaved`."""
         path = _folder() / f"{name}.yaml"
-        text = written({"layout": data_of(tree)}, flow=None)
+        text = to_yaml({"layout": tree_to_data(tree)}, flow=None)
         save_file(path, HEAD.format(panes=", ".join(sorted(self._panes))) + text)
         return str(path)
 
@@ -58,16 +58,16 @@ class FileLayouts:
         """Save what the screen shows; a failure is ignored, since the program is about to end."""
         data: dict[str, object] = {"name": name}
         if tree is not None:
-            data["layout"] = data_of(tree)
+            data["layout"] = tree_to_data(tree)
         with contextlib.suppress(NotSaved):
             save_file(_last(), json.dumps(data))
 
     def last(self) -> tuple[str, Tree | None]:
         """The layout on the screen at the end of the last run, and its tree if it was changed."""
-        with contextlib.suppress(NoLayout, OSError):
+        with contextlib.suppress(LayoutError, OSError):
             data = _data(_last())
             name = data.get("name")
-            tree = tree_of(data["layout"], self._panes) if "layout" in data else None
+            tree = tree_from_data(data["layout"], self._panes) if "layout" in data else None
             if isinstance(name, str):
                 return name, tree
         return OVERVIEW, None
@@ -75,7 +75,7 @@ class FileLayouts:
     def from_file(self, path: Path) -> tuple[Tree, list[str]]:
         """The tree of a layout file or of an rqt perspective, and the parts that have no counterpart here.
 
-        Raises `NoLayout` and `OSError`.
+        Raises `LayoutError` and `OSError`.
         """
         with path.open("rb") as file:
             text = file.read(MAX_FILE_BYTES + 1)[:MAX_FILE_BYTES].decode("utf-8", "replace")
@@ -84,7 +84,7 @@ class FileLayouts:
         return perspective_tree(text, RQT_PANES)
 
     def _read(self, path: Path) -> Tree:
-        return tree_of(_data(path).get("layout"), self._panes)
+        return tree_from_data(_data(path).get("layout"), self._panes)
 
 
 def _folder() -> Path:
@@ -98,9 +98,9 @@ def _last() -> Path:
 def _data(path: Path) -> Mapping[str, Any]:
     content = read_store(path, MAX_FILE_BYTES)
     try:
-        data = read(content)
+        data = read_yaml(content)
     except NotPlainData as error:
-        raise NoLayout(str(error)) from None
+        raise LayoutError(str(error)) from None
     if not isinstance(data, Mapping):
-        raise NoLayout("a layout file has a line `layout:` with panes below it")
+        raise LayoutError("a layout file has a line `layout:` with panes below it")
     return cast("Mapping[str, Any]", data)

@@ -15,7 +15,7 @@ from bot_console.tui.files.folders import config_folder
 from bot_console.tui.files.store_file import read_store
 from bot_console.tui.keys.remapping import wrong_keys
 from bot_console.tui.settings.names import GLYPHS, THEME_NAMES
-from bot_console.tui.settings.yaml_reader import NotPlainData, read
+from bot_console.tui.settings.yaml_reader import NotPlainData, read_yaml
 
 MAX_FILE_BYTES = 100_000
 """Maximum size of a settings file; a larger one is not read."""
@@ -117,7 +117,7 @@ def read_settings(path: Path | None = None) -> Settings:
     except OSError as error:
         return Settings(problems=(f"{path}: {error.strerror or error}",))
     try:
-        data = read(content)
+        data = read_yaml(content)
     except NotPlainData as error:
         return Settings(problems=(f"{path}: {error}",))
     try:

@@ -13,7 +13,7 @@ class NotPlainData(ValueError):
     """A file cannot be read; the message says why, on one line."""
 
 
-def read(content: bytes) -> object:
+def read_yaml(content: bytes) -> object:
     """The data of a file; raises `NotPlainData`."""
     if content.startswith(b"{"):
         try:
@@ -29,7 +29,7 @@ def read(content: bytes) -> object:
         raise NotPlainData(fault_of(error)) from None
 
 
-def written(data: object, *, flow: bool | None = False, allow_unicode: bool = False) -> str:
+def to_yaml(data: object, *, flow: bool | None = False, allow_unicode: bool = False) -> str:
     """Data as YAML; with `flow` None, only the innermost collections are in flow style."""
     import yaml
 

@@ -21,7 +21,7 @@ NARROW = re.compile(
 )
 """Matches texts whose characters all take one cell in every terminal; it excludes arrows that are also emoji."""
 
-ACTING = frozenset(("Cc", "Cf", "Cs"))
+ACTING_CATEGORIES = frozenset(("Cc", "Cf", "Cs"))
 """Categories of characters that terminals obey or that cannot be encoded: controls, formatting, surrogates."""
 UNSHOWN = "?"
 BLANK = " "
@@ -50,17 +50,17 @@ def cells_of(segments: Iterable[Segment], colours: ColorSystem, plain: bool = Fa
         if NARROW.fullmatch(text):
             characters += text
         else:
-            _spread(text, characters)
+            _append_cells(text, characters)
         codes = codes_of(style, colours) if style else ""
         on_blank = codes_on_blank(codes)
         styles += [on_blank if each == BLANK else codes for each in characters[before:]]
     return Cells(characters, styles)
 
 
-def _spread(text: str, characters: list[str]) -> None:
+def _append_cells(text: str, characters: list[str]) -> None:
     for character in text:
         width = get_character_cell_size(character)
-        if unicodedata.category(character) in ACTING:
+        if unicodedata.category(character) in ACTING_CATEGORIES:
             # A character that acts on a terminal never reaches it, whoever drew it; one with a width leaves a
             # `UNSHOWN`.
             characters += [UNSHOWN] * max(0, width)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 
 from bot_console.tui.terminal.cells import BLANK, NARROW, Cells, cells_of
-from bot_console.tui.terminal.sgr import RESET, change, codes_for_blank
+from bot_console.tui.terminal.sgr import RESET, codes_for_blank, style_change
 from rich.color import ColorSystem
 from rich.segment import Segment
 from textual.strip import Strip
@@ -104,7 +104,7 @@ class Writer:
         self._move(y, x, characters, styles)
         style = self._style_of(characters[x], styles[x])
         if style != self._style:
-            self._parts.append(change(self._style, style))
+            self._parts.append(style_change(self._style, style))
             self._style = style
         self._parts.append(characters[x])
         self._x = x + 1

@@ -26,7 +26,7 @@ from textual.strip import Strip
 class DimmedScreen(MouseTargets, ModalScreen[None]):
     """A modal screen that composes only changes, and draws the screen below it line by line."""
 
-    _is_over = False
+    _was_dismissed = False
     """Whether it was dismissed while another screen was in front of it."""
 
     def __init__(self) -> None:
@@ -42,12 +42,12 @@ class DimmedScreen(MouseTargets, ModalScreen[None]):
         """
         if self.is_active:
             return super().dismiss(result)
-        self._is_over = True
+        self._was_dismissed = True
         return AwaitComplete()
 
     def on_screen_resume(self) -> None:
         """Leave the screen if it was dismissed meanwhile."""
-        if self._is_over:
+        if self._was_dismissed:
             self.dismiss()
 
     def render_lines(self, crop: Region) -> list[Strip]:

@@ -21,7 +21,7 @@ JUMPS = {
 """How to pass a line to editors that do not take `+LINE FILE`, as vi, nano, emacs and most others do."""
 
 
-def editing(file: str, line: int, environment: Mapping[str, str]) -> list[str]:
+def editor_command(file: str, line: int, environment: Mapping[str, str]) -> list[str]:
     """The command that opens a file at a line; raises `ValueError`, which says how to fix it."""
     if not Path(file).is_file():
         raise ValueError(f"{file} is not on this machine")

@@ -81,7 +81,7 @@ class AnswerGate:
             self._allowed = 1 if self._clock() - began > SLOW_ANSWER_S else MAX_IN_FLIGHT
 
     @property
-    def owed(self) -> bool:
+    def has_unanswered(self) -> bool:
         """Whether a terminal that answers has not answered everything yet."""
         return self._answers and bool(self._asked)
 

@@ -15,7 +15,7 @@ LATE_ANSWERS_S = 0.8
 """Seconds to wait for `STATUS`; less than `closing` allows for the remaining output."""
 
 
-def takes_late_answers(driver: Any, owes: Callable[[], bool]) -> None:
+def read_late_answers(driver: Any, owes: Callable[[], bool]) -> None:
     """Make Textual's Linux driver read the answers that the terminal still owes before it leaves the terminal."""
     leave = driver.stop_application_mode
 

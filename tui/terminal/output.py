@@ -19,15 +19,15 @@ from collections.abc import Mapping
 from typing import Any, cast
 
 from bot_console.tui.keys.input_queue import InputQueue
-from bot_console.tui.keys.input_thread import Unwatched, Watch, reads_input
+from bot_console.tui.keys.input_thread import NoStopKeyWatch, StopKeyWatch, install_input_thread
 from bot_console.tui.terminal.cache_limits import limit_cut_cache, limit_query_cache
 from bot_console.tui.terminal.closing import closing_terminal
 from bot_console.tui.terminal.compositor import PartwiseCompositor
 from bot_console.tui.terminal.difference import ShownScreen
 from bot_console.tui.terminal.frame_pacing import AnswerGate
-from bot_console.tui.terminal.late_answers import takes_late_answers
+from bot_console.tui.terminal.late_answers import read_late_answers
 from bot_console.tui.terminal.mouse_targets import MouseTargets
-from bot_console.tui.terminal.suspension import leaves_an_empty_screen, takes_up_again
+from bot_console.tui.terminal.suspension import clear_screen_before_leaving, resume_after_any_stop
 from bot_console.tui.terminal.terminal_file import TerminalFile
 from rich.color import ColorSystem
 from textual import events
@@ -68,7 +68,7 @@ def osc52(text: str) -> str:
     return f"\x1b]52;c;{base64.b64encode(text.encode('utf-8', 'replace')).decode()}\x07"
 
 
-def within(text: str) -> str:
+def truncated_for_clipboard(text: str) -> str:
     """Truncate a text to what is sent to a clipboard, without splitting the last character."""
     return text.encode("utf-8", "replace")[:MAX_CLIPBOARD_BYTES].decode("utf-8", "ignore")
 
@@ -96,7 +96,7 @@ class SparingApp(App[None]):
         self._held = False
         self._copied = ""
         """The text on its way to the clipboard."""
-        self.key_watch: Watch = Unwatched()
+        self.key_watch: StopKeyWatch = NoStopKeyWatch()
         self._input: InputQueue | None = None
 
     def get_default_screen(self) -> Screen[Any]:
@@ -126,7 +126,7 @@ class SparingApp(App[None]):
 
     def copy_to_clipboard(self, text: str) -> None:
         """Copy a text to the terminal's clipboard (OSC 52), as soon as earlier output has been written."""
-        kept = within(text)
+        kept = truncated_for_clipboard(text)
         self._clipboard = kept
         waiting, self._copied = self._copied, osc52(kept)
         if not waiting:
@@ -189,11 +189,11 @@ class SparingApp(App[None]):
             driver._size = driver._size or driver._get_terminal_size()
             driver._file = TerminalFile(driver._file)
         if hasattr(driver, "_key_thread"):
-            takes_up_again(driver)
-            leaves_an_empty_screen(driver)
-            takes_late_answers(driver, lambda: self.gate.owed)
+            resume_after_any_stop(driver)
+            clear_screen_before_leaving(driver)
+            read_late_answers(driver, lambda: self.gate.has_unanswered)
             if SUPPORTED:
-                self._input = reads_input(driver, self, self.key_watch)
+                self._input = install_input_thread(driver, self, self.key_watch)
         return driver
 
     def _driver_or_none(self) -> Any:

@@ -18,12 +18,12 @@ class SgrStyle(NamedTuple):
     """A parsed style: attributes, foreground and background, each as SGR codes; empty for the default."""
 
     attributes: frozenset[str]
-    ground: str
+    foreground: str
     background: str
 
 
 @lru_cache(maxsize=4096)
-def parsed(codes: str) -> SgrStyle:
+def parse_style(codes: str) -> SgrStyle:
     """Parse SGR codes such as `1;38;2;1;2;3`."""
     attributes: set[str] = set()
     grounds = ["", ""]
@@ -48,12 +48,12 @@ def parsed(codes: str) -> SgrStyle:
 
 
 @lru_cache(maxsize=4096)
-def change(before: str | None, after: str) -> str:
+def style_change(before: str | None, after: str) -> str:
     """The sequence that turns one style into another; `None` is an unknown style."""
     whole = f"\x1b[0;{after}m" if after else RESET
     if before is None:
         return whole
-    old, new = parsed(before), parsed(after)
+    old, new = parse_style(before), parse_style(after)
     ended = old.attributes - new.attributes
     if not ended <= OFF.keys():
         return whole
@@ -61,8 +61,8 @@ def change(before: str | None, after: str) -> str:
     # Bold and faint share one end code, which ends both.
     kept = {each for each in old.attributes & new.attributes if OFF.get(each) not in stops}
     codes = [*stops, *sorted(new.attributes - kept)]
-    if new.ground != old.ground:
-        codes.append(new.ground or "39")
+    if new.foreground != old.foreground:
+        codes.append(new.foreground or "39")
     if new.background != old.background:
         codes.append(new.background or "49")
     if not codes:
@@ -74,14 +74,14 @@ def change(before: str | None, after: str) -> str:
 @lru_cache(maxsize=4096)
 def codes_on_blank(codes: str) -> str:
     """The part of a style that is visible on a blank: the background, or all of it with lines or exchanged colours."""
-    style = parsed(codes)
+    style = parse_style(codes)
     return codes if style.attributes & LINES else style.background
 
 
 @lru_cache(maxsize=4096)
 def codes_for_blank(before: str, on_blank: str) -> str:
     """The style nearest to the one before in which a blank looks as in `on_blank`."""
-    old, new = parsed(before), parsed(on_blank)
+    old, new = parse_style(before), parse_style(on_blank)
     if (old.attributes | new.attributes) & LINES:
         return on_blank
-    return ";".join(filter(None, (*sorted(old.attributes), old.ground, new.background)))
+    return ";".join(filter(None, (*sorted(old.attributes), old.foreground, new.background)))

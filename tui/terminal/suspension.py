@@ -12,7 +12,7 @@ import sys
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from bot_console.tui.terminal.editor import editing
+from bot_console.tui.terminal.editor import editor_command
 from textual.app import App, SuspendNotSupported
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ EMPTY = "\x1b[m\x1b[H\x1b[J"
 ASLEEP = "bot-console was put to sleep (Ctrl-Z)"
 
 
-class Leaving:
+class TerminalHandover:
     """Hands over the terminal and takes it back."""
 
     def __init__(self, app: App[None], console: Console, redraw: Callable[[], None], *, holds: bool) -> None:
@@ -41,7 +41,7 @@ class Leaving:
     def edit(self, file: str, line: int) -> None:
         """Open a file at a line in the user's editor. Nothing is steered meanwhile: a command expires after 0.5 s."""
         try:
-            command = editing(file, line, os.environ)
+            command = editor_command(file, line, os.environ)
         except ValueError as error:
             self._app.notify(str(error), severity="error")
             return
@@ -84,7 +84,7 @@ class Leaving:
         self._redraw()
 
 
-def takes_up_again(driver: Any) -> None:
+def resume_after_any_stop(driver: Any) -> None:
     """Let Textual's Linux driver continue after any suspension, even an unnoticed one (SIGSTOP, a debugger).
 
     Textual sets up the terminal at each SIGCONT. If the app has not left the terminal before, a second thread would
@@ -131,7 +131,7 @@ def takes_up_again(driver: Any) -> None:
     driver.resume_application_mode = resume
 
 
-def leaves_an_empty_screen(driver: Any) -> None:
+def clear_screen_before_leaving(driver: Any) -> None:
     """Make Textual's Linux driver clear the alternate screen before leaving it.
 
     If the terminal was enlarged meanwhile, tmux would move non-empty rows of it into the shell's screen.

@@ -8,7 +8,7 @@ MIN_MEMBERS = 2
 """Minimum number of names in a namespace that is worth folding."""
 
 
-def outermost(names: Iterable[str], above: str = "") -> frozenset[str]:
+def foldable_namespaces(names: Iterable[str], above: str = "") -> frozenset[str]:
     """The namespaces directly below `above`, or below the root, with enough members to be folded.
 
     If a single namespace contains all the names, folding it would say nothing: the namespaces within it are returned.
@@ -22,5 +22,5 @@ def outermost(names: Iterable[str], above: str = "") -> frozenset[str]:
             counts[space] = counts.get(space, 0) + 1
     found = frozenset(space for space, count in counts.items() if count >= MIN_MEMBERS)
     if len(found) == 1 and counts[space := next(iter(found))] == len(below):
-        return outermost(below, space) or found
+        return foldable_namespaces(below, space) or found
     return found

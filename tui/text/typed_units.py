@@ -32,7 +32,7 @@ def split_unit(text: str) -> tuple[str, str]:
     A name that stands alone, or after an operator, is not a unit; nor is a part of a number such as `1e400`, `0x1F` or
     an unfinished `1e`.
     """
-    ends = [each.end() for each in NUMBER.finditer(text) if not _is_in_unit(text, each.start())]
+    ends = [each.end() for each in NUMBER.finditer(text) if not _belongs_to_unit(text, each.start())]
     end = max(text.rfind(")") + 1, *ends, 0)
     found = _UNIT.fullmatch(text, end) if end else None
     if found is None or (found[1][0] in _IN_NUMBERS and found.start(1) == end):
@@ -40,7 +40,7 @@ def split_unit(text: str) -> tuple[str, str]:
     return text[:end], found[1]
 
 
-def _is_in_unit(text: str, at: int) -> bool:
+def _belongs_to_unit(text: str, at: int) -> bool:
     """Whether a digit belongs to a name or a unit, as in `g0`, `m/s2` or `1/min`."""
     return (at > 0 and (text[at - 1].isalpha() or text[at - 1] in "_²")) or (
         text[at:].rstrip() == "1/min" and text[:at].rstrip() != text[:at]

@@ -96,12 +96,12 @@ class TuningJob:
         try:
             while settings := self._next():
                 self._going_on = {each: specification.trials(each) for each in settings}
-                self._rows += self._judge(self._going_on)
+                self._rows += self._evaluate(self._going_on)
                 self._going_on = {}
             best = self._best()
             if best is not None and specification.held_out and not self._stopped:
                 both = (self._rows[0].setting, best.setting)
-                chosen = [*self._judge({each: specification.held_out_trials(each) for each in both})]
+                chosen = [*self._evaluate({each: specification.held_out_trials(each) for each in both})]
                 held_out = (chosen[0], chosen[-1])  # the same one, if no setting was better than the initial one
             problem = "stopped" if self._stopped else self._all_failed()
         except _Stopped:
@@ -123,7 +123,7 @@ class TuningJob:
             specification.search, specification.tunables, specification.settings, specification.seed, tried
         )
 
-    def _judge(self, wanted: Mapping[Setting, Sequence[Trial]]) -> list[SettingResult]:
+    def _evaluate(self, wanted: Mapping[Setting, Sequence[Trial]]) -> list[SettingResult]:
         """Evaluate settings by the trials of each, in parallel."""
         every = list(dict.fromkeys(trial for each in wanted.values() for trial in each))
         running: dict[Future[Mapping[str, Any]], Trial] = {}
@@ -136,7 +136,7 @@ class TuningJob:
         while running:
             ended, _ = wait(running, return_when=FIRST_COMPLETED)
             for each in ended:
-                self._take(running.pop(each), each)
+                self._record(running.pop(each), each)
             if self._stopped:
                 for each in running:
                     each.cancel()
@@ -144,7 +144,7 @@ class TuningJob:
             self._report()
         return [self._result_of(setting, mine) for setting, mine in wanted.items()]
 
-    def _take(self, trial: Trial, ended: Future[Mapping[str, Any]]) -> None:
+    def _record(self, trial: Trial, ended: Future[Mapping[str, Any]]) -> None:
         if ended.cancelled():
             raise _Stopped
         error = ended.exception()

@@ -20,7 +20,7 @@ FIGURES: Mapping[str, str] = {
     "duration": "simulated time (s)",
 }
 """The names that a formula may use, with their descriptions."""
-READY: Mapping[str, tuple[str, str]] = {
+BUILT_IN_SCORES: Mapping[str, tuple[str, str]] = {
     "swift": (
         "mean_speed - 2*collisions - 5*max(0, 0.15 - min_clearance)",
         "fast, and nothing touched: a collision costs 2 m/s, less than 0.15 m of room costs too",
@@ -87,10 +87,10 @@ def parse_score(text: str) -> Score:
         topics.append((match[1], match[2]))
         return f"topic{len(topics) - 1}"
 
-    formula = _TOPIC.sub(take, READY[text][0] if text in READY else text)
-    if text.isidentifier() and text not in READY and text not in FIGURES:
+    formula = _TOPIC.sub(take, BUILT_IN_SCORES[text][0] if text in BUILT_IN_SCORES else text)
+    if text.isidentifier() and text not in BUILT_IN_SCORES and text not in FIGURES:
         raise ValueError(
-            f"'{text}' is not a score; there are {', '.join(READY)}, and formulas over {', '.join(FIGURES)}"
+            f"'{text}' is not a score; there are {', '.join(BUILT_IN_SCORES)}, and formulas over {', '.join(FIGURES)}"
         )
     score = Score(text, formula, tuple(topics))
     trial = {**dict.fromkeys(FIGURES, 1.0), **{f"topic{index}": 1.0 for index in range(len(topics))}}

@@ -110,7 +110,7 @@ def find_tunables(words: list[str], known: list[Tunable]) -> tuple[Tunable, ...]
     found: list[Tunable] = []
     for word in words:
         label, given, span = word.partition("=")
-        tunable = _meant(label.strip(), known)
+        tunable = _matching(label.strip(), known)
         if given:
             low, high = parse_range(span)
             tunable = tunable.between(low, high)
@@ -124,7 +124,7 @@ def find_tunables(words: list[str], known: list[Tunable]) -> tuple[Tunable, ...]
     return tuple(found)
 
 
-def _meant(label: str, known: list[Tunable]) -> Tunable:
+def _matching(label: str, known: list[Tunable]) -> Tunable:
     node, colon, name = label.rpartition(":")
     fitting = [each for each in known if each.name == name and (not colon or _is_node(each.node, node))]
     if len(fitting) > 1:

@@ -215,7 +215,7 @@ def test_finished_key_does_not_hold_up_the_next(typed: tuple[str, ...]) -> None:
     async def play(session: Session) -> None:
         for keys in typed:
             await at_once(session, keys)
-            assert session.app._keyboard._under_way == 0, keys
+            assert session.app._keyboard._current == 0, keys
 
     run(live(), play)
 

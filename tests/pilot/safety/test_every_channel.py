@@ -22,7 +22,7 @@ from piloting import Session, run
 from rich.color import ColorSystem
 from samples import BELL, live, with_camera
 
-ACTING = ("Cc", "Cf", "Co", "Cn", "Cs")
+ACTING_CATEGORIES = ("Cc", "Cf", "Co", "Cn", "Cs")
 """Categories of characters that a terminal may obey, or that cannot be encoded."""
 LEAVING = {"logs.edit"}
 """Keys that leave the terminal to another program."""
@@ -70,7 +70,7 @@ def acting_characters(session: Session) -> list[str]:
     found: list[str] = []
     for strip in session.app.screen._compositor.render_strips():
         written = "".join(cells_of(strip, ColorSystem.TRUECOLOR).characters)
-        if any(unicodedata.category(each) in ACTING for each in written):
+        if any(unicodedata.category(each) in ACTING_CATEGORIES for each in written):
             found.append(written)
     return found
 

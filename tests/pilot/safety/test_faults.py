@@ -151,7 +151,7 @@ def test_exception_outside_panes_stops_robot_and_prints_one_line(monkeypatch: py
 def test_unwritable_folder_keeps_no_crash_report(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(crash, "state_folder", lambda: Path("/dev/null/x"))
     monkeypatch.setattr(crash.tempfile, "gettempdir", lambda: "/dev/null/y")
-    assert crash.keep(ValueError("x")) == "" and crash.reason(ValueError("a\nb")) == "ValueError: a b"
+    assert crash.save_traceback(ValueError("x")) == "" and crash.reason(ValueError("a\nb")) == "ValueError: a b"
 
 
 def test_plugin_panes_that_arrive_during_exit_are_ignored() -> None:

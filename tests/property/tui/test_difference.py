@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from bot_console.tui.terminal.cells import cells_of
 from bot_console.tui.terminal.difference import ShownScreen
-from bot_console.tui.terminal.sgr import change
+from bot_console.tui.terminal.sgr import style_change
 from emulator import Emulator, styled
 from hypothesis import given
 from hypothesis import strategies as st
@@ -80,10 +80,10 @@ def test_unchanged_content_causes_no_output(frame) -> None:
 
 @given(CODES, CODES)
 def test_a_change_of_style_ends_in_the_new_style(before, after) -> None:
-    sequence = change(before, after)
+    sequence = style_change(before, after)
     assert (
         styled(styled((), before), sequence[2:-1]) == styled((), after)
         if sequence
         else styled((), before) == styled((), after)
     )
-    assert len(sequence) <= len(change(None, after))
+    assert len(sequence) <= len(style_change(None, after))

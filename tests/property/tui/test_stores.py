@@ -13,7 +13,7 @@ from bot_console.tui.console.parameters.history_file import History
 from bot_console.tui.console.parameters.journal import Journal
 from bot_console.tui.console.parameters.profile_store import ProfileStore
 from bot_console.tui.files.folders import OVERRIDE, config_folder, state_folder
-from bot_console.tui.files.plot_presets import NoPreset, read_preset
+from bot_console.tui.files.plot_presets import PlotPresetError, read_preset
 from bot_console.tui.pane_table import PANES
 from bot_console.tui.panes.logs.rules import RuleBook
 from bot_console.tui.settings.layouts import FileLayouts
@@ -58,7 +58,7 @@ def read_profile() -> list[str]:
 def read_curves() -> list[str]:
     try:
         read_preset("a")
-    except NoPreset as error:
+    except PlotPresetError as error:
         return [str(error)]
     return []
 

@@ -182,7 +182,7 @@ def test_remains_of_a_killed_save_are_deleted_later(tmp_path: Path) -> None:
     old, young = (tmp_path / f"{module.PREFIX}{each}{module.SUFFIX}" for each in ("old", "young"))
     for each in (old, young):
         each.write_text("half")
-    past = time.time() - 2 * module.LEFT_OVER_AGE_S
+    past = time.time() - 2 * module.LEFTOVER_AGE_S
     os.utime(old, (past, past))
     save_file(tmp_path / "file", "new")
     assert names(tmp_path) == sorted([young.name, "file"])

@@ -20,7 +20,7 @@ from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.session.embedded.named_profile import NoProfileError, named_profile
 from bot_console.tui.tuning.job import Progress, TuningJob
 from bot_console.tui.tuning.run_journal import TuningJournal
-from bot_console.tui.tuning.score import FIGURES, READY, parse_score
+from bot_console.tui.tuning.score import BUILT_IN_SCORES, FIGURES, parse_score
 from bot_console.tui.tuning.search import SEARCHES
 from bot_console.tui.tuning.specification import TuningSpecification
 from bot_console.tui.tuning.tunable import Setting, find_tunables
@@ -155,7 +155,7 @@ def _reported(specification: TuningSpecification, progress: Progress, given: arg
 
 def command_parser() -> argparse.ArgumentParser:
     """The options of `tune`."""
-    ready = "\n".join(f"  {name:8}{formula}\n{'':10}{what}" for name, (formula, what) in READY.items())
+    ready = "\n".join(f"  {name:8}{formula}\n{'':10}{what}" for name, (formula, what) in BUILT_IN_SCORES.items())
     parser = argparse.ArgumentParser(
         "bot-console tune",
         description="Run the simulator many times, and find the parameter values that score best.",
@@ -173,7 +173,7 @@ def command_parser() -> argparse.ArgumentParser:
         "--score",
         default="swift",
         metavar="FORMULA",
-        help=f"{', '.join(READY)}, or a formula; higher is better (default: swift)",
+        help=f"{', '.join(BUILT_IN_SCORES)}, or a formula; higher is better (default: swift)",
     )
     add("--runs", type=integer(1, MAX_RUNS), default=60, metavar="N", help="number of runs (default: 60)")
     add("--seeds", type=integer(1, MAX_RUNS), default=3, metavar="N", help="seeds for each setting (default: 3)")

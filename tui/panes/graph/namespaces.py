@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 
-from bot_console.tui.text.namespaces import outermost
+from bot_console.tui.text.namespaces import foldable_namespaces
 
 TOPIC, SERVICE, ACTION = "topic:", "service:", "action:"
 LINKS = (TOPIC, SERVICE, ACTION)
@@ -27,13 +27,15 @@ def namespace_of(node: str) -> str:
 
 def folds_of(nodes: Sequence[str]) -> frozenset[str]:
     """The namespaces that are folded by default: the outermost ones if there are many nodes, otherwise none."""
-    return outermost(nodes) if len(nodes) > MAX_UNFOLDED_NODES else frozenset()
+    return foldable_namespaces(nodes) if len(nodes) > MAX_UNFOLDED_NODES else frozenset()
 
 
 def unfolded(folded: frozenset[str], space: str, nodes: Iterable[str]) -> frozenset[str]:
     """The folded namespaces after unfolding `space`: if it has many nodes, the namespaces inside are folded instead."""
     inside = [each for each in nodes if each.startswith(f"{space}/")]
-    return folded - {space} | (outermost(inside, space) if len(inside) > MAX_UNFOLDED_NODES else frozenset[str]())
+    return folded - {space} | (
+        foldable_namespaces(inside, space) if len(inside) > MAX_UNFOLDED_NODES else frozenset[str]()
+    )
 
 
 def box_of(node: str, folded: Collection[str]) -> str:

@@ -46,7 +46,7 @@ from bot_console.tui.panes.graph.view import GraphView, Mode, Shown, shown
 from bot_console.tui.panes.graph.view_state import STATE_NAME, ViewState, view_state_of
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.transitions import ask_transition
-from bot_console.tui.text.namespaces import outermost
+from bot_console.tui.text.namespaces import foldable_namespaces
 from bot_console.tui.widgets.diagram.flow_chart.drawing import MIN_WIDE_COLUMNS
 from bot_console.tui.widgets.diagram_view import MIN_THREADED_ITEMS, DiagramView
 from bot_console.tui.widgets.prompt.filtered import Narrowed
@@ -370,7 +370,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
 
     def action_fold_all(self) -> None:
         """Fold every namespace, or unfold all."""
-        self._folds = frozenset() if self._view.folded else outermost(self._visible)
+        self._folds = frozenset() if self._view.folded else foldable_namespaces(self._visible)
         if not self._folds and not self._view.folded:
             self.notify("No namespace has two nodes or more.")
         self._draw()

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, cast
 
-from bot_console.tui.files.state_store import texts_in
+from bot_console.tui.files.state_store import strings_in
 from bot_console.tui.panes.graph.view import GraphView, Mode
 
 STATE_NAME = "graph"
@@ -38,5 +38,5 @@ def view_state_of(data: object) -> ViewState:
     switches = {each: given[each] for each in SWITCHES if isinstance(given.get(each), bool)}
     mode = next((each for each in Mode if each.name == given.get("mode")), Mode.FLOW)
     folds, rates = given.get("folds"), given.get("rates")
-    known = frozenset(texts_in(cast("object", folds))) if isinstance(folds, list) else None
+    known = frozenset(strings_in(cast("object", folds))) if isinstance(folds, list) else None
     return ViewState(replace(GraphView(), mode=mode, **switches), known, rates if isinstance(rates, bool) else None)

@@ -29,7 +29,7 @@ from bot_console.tui.panes.launch.rows import ProcessRows, Row, matches, rows
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.panes.transitions import ask_transition
-from bot_console.tui.safety.stop_wording import stops_of_ending
+from bot_console.tui.safety.stop_wording import ended_lock_warning
 from bot_console.tui.screens.facts import FactsScreen
 from bot_console.tui.text.cadence import is_due
 from bot_console.tui.text.endings import ending_text
@@ -298,7 +298,7 @@ class LaunchPane(ListPane):
             if not chosen:
                 self.notify(f"{sanitize(row.group[-1])}: nothing to {verb}", severity="warning", markup=False)
                 return
-        held = [] if verb == "start" else stops_of_ending(self.console.snapshot(), chosen)
+        held = [] if verb == "start" else ended_lock_warning(self.console.snapshot(), chosen)
         if held or verb == "kill" or (row.process is None and verb != "start"):
             names = "\n".join([*held, *(each.label for each in chosen)])
             of = f" of {sanitize(row.group[-1])}" if row.process is None and row.group else ""

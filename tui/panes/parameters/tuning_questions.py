@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree
-from bot_console.tui.tuning.score import FIGURES, READY, STATISTICS, parse_score
+from bot_console.tui.tuning.score import BUILT_IN_SCORES, FIGURES, STATISTICS, parse_score
 from bot_console.tui.tuning.specification import TuningSpecification
 from bot_console.tui.tuning.tunable import Tunable, find_tunables
 from bot_console.tui.widgets.prompt.question import Option
@@ -51,7 +51,7 @@ def scores(plottable: Sequence[str], typed: str) -> list[Option]:
     """The options for a typed score: predefined scores, the text itself if it is a formula, and completions."""
     found = [
         Option(name, f"{what}: {formula}")
-        for name, (formula, what) in READY.items()
+        for name, (formula, what) in BUILT_IN_SCORES.items()
         if typed.lower() in name or not typed
     ]
     if typed.strip():

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, cast
 
 from bot_console.tui.console.query import parse
-from bot_console.tui.files.state_store import texts_in
+from bot_console.tui.files.state_store import strings_in
 from bot_console.tui.panes.parameters.rows import View
 
 At = tuple[str, str, str]
@@ -47,8 +47,8 @@ def left_of(data: object) -> Left | None:
         query = parse(words)
     except ValueError:
         return None
-    folds = texts_in(closed)
+    folds = strings_in(closed)
     view = View(query, given.get("changed") is True, given.get("built_in") is True, frozenset(folds))
-    row, split = texts_in(at), given.get("split")
+    row, split = strings_in(at), given.get("split")
     cells = split if isinstance(split, int) and abs(split) <= MAX_SPLIT else 0
     return Left(words, view, (row[0], row[1], row[2]) if len(row) == 3 else None, cells)

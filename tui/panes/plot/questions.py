@@ -8,7 +8,7 @@ from pathlib import Path
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.files import plot_presets
-from bot_console.tui.files.plot_presets import KeptCurve, NoPreset, Preset
+from bot_console.tui.files.plot_presets import PlotPresetError, Preset, SavedCurve
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.plot.formulas.formula import split
@@ -172,10 +172,10 @@ class PlotQuestions(Pane):
 
     def _keep(self, name: str) -> None:
         timeline = self._timeline
-        curves = [KeptCurve(each.path, each.right, thresholds_text(each.thresholds)) for each in timeline.curves]
+        curves = [SavedCurve(each.path, each.right, thresholds_text(each.thresholds)) for each in timeline.curves]
         try:
             preset = Preset(tuple(curves), timeline.window, self._limits_text(), timeline.against)
-            path = plot_presets.keep_preset(name, preset)
+            path = plot_presets.save_preset(name, preset)
         except NotSaved as error:
             self.report(Answer(False, f"not saved: {error}"))
         else:
@@ -198,7 +198,7 @@ class PlotQuestions(Pane):
             preset = plot_presets.read_preset(name)
             limits = limits_of(preset.limits)
             thresholds = {each.curve: thresholds_of(each.thresholds) for each in preset.curves}
-        except (NoPreset, ValueError) as error:
+        except (PlotPresetError, ValueError) as error:
             self.report(Answer(False, str(error)))
             return
         self.action_remove_all()

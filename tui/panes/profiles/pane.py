@@ -29,7 +29,7 @@ from bot_console.tui.panes.profiles.presets import PresetMenu
 from bot_console.tui.panes.profiles.replacement import Replacement
 from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries, outcome_text
 from bot_console.tui.panes.profiles.user_profiles import OwnProfiles
-from bot_console.tui.safety.stop_wording import stops_of_ending
+from bot_console.tui.safety.stop_wording import ended_lock_warning
 from bot_console.tui.text.sanitize import counted
 from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.picture import Picture
@@ -346,7 +346,7 @@ class ProfilesPane(ListPane):
         given = " ".join(f"{name}:={value}" for name, value in profile.arguments.items())
         reasons = [f"{profile.launch} {given}".rstrip(), "It replaces what this console has started:"]
         reasons += [f"  {each.label}" for each in running] or ["  nothing"]
-        reasons += stops_of_ending(self.console.snapshot(), running)
+        reasons += ended_lock_warning(self.console.snapshot(), running)
         self.ask(
             Confirmation(
                 f"Stop them, and launch {profile.name}?",

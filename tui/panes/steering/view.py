@@ -10,7 +10,7 @@ from itertools import zip_longest
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.panes.steering.plane import ASKED, ROBOT, plane
 from bot_console.tui.panes.steering.state import RATE_HZ, Steering, stands_after_steering
-from bot_console.tui.safety.stop_wording import held_by, may_move, sending_key, stop_key
+from bot_console.tui.safety.stop_wording import held_by, may_move_text, sending_key_text, stop_key_text
 from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.picture import Line
 
@@ -132,15 +132,15 @@ def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
     if drive.refused:
         return _highlighted(drive, topic)
     if drive.stopped and not drive.lockable and stands_after_steering(drive):
-        key = stop_key(drive, "ends them")
+        key = stop_key_text(drive, "ends them")
         return ((" STOPPED ", "warn"), (f" by zeros, having no emergency stop: Enter resumes steering, {key}", ""))
     if drive.stopped and not drive.stop_confirmed:
         return ((" STOP SENT, NOT CONFIRMED ", "error"), (_unconfirmed(drive), ""))
     if drive.stopped and stands_after_steering(drive):
-        key = stop_key(drive, "returns control to its program")
+        key = stop_key_text(drive, "returns control to its program")
         return ((" STOPPED ", "warn"), (f" Enter resumes steering, {key}", ""))
     if drive.stopped:
-        return ((" ALL STOP ", "error"), (f" {stop_key(drive, 'releases')}: held{held_by(drive)}", ""))
+        return ((" ALL STOP ", "error"), (f" {stop_key_text(drive, 'releases')}: held{held_by(drive)}", ""))
     if state.armed:
         return ((" ● ARMED ", "warn"), (f" keys drive, h hands back  {topic}", "dim"))
     return ((" ○ disarmed ", "dim"), (" enter arms  " if width >= 34 else " ", "strong"), (topic, "dim"))
@@ -162,7 +162,7 @@ def _highlighted(drive: DriveInfo, topic: str) -> Line:
 
 
 def _unconfirmed(drive: DriveInfo) -> str:
-    return f" {sending_key(drive)}" if drive.lockable else f" {may_move(drive)}: no emergency stop"
+    return f" {sending_key_text(drive)}" if drive.lockable else f" {may_move_text(drive)}: no emergency stop"
 
 
 def _slider(word: str, value: float, greatest: float, unit: str, width: int, *, turned: bool = False) -> Line:

@@ -9,7 +9,7 @@ from enum import Enum
 from bot_console.tui.console.model import Endpoint, GraphInfo, IncompatiblePair, NodeInfo
 from bot_console.tui.console.query import Query
 from bot_console.tui.console.topics.port import Payload
-from bot_console.tui.text.namespaces import outermost
+from bot_console.tui.text.namespaces import foldable_namespaces
 from bot_console.tui.text.natural import natural_key
 
 OWN = "/_bot_console"
@@ -141,12 +141,12 @@ MAX_OPEN_ROWS = 40
 
 def folds_at_start(every: Sequence[Row]) -> frozenset[str]:
     """The namespaces that are folded before the user has folded or unfolded anything."""
-    return outermost(each.name for each in every) if len(every) > MAX_OPEN_ROWS else frozenset()
+    return foldable_namespaces(each.name for each in every) if len(every) > MAX_OPEN_ROWS else frozenset()
 
 
 def grouped(every: Sequence[Row], folded: Collection[str]) -> list[Row]:
     """Group rows by namespace: each namespace of several rows gets a row above them, and hides them if it is folded."""
-    spaces = outermost(each.name for each in every)
+    spaces = foldable_namespaces(each.name for each in every)
     inside: dict[str, list[Row]] = {}
     listed: list[Row | str] = []
     for row in every:

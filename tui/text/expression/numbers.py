@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
 
 from bot_console.tui.text.expression.parse import Incomplete, parse
-from bot_console.tui.text.expression.tree import Call, Minus, Name, Path, Tree, Two
+from bot_console.tui.text.expression.tree import BinaryOperation, Call, Name, Negation, Path, Tree
 from bot_console.tui.text.expression.tree import Number as Typed
 from bot_console.tui.text.sanitize import cut
 
@@ -68,9 +68,9 @@ def _value(tree: Tree, known: Mapping[str, Number]) -> Number:
         if tree.text not in known:
             raise ValueError(f"'{tree.text}' is not one of {', '.join(sorted(known))}")
         return known[tree.text]
-    if isinstance(tree, Minus):
+    if isinstance(tree, Negation):
         return -_value(tree.of, known)
-    if isinstance(tree, Two):
+    if isinstance(tree, BinaryOperation):
         return _small(_both(tree.operator, _value(tree.left, known), _value(tree.right, known)))
     if isinstance(tree, Call):
         function = FUNCTIONS.get(tree.function)

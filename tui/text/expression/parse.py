@@ -8,14 +8,14 @@ from typing import NoReturn
 from bot_console.tui.text.expression.tree import (
     OF_ARRAYS,
     RATE,
+    BinaryOperation,
     Call,
-    Minus,
     Name,
+    Negation,
     Number,
     Path,
     Span,
     Tree,
-    Two,
     rate_path,
 )
 from bot_console.tui.text.sanitize import cut
@@ -99,7 +99,7 @@ class Reader:
             if _RANKS.get(operator, 0) < least:
                 self._at = begin
                 return left
-            left = Two(operator, left, self.sum(_RANKS[operator] + 1))
+            left = BinaryOperation(operator, left, self.sum(_RANKS[operator] + 1))
 
     def _sign(self) -> Tree:
         self._depth += 1
@@ -109,7 +109,7 @@ class Reader:
         if sign in ("+", "-"):
             self._at += 1
             tree: Tree = self._sign()
-            tree = Minus(tree) if sign == "-" else tree
+            tree = Negation(tree) if sign == "-" else tree
         else:
             tree = self._power()
         self._depth -= 1
@@ -119,7 +119,7 @@ class Reader:
         base = self._atom()
         if self.rest().startswith("**"):
             self._at += 2
-            return Two("**", base, self._sign())
+            return BinaryOperation("**", base, self._sign())
         return base
 
     def _atom(self) -> Tree:

@@ -43,14 +43,14 @@ class Path:
 
 
 @dataclass(frozen=True, slots=True)
-class Minus:
+class Negation:
     """The negation of a value."""
 
     of: Tree
 
 
 @dataclass(frozen=True, slots=True)
-class Two:
+class BinaryOperation:
     """A binary operation: one of `+ - * / // % **` and its operands."""
 
     operator: str
@@ -66,7 +66,7 @@ class Call:
     arguments: tuple[Tree, ...]
 
 
-Tree: TypeAlias = "Number | Span | Name | Path | Minus | Two | Call"
+Tree: TypeAlias = "Number | Span | Name | Path | Negation | BinaryOperation | Call"
 
 
 def rate_path(topic: str) -> str:
@@ -86,9 +86,9 @@ def is_parameter(path: str) -> bool:
 
 def children(tree: Tree) -> tuple[Tree, ...]:
     """The parts of a tree."""
-    if isinstance(tree, Minus):
+    if isinstance(tree, Negation):
         return (tree.of,)
-    if isinstance(tree, Two):
+    if isinstance(tree, BinaryOperation):
         return (tree.left, tree.right)
     return tree.arguments if isinstance(tree, Call) else ()
 

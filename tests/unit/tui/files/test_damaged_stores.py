@@ -70,7 +70,7 @@ def test_curves_with_an_invalid_window_are_read_or_refused(
     file.write_text(f'{{"curves": [], "window": {value}}}')
     try:
         assert plot_presets.read_preset("a").window
-    except plot_presets.NoPreset as error:
+    except plot_presets.PlotPresetError as error:
         assert "a.json" in str(error)
 
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 from bot_console.tui.keys import input_thread
-from bot_console.tui.keys.input_thread import Ending, Unwatched, take_keys
+from bot_console.tui.keys.input_thread import NoStopKeyWatch, WakeableEvent, read_keys
 
 TIMEOUT_S = 240.0
 """Seconds after which a test gives up; nothing is measured by it."""
@@ -28,13 +28,13 @@ class Rig:
         self.came = threading.Semaphore(0)
         self.events: list[Any] = []
         self.driver: Any = SimpleNamespace(_debug=False, fileno=self.slave, process_message=self._take)
-        self.driver.exit_event = Ending()
-        self.watch: Any = Unwatched()
+        self.driver.exit_event = WakeableEvent()
+        self.watch: Any = NoStopKeyWatch()
         self.start()
 
     def start(self) -> None:
         taking = (self.driver, self.driver.exit_event, self.watch)
-        self.thread = threading.Thread(target=take_keys, args=taking, daemon=True)
+        self.thread = threading.Thread(target=read_keys, args=taking, daemon=True)
         self.thread.start()
 
     def _take(self, event: Any) -> None:
@@ -118,7 +118,7 @@ def test_thread_survives_closed_descriptors(rig: Rig, monkeypatch: pytest.Monkey
 
 
 def test_thread_stopped_before_its_start_ends() -> None:
-    ending = Ending()
+    ending = WakeableEvent()
     ending.set()
     reading, writing = os.pipe()
     assert not ending.readable(reading, TIMEOUT_S)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.arrangement.opening import RQT_PANES
-from bot_console.tui.layout.form import NoLayout, data_of, tree_of
+from bot_console.tui.layout.form import LayoutError, tree_from_data, tree_to_data
 from bot_console.tui.layout.perspective import perspective_tree
 from bot_console.tui.layout.placing import Box, borders, boxes, neighbour
 from bot_console.tui.layout.tree import (
@@ -63,7 +63,7 @@ def test_every_cell_belongs_to_exactly_one_pane(tree: Tree) -> None:
 
 @given(changed_trees())
 def test_tree_survives_a_round_trip_through_its_data(tree: Tree) -> None:
-    assert tree_of(data_of(tree), NAMES) == tree
+    assert tree_from_data(tree_to_data(tree), NAMES) == tree
 
 
 @given(changed_trees(), st.sampled_from(NAMES), st.sampled_from(NAMES), st.sampled_from(["beside", "below"]))
@@ -140,16 +140,16 @@ def test_border_is_moved_at_its_position() -> None:
     ],
 )
 def test_invalid_layout_is_rejected_with_a_reason(data: object, message_of: str) -> None:
-    with pytest.raises(NoLayout, match=message_of.replace("'", "['\"]")):
-        tree_of(data, ("a", "b"))
+    with pytest.raises(LayoutError, match=message_of.replace("'", "['\"]")):
+        tree_from_data(data, ("a", "b"))
 
 
 def test_nesting_depth_is_limited() -> None:
     data: object = "a"
     for _ in range(2000):
         data = {"beside": [data, "b"]}
-    with pytest.raises(NoLayout, match="nested deeper"):
-        tree_of(data, ("a", "b"))
+    with pytest.raises(LayoutError, match="nested deeper"):
+        tree_from_data(data, ("a", "b"))
 
 
 def test_rqt_perspective_yields_its_panes() -> None:
@@ -160,9 +160,9 @@ def test_rqt_perspective_yields_its_panes() -> None:
     assert tree == beside("graph", "plot") and left == ["rqt_nothing"]
     ini = "[pluginmanager]\nplugin__rqt_reconfigure__Param__1\\dock=1\nplugin__rqt_console__Console__1\\x=2\n"
     assert perspective_tree(ini, RQT_PANES) == (beside("parameters", "logs"), [])
-    with pytest.raises(NoLayout, match="no plug-in"):
+    with pytest.raises(LayoutError, match="no plug-in"):
         perspective_tree("hello", RQT_PANES)
-    with pytest.raises(NoLayout, match="there is no pane for rqt_x"):
+    with pytest.raises(LayoutError, match="there is no pane for rqt_x"):
         perspective_tree("plugin__rqt_x__X__1", RQT_PANES)
 
 

@@ -19,7 +19,7 @@ HOSTILE = [
     "\x1b]0;title\x07", "\x1b]52;c;AAAA\x1b\\", "\x1b[31mred", "\x9b31m", "\x9d0;title\x9c", "\x7f", "\r\n\t\b\0",
     "\udc9b", "\u202eevil", "\u2066x\u2069", "wide 車\x1b[2J",
 ]  # fmt: skip
-ACTING = ("Cc", "Cf", "Cs")
+ACTING_CATEGORIES = ("Cc", "Cf", "Cs")
 
 
 @pytest.mark.parametrize("plain", [False, True])
@@ -27,7 +27,7 @@ ACTING = ("Cc", "Cf", "Cs")
 def test_control_sequences_are_removed_from_texts(text: str, plain: bool) -> None:
     for given_text in (text, f"before {text} behind"):
         cells = cells_of([Segment(given_text)], ColorSystem.TRUECOLOR, plain)
-        assert not [each for each in "".join(cells.characters) if unicodedata.category(each) in ACTING]
+        assert not [each for each in "".join(cells.characters) if unicodedata.category(each) in ACTING_CATEGORIES]
         assert len(cells.characters) == len(cells.styles)
 
 
@@ -37,7 +37,7 @@ def test_only_escape_sequences_of_the_console_are_written(text: str) -> None:
     screen.forget(80, 1)
     written = screen.update([(0, {0: Strip([Segment(text)])})], ColorSystem.TRUECOLOR)
     body = written.replace("\x1b[1H", "").replace("\x1b[m", "").replace("\x1b[0m", "")
-    assert not [each for each in body if unicodedata.category(each) in ACTING], written
+    assert not [each for each in body if unicodedata.category(each) in ACTING_CATEGORIES], written
 
 
 @pytest.mark.parametrize("mark", "↶↷✗→▲")

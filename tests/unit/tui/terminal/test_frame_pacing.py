@@ -130,8 +130,8 @@ def test_merged_frames_are_reported_only_while_they_are_many_and_recent(gate: An
 
 def test_only_a_terminal_that_has_answered_before_has_pending_answers(gate: AnswerGate) -> None:
     draw(gate)
-    assert not gate.owed, "perhaps it never answers"
+    assert not gate.has_unanswered, "perhaps it never answers"
     gate.answered()
-    assert not gate.owed
+    assert not gate.has_unanswered
     draw(gate)
-    assert gate.owed
+    assert gate.has_unanswered

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 import pytest
 from bot_console.tui.terminal import late_answers
-from bot_console.tui.terminal.late_answers import STATUS, STATUS_QUESTION, takes_late_answers
+from bot_console.tui.terminal.late_answers import STATUS, STATUS_QUESTION, read_late_answers
 
 OWED = b"\x1b[12;1R"
 
@@ -22,7 +22,7 @@ class Driver:
         self.fileno = descriptor
         self.done: list[str] = []
         self._far, self._answer = far, answer
-        takes_late_answers(self, lambda: True)
+        read_late_answers(self, lambda: True)
 
     def write(self, text: str) -> None:
         self.done.append(text)
@@ -56,7 +56,7 @@ def test_terminal_without_pending_answers_is_not_queried(terminal: tuple[int, in
     far, near = terminal
     driver = Driver(near, far, b"")
     driver.stop_application_mode = lambda: driver.done.append("left")
-    takes_late_answers(driver, lambda: False)
+    read_late_answers(driver, lambda: False)
     driver.stop_application_mode()
     assert driver.done == ["left"]
 

@@ -11,15 +11,15 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
-from bot_console.tui.terminal.editor import editing
+from bot_console.tui.terminal.editor import editor_command
 from bot_console.tui.terminal.suspension import (
     ASLEEP,
     EMPTY,
     STOP_POLL_S,
     STOP_TIMEOUT_S,
-    Leaving,
-    leaves_an_empty_screen,
-    takes_up_again,
+    TerminalHandover,
+    clear_screen_before_leaving,
+    resume_after_any_stop,
 )
 from fakes.console import FakeConsole
 from samples import live
@@ -37,10 +37,10 @@ def file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
 
 
 def test_editor_command_contains_the_line_in_its_syntax(file: str) -> None:
-    assert editing(file, 7, {"EDITOR": "vi -R"}) == ["vi", "-R", "+7", file]
-    assert editing(file, 0, {"EDITOR": "vi"}) == ["vi", file]
-    assert editing(file, 7, {"VISUAL": "code", "EDITOR": "vi"}) == ["code", "--wait", "--goto", f"{file}:7"]
-    assert editing(file, 7, {"EDITOR": "'my editor'"}) == ["my editor", "+7", file]
+    assert editor_command(file, 7, {"EDITOR": "vi -R"}) == ["vi", "-R", "+7", file]
+    assert editor_command(file, 0, {"EDITOR": "vi"}) == ["vi", file]
+    assert editor_command(file, 7, {"VISUAL": "code", "EDITOR": "vi"}) == ["code", "--wait", "--goto", f"{file}:7"]
+    assert editor_command(file, 7, {"EDITOR": "'my editor'"}) == ["my editor", "+7", file]
 
 
 @pytest.mark.parametrize(
@@ -49,9 +49,9 @@ def test_editor_command_contains_the_line_in_its_syntax(file: str) -> None:
 )
 def test_missing_editor_or_file_is_reported(file: str, environment: dict[str, str], hint: str) -> None:
     with pytest.raises(ValueError, match=hint):
-        editing(file, 7, environment)
+        editor_command(file, 7, environment)
     with pytest.raises(ValueError, match="not on this machine"):
-        editing(file + "x", 7, {"EDITOR": "vi"})
+        editor_command(file + "x", 7, {"EDITOR": "vi"})
 
 
 class Shell:
@@ -74,9 +74,9 @@ class Shell:
         self.done.append("redraw")
 
 
-def leaving(console: FakeConsole, *, holds: bool = True) -> tuple[Leaving, Shell]:
+def leaving(console: FakeConsole, *, holds: bool = True) -> tuple[TerminalHandover, Shell]:
     shell: Any = Shell()
-    return Leaving(shell, console, shell.redraw, holds=holds), shell
+    return TerminalHandover(shell, console, shell.redraw, holds=holds), shell
 
 
 def test_the_robot_is_held_before_the_terminal_is_left() -> None:
@@ -138,7 +138,7 @@ def with_driver(play: Callable[[Driver], Coroutine[None, None, None]]) -> None:
 
     async def main() -> None:
         driver = Driver()
-        takes_up_again(driver)
+        resume_after_any_stop(driver)
         await play(driver)
 
     asyncio.run(main())
@@ -180,6 +180,6 @@ def test_concurrent_resumes_are_serialised() -> None:
 def test_screen_is_cleared_on_suspension() -> None:
     done: list[str] = []
     driver: Any = SimpleNamespace(write=done.append, stop_application_mode=lambda: done.append("left"))
-    leaves_an_empty_screen(driver)
+    clear_screen_before_leaving(driver)
     driver.stop_application_mode()
     assert done == [EMPTY, "left"]

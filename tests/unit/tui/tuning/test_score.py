@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from bot_console.tui.tuning.score import READY, parse_score, statistics
+from bot_console.tui.tuning.score import BUILT_IN_SCORES, parse_score, statistics
 
 REPORT = {
     "mean_speed": 1.5,
@@ -32,7 +32,7 @@ def test_score_is_evaluated(text: str, value: float) -> None:
     assert parse_score(text).of(REPORT) == pytest.approx(value)
 
 
-@pytest.mark.parametrize("name", READY)
+@pytest.mark.parametrize("name", BUILT_IN_SCORES)
 def test_a_collision_costs_in_every_ready_score(name: str) -> None:
     score = parse_score(name)
     assert score.of({**REPORT, "collisions": 0}) - score.of(REPORT) == pytest.approx(2.0)

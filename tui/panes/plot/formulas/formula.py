@@ -15,14 +15,14 @@ from bot_console.tui.text.expression.numbers import CONSTANTS
 from bot_console.tui.text.expression.parse import parse
 from bot_console.tui.text.expression.tree import (
     OF_ARRAYS,
+    BinaryOperation,
     Call,
-    Minus,
     Name,
+    Negation,
     Number,
     Path,
     Span,
     Tree,
-    Two,
     children,
     is_parameter,
     paths_of,
@@ -154,9 +154,9 @@ def _worked_out(tree: Tree, times: Array, known: Mapping[str, Held]) -> Array:
         return np.full(len(times), float(CONSTANTS[tree.text]))
     if isinstance(tree, Path):
         return held(known[tree.text], times)
-    if isinstance(tree, Minus):
+    if isinstance(tree, Negation):
         return -_worked_out(tree.of, times, known)
-    if isinstance(tree, Two):
+    if isinstance(tree, BinaryOperation):
         both = (_worked_out(tree.left, times, known), _worked_out(tree.right, times, known))
         return OPERATORS[tree.operator](*both)
     if isinstance(tree, Call):

@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 from bot_console.tui.files import plot_presets
-from bot_console.tui.files.plot_presets import KeptCurve, NoPreset, Preset
+from bot_console.tui.files.plot_presets import PlotPresetError, Preset, SavedCurve
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.panes.plot.curves import Curve
 from bot_console.tui.panes.plot.pictures.sparklines import sparklines
@@ -113,8 +113,8 @@ def test_png_is_written_or_the_missing_package_named(tmp_path: Path) -> None:
 
 def test_presets_are_stored_and_invalid_files_rejected(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path))
-    preset = Preset((KeptCurve("deg(/a/x)", True, "> 1"), KeptCurve("/b/y")), 60.0, "0 1", "/b/y")
-    plot_presets.keep_preset("my curves", preset)
+    preset = Preset((SavedCurve("deg(/a/x)", True, "> 1"), SavedCurve("/b/y")), 60.0, "0 1", "/b/y")
+    plot_presets.save_preset("my curves", preset)
     assert plot_presets.preset_names() == ["my curves"] and plot_presets.read_preset("my curves") == preset
     for bad in (
         "[]",
@@ -124,6 +124,6 @@ def test_presets_are_stored_and_invalid_files_rejected(tmp_path: Path, monkeypat
         '{"curves": [{"curve": 1}], "window": 1}',
     ):
         (tmp_path / "config" / "plots" / "bad.json").write_text(bad)
-        with pytest.raises(NoPreset, match=r"bad\.json"):
+        with pytest.raises(PlotPresetError, match=r"bad\.json"):
             plot_presets.read_preset("bad")
     assert plot_presets.preset_name_problem("../x") and not plot_presets.preset_name_problem("a-1.b c")

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import pytest
 from bot_console.tui.console.model import ChangeSource
-from bot_console.tui.safety.safety_news import MAX_WAITING_CALLS, SafetyNews
+from bot_console.tui.safety.safety_announcements import MAX_WAITING_CALLS, SafetyAnnouncements
 from fakes.console import FakeConsole
 from samples import live
 
@@ -19,23 +19,25 @@ def console() -> FakeConsole:
 
 
 @pytest.fixture
-def news(console: FakeConsole) -> SafetyNews:
-    made = SafetyNews(console.parameters)
+def news(console: FakeConsole) -> SafetyAnnouncements:
+    made = SafetyAnnouncements(console.parameters)
     assert reported(made, console) == []
     return made
 
 
-def reported(news: SafetyNews, console: FakeConsole, calls: int = 1) -> Sequence[str]:
-    return [text for _ in range(calls) for text in news.since(console.snapshot())]
+def reported(news: SafetyAnnouncements, console: FakeConsole, calls: int = 1) -> Sequence[str]:
+    return [text for _ in range(calls) for text in news.announcements(console.snapshot())]
 
 
-def test_edit_is_announced_with_the_key_that_takes_it_back(news: SafetyNews, console: FakeConsole) -> None:
+def test_edit_is_announced_with_the_key_that_takes_it_back(news: SafetyAnnouncements, console: FakeConsole) -> None:
     console.set_parameters(NODE, {"safety_distance": 0.4})
     (text,) = reported(news, console)
     assert text.endswith("lowers a safety margin. u in the Parameters pane undoes it.")
 
 
-def test_value_that_a_refused_set_has_taken_back_is_not_announced(news: SafetyNews, console: FakeConsole) -> None:
+def test_value_that_a_refused_set_has_taken_back_is_not_announced(
+    news: SafetyAnnouncements, console: FakeConsole
+) -> None:
     console.set_parameters(NODE, {"max_speed": 0.9})  # Undo would take this back.
     console.take(NODE, {"safety_distance": 0.4}, ChangeSource.EDIT, atomically=True)
     assert reported(news, console) == []
@@ -43,7 +45,9 @@ def test_value_that_a_refused_set_has_taken_back_is_not_announced(news: SafetyNe
     assert reported(news, console, MAX_WAITING_CALLS + 1) == []
 
 
-def test_value_that_cannot_be_undone_is_announced_with_the_history(news: SafetyNews, console: FakeConsole) -> None:
+def test_value_that_cannot_be_undone_is_announced_with_the_history(
+    news: SafetyAnnouncements, console: FakeConsole
+) -> None:
     console.set_parameters(NODE, {"max_speed": 0.9})
     console.take(NODE, {"safety_distance": 0.4}, ChangeSource.EDIT, atomically=True)
     assert reported(news, console, MAX_WAITING_CALLS) == []

@@ -9,7 +9,7 @@ from bot_console.tui.console.parameters.port import Parameters
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.text.value_text import value_text
 
-BACK = {ChangeSource.EDIT: "u", ChangeSource.REDO: "u", ChangeSource.UNDO: "U"}
+UNDO_KEYS = {ChangeSource.EDIT: "u", ChangeSource.REDO: "u", ChangeSource.UNDO: "U"}
 """The sources of changes that are announced, with the key that undoes each; other changes are confirmed beforehand."""
 MAX_WAITING_CALLS = 10
 """Maximum number of calls, ten per second, for which an announcement waits until a key can undo the change: another
@@ -17,7 +17,7 @@ node may still refuse its part of the same edit, which undoes the change automat
 """
 
 
-class SafetyNews:
+class SafetyAnnouncements:
     """Finds edits in the journal to announce; a parameter that keeps changing in one direction is announced once."""
 
     def __init__(self, parameters: Parameters) -> None:
@@ -27,15 +27,15 @@ class SafetyNews:
         self._waiting: dict[tuple[str, str], tuple[Change, str, int]] = {}
         """Changes not announced yet, each with how it makes the robot less safe, and the number of calls since then."""
 
-    def since(self, snapshot: ConsoleSnapshot) -> Sequence[str]:
+    def announcements(self, snapshot: ConsoleSnapshot) -> Sequence[str]:
         """The announcements about edits since the last call."""
         before, self._end = self._end, snapshot.journal.end
         if before is not None and before != self._end:
             for each in self._parameters.changes(before):
-                self._notice(each, snapshot)
-        return [text for key in [*self._waiting] if (text := self._news(key, snapshot))]
+                self._queue(each, snapshot)
+        return [text for key in [*self._waiting] if (text := self._announcement(key, snapshot))]
 
-    def _notice(self, change: Change, snapshot: ConsoleSnapshot) -> None:
+    def _queue(self, change: Change, snapshot: ConsoleSnapshot) -> None:
         """Queue a change for announcement if it made the robot less safe."""
         tree = snapshot.parameters.get(change.node)
         parameter = tree.get(change.name) if tree else None
@@ -45,15 +45,15 @@ class SafetyNews:
         self._waiting.pop(key, None)
         if not why:
             self._reported.discard(key)
-        elif key not in self._reported and change.source in BACK:
+        elif key not in self._reported and change.source in UNDO_KEYS:
             self._waiting[key] = change, why, 0
 
-    def _news(self, key: tuple[str, str], snapshot: ConsoleSnapshot) -> str:
+    def _announcement(self, key: tuple[str, str], snapshot: ConsoleSnapshot) -> str:
         """The announcement of a queued change, once it is certain what undoes it; empty until then."""
         change, why, calls = self._waiting[key]
         journal = snapshot.journal
-        goes_back = key in (journal.redoes if change.source is ChangeSource.UNDO else journal.undoes)
-        if not goes_back and calls < MAX_WAITING_CALLS:
+        can_undo = key in (journal.redoes if change.source is ChangeSource.UNDO else journal.undoes)
+        if not can_undo and calls < MAX_WAITING_CALLS:
             self._waiting[key] = change, why, calls + 1
             return ""
         del self._waiting[key]
@@ -63,5 +63,5 @@ class SafetyNews:
             return ""  # it has been undone already
         self._reported.add(key)
         values = f"{value_text(change.old)} → {value_text(change.new)}"
-        way_back = f"{BACK[change.source]} in the Parameters pane" if goes_back else "b in the History pane"
+        way_back = f"{UNDO_KEYS[change.source]} in the Parameters pane" if can_undo else "b in the History pane"
         return f"⚠ {change.name} {values} {why}. {way_back} undoes it."
