@@ -15,8 +15,8 @@ from bot_console.tui.console.model import (
     ParameterInfo,
     ParameterTree,
 )
+from bot_console.tui.learn.activity import Activity
 from bot_console.tui.learn.command_log import Command
-from bot_console.tui.learn.deeds import Deeds
 
 
 def parameter(node: str, name: str, value: Any, **facts: Any) -> ParameterInfo:
@@ -35,10 +35,10 @@ def change(name: str, value: Any, *, accepted: bool = True, reason: str = "") ->
     return Change(0, 0, "/n", name, 0.0, value, ChangeSource.EDIT, accepted, reason)
 
 
-def seen(*parameters: ParameterInfo, **facts: Any) -> Deeds:
-    deeds = Deeds(**facts)
-    deeds.observe(snapshot(*parameters))
-    return deeds
+def seen(*parameters: ParameterInfo, **facts: Any) -> Activity:
+    activity = Activity(**facts)
+    activity.observe(snapshot(*parameters))
+    return activity
 
 
 def refused(name: str, reason: str) -> Command:
@@ -46,11 +46,11 @@ def refused(name: str, reason: str) -> Command:
     return Command(("ros2", "param", "set", "/n", name, "9"), 0, errors=f"Setting parameter failed: {reason}\n")
 
 
-def launched(*arguments: str, file: str = "x.launch.py", code: int | None = None, settled: bool = True) -> Deeds:
+def launched(*arguments: str, file: str = "x.launch.py", code: int | None = None, settled: bool = True) -> Activity:
     """The actions recorded after a launch file was launched in a workspace that contains only `x.launch.py`."""
-    deeds = Deeds()
+    activity = Activity()
     files = {"x.launch.py": [("launch/x.launch.py", "Node()")]}
-    deeds.add_launches(
+    activity.add_launches(
         (), [Command(("launch", "p", file, *arguments), code, settled)], lambda word: files.get(word, ())
     )
-    return deeds
+    return activity

@@ -13,7 +13,7 @@ from bot_console.tui.layout.current_layout import Arrangement
 from bot_console.tui.layout.form import LayoutError
 from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.learn.layout import NAME as LESSON_LAYOUT
-from bot_console.tui.learn.layout import WithLesson
+from bot_console.tui.learn.layout import LessonLayoutStore
 from bot_console.tui.pane_table import PANES
 from bot_console.tui.settings.appearance import Appearance
 from bot_console.tui.settings.layouts import FileLayouts
@@ -30,7 +30,7 @@ def appearance_of(options: Options) -> Appearance:
     store = FileLayouts([each.id for each in PANES])
     notes = list(settings.problems)
     if options.layout == LESSON_LAYOUT:
-        arrangement = Arrangement(WithLesson(store), LESSON_LAYOUT)
+        arrangement = Arrangement(LessonLayoutStore(store), LESSON_LAYOUT)
     else:
         arrangement = _arrangement(options, settings, store, notes)
     store.layouts()

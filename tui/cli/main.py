@@ -12,7 +12,7 @@ from bot_console.runtime.programs.exit_messages import help_is_english, report_h
 from bot_console.tui import __version__
 from bot_console.tui.cli.undecodable import undecodable
 from bot_console.tui.cli.verbs import ros2
-from bot_console.tui.learn.command_log import recorded
+from bot_console.tui.learn.command_log import record_command
 from bot_console.tui.session.embedded.domain import begin_program, end_program, others_take_part
 from bot_console.tui.session.embedded.reaching import report_left_router, without_connect
 
@@ -139,7 +139,7 @@ def _in_workspace(words: Words) -> Words:
 
 def program() -> NoReturn:
     """Run the command line of this process, and exit."""
-    with recorded(sys.argv[1:]) as ended:
+    with record_command(sys.argv[1:]) as ended:
         code = ended(run_and_report(_program))
     end_program(code)
 

@@ -24,8 +24,8 @@ NAME = "commands.jsonl"
 MAX_WORDS, MAX_WORD_CHARACTERS = 40, 200
 """Maximum recorded words of a command line, and characters of a word."""
 SETTLING_S = 3.0
-"""Seconds for which one of the `LASTING` commands has to run before it counts as working, since it may still fail."""
-LASTING = frozenset(("run", "launch", "topic", "bag"))
+"""Seconds that one of the `LONG_RUNNING` commands has to run before it counts as working: it may still fail."""
+LONG_RUNNING = frozenset(("run", "launch", "topic", "bag"))
 """Commands that run until somebody ends them; other commands count as having worked when they have ended."""
 MAX_ERROR_CHARACTERS = 500
 """Maximum characters of the end of a command's stderr that are recorded."""
@@ -47,9 +47,9 @@ class Command(NamedTuple):
     """The end of its error output, for commands whose exit code does not say whether they have succeeded."""
 
     @property
-    def works(self) -> bool:
+    def is_working(self) -> bool:
         """Whether it has succeeded, or has been running long enough to count as working."""
-        return not self.failed if self.code is not None else self.settled and not LASTING.isdisjoint(self.verb[:1])
+        return not self.failed if self.code is not None else self.settled and not LONG_RUNNING.isdisjoint(self.verb[:1])
 
     @property
     def failed(self) -> bool:
@@ -70,7 +70,7 @@ def open_log() -> str:
     return path
 
 
-def log_for(words: Sequence[str]) -> str:
+def log_path(words: Sequence[str]) -> str:
     """Return the path of the file to record a command in; empty if no lesson is open. Costs one file system call."""
     if not words or words[0] in UNRECORDED:
         return ""
@@ -98,20 +98,20 @@ class ErrorTail:
 
 
 @contextmanager
-def recorded(words: Sequence[str]) -> Generator[Callable[[int], int]]:
+def record_command(words: Sequence[str]) -> Generator[Callable[[int], int]]:
     """Record a command line if a lesson is open; yields a function that takes the exit code and returns it.
 
     An interrupted command is recorded with the exit code that shells use for Ctrl-C, since `ros2` exits with the same
     code as after wrong usage. As in ROS 2, `param set` exits with 0 when the node has refused the value, so its error
     output is recorded as well.
     """
-    path = log_for(words)
+    path = log_path(words)
     if not path:
         yield lambda code: code
         return
     codes: list[int] = []
     tail, stderr = ErrorTail(sys.stderr), sys.stderr
-    record(path, words, None)
+    append_record(path, words, None)
     if Command(tuple(words)).verb[:1] == ("param",):
         sys.stderr = cast("TextIO", tail)
 
@@ -123,10 +123,10 @@ def recorded(words: Sequence[str]) -> Generator[Callable[[int], int]]:
         yield end
     finally:
         sys.stderr = stderr
-        record(path, words, codes[0] if codes else 1, tail.text)
+        append_record(path, words, codes[0] if codes else 1, tail.text)
 
 
-def record(path: str, words: Sequence[str], code: int | None, errors: str = "") -> None:
+def append_record(path: str, words: Sequence[str], code: int | None, errors: str = "") -> None:
     """Append a command; errors are ignored, since a command must not fail because it cannot be recorded."""
     import json
 

@@ -18,7 +18,7 @@ class Verb(NamedTuple):
     least: int
     most: int
     once: bool
-    """True for deeds, which stay done once they were seen; False for states, which can be lost again."""
+    """True for something that was done, which stays done; False for a state, which can be lost again."""
 
 
 VERBS: Mapping[str, Verb] = {
@@ -46,9 +46,9 @@ VERBS: Mapping[str, Verb] = {
     "expect-parameter-file": Verb("expect-parameter-file PATTERN [PARAMETER [VALUE]]", 1, 3, False),
     "expect-no-findings": Verb("expect-no-findings PATTERN (of lint)", 1, 1, False),
 }
-"""The verbs of conditions: `saw-` for a deed, `expect-` for a state of the workspace."""
+"""The verbs of conditions: `saw-` for something that was done, `expect-` for a state of the workspace."""
 PANE_WORDS = frozenset(("overview", *(each.id for each in PANES)))
-PLUGIN = "plugin_"
+PLUGIN_PREFIX = "plugin_"
 """The prefix of the name of a pane from another package."""
 
 
@@ -91,8 +91,8 @@ def _wrong(verb: str, words: tuple[str, ...]) -> str:
     if verb == "saw-move":
         return "" if re.fullmatch(r"\d+(\.\d+)?", words[0]) else "a length in m"
     if verb == "saw-pane":
-        own = words[0].startswith(PLUGIN)
-        return "" if own or words[0] in PANE_WORDS else f"one of {', '.join(sorted(PANE_WORDS))}, {PLUGIN}NAME"
+        own = words[0].startswith(PLUGIN_PREFIX)
+        return "" if own or words[0] in PANE_WORDS else f"one of {', '.join(sorted(PANE_WORDS))}, {PLUGIN_PREFIX}NAME"
     if verb == "expect-file" and len(words) > 1:
         return "" if words[1] in ("contains", "lacks") and len(words) == 3 else "contains TEXT, lacks TEXT"
     if verb == "saw-launch" and len(words) > 1:

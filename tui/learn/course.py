@@ -128,7 +128,7 @@ def _text(path: Path) -> str:
 
 
 @dataclass
-class _Part:
+class _Section:
     """A heading and the content below it."""
 
     title: str
@@ -144,7 +144,7 @@ class _Part:
 
 
 def _chapter(path: Path) -> Chapter:
-    head, *steps = _parts(path, _text(path).splitlines())
+    head, *steps = _sections(path, _text(path).splitlines())
     if not head.title:
         raise CourseError(f"{path}:1: a chapter begins with its title, as in `# First parameter`")
     if head.conditions:
@@ -159,8 +159,8 @@ def _chapter(path: Path) -> Chapter:
     return Chapter(head.title, head.text(), tuple(found), tuple(rows))
 
 
-def _parts(path: Path, lines: Sequence[str]) -> list[_Part]:
-    parts = [_Part("", 1)]
+def _sections(path: Path, lines: Sequence[str]) -> list[_Section]:
+    parts = [_Section("", 1)]
     fence, kind, about, start, body = "", "", "", 0, list[str]()
     for number, line in enumerate(lines, 1):
         found = FENCE.match(line)
@@ -174,7 +174,7 @@ def _parts(path: Path, lines: Sequence[str]) -> list[_Part]:
             fence, kind, about = found[1], found[2], found[3]
             start, body = number, []
         elif line.startswith("## "):
-            parts.append(_Part(line[3:].strip(), number))
+            parts.append(_Section(line[3:].strip(), number))
         elif line.startswith("# "):
             if parts[0].title:
                 raise CourseError(f"{path}:{number}: a second `# Title`; another chapter is another file")
@@ -186,7 +186,7 @@ def _parts(path: Path, lines: Sequence[str]) -> list[_Part]:
     return parts
 
 
-def _add(part: _Part, kind: str, about: str, body: Sequence[str], path: Path, line: int) -> None:
+def _add(part: _Section, kind: str, about: str, body: Sequence[str], path: Path, line: int) -> None:
     try:
         if kind == "step":
             part.conditions += _conditions(body, line)

@@ -35,11 +35,11 @@ class WorkspaceFiles:
         """The file that was written last: the one that is being worked on."""
         return max(found, key=_changed)
 
-    def named(self, word: str) -> list[tuple[str, str]]:
+    def launch_files_named(self, word: str) -> list[tuple[str, str]]:
         """The path and text of each Python, XML or YAML file that a word of a launch command may name."""
         if not word.endswith((".py", ".xml", ".yaml", ".yml")):
             return []
-        return [(self.name_of(each), self.text(each)) for each in self.matching(os.path.basename(word))]
+        return [(self.relative_path(each), self.text(each)) for each in self.matching(os.path.basename(word))]
 
     def text(self, path: Path) -> str:
         """The text of a file; empty if it cannot be read or is too large."""
@@ -61,7 +61,7 @@ class WorkspaceFiles:
         found = [each.name for each in self.packages]
         return usual if usual in found else next(iter(found), usual)
 
-    def name_of(self, path: Path) -> str:
+    def relative_path(self, path: Path) -> str:
         """The path of a file within the workspace, for messages."""
         return str(path.relative_to(self.folder))
 

@@ -12,12 +12,12 @@ from typing import Any, cast
 from xml.etree import ElementTree
 
 from bot_console.tui.cli.check.stepped import NOT_REACHED
+from bot_console.tui.learn.activity import Activity
 from bot_console.tui.learn.condition_check import NO_PACKAGE, missing, with_names
 from bot_console.tui.learn.course import Course
-from bot_console.tui.learn.deeds import Deeds
 from bot_console.tui.learn.files import WorkspaceFiles
 from bot_console.tui.learn.grade_row import Drive, GradeRow
-from bot_console.tui.learn.sandbox import Finished, Sandbox, make_sandbox
+from bot_console.tui.learn.sandbox import RunResult, Sandbox, make_sandbox
 
 ROW_TIMEOUT_S = 90.0
 """Seconds that a row may take."""
@@ -53,14 +53,14 @@ def grade(course: Course, workspace: Path, *, allow_network: bool = False) -> It
     for row in course.rows():
         with tempfile.TemporaryDirectory(prefix="bc-grade-", ignore_cleanup_errors=True) as folder:
             sandbox = make_sandbox(workspace, Path(folder), allow_network=allow_network)
-            yield RowResult(row, _why(row, sandbox, course))
+            yield RowResult(row, _failure(row, sandbox, course))
 
 
-def _why(row: GradeRow, sandbox: Sandbox, course: Course) -> str:
+def _failure(row: GradeRow, sandbox: Sandbox, course: Course) -> str:
     files = WorkspaceFiles(sandbox.workspace)
     names = {**course.defaults, "package": files.package_name(course.defaults.get("package", ""))}
     for condition in row.files:
-        if why := missing(condition, Deeds(), files, names):
+        if why := missing(condition, Activity(), files, names):
             return why.replace(f"{sandbox.workspace}", "the workspace")
     if not files.packages and _starts_package(row):
         return NO_PACKAGE  # otherwise an installed package of the same name would be graded
@@ -121,7 +121,7 @@ def _text(path: Path) -> str:
         return ""
 
 
-def _explained(why: str, done: Finished) -> str:
+def _explained(why: str, done: RunResult) -> str:
     lines = [each.strip() for each in done.output.splitlines() if each.strip()]
     return f"{why} ({' / '.join(lines[-EXPLAINING_LINES:])})" if lines else why
 
@@ -136,16 +136,16 @@ def row_text(result: RowResult) -> str:
 
 def sum_text(results: Sequence[RowResult]) -> str:
     """The sum of the points, and separately that of the extra points, if there are any."""
-    extra = f", {_points(results, extra=True):g} of {_most(results, extra=True):g} extra points"
+    extra = f", {_points(results, extra=True):g} of {_max_points(results, extra=True):g} extra points"
     has_extra = any(each.row.extra for each in results)
-    return f"{_points(results):g} of {_most(results):g} points{extra if has_extra else ''}"
+    return f"{_points(results):g} of {_max_points(results):g} points{extra if has_extra else ''}"
 
 
 def _points(results: Sequence[RowResult], *, extra: bool = False) -> float:
     return sum(each.points for each in results if each.row.extra == extra)
 
 
-def _most(results: Sequence[RowResult], *, extra: bool = False) -> float:
+def _max_points(results: Sequence[RowResult], *, extra: bool = False) -> float:
     return sum(each.row.points for each in results if each.row.extra == extra)
 
 

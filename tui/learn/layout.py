@@ -38,7 +38,7 @@ LESSON = Layout(
 
 
 @dataclass
-class WithLesson:
+class LessonLayoutStore:
     """A layout store with the user's layouts and the one for courses."""
 
     store: LayoutStore

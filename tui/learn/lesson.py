@@ -7,15 +7,15 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 from bot_console.tui.console.model import Change, ConsoleSnapshot
+from bot_console.tui.learn.activity import Activity
 from bot_console.tui.learn.command_log import read_log
 from bot_console.tui.learn.condition_check import missing, with_names
 from bot_console.tui.learn.condition_syntax import Condition
 from bot_console.tui.learn.course import Course, Step
-from bot_console.tui.learn.deeds import Deeds
 from bot_console.tui.learn.files import WorkspaceFiles
 from bot_console.tui.learn.lesson_view import LessonView, OnScreen
 from bot_console.tui.learn.progress import Progress, read_progress
-from bot_console.tui.learn.wording import held_text
+from bot_console.tui.learn.wording import fulfilled_text
 
 POLL_S = 1.0
 """Seconds between two polls of the workspace's files and of the commands of other terminals."""
@@ -36,7 +36,7 @@ class CourseLesson:
         self._workspace = workspace
         self._commands = commands
         self._clock = clock
-        self._deeds = Deeds()
+        self._activity = Activity()
         self._files = WorkspaceFiles(workspace)
         self._polled_at = float("-inf")
         self._states: dict[str, str] = {}
@@ -48,7 +48,7 @@ class CourseLesson:
         self.progress: Progress = read_progress(workspace, course.name)
         self._steps = course.steps()
         self._at = next((n for n, each in enumerate(self._steps) if each.id == self.progress.at), 0)
-        self._judge()
+        self._check_steps()
         if self.is_done(self._steps[self._at]):
             self._at = self._next_open()
 
@@ -57,12 +57,12 @@ class CourseLesson:
 
         If the shown step is among them, the next open one is shown.
         """
-        self._deeds.observe(snapshot)
-        self._deeds.add_changes(changes)
-        self._deeds.panes |= screen.panes
-        self._deeds.curves |= screen.curves
-        self._deeds.layouts |= screen.layouts
-        self._deeds.steered |= screen.steers
+        self._activity.observe(snapshot)
+        self._activity.add_changes(changes)
+        self._activity.panes |= screen.panes
+        self._activity.curves |= screen.curves
+        self._activity.layouts |= screen.layouts
+        self._activity.steered |= screen.steers
         now = self._clock()
         if now - self._polled_at < POLL_S:
             return ()
@@ -71,9 +71,9 @@ class CourseLesson:
         if files.stamp != self._files.stamp:
             self._files, self._states = files, {}
         commands = read_log(self._commands, time.time()) if self._commands else ()
-        self._deeds.add_launches(snapshot.launch.files, commands, self._files.named)
+        self._activity.add_launches(snapshot.launch.files, commands, self._files.launch_files_named)
         before = {each.id for each in self._steps if self.is_done(each)}
-        self._judge()
+        self._check_steps()
         new = [each for each in self._steps if each.id not in before and self.is_done(each)]
         if any(each is self._steps[self._at] for each in new):
             self.go(0)
@@ -89,7 +89,9 @@ class CourseLesson:
         waits = tuple(
             (
                 not why,
-                self._with_hint(condition, why) if why else self._named(held_text(condition.verb, condition.words)),
+                self._with_hint(condition, why)
+                if why
+                else self._with_names(fulfilled_text(condition.verb, condition.words)),
             )
             for condition, why in zip(step.conditions, self._missing[step.id], strict=True)
         )
@@ -99,8 +101,8 @@ class CourseLesson:
             self._at + 1,
             len(self._steps),
             sum(self.is_done(each) for each in self._steps),
-            self._named(step.text),
-            tuple((self._named(each.path), self._named(each.text)) for each in step.snippets),
+            self._with_names(step.text),
+            tuple((self._with_names(each.path), self._with_names(each.text)) for each in step.snippets),
             waits,
             self.progress.problem,
         )
@@ -118,37 +120,37 @@ class CourseLesson:
         order = [*range(self._at + 1, len(self._steps)), *range(self._at + 1)]
         return next((each for each in order if not self.is_done(self._steps[each])), self._at)
 
-    def _judge(self) -> None:
+    def _check_steps(self) -> None:
         names = {**self.course.defaults, **self.progress.names}
         names["package"] = self._files.package_name(self.course.defaults.get("package", ""))
         changed = False
         for step in self._steps:
             held = self.progress.held.setdefault(step.id, [])
             self._missing[step.id] = []
-            before = self._driven_before.get(step.id, self._deeds.metres)
+            before = self._driven_before.get(step.id, self._activity.metres)
             for condition in step.conditions:
-                why = "" if condition.once and condition.text in held else self._why(condition, names, before)
+                why = "" if condition.once and condition.text in held else self._missing_part(condition, names, before)
                 self._missing[step.id].append(why)
                 if condition.once and not why and condition.text not in held:
                     held.append(condition.text)
                     changed = True
             left = [each for each, why in zip(step.conditions, self._missing[step.id], strict=True) if why]
             if all(each.verb == "saw-move" for each in left):
-                self._driven_before.setdefault(step.id, self._deeds.metres)
+                self._driven_before.setdefault(step.id, self._activity.metres)
         if changed or names != self.progress.names:
             self.progress.names = names
             self.progress.save()
 
-    def _why(self, condition: Condition, names: dict[str, str], driven_before: float) -> str:
+    def _missing_part(self, condition: Condition, names: dict[str, str], driven_before: float) -> str:
         if condition.once:
-            return missing(condition, self._deeds, self._files, names, driven_before=driven_before)
+            return missing(condition, self._activity, self._files, names, driven_before=driven_before)
         text = with_names(condition.text, names)
         if text not in self._states:
-            self._states[text] = missing(condition, self._deeds, self._files, names)
+            self._states[text] = missing(condition, self._activity, self._files, names)
         return self._states[text]
 
     def _with_hint(self, condition: Condition, why: str) -> str:
-        return f"{why}: {self._named(condition.hint)}" if condition.hint else why
+        return f"{why}: {self._with_names(condition.hint)}" if condition.hint else why
 
-    def _named(self, text: str) -> str:
+    def _with_names(self, text: str) -> str:
         return with_names(text, self.progress.names)

@@ -30,7 +30,7 @@ class NoSandboxError(RuntimeError):
 
 
 @dataclass(frozen=True)
-class Finished:
+class RunResult:
     """How a run has ended; `why` names the limit for which it was killed, and is empty otherwise."""
 
     code: int
@@ -50,7 +50,7 @@ class Sandbox:
         """The path of the copy."""
         return self.folder / "ws"
 
-    def run(self, script: str, seconds: float) -> Finished:
+    def run(self, script: str, seconds: float) -> RunResult:
         """Run a shell script in the copy for at most `seconds`; no process that it has started outlives it."""
         output = self.folder / "output"
         with output.open("wb") as file:
@@ -65,7 +65,7 @@ class Sandbox:
             )
             why = _wait(process, seconds)
         text = output.read_bytes()[-MAX_OUTPUT_BYTES:].decode("utf-8", "replace")
-        return Finished(process.returncode, text, why)
+        return RunResult(process.returncode, text, why)
 
     def _environment(self) -> dict[str, str]:
         kept = {name: value for name, value in os.environ.items() if name in ("PATH", "LANG", "LC_ALL", "PYTHONPATH")}

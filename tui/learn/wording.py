@@ -33,7 +33,7 @@ def node_text(name: str, parameter: str) -> str:
     return f"{who}{f' with a parameter {parameter}' if parameter else ''}"
 
 
-def held_text(verb: str, words: Sequence[str]) -> str:
+def fulfilled_text(verb: str, words: Sequence[str]) -> str:
     """The statement that is true while a condition holds."""
     return _SENTENCES[verb](words)
 

@@ -13,7 +13,7 @@ from bot_console.tui.arrangement.plugin_pane import PluginEntry
 from bot_console.tui.console.model import Change, ChangeSource
 from bot_console.tui.layout.current_layout import Arrangement, MemoryLayoutStore
 from bot_console.tui.learn.course import read_course
-from bot_console.tui.learn.layout import NAME, WithLesson
+from bot_console.tui.learn.layout import NAME, LessonLayoutStore
 from bot_console.tui.learn.lesson import CourseLesson
 from bot_console.tui.learn.lesson_view import LessonView
 from bot_console.tui.panes.lesson.pane import LessonPane, lines_of, text_of, wrapped
@@ -69,7 +69,7 @@ def run(
             console,
             FakeCommandLine(console.asked),
             refresh_hz=0,
-            appearance=replace(Appearance(), arrangement=Arrangement(WithLesson(MemoryLayoutStore()), NAME)),
+            appearance=replace(Appearance(), arrangement=Arrangement(LessonLayoutStore(MemoryLayoutStore()), NAME)),
             plugins=lambda: [entry],
         )
         with at_rest(is_scripted=True):

@@ -19,7 +19,7 @@ from bot_console.tui.console.in_background import in_background
 from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.running_lines import LINE_TIMEOUT_S, RunningLine, goes_on, interrupted, starts_nodes
-from bot_console.tui.learn.command_log import log_for, record, recorded
+from bot_console.tui.learn.command_log import append_record, log_path, record_command
 
 START_TIMEOUT_S = 30.0
 """Seconds to wait for the start of what a line launches; after that, the Launch pane shows the rest."""
@@ -62,14 +62,14 @@ class Ros2CommandLine:
 
     def _recorded(self, line: str) -> str:
         words = _words(line)
-        log, text, code = log_for(words), "", 1
+        log, text, code = log_path(words), "", 1
         if log:
-            record(log, words, None)
+            append_record(log, words, None)
         try:
             text, code = self._done(words)
         finally:
             if log:
-                record(log, words, code, text)
+                append_record(log, words, code, text)
         return text
 
     def _done(self, words: Sequence[str]) -> tuple[str, int]:
@@ -127,7 +127,7 @@ def _words(line: str) -> list[str]:
 
 
 def _recorded(words: Sequence[str]) -> int:
-    with recorded(words) as ended:
+    with record_command(words) as ended:
         return ended(_run(words))
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.layout.tree import panes
-from bot_console.tui.learn.layout import LESSON, NAME, WithLesson
+from bot_console.tui.learn.layout import LESSON, NAME, LessonLayoutStore
 from bot_console.tui.settings.layouts import FileLayouts
 
 
@@ -15,6 +15,6 @@ def test_layout_saved_beside_lesson_is_listed_without_it(tmp_path: Path, monkeyp
     tree = LESSON.tree
     assert NAME in panes(tree)
     store = FileLayouts({*panes(tree)} - {NAME})
-    WithLesson(store).save("mine", tree)
+    LessonLayoutStore(store).save("mine", tree)
     assert panes(store.layouts()["mine"].tree) == tuple(each for each in panes(tree) if each != NAME)
     assert store.problems == []

@@ -15,11 +15,11 @@ from bot_console.tui.console.model import (
 )
 from bot_console.tui.console.robot.robot_model import Pose, WorldInfo
 from bot_console.tui.learn import command_log
-from bot_console.tui.learn.command_log import SETTLING_S, Command, read_log, record
+from bot_console.tui.learn.activity import Activity, LaunchRecord
+from bot_console.tui.learn.command_log import SETTLING_S, Command, append_record, read_log
 from bot_console.tui.learn.condition_check import missing
 from bot_console.tui.learn.condition_syntax import Condition, read_condition
 from bot_console.tui.learn.course import Course, Step, find_course, read_course
-from bot_console.tui.learn.deeds import Deeds, Launched
 from bot_console.tui.learn.files import WorkspaceFiles
 from bot_console.tui.learn.lesson import CourseLesson
 from bot_console.tui.learn.lesson_view import OnScreen
@@ -52,15 +52,15 @@ class Clock:
         return self.now
 
 
-def why(text: str, deeds: Deeds | None = None, folder: Path = Path("/nonexistent")) -> str:
-    return missing(read_condition(text), deeds or Deeds(), WorkspaceFiles(folder), {})
+def why(text: str, activity: Activity | None = None, folder: Path = Path("/nonexistent")) -> str:
+    return missing(read_condition(text), activity or Activity(), WorkspaceFiles(folder), {})
 
 
 SPEED = parameter("/robot", "speed", 1.0)
 
 
 @pytest.mark.parametrize(
-    ("condition", "deeds", "text"),
+    ("condition", "activity", "text"),
     [
         ("saw-node robot", seen(SPEED), ""),
         ("saw-node robto", seen(SPEED), "waiting for: node /robto; did you mean robot?"),
@@ -145,8 +145,8 @@ SPEED = parameter("/robot", "speed", 1.0)
         ("saw-move 2", seen(metres=1.5), "waiting for: the robot to drive 0.5 m"),
     ],
 )
-def test_missing_deed_is_named(condition: str, deeds: Deeds, text: str) -> None:
-    found = why(condition, deeds)
+def test_missing_deed_is_named(condition: str, activity: Activity, text: str) -> None:
+    found = why(condition, activity)
     assert found.startswith(text) and bool(found) == bool(text), found
 
 
@@ -280,12 +280,12 @@ def test_launch_file_counts_as_it_was_when_it_was_launched(tmp_path: Path) -> No
     log.touch()
     held = lesson(tmp_path, "## A\n```step\nsaw-launch *.launch.py contains Timer\n```\n", str(log))
     (tmp_path / "x.launch.py").touch()
-    record(str(log), ["launch", "x.launch.py"], 0)
+    append_record(str(log), ["launch", "x.launch.py"], 0)
     assert held.observe(snapshot(), [], OnScreen()) == []
     (tmp_path / "x.launch.py").write_text("Timer()", encoding="utf-8")
     assert held.observe(snapshot(), [], OnScreen()) == []
-    record(str(log), ["launch", "x.launch.py"], None)
-    record(str(log), ["launch", "x.launch.py"], 0)
+    append_record(str(log), ["launch", "x.launch.py"], None)
+    append_record(str(log), ["launch", "x.launch.py"], 0)
     assert held.observe(snapshot(), [], OnScreen()) == ["A"]
 
 
@@ -303,20 +303,20 @@ def test_file_launched_from_the_launch_pane_counts_each_time(tmp_path: Path) -> 
 def test_command_that_lasts_until_it_is_ended_counts_once_it_has_run_for_a_while(tmp_path: Path) -> None:
     path = tmp_path / "log"
     path.touch()
-    record(str(path), ["run", "a.py"], None)
+    append_record(str(path), ["run", "a.py"], None)
     at = json.loads(path.read_text("utf-8"))["at"]
-    assert [each.works for each in read_log(str(path), at + 1.0)] == [False]
-    assert [each.works for each in read_log(str(path), at + SETTLING_S)] == [True]
+    assert [each.is_working for each in read_log(str(path), at + 1.0)] == [False]
+    assert [each.is_working for each in read_log(str(path), at + SETTLING_S)] == [True]
 
 
 def test_command_that_ends_by_itself_counts_when_it_has_ended(tmp_path: Path) -> None:
     path = tmp_path / "log"
     path.touch()
     words = ["check", ".", "--course", "week6"]
-    record(str(path), words, None)
-    assert [each.works for each in read_log(str(path))] == [False]
-    record(str(path), words, 0)
-    assert [each.works for each in read_log(str(path))] == [True]
+    append_record(str(path), words, None)
+    assert [each.is_working for each in read_log(str(path))] == [False]
+    append_record(str(path), words, 0)
+    assert [each.is_working for each in read_log(str(path))] == [True]
 
 
 def test_value_of_a_restarted_node_does_not_count_as_set(tmp_path: Path) -> None:
@@ -336,9 +336,9 @@ def test_error_output_of_param_commands_is_recorded(
 ) -> None:
     path = tmp_path / "log"
     path.touch()
-    monkeypatch.setattr(command_log, "log_for", lambda words: str(path))
+    monkeypatch.setattr(command_log, "log_path", lambda words: str(path))
     for words in (["ros2", "param", "set"], ["run", "a.py"]):
-        with command_log.recorded(words) as ended:
+        with command_log.record_command(words) as ended:
             print("x" * 1000, "Setting parameter failed: no", file=sys.stderr)
             ended(0)
     assert capsys.readouterr().err.count("failed: no") == 2
@@ -359,47 +359,47 @@ def test_commands_of_other_terminals_count(tmp_path: Path) -> None:
     log = tmp_path / "log"
     log.touch()
     held = lesson(tmp_path, "## A\n```step\nsaw-command param list\n```\n", str(log))
-    record(str(log), ["ros2", "param", "list", "\udcff"], None)
+    append_record(str(log), ["ros2", "param", "list", "\udcff"], None)
     with log.open("a", encoding="utf-8") as file:
         file.write("no json\n[]\n")
-    record(str(log), ["ros2", "param", "list", "\udcff"], 1)
+    append_record(str(log), ["ros2", "param", "list", "\udcff"], 1)
     assert held.observe(snapshot(), [], OnScreen()) == []
-    record(str(log), ["ros2", "param", "list"], 0)
+    append_record(str(log), ["ros2", "param", "list"], 0)
     assert held.observe(snapshot(), [], OnScreen()) == ["A"]
     assert [each.code for each in read_log(str(log))] == [1, 0]
 
 
-def deed(condition: Condition, deeds: Deeds) -> bool:
+def is_done_by(condition: Condition, activity: Activity) -> bool:
     """Do what a condition asks for; return False for states of files."""
     words = [each.replace("*", "x") for each in condition.words]
     name = words[0] if words else ""
     match condition.verb:
         case "saw-node":
             given = dict(zip(condition.words[1::2], condition.words[2::2], strict=True))
-            deeds.nodes.add(f"/{name}")
+            activity.nodes.add(f"/{name}")
             if "with" in given:
-                deeds.parameters[f"/{name}", given["with"]] = parameter(f"/{name}", given["with"], 1.0)
+                activity.parameters[f"/{name}", given["with"]] = parameter(f"/{name}", given["with"], 1.0)
         case "saw-parameter":
             value = words[words.index("==") + 1] if "==" in words else 1.0
-            deeds.parameters["/n", name] = parameter("/n", name, str(value), description="d", range=Range(0.0, 1.0))
+            activity.parameters["/n", name] = parameter("/n", name, str(value), description="d", range=Range(0.0, 1.0))
         case "saw-set":
             value = float(words[1]) if len(words) > 1 else 1.0
-            deeds.changes.append(change(name, value))
+            activity.changes.append(change(name, value))
         case "saw-refused":
-            deeds.changes.append(change(name, 1.0, accepted=False, reason=" ".join(words[1:])))
+            activity.changes.append(change(name, 1.0, accepted=False, reason=" ".join(words[1:])))
         case "saw-command":
-            deeds.commands.append(Command(tuple(words), 0))
+            activity.commands.append(Command(tuple(words), 0))
         case "saw-failure":
-            deeds.commands.append(Command(tuple(words), 1))
+            activity.commands.append(Command(tuple(words), 1))
         case "saw-launch":
-            deeds.launched.append(Launched(words[0], words[-1], len(deeds.commands)))
-            deeds.commands.append(Command(("launch", *words), None))
+            activity.launches.append(LaunchRecord(words[0], words[-1], len(activity.commands)))
+            activity.commands.append(Command(("launch", *words), None))
         case "saw-steering":
-            deeds.steered = True
+            activity.steered = True
         case "saw-move":
-            deeds.metres += float(name)
+            activity.metres += float(name)
         case "saw-topic" | "saw-pane" | "saw-curve" | "saw-layout" | "saw-profile":
-            getattr(deeds, f"{condition.verb.removeprefix('saw-')}s").add(name)
+            getattr(activity, f"{condition.verb.removeprefix('saw-')}s").add(name)
         case _:
             return False
     return True
@@ -409,20 +409,20 @@ def deed(condition: Condition, deeds: Deeds) -> bool:
 def test_each_deed_of_the_course_counts_and_is_asked_for_when_left_out(step: Step, tmp_path: Path) -> None:
     deeds_asked = [each for each in step.conditions if each.verb.startswith("saw-")]
     for left_out in (None, *deeds_asked):
-        deeds = Deeds()
+        activity = Activity()
         for each in deeds_asked:
-            assert each == left_out or deed(each, deeds)
-        open_ones = [each for each in deeds_asked if missing(each, deeds, WorkspaceFiles(tmp_path), {})]
+            assert each == left_out or is_done_by(each, activity)
+        open_ones = [each for each in deeds_asked if missing(each, activity, WorkspaceFiles(tmp_path), {})]
         assert open_ones == ([left_out] if left_out else []) or _same_deed(left_out, deeds_asked)
 
 
 def _same_deed(left_out: Condition | None, others: list[Condition]) -> bool:
     """Whether another condition of the step asks for the same action."""
     assert left_out is not None
-    deeds = Deeds()
+    activity = Activity()
     for each in others:
-        assert each == left_out or deed(each, deeds)
-    return not missing(left_out, deeds, WorkspaceFiles(Path("/nonexistent")), {})
+        assert each == left_out or is_done_by(each, activity)
+    return not missing(left_out, activity, WorkspaceFiles(Path("/nonexistent")), {})
 
 
 def test_course_has_unique_steps_that_ask_for_something() -> None:
@@ -435,17 +435,17 @@ def test_interrupted_ros2_verb_does_not_count_as_failed(tmp_path: Path, monkeypa
 
     log = tmp_path / "commands.jsonl"
     log.touch()
-    monkeypatch.setattr(command_log, "log_for", lambda words: str(log))
+    monkeypatch.setattr(command_log, "log_path", lambda words: str(log))
 
     def interrupt(words: list[str]) -> None:
         raise KeyboardInterrupt
 
     monkeypatch.setattr(command_line, "_run", interrupt)
     words = ["topic", "echo", "/odom"]
-    with command_log.recorded(words) as ended:
+    with command_log.record_command(words) as ended:
         assert ended(command_line.main(words)) == 2, "as the ros2 of ROS 2 ends"
     (command,) = read_log(str(log))
-    assert command.code == 130 and command.works and not command.failed
-    with command_log.recorded(words) as ended:
+    assert command.code == 130 and command.is_working and not command.failed
+    with command_log.record_command(words) as ended:
         ended(2)
     assert read_log(str(log))[-1].failed, "a wrong command line"

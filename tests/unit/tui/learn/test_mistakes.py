@@ -236,8 +236,8 @@ def test_step_answers_a_typical_mistake(step: Any, tmp_path: Path) -> None:
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / path).write_text(text, encoding="utf-8")
     files = WorkspaceFiles(tmp_path)
-    deeds = seen(*mistake.parameters, changes=[*mistake.changes], **mistake.facts)
-    deeds.add_launches((), mistake.commands, files.named)
-    waits = [(missing(each, deeds, files, dict(NAMES)), each.hint) for each in step.conditions]
+    activity = seen(*mistake.parameters, changes=[*mistake.changes], **mistake.facts)
+    activity.add_launches((), mistake.commands, files.launch_files_named)
+    waits = [(missing(each, activity, files, dict(NAMES)), each.hint) for each in step.conditions]
     texts = [f"{why}: {with_names(hint, NAMES)}" for why, hint in waits if why]
     assert any(mistake.answer in each for each in texts), texts

@@ -6,12 +6,12 @@ import re
 from pathlib import Path
 
 import pytest
+from bot_console.tui.learn.activity import Activity
 from bot_console.tui.learn.condition_check import missing
 from bot_console.tui.learn.condition_syntax import VERBS, Condition, read_condition
 from bot_console.tui.learn.course import COURSES, read_course
-from bot_console.tui.learn.deeds import Deeds
 from bot_console.tui.learn.files import WorkspaceFiles
-from bot_console.tui.learn.wording import command_text, held_text
+from bot_console.tui.learn.wording import command_text, fulfilled_text
 
 
 @pytest.mark.parametrize(
@@ -51,7 +51,7 @@ from bot_console.tui.learn.wording import command_text, held_text
 )
 def test_condition_that_holds_is_put_into_a_sentence(condition: str, text: str) -> None:
     read = read_condition(condition)
-    assert held_text(read.verb, read.words) == text
+    assert fulfilled_text(read.verb, read.words) == text
 
 
 def test_anything_between_words_of_a_command_is_one_ellipsis() -> None:
@@ -62,7 +62,7 @@ def test_anything_between_words_of_a_command_is_one_ellipsis() -> None:
     "condition", [each for step in read_course(COURSES / "week6").steps() for each in step.conditions]
 )
 def test_course_shows_no_condition_verbs_and_only_file_name_patterns(condition: Condition, tmp_path: Path) -> None:
-    waits = missing(condition, Deeds(), WorkspaceFiles(tmp_path), {})
-    for text in (waits, held_text(condition.verb, condition.words)):
+    waits = missing(condition, Activity(), WorkspaceFiles(tmp_path), {})
+    for text in (waits, fulfilled_text(condition.verb, condition.words)):
         assert not any(verb in text for verb in VERBS)
         assert not re.search(r"\*(?![^ ]*\.(py|yaml))|\*[^ ]*:=|:=[^ ]*\*", text), text

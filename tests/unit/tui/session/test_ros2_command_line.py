@@ -145,7 +145,7 @@ def test_continuous_line_is_recorded_for_a_lesson(tmp_path: Path, monkeypatch: p
     log = tmp_path / "commands"
     log.touch()
     monkeypatch.setenv("ROS_DOMAIN_ID", "87")
-    monkeypatch.setattr(command_log, "log_for", lambda words: str(log))
+    monkeypatch.setattr(command_log, "log_path", lambda words: str(log))
     stream = Ros2CommandLine().stream("ros2 topic hz /nothing")
     assert stream is not None
     until(stream.lines)
