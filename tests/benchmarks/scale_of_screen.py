@@ -37,7 +37,7 @@ from bot_console.tui.console.model import (
     Severity,
 )
 from bot_console.tui.panes.plot.curves import Curve
-from bot_console.tui.panes.plot.view import Axes, framed
+from bot_console.tui.panes.plot.view import Axes, framed_plot
 from bot_console.tui.panes.topics.rows import Kind as Listed
 from bot_console.tui.panes.topics.rows import rows
 from bot_console_robot.simulation.simulation import Simulation
@@ -171,7 +171,7 @@ def plotted(count: int) -> float:
     """Milliseconds to draw `count` curves, of 10,000 samples each, into 120x40 cells."""
     times = np.linspace(0.0, 100.0, SAMPLES)
     curves = [Curve(f"/topic{at}/data", at, times, np.sin(times * (1 + at / 7))) for at in range(count)]
-    return least(lambda: framed(curves, (), Axes(0.0, 100.0), 120, 40))
+    return least(lambda: framed_plot(curves, (), Axes(0.0, 100.0), 120, 40))
 
 
 def topic_rows(count: int) -> float:

@@ -123,18 +123,18 @@ def history_file_seeds() -> Sequence[str]:
 
 def pane_states(text: str) -> None:
     """The saved states of panes."""
-    from bot_console.tui.panes.alarms.alarm import texts_of
-    from bot_console.tui.panes.graph.view_state import view_state_of
-    from bot_console.tui.panes.parameters.view_state import left_of
+    from bot_console.tui.panes.alarms.alarm import alarm_texts_in
+    from bot_console.tui.panes.graph.view_state import view_state_of as graph_view_of
+    from bot_console.tui.panes.parameters.view_state import view_state_of as parameter_view_of
     from bot_console.tui.settings.yaml_reader import NotPlainData, read_yaml
 
     try:
         data = read_yaml(text.encode("utf-8", "surrogatepass"))
     except NotPlainData:
         return
-    view_state_of(data)
-    left_of(data)
-    texts_of(data)
+    graph_view_of(data)
+    parameter_view_of(data)
+    alarm_texts_in(data)
 
 
 def lines_of_stores(text: str) -> None:

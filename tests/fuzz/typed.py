@@ -113,15 +113,15 @@ def plot(text: str) -> None:
 
 def expression(text: str) -> None:
     import numpy as np
-    from bot_console.tui.panes.plot.formulas.formula import Held, read, split
+    from bot_console.tui.panes.plot.formulas.formula import HeldValues, parse_formula, split_expressions
     from bot_console.tui.text.expression.numbers import evaluate
 
     with contextlib.suppress(ValueError):
         evaluate(text, {"x": 2.0})
-    split(text)
-    found = read(text)
+    split_expressions(text)
+    found = parse_formula(text)
     if not isinstance(found, str):
-        held = Held(np.arange(50.0), np.linspace(-1.0, 1.0, 50))
+        held = HeldValues(np.arange(50.0), np.linspace(-1.0, 1.0, 50))
         try:
             times, values = found.values(dict.fromkeys(found.paths, held))
         except ValueError as error:
@@ -130,9 +130,9 @@ def expression(text: str) -> None:
 
 
 def condition(text: str) -> None:
-    from bot_console.tui.panes.alarms.condition import read
+    from bot_console.tui.panes.alarms.condition import parse_condition
 
-    found = read(text)
+    found = parse_condition(text)
     for value in (-1.5, 0.0, 1e300):
         with contextlib.suppress(ValueError):
             assert found.holds(dict.fromkeys(found.paths, value)) in (True, False)

@@ -25,7 +25,7 @@ from bot_console.tui.console.model import Change, ChangeSource, Kind, ParameterI
 from bot_console.tui.console.parameters.file.saving import save
 from bot_console.tui.files.save_file import SUFFIX, save_file
 from bot_console.tui.layout.tree import beside
-from bot_console.tui.panes.graph.export import exported
+from bot_console.tui.panes.graph.export import export_graph
 from bot_console.tui.panes.history.export import export
 from bot_console.tui.panes.plot.curves import Curve
 from bot_console.tui.panes.plot.save import picture, samples
@@ -66,7 +66,7 @@ def plot(folder: Path, number: int) -> None:
 
 def graph(folder: Path, number: int) -> None:
     shown = Digraph(tuple(Item(f"/n{at}", f"node {number}") for at in range(200)), ())
-    save_file(folder / "graph.mmd", exported(shown, NO_DRAWING, ".mmd"))
+    save_file(folder / "graph.mmd", export_graph(shown, NO_DRAWING, ".mmd"))
 
 
 def history(folder: Path, number: int) -> None:

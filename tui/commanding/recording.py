@@ -11,7 +11,7 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.bags.port import Recording
 from bot_console.tui.files.save_file import typed_path
 from bot_console.tui.panes.pane import Pane
-from bot_console.tui.widgets.prompt.common import wrong_path
+from bot_console.tui.widgets.prompt.common import path_problem
 from bot_console.tui.widgets.prompt.question import Line
 
 
@@ -45,4 +45,4 @@ class BagRecording:
 
 def _folder_problem(text: str) -> str:
     """Why a bag cannot be written to a path, for example because it exists; empty if it can."""
-    return wrong_path(text) or (f"{text.strip()} exists already" if os.path.lexists(typed_path(text)) else "")
+    return path_problem(text) or (f"{text.strip()} exists already" if os.path.lexists(typed_path(text)) else "")

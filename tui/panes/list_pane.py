@@ -36,7 +36,7 @@ class ListPane(Pane, Narrowed):
         super().set_filter(words)
         self.keys_changed()
 
-    def filter_is(self, words: str) -> None:
+    def apply_filter(self, words: str) -> None:
         """Show the rows that pass the filter."""
         self._query = parse(words)
         self._arrange()
@@ -56,7 +56,7 @@ class ListPane(Pane, Narrowed):
         """Go to the next matching row; returns whether there is one."""
         return self._searched().find(parse(words), step)
 
-    def stands_on_match(self, words: str) -> bool:
+    def is_on_match(self, words: str) -> bool:
         """Whether the row at the cursor matches."""
         rows = self._searched()
         return rows.cursor < rows.row_count() and rows.matches(rows.cursor, parse(words))

@@ -21,7 +21,7 @@ from bot_console.tui.tuning.specification import TuningSpecification
 from bot_console.tui.tuning.tunable import Setting
 from bot_console.tui.widgets.lazy_parts import LazyParts
 from bot_console.tui.widgets.prompt.common import file_line
-from bot_console.tui.widgets.prompt.line import Prompt, open_prompt
+from bot_console.tui.widgets.prompt.line import Prompt, find_open_prompt
 from bot_console.tui.widgets.prompt.question import Confirmation, Line, Question
 from rich.text import Text
 from textual.app import App
@@ -221,7 +221,7 @@ class Pane(LazyParts):
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """Disable the keys of the pane while a prompt in it is open."""
-        return not (self.has_parts and open_prompt(self) is not None) and super().check_action(action, parameters)
+        return not (self.has_parts and find_open_prompt(self) is not None) and super().check_action(action, parameters)
 
     def on_mount(self) -> None:
         """Follow the time cursor."""
@@ -252,7 +252,7 @@ class Pane(LazyParts):
 
     def take_focus(self) -> None:
         """Focus the open prompt, or if there is none, the content of the pane."""
-        prompt = open_prompt(self) if self.has_parts else None
+        prompt = find_open_prompt(self) if self.has_parts else None
         if prompt is not None:
             prompt.take_focus()
         else:

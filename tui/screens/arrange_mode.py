@@ -11,7 +11,7 @@ from bot_console.tui.keys.key import Key, key_text
 from bot_console.tui.layout.tree import Way
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.terminal.dimmed_screen import DimmedScreen
-from bot_console.tui.widgets.prompt.line import KEYS, Prompt, open_prompt
+from bot_console.tui.widgets.prompt.line import KEYS, Prompt, find_open_prompt
 from bot_console.tui.widgets.prompt.question import Line
 from rich.style import Style
 from rich.text import Text
@@ -119,7 +119,7 @@ class ArrangeScreen(DimmedScreen):
         self._show_keys(self.size.width)
 
     def _show_keys(self, width: int) -> None:
-        typing = open_prompt(self) is not None
+        typing = find_open_prompt(self) is not None
         self.query_one("#arrange-keys", Static).update(KEYS if typing else keys_line(width - 2))
 
     def on_mount(self) -> None:
@@ -128,7 +128,7 @@ class ArrangeScreen(DimmedScreen):
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """Disable the keys that arrange panes while a name is typed."""
-        return open_prompt(self) is None and super().check_action(action, parameters)
+        return find_open_prompt(self) is None and super().check_action(action, parameters)
 
     def action_help(self) -> None:
         """Show all keys that arrange panes."""

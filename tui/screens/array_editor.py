@@ -14,7 +14,7 @@ from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.text.sanitize import counted, sanitize
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.prompt.filtered import Findable
-from bot_console.tui.widgets.prompt.line import Prompt, open_prompt
+from bot_console.tui.widgets.prompt.line import Prompt, find_open_prompt
 from bot_console.tui.widgets.prompt.question import Elements, Line
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
@@ -85,7 +85,7 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """Disable the keys of the list while an element is typed."""
-        return open_prompt(self) is None and super().check_action(action, parameters)
+        return find_open_prompt(self) is None and super().check_action(action, parameters)
 
     def _report(self, what: str = "") -> None:
         count = len(self._list.elements)
@@ -111,14 +111,14 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
         """Ask for search words below the list."""
         self.query_one(Prompt).ask(line)
 
-    def filter_is(self, words: str) -> None:
+    def apply_filter(self, words: str) -> None:
         """Do nothing: a filter hides no elements, since they are identified by their indices."""
 
     def find(self, words: str, step: int) -> bool:
         """Go to the next matching element; returns whether there is one."""
         return self._list.find(parse(words), step)
 
-    def stands_on_match(self, words: str) -> bool:
+    def is_on_match(self, words: str) -> bool:
         """Whether the element at the cursor matches."""
         return self._list.cursor < len(self._list.elements) and self._list.matches(self._list.cursor, parse(words))
 

@@ -17,7 +17,7 @@ from bot_console.tui.tuning.specification import TuningSpecification
 from bot_console.tui.tuning.tunable import Setting
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.braille import BrailleCanvas
-from bot_console.tui.widgets.prompt.line import Prompt, open_prompt
+from bot_console.tui.widgets.prompt.line import Prompt, find_open_prompt
 from bot_console.tui.widgets.prompt.question import Line
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
@@ -125,7 +125,7 @@ class TuningScreen(DimmedScreen):
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """Disable the keys of the table while a name is typed."""
-        return open_prompt(self) is None and super().check_action(action, parameters)
+        return find_open_prompt(self) is None and super().check_action(action, parameters)
 
     def poll(self) -> None:
         """Show the progress, if it has changed."""

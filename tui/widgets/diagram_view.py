@@ -163,7 +163,7 @@ class DiagramView(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  #
                 self.run_worker(self._draw_beside(), group="draw")
             return
         for each in missing:
-            self._drawings[each] = _drawn(self._content, each)
+            self._drawings[each] = _draw_content(self._content, each)
         self._choose(manners)
 
     async def _draw_beside(self) -> None:
@@ -174,7 +174,7 @@ class DiagramView(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  #
         try:
             while self.is_large and (manner := self._manners()[0]) not in self._drawings:
                 content = self._content
-                drawing = await asyncio.to_thread(_drawn, content, manner)
+                drawing = await asyncio.to_thread(_draw_content, content, manner)
                 if content is self._content:
                     self._drawings[manner] = drawing
                 if self.is_large:
@@ -398,7 +398,7 @@ class DiagramView(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  #
             self.post_message(self.Resized())
 
 
-def _drawn(content: Content, manner: Manner) -> Drawing:
+def _draw_content(content: Content, manner: Manner) -> Drawing:
     if isinstance(content, Digraph):
         return draw(content, manner if isinstance(manner, ArrowDirection) else RIGHT)
     width, height = (manner.width, manner.height) if isinstance(manner, Size) else (0, 0)

@@ -23,7 +23,7 @@ FIRST_DROPPED = ("app.line", "app.quit")
 STOP = "app.stop"
 
 
-class Shown(NamedTuple):
+class BarKey(NamedTuple):
     """A key as it is shown in the bar."""
 
     written: str
@@ -42,7 +42,7 @@ class KeyBar(Static):
     def __init__(self) -> None:
         super().__init__("", markup=False)
         self._shown: object = None
-        self._keys: list[Shown] = []
+        self._keys: list[BarKey] = []
         self._asked: tuple[Sequence[str], bool, str, int, Mapping[str, str], Mode] | None = None
 
     def show(
@@ -66,14 +66,14 @@ class KeyBar(Static):
             return
         self._shown = now
         if typing:
-            first, keys = [], [Shown("enter", "OK", "enter", ""), Shown("esc", "Cancel", "escape", "")]
+            first, keys = [], [BarKey("enter", "OK", "enter", ""), BarKey("esc", "Cancel", "escape", "")]
         else:
             own = [key for scope in scopes for key in TABLE.get(scope, ())]
             known = {key.id: key for key in own}
-            first = [_shown(known[id], word) for id, word in mode.keys.items() if id in known]
+            first = [_bar_key(known[id], word) for id, word in mode.keys.items() if id in known]
             others = [key for key in (*own, *TABLE["app"]) if key.id not in mode.keys]
-            keys = list(named(others, words))
-        self._keys = fitting(first, keys, width)
+            keys = list(bar_keys(others, words))
+        self._keys = fitting_keys(first, keys, width)
         self.update(_line(self._keys, colour, len(first)), layout=False)
 
     def on_resize(self) -> None:
@@ -90,7 +90,7 @@ class KeyBar(Static):
                 self.app.simulate_key(key.key)  # pyright: ignore[reportUnknownMemberType] -- Textual's App is generic
 
 
-def fitting(first: Sequence[Shown], keys: Sequence[Shown], columns: int) -> list[Shown]:
+def fitting_keys(first: Sequence[BarKey], keys: Sequence[BarKey], columns: int) -> list[BarKey]:
     """The keys that fit: `FIRST_DROPPED` are left out first, then the pane's keys, other global keys, and mode keys."""
     kept = [*first, *keys]
     own = [each for each in keys if not each.id.startswith("app.")]
@@ -109,19 +109,19 @@ def fitting(first: Sequence[Shown], keys: Sequence[Shown], columns: int) -> list
     return kept
 
 
-def named(keys: Iterable[Key], words: Mapping[str, str]) -> Iterator[Shown]:
+def bar_keys(keys: Iterable[Key], words: Mapping[str, str]) -> Iterator[BarKey]:
     """The keys that the bar shows, with their words."""
     for key in keys:
         word = words.get(key.id, key.footer)
         if key.footer and word:
-            yield _shown(key, word)
+            yield _bar_key(key, word)
 
 
-def _shown(key: Key, word: str) -> Shown:
-    return Shown(key.shown or key_text(key, 1), word, key.keys.split(",")[0], key.id)
+def _bar_key(key: Key, word: str) -> BarKey:
+    return BarKey(key.shown or key_text(key, 1), word, key.keys.split(",")[0], key.id)
 
 
-def _line(keys: Iterable[Shown], colour: str = "", first: int = 0) -> Text:
+def _line(keys: Iterable[BarKey], colour: str = "", first: int = 0) -> Text:
     """The keys and their words; the first `first` keys are highlighted."""
     text = Text(no_wrap=True)
     for at, each in enumerate(keys):

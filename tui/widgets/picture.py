@@ -28,9 +28,9 @@ MAX_REDRAWN_CELLS = 10
 """Unchanged cells up to this number are redrawn, as skipping them with a cursor move would cost about as much."""
 
 
-def merged_line(cells: Iterable[Piece]) -> Line:
-    """A line of cells, with adjacent cells of the same style merged into one piece."""
-    return tuple(("".join(text for text, _ in run), style) for style, run in groupby(cells, lambda each: each[1]))
+def merged_line(pieces: Iterable[Piece]) -> Line:
+    """A line of pieces, with adjacent pieces of the same style merged."""
+    return tuple(("".join(text for text, _ in run), style) for style, run in groupby(pieces, lambda each: each[1]))
 
 
 class Picture(StyledByPart, WithPlaceholder):
@@ -100,17 +100,6 @@ class Picture(StyledByPart, WithPlaceholder):
 @lru_cache(maxsize=1024)
 def _colors(name: str) -> Style:
     return Style.parse(name)
-
-
-def joined(cells: Iterable[Piece]) -> Line:
-    """A line of pieces, with adjacent pieces of the same style merged."""
-    found: list[Piece] = []
-    for text, style in cells:
-        if found and found[-1][1] == style:
-            found[-1] = (found[-1][0] + text, style)
-        else:
-            found.append((text, style))
-    return tuple(found)
 
 
 def changes(before: Line, after: Line, width: int) -> list[tuple[int, int]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.console.robot.robot_model import DriveInfo
-from bot_console.tui.panes.alarms.pane import AlarmsPane, parted
+from bot_console.tui.panes.alarms.pane import AlarmsPane, split_name
 from bot_console.tui.panes.alarms.rows import AlarmRows
 from fleet import fleet
 from piloting import Session, run
@@ -129,8 +129,8 @@ def test_click_selects_and_edits_an_alarm() -> None:
 
 
 def test_name_precedes_colon_and_blank() -> None:
-    assert parted("low battery:  /a/b  < 1") == ("low battery", "/a/b < 1")
-    assert parted("/node:speed < 1") == ("/node:speed < 1", "/node:speed < 1")
+    assert split_name("low battery:  /a/b  < 1") == ("low battery", "/a/b < 1")
+    assert split_name("/node:speed < 1") == ("/node:speed < 1", "/node:speed < 1")
 
 
 def test_alarms_are_suggested_with_live_values_and_enter_watches_one() -> None:

@@ -9,7 +9,7 @@ from unittest.mock import patch
 import pytest
 from bot_console.tui.console.robot.robot_model import DriveInfo, Pose, WorldInfo
 from bot_console.tui.panes.plot.pane import PlotPane
-from bot_console.tui.panes.world.map_drawing import WorldDrawing, following, visible_content
+from bot_console.tui.panes.world.map_drawing import WorldDrawing, following_window, visible_content
 from bot_console.tui.widgets.live_figures import LiveFigures
 from piloting import Clock, Session, run
 from samples import SPEED, live
@@ -157,5 +157,5 @@ def test_worlds_with_equal_drawing_keys_look_the_same() -> None:
 
 
 def _drawn(world: WorldInfo) -> tuple[object, object]:
-    window = following(world, 40, 12, 1.0)
+    window = following_window(world, 40, 12, 1.0)
     return visible_content(world, window, 40, 12), WorldDrawing().rows(world, window, 40, 12)

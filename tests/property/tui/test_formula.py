@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from bot_console.tui.panes.plot.formulas.formula import Held, read
+from bot_console.tui.panes.plot.formulas.formula import HeldValues, parse_formula
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -107,7 +107,7 @@ def test_every_value_follows_the_documentation(
     text: str, a: Samples, b: Samples, gain: Samples, start: float, length: float
 ) -> None:
     try:
-        formula = read(text)
+        formula = parse_formula(text)
     except ValueError:
         assert "/" not in text.replace(" / ", ""), "only what has no path is refused"
         return
@@ -115,7 +115,7 @@ def test_every_value_follows_the_documentation(
         return
     known = {"/a/x": a, "/b/x": b, "/n:gain": gain}
     held = {
-        path: Held(np.array([each[0] for each in of], float), np.array([each[1] for each in of], float))
+        path: HeldValues(np.array([each[0] for each in of], float), np.array([each[1] for each in of], float))
         for path, of in known.items()
     }
     lead = formula.lead

@@ -9,7 +9,7 @@ from bot_console.runtime.rclpy.node_parts.parameter_setting import refusal
 from bot_console.tui.console.model import Kind, ParameterInfo
 from bot_console.tui.console.values import info
 from bot_console.tui.panes.parameters.editing import at_share, stepped
-from bot_console.tui.panes.parameters.table import bar
+from bot_console.tui.panes.parameters.table import slider_text
 from hypothesis import example, given
 from hypothesis import strategies as st
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, ParameterValue
@@ -70,7 +70,7 @@ def test_every_value_that_keys_and_slider_send_is_accepted(allowed: Any, moves: 
     first = min(allowed.from_value, allowed.to_value)
     parameter, descriptor = described(allowed, first)
     for move in moves:
-        assert len(bar(parameter, 12)) in (0, 12)
+        assert len(slider_text(parameter, 12)) in (0, 12)
         value = at_share(parameter, move) if isinstance(move, float) else stepped(parameter, parameter.value, move)
         if value is not None:
             assert type(value) is type(parameter.value) and math.isfinite(value)

@@ -7,7 +7,7 @@ import shlex
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from bot_console.tui.panes.alarms.condition import read as read_condition
+from bot_console.tui.panes.alarms.condition import parse_condition as read_condition
 from bot_console.tui.text.sanitize import cut
 
 DEFAULT_TIMEOUT_S = 5.0

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, cast
 
 from bot_console.tui.console.plot.port import Plots, Samples
-from bot_console.tui.panes.alarms.condition import Condition, read
+from bot_console.tui.panes.alarms.condition import Condition, parse_condition
 
 MAX_SAMPLES = 50
 """Maximum number of samples of one path that are processed per poll; older ones are skipped."""
@@ -27,7 +27,7 @@ class AlarmText:
         return {"name": self.name, "condition": self.condition, **({"bell": True} if self.bell else {})}
 
 
-def texts_of(data: object) -> list[AlarmText]:
+def alarm_texts_in(data: object) -> list[AlarmText]:
     """The alarms in a file's data, without invalid entries and conditions."""
     found: list[AlarmText] = []
     for each in cast("list[object]", data) if isinstance(data, list) else []:
@@ -35,7 +35,7 @@ def texts_of(data: object) -> list[AlarmText]:
         name, condition = given.get("name"), given.get("condition")
         if isinstance(name, str) and isinstance(condition, str):
             try:
-                read(condition)
+                parse_condition(condition)
             except ValueError:
                 continue
             found.append(AlarmText(name, condition, given.get("bell") is True))
@@ -56,7 +56,7 @@ class Alarm:
     """How often the condition has become true."""
     values: dict[str, float] = field(default_factory=dict[str, float])
     problem: str = ""
-    untold: list[float] = field(default_factory=list[float])
+    unreported: list[float] = field(default_factory=list[float])
     """The values at which the condition became true since the last notice."""
     reported: float = float("-inf")
     """The time of the last notice, in s of the pane's clock."""
@@ -65,7 +65,7 @@ class Alarm:
     @classmethod
     def of(cls, text: AlarmText) -> Alarm:
         """An alarm without samples; raises `ValueError` for an invalid condition."""
-        return cls(text, read(text.condition))
+        return cls(text, parse_condition(text.condition))
 
     @property
     def paths(self) -> tuple[str, ...]:

@@ -64,7 +64,7 @@ class Condition:
             return None
 
 
-def read(text: str) -> Condition:
+def parse_condition(text: str) -> Condition:
     """Parse a condition; raises `ValueError` that says what is wrong and how to fix it."""
     if len(text) > MAX_CHARACTERS:
         raise ValueError(f"a condition of more than {MAX_CHARACTERS} characters")

@@ -10,9 +10,9 @@ from typing import Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, RateCheck
-from bot_console.tui.panes.alarms.alarm import Alarm, AlarmText, texts_of
-from bot_console.tui.panes.alarms.condition import read
-from bot_console.tui.panes.alarms.rows import AlarmRows, row_of, row_of_check, row_of_suggestion
+from bot_console.tui.panes.alarms.alarm import Alarm, AlarmText, alarm_texts_in
+from bot_console.tui.panes.alarms.condition import parse_condition
+from bot_console.tui.panes.alarms.rows import AlarmRows, alarm_row, check_row, suggestion_row
 from bot_console.tui.panes.alarms.templates import templates
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.text.cadence import is_due
@@ -85,7 +85,7 @@ class AlarmsPane(ListPane):
 
     def on_mount(self) -> None:
         """Restore the alarms of the last run."""
-        for text in texts_of(self.state_store.get(STATE_NAME))[:MAX_ALARMS]:
+        for text in alarm_texts_in(self.state_store.get(STATE_NAME))[:MAX_ALARMS]:
             self._alarms.append(Alarm.of(text))
             self._waiting |= dict.fromkeys(self._alarms[-1].paths, "not watched yet")
 
@@ -136,10 +136,10 @@ class AlarmsPane(ListPane):
                 began = alarm.poll(self.console.plots)
                 if began and alarm.text.bell:
                     self.host.bell()
-                alarm.untold += began
-                if alarm.untold and now - alarm.reported >= NOTICE_S:
-                    self._report(alarm, alarm.untold[-1], len(alarm.untold))
-                    alarm.reported, alarm.untold = now, []
+                alarm.unreported += began
+                if alarm.unreported and now - alarm.reported >= NOTICE_S:
+                    self._report(alarm, alarm.unreported[-1], len(alarm.unreported))
+                    alarm.reported, alarm.unreported = now, []
         if self._suggested and not self.display:
             self._suggest(())
         holding = [each.text.name for each in self._alarms if each.holds]
@@ -172,11 +172,11 @@ class AlarmsPane(ListPane):
         for alarm in self._alarms:
             waits = next((self._waiting[each] for each in alarm.paths if each in self._waiting), "")
             alarm.problem = waits or alarm.problem
-        every = [row_of_check(each, time.time()) for each in self._checks]
-        every += [row_of(each, now) for each in self._alarms]
+        every = [check_row(each, time.time()) for each in self._checks]
+        every += [alarm_row(each, now) for each in self._alarms]
         for each in self._suggested:
             each.poll(self.console.plots)
-            every.append(row_of_suggestion(each))
+            every.append(suggestion_row(each))
         shown = [each for each in every if self._query.matches(f"{each.name} {each.condition}")]
         self._list.exchange(shown)
         holding = sum(each.holds is True for each in every)
@@ -243,16 +243,16 @@ class AlarmsPane(ListPane):
         self.ask(Line(label, then, text=text, check=check, suggestions=suggestions))
 
     def _wrong(self, old: Alarm | None, typed: str) -> str:
-        name, condition = parted(typed)
+        name, condition = split_name(typed)
         try:
-            read(condition)
+            parse_condition(condition)
         except ValueError as error:
             return str(error)
         taken = any(each.text.name == name and each is not old for each in self._alarms)
         return f"there is an alarm '{name}'" if taken else ""
 
     def _take(self, old: Alarm | None, typed: str) -> None:
-        name, condition = parted(typed)
+        name, condition = split_name(typed)
         alarm = Alarm.of(AlarmText(name, condition, old is not None and old.text.bell))
         if old in self._alarms:
             self._alarms[self._alarms.index(old)] = alarm
@@ -311,7 +311,7 @@ def _paths(alarms: Iterable[Alarm]) -> set[str]:
     return {path for each in alarms for path in each.paths}
 
 
-def parted(typed: str) -> tuple[str, str]:
+def split_name(typed: str) -> tuple[str, str]:
     """Split a typed text into name and condition; without a name the condition serves as one."""
     found = NAMED.fullmatch(typed.strip())
     condition = " ".join((found[2] if found else typed).split())

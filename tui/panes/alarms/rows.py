@@ -42,7 +42,7 @@ class Row:
     """Whether it is an alarm that could be added."""
 
 
-def row_of_suggestion(alarm: Alarm) -> Row:
+def suggestion_row(alarm: Alarm) -> Row:
     """The row of a suggested alarm, with the value that its condition compares now."""
     text = alarm.text
     value = alarm.condition.compared(alarm.values)
@@ -50,7 +50,7 @@ def row_of_suggestion(alarm: Alarm) -> Row:
     return Row(text.name, text.condition, False, None, 0, 0, shown, suggested=True)
 
 
-def row_of(alarm: Alarm, now: float) -> Row:
+def alarm_row(alarm: Alarm, now: float) -> Row:
     """The row of an alarm at a time (s) on the time axis of all series."""
     values = ", ".join(f"{alarm.values[each]:.4g}" for each in alarm.paths if each in alarm.values)
     age = max(0, int(now - alarm.since)) if alarm.holds is not None else 0
@@ -58,7 +58,7 @@ def row_of(alarm: Alarm, now: float) -> Row:
     return Row(text.name, text.condition, text.bell, alarm.holds, age, alarm.times, alarm.problem or values)
 
 
-def row_of_check(check: RateCheck, now: float) -> Row:
+def check_row(check: RateCheck, now: float) -> Row:
     """The row of an expected rate at a time (s since the epoch)."""
     age = max(0, int(now - check.since / 1e9)) if check.late is not None else 0
     return Row(check.topic, check.expected, False, check.late, age, check.times, check.measured, True)

@@ -21,8 +21,8 @@ def summary(info: GraphInfo, item: str, hides_name: Callable[[str], bool]) -> st
         return sanitize(f"{kind} {name}  {' '.join(server_types(info, item))}")
     if item.startswith(TOPIC):
         name = item.removeprefix(TOPIC)
-        publishers, subscribers = ends_of(info, name)
-        kinds = types_of(info, name)
+        publishers, subscribers = nodes_on_topic(info, name)
+        kinds = topic_types(info, name)
         text = f"{name}  {', '.join(kinds) or 'type unknown'}  {counted(len(publishers), 'publisher')}"
         return sanitize(f"{text}, {counted(len(subscribers), 'subscription')}{warning(publishers, subscribers)}")
     node = node_of(info, item)
@@ -63,14 +63,14 @@ def warning(publishers: list[str], subscribers: list[str]) -> str:
     return " - no subscriber" if not subscribers else ""
 
 
-def ends_of(info: GraphInfo, topic: str) -> tuple[list[str], list[str]]:
+def nodes_on_topic(info: GraphInfo, topic: str) -> tuple[list[str], list[str]]:
     """The nodes that publish and that subscribe to a topic."""
     publishers = [node.name for node in info.nodes if any(each.name == topic for each in node.publishers)]
     subscribers = [node.name for node in info.nodes if any(each.name == topic for each in node.subscriptions)]
     return publishers, subscribers
 
 
-def types_of(info: GraphInfo, topic: str) -> tuple[str, ...]:
+def topic_types(info: GraphInfo, topic: str) -> tuple[str, ...]:
     """The types of a topic; more than one is an error in the system."""
     found: dict[str, None] = {}
     every: list[Endpoint] = [*info.topics]

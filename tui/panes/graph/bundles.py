@@ -42,7 +42,7 @@ class Bundles:
         return {each for line in self.links.values() for each in line} | self.looped
 
 
-def bundled(
+def bundle_edges(
     nodes: Iterable[str],
     edges: Iterable[Pair],
     members: Mapping[str, int],
@@ -56,13 +56,13 @@ def bundled(
     between which no messages arrive, `rates` are texts by topic, and `states` the states of lifecycle nodes by name.
     """
     boxes = sorted(nodes)
-    between = _between(edges)
+    between = _links_between(edges)
     wrong: dict[Pair, set[str]] = {}
     for a, link, b in faults:
         wrong.setdefault((a, b), set()).add(link)
     names = _Names(boxes, {link for links in between.values() for link in links}, members, states)
     words = {pair: names.words(pair, links, wrong.get(pair, set())) for pair, links in between.items()}
-    groups = _alike(boxes, words)
+    groups = _group_alike(boxes, words)
     group_of = {each: group for group in groups for each in group}
     links: dict[Pair, set[str]] = {}
     for (a, b), some in between.items():
@@ -89,7 +89,7 @@ def bundled(
     )
 
 
-def _between(edges: Iterable[Pair]) -> dict[Pair, set[str]]:
+def _links_between(edges: Iterable[Pair]) -> dict[Pair, set[str]]:
     """The links from one box to another, without those that stay within a folded namespace."""
     sources: dict[str, set[str]] = {}
     targets: dict[str, set[str]] = {}
@@ -112,7 +112,7 @@ def _loop(group: tuple[str, ...], words: Mapping[Pair, tuple[str, ...]]) -> str:
     return " ".join((LOOP, *found)) if found else ""
 
 
-def _alike(boxes: list[str], words: Mapping[Pair, tuple[str, ...]]) -> list[tuple[str, ...]]:
+def _group_alike(boxes: list[str], words: Mapping[Pair, tuple[str, ...]]) -> list[tuple[str, ...]]:
     """Group boxes that have the same labels to and from the same boxes; any other box is a group by itself."""
     ends: dict[str, set[tuple[str, str, tuple[str, ...]]]] = {}
     for (a, b), found in words.items():
@@ -153,7 +153,7 @@ class _Names:
         spaces: dict[tuple[str, str], list[str]] = {}
         for link in sorted(links):
             kind, _, name = link.partition(":")
-            inner = _within(name, pair)
+            inner = _relative_name(name, pair)
             space = (inner or name).rpartition("/")[0].strip("/")
             spaces.setdefault((kind, space), []).append(link)
         found: list[tuple[bool, str]] = []
@@ -171,7 +171,7 @@ class _Names:
 
     def _word(self, link: str, pair: Pair, rates: Mapping[str, str]) -> str:
         kind, _, name = link.partition(":")
-        inner = _within(name, pair)
+        inner = _relative_name(name, pair)
         short = _last(name)
         if self._links[short] > 1:
             short = inner or name
@@ -185,7 +185,7 @@ def state_mark(state: str) -> str:
     return f" ({sanitize(state)})" if state else ""
 
 
-def _within(name: str, pair: Pair) -> str:
+def _relative_name(name: str, pair: Pair) -> str:
     """A name without the namespace of the box that sends or receives it; empty if it is in neither."""
     for box in pair:
         own = box.removeprefix(SPACE)

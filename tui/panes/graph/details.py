@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from bot_console.tui.console.graph.findings import GraphFinding, findings
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo
-from bot_console.tui.panes.graph.about import ends_of, node_of, server_types, types_of
+from bot_console.tui.panes.graph.about import node_of, nodes_on_topic, server_types, topic_types
 from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, TOPIC
 from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.prompt.question import Option
@@ -57,7 +57,7 @@ def _node(snapshot: ConsoleSnapshot, name: str) -> Iterator[Option]:
 
 
 def _topic(info: GraphInfo, name: str) -> Iterator[Option]:
-    types = types_of(info, name)
+    types = topic_types(info, name)
     for each in types:
         yield Option(
             f"type {each}", "more than one type: these ends do not connect" if len(types) > 1 else "", TYPE + each
@@ -69,7 +69,7 @@ def _topic(info: GraphInfo, name: str) -> Iterator[Option]:
         for each in ends
         if each.name == name
     }
-    publishers, subscribers = ends_of(info, name)
+    publishers, subscribers = nodes_on_topic(info, name)
     for word, nodes, publishing in (("published by", publishers, True), ("subscribed by", subscribers, False)):
         for each in nodes:
             yield Option(f"{word} {each}", qos.get((each, publishing), ""), ITEM + each)
@@ -84,8 +84,8 @@ def line_options(info: GraphInfo, links: Iterable[str]) -> list[Option]:
     for link in links:
         kind, _, name = link.partition(":")
         if link.startswith(TOPIC):
-            publishers, subscribers = ends_of(info, name)
-            about = f"{', '.join(types_of(info, name))}  {' '.join(publishers)} → {' '.join(subscribers)}"
+            publishers, subscribers = nodes_on_topic(info, name)
+            about = f"{', '.join(topic_types(info, name))}  {' '.join(publishers)} → {' '.join(subscribers)}"
         else:
             about = " ".join(server_types(info, link))
         found.append(Option(f"{kind} {name}", about, f"{DETAIL}{link}"))

@@ -12,7 +12,7 @@ CELL_WIDTH_PX, CELL_HEIGHT_PX = 8, 16
 """Width and height (px) of a cell of an SVG."""
 
 
-def exported(graph: Digraph, drawing: Drawing, suffix: str) -> str:
+def export_graph(graph: Digraph, drawing: Drawing, suffix: str) -> str:
     """The graph in the format of a file name's suffix: `.mmd` Mermaid, `.dot` or `.gv` DOT, `.svg`, else plain text."""
     if suffix in (".mmd", ".mermaid"):
         return _mermaid(graph)

@@ -13,7 +13,7 @@ FIELDS = ("node:", "topic:")
 Term = NodeTerm | TextTerm
 
 
-def filtered(ids: set[str], edges: Sequence[tuple[str, str]], query: Query, *, both_ends: bool) -> set[str]:
+def items_passing(ids: set[str], edges: Sequence[tuple[str, str]], query: Query, *, both_ends: bool) -> set[str]:
     """The items that pass, with the items linked to them; an excluding word removes the nodes and topics it matches.
 
     Each word has to match a part of a connection: `navigator scan` finds the navigator's topics with `scan` in their
@@ -23,7 +23,7 @@ def filtered(ids: set[str], edges: Sequence[tuple[str, str]], query: Query, *, b
         return ids
     excluding, positive = query.part(exclude=True), query.part(exclude=False).terms
     allowed = {each for each in ids if matches(each, excluding)}
-    passing = {term: {each for each in allowed if holds(term, each)} for term in set(positive)}
+    passing = {term: {each for each in allowed if term_matches(term, each)} for term in set(positive)}
     found = {each for each in allowed if all(each in passing[term] for term in positive)}
     known = [(a, b) for a, b in edges if a in allowed and b in allowed]
     if positive:
@@ -52,10 +52,10 @@ def _triples(edges: Iterable[tuple[str, str]]) -> Iterable[tuple[str, ...]]:
 
 def matches(item: str, query: Query) -> bool:
     """Whether a node or a topic passes a filter by its own name."""
-    return all(holds(term, item) is not term.exclude for term in query.terms)
+    return all(term_matches(term, item) is not term.exclude for term in query.terms)
 
 
-def holds(term: Term, item: str) -> bool:
+def term_matches(term: Term, item: str) -> bool:
     """Whether a filter word matches the name of an item."""
     if is_link(item):
         return isinstance(term, TextTerm) and Query.found(term, item.partition(":")[2], "")
@@ -65,7 +65,7 @@ def holds(term: Term, item: str) -> bool:
     return term.name is not None and term.name.stands_in(name)
 
 
-def completed(text: str, info: GraphInfo) -> str:
+def complete_word(text: str, info: GraphInfo) -> str:
     """The text with its last word completed to the first field or name that begins with it; empty without one."""
     word = text.rpartition(" ")[2].lstrip("!")
     field = next((each for each in FIELDS if word.startswith(each)), "")

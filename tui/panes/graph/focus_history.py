@@ -36,7 +36,7 @@ class FocusHistory:
         """Go back to the previous focus; returns whether there was one."""
         return self._move(self._behind, self._ahead)
 
-    def forth(self) -> bool:
+    def forward(self) -> bool:
         """Go forward to the focus left by `back`; returns whether there was one."""
         return self._move(self._ahead, self._behind)
 
@@ -48,7 +48,7 @@ class FocusHistory:
         return True
 
 
-def around(focus: Focus, edges: Iterable[tuple[str, str]]) -> set[str]:
+def items_around(focus: Focus, edges: Iterable[tuple[str, str]]) -> set[str]:
     """The items within the hops of a focus, in both directions of the arrows."""
     near: dict[str, set[str]] = {}
     for a, b in edges:

@@ -25,12 +25,12 @@ def namespace_of(node: str) -> str:
     return node.rpartition("/")[0]
 
 
-def folds_of(nodes: Sequence[str]) -> frozenset[str]:
+def default_folds(nodes: Sequence[str]) -> frozenset[str]:
     """The namespaces that are folded by default: the outermost ones if there are many nodes, otherwise none."""
     return foldable_namespaces(nodes) if len(nodes) > MAX_UNFOLDED_NODES else frozenset()
 
 
-def unfolded(folded: frozenset[str], space: str, nodes: Iterable[str]) -> frozenset[str]:
+def unfold(folded: frozenset[str], space: str, nodes: Iterable[str]) -> frozenset[str]:
     """The folded namespaces after unfolding `space`: if it has many nodes, the namespaces inside are folded instead."""
     inside = [each for each in nodes if each.startswith(f"{space}/")]
     return folded - {space} | (

@@ -7,11 +7,11 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo, NodeInfo
-from bot_console.tui.panes.graph.about import ends_of, node_of, summary
+from bot_console.tui.panes.graph.about import node_of, nodes_on_topic, summary
 from bot_console.tui.panes.graph.bundles import LINE, LOOP
 from bot_console.tui.panes.graph.namespaces import SPACE, TOPIC
 from bot_console.tui.panes.graph.rates import IDLE
-from bot_console.tui.panes.graph.view import GraphView, Shown
+from bot_console.tui.panes.graph.view import GraphView, VisibleGraph
 from bot_console.tui.text.sanitize import counted, cut, sanitize
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from rich.cells import cell_len
@@ -25,7 +25,7 @@ INDENT_CELLS = 7
 """Cells of `sends` or `reads` with the blanks behind it."""
 
 
-def caption(info: GraphInfo, found: Shown, view: GraphView, words: str) -> str:
+def caption(info: GraphInfo, found: VisibleGraph, view: GraphView, words: str) -> str:
     """A summary of the drawing, for the bottom border of the pane."""
     parts = [view.mode.value]
     if info.nodes:
@@ -42,7 +42,7 @@ def caption(info: GraphInfo, found: Shown, view: GraphView, words: str) -> str:
     return " · ".join(parts)
 
 
-def summary_of(info: GraphInfo, found: Shown, view: GraphView, item: str) -> str:
+def item_summary(info: GraphInfo, found: VisibleGraph, view: GraphView, item: str) -> str:
     """Describe an item of the drawing in one line; a connecting line is described by everything on it."""
     links = found.bundles.links.get(item)
     if links is None:
@@ -52,14 +52,14 @@ def summary_of(info: GraphInfo, found: Shown, view: GraphView, item: str) -> str
     return sanitize(f"{source.removeprefix(SPACE)} → {target.removeprefix(SPACE)}  {names}")
 
 
-def nothing_drawn(info: GraphInfo) -> Placeholder:
+def empty_placeholder(info: GraphInfo) -> Placeholder:
     """The text that is shown while nothing is drawn."""
     return FILTERED_OUT if any(not each.hidden for each in info.nodes) else EMPTY
 
 
 def item_notes(
     snapshot: ConsoleSnapshot,
-    found: Shown,
+    found: VisibleGraph,
     view: GraphView,
     item: str,
     rates: Mapping[str, str],
@@ -75,19 +75,19 @@ def item_notes(
     return _link_notes(snapshot.graph, links, rates, width, maximum)
 
 
-def dead_ends(found: Shown, width: int) -> list[str]:
+def dead_ends(found: VisibleGraph, width: int) -> list[str]:
     """One line for items that nobody publishes or serves, one for those that nobody subscribes to or calls.
 
     As many items are named as fit; the others are counted.
     """
     return [
-        named(title, [each.partition(":")[2] for each in items], width)
+        title_with_names(title, [each.partition(":")[2] for each in items], width)
         for title, items in ((UNSENT, found.unsent), (UNHEARD, found.unheard))
         if items
     ]
 
 
-def legend(found: Shown, width: int) -> str:
+def legend(found: VisibleGraph, width: int) -> str:
     """The meaning of the marks that occur in a flow chart, as far as it fits in `width` cells."""
     chart = found.bundles.chart
     loops = [box.loop for box in chart.boxes if box.loop]
@@ -105,9 +105,9 @@ def legend(found: Shown, width: int) -> str:
     return text
 
 
-def named(title: str, names: Sequence[str], width: int) -> str:
+def title_with_names(title: str, names: Sequence[str], width: int) -> str:
     """The title and as many names as fit in `width` cells; the others are counted."""
-    words = _folded(names)
+    words = _fold_names(names)
     text = f"{title}{GAP}{GAP.join(word for word, _ in words)}"
     shown = len(words)
     while cell_len(text) > width and shown:
@@ -118,7 +118,7 @@ def named(title: str, names: Sequence[str], width: int) -> str:
     return cut(text, width)
 
 
-def _folded(names: Iterable[str]) -> list[tuple[str, int]]:
+def _fold_names(names: Iterable[str]) -> list[tuple[str, int]]:
     """The names without the leading slash, several in one namespace as one word; each with the number it represents."""
     known = sorted(names)
     spaces = Counter(each.rpartition("/")[0] for each in known)
@@ -144,7 +144,7 @@ def _node_notes(
         *_ends(info, view, "sends", node.publishers, rates, width, publishing=True),
         *_ends(info, view, "reads", node.subscriptions, rates, width, publishing=False),
     ]
-    return _fitted(_head(snapshot, name, [node]), lines, width, maximum, "press enter")
+    return _fit_lines(_head(snapshot, name, [node]), lines, width, maximum, "press enter")
 
 
 def _space_notes(
@@ -166,7 +166,7 @@ def _space_notes(
     ]
     longest = max(cell_len(each.name) for each in nodes) - len(space) - 1
     lines += [_member_line(each, view, space, longest, width) for each in nodes]
-    return _fitted(_head(snapshot, space, nodes), lines, width, maximum, "enter unfolds it")
+    return _fit_lines(_head(snapshot, space, nodes), lines, width, maximum, "enter unfolds it")
 
 
 def _member_line(node: NodeInfo, view: GraphView, space: str, longest: int, width: int) -> str:
@@ -196,7 +196,7 @@ def _head(snapshot: ConsoleSnapshot, name: str, nodes: Sequence[NodeInfo]) -> st
     return f"{name}{GAP}{' · '.join(parts)}"
 
 
-def _fitted(head: str, lines: Sequence[str], width: int, maximum: int, how: str) -> list[str]:
+def _fit_lines(head: str, lines: Sequence[str], width: int, maximum: int, how: str) -> list[str]:
     """The heading and the lines, at most `maximum` in all; `how` tells the user how to see the others."""
     if len(lines) > maximum - 1:
         left = len(lines) - maximum + 2
@@ -226,7 +226,7 @@ def _ends(
         if view.hides_name(each.name):
             hidden += 1
             continue
-        others = [one for one in ends_of(info, each.name)[1 if publishing else 0] if "/_" not in one]
+        others = [one for one in nodes_on_topic(info, each.name)[1 if publishing else 0] if "/_" not in one]
         if not others:
             lonely.append(each.name)
             continue
@@ -239,7 +239,7 @@ def _ends(
     last = [f"{hidden} hidden"] if hidden else []
     if lonely:
         room = width - INDENT_CELLS - 1 - sum(len(GAP) * 2 + len(each) for each in last)
-        words.append(named("no subscriber:" if publishing else "no publisher:", lonely, room))
+        words.append(title_with_names("no subscriber:" if publishing else "no publisher:", lonely, room))
     words += last
     lines: list[str] = []
     for word in words:
@@ -258,7 +258,7 @@ def _link_notes(info: GraphInfo, links: Iterable[str], rates: Mapping[str, str],
         if not link.startswith(TOPIC):
             lines.append(link.replace(":", " ", 1))
             continue
-        publishers, subscribers = ends_of(info, name)
+        publishers, subscribers = nodes_on_topic(info, name)
         rate = f" {rates[name]}" if rates.get(name) else ""
         lines.append(f"{name}{rate}{GAP}{' '.join(publishers)} → {' '.join(subscribers)}")
     if len(lines) > maximum:

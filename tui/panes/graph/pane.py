@@ -16,7 +16,7 @@ from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.console.sensors.port import Sensors
 from bot_console.tui.files.save_file import save_file
-from bot_console.tui.panes.graph.about import ends_of, node_of
+from bot_console.tui.panes.graph.about import node_of, nodes_on_topic
 from bot_console.tui.panes.graph.details import (
     DETAIL,
     ITEM,
@@ -26,8 +26,8 @@ from bot_console.tui.panes.graph.details import (
     finding_options,
     line_options,
 )
-from bot_console.tui.panes.graph.export import exported
-from bot_console.tui.panes.graph.filtering import completed, matches
+from bot_console.tui.panes.graph.export import export_graph
+from bot_console.tui.panes.graph.filtering import complete_word, matches
 from bot_console.tui.panes.graph.focus_history import FocusHistory
 from bot_console.tui.panes.graph.frames import FramesView
 from bot_console.tui.panes.graph.namespaces import (
@@ -35,14 +35,14 @@ from bot_console.tui.panes.graph.namespaces import (
     SERVICE,
     SPACE,
     TOPIC,
-    folds_of,
+    default_folds,
     is_link,
     namespace_of,
-    unfolded,
+    unfold,
 )
-from bot_console.tui.panes.graph.notes import caption, dead_ends, item_notes, legend, nothing_drawn, summary_of
+from bot_console.tui.panes.graph.notes import caption, dead_ends, empty_placeholder, item_notes, item_summary, legend
 from bot_console.tui.panes.graph.rates import Rates
-from bot_console.tui.panes.graph.view import GraphView, Mode, Shown, shown
+from bot_console.tui.panes.graph.view import GraphView, Mode, VisibleGraph, visible_graph
 from bot_console.tui.panes.graph.view_state import STATE_NAME, ViewState, view_state_of
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.transitions import ask_transition
@@ -51,7 +51,7 @@ from bot_console.tui.widgets.diagram.flow_chart.drawing import MIN_WIDE_COLUMNS
 from bot_console.tui.widgets.diagram_view import MIN_THREADED_ITEMS, DiagramView
 from bot_console.tui.widgets.prompt.filtered import Narrowed
 from bot_console.tui.widgets.prompt.line import Prompt
-from bot_console.tui.widgets.prompt.question import Choice, Line, Option, narrowed
+from bot_console.tui.widgets.prompt.question import Choice, Line, Option, matching_options
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
 from rich.text import Text
@@ -85,7 +85,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self._info: GraphInfo | None = None
         self._problem = ""
         self._view = GraphView()
-        self._shown = Shown(graph=DiagramView.EMPTY)
+        self._shown = VisibleGraph(graph=DiagramView.EMPTY)
         self._snapshot = ConsoleSnapshot()
         self._focus_history = FocusHistory()
         self._folds: frozenset[str] | None = None
@@ -143,12 +143,12 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         info = self._info
         if info is None:
             return
-        folded = self._folds if self._folds is not None else folds_of(self._visible)
+        folded = self._folds if self._folds is not None else default_folds(self._visible)
         self._view = replace(self._view, folded=folded, focus=self._focus_history.now)
         # If topics are items of their own, names are shortened when the drawing does not fit with full ones.
         for short in (False, True) if self._view.mode in (Mode.ACTIVE, Mode.ALL) else (False,):
             self._view = replace(self._view, short=short)
-            self._shown = shown(info, self._view, self._rates.shown(self._measures))
+            self._shown = visible_graph(info, self._view, self._rates.shown(self._measures))
             self._report_dead_ends()
             faults = self._shown.bundles.faults or self._shown.faults
             self._picture.show(self._shown.content, self._shown.dead_ends, faults, self._shown.silent)
@@ -164,7 +164,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             if self._frames.open:
                 self._report()
         if not self.display or not self._measures:
-            self._rates.rest(self.console.topics)
+            self._rates.stop_measuring(self.console.topics)
         elif self._rates.poll(self.console.topics, self._shown.topics_drawn, self.clock()):
             self._draw()
 
@@ -200,8 +200,8 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             return
         info = self._info or GraphInfo()
         self.caption(caption(info, self._shown, self._view, self.words))
-        text = summary_of(info, self._shown, self._view, self._picture.selected)
-        self._picture.show_placeholder(nothing_drawn(info))
+        text = item_summary(info, self._shown, self._view, self._picture.selected)
+        self._picture.show_placeholder(empty_placeholder(info))
         self.query_one("#graph-status", StaticText).show_text(text or self._problem)
         self._report_more()
 
@@ -243,9 +243,9 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self.query_one(Prompt).ask(replace(line, complete=self._completed))
 
     def _completed(self, text: str) -> str:
-        return completed(text, self._info or GraphInfo())
+        return complete_word(text, self._info or GraphInfo())
 
-    def filter_is(self, words: str) -> None:
+    def apply_filter(self, words: str) -> None:
         """Draw the items that pass the filter, and the items linked to them."""
         self._frames.filter_by(words)
         self._view = replace(self._view, query=parse(words, lists=True))
@@ -258,7 +258,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             return self._frames.find(query, step)
         return self._picture.find(lambda item: self._matches(item, query), step)
 
-    def stands_on_match(self, words: str) -> bool:
+    def is_on_match(self, words: str) -> bool:
         """Whether the selected item matches."""
         if self._frames.open:
             return self._frames.stands_on(parse(words))
@@ -284,7 +284,9 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
             return
         links = self._shown.bundles.links.get(item)
         if links is not None:
-            self._offer(summary_of(info, self._shown, self._view, item), line_options(info, links), "Nothing matches.")
+            self._offer(
+                item_summary(info, self._shown, self._view, item), line_options(info, links), "Nothing matches."
+            )
             return
         self._list_details(item)
 
@@ -302,7 +304,11 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
     def _offer(self, title: str, options: Sequence[Option], empty: str) -> None:
         self.ask(
             Choice(
-                title, self._go, find=partial(narrowed, options), hint="type to filter, Enter jumps there", empty=empty
+                title,
+                self._go,
+                find=partial(matching_options, options),
+                hint="type to filter, Enter jumps there",
+                empty=empty,
             )
         )
 
@@ -335,7 +341,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
     def go_to(self, name: str) -> None:
         """Select a node or a topic."""
         info = self._info or GraphInfo()
-        self._go_to_item(name if node_of(info, name) or not any(ends_of(info, name)) else TOPIC + name)
+        self._go_to_item(name if node_of(info, name) or not any(nodes_on_topic(info, name)) else TOPIC + name)
 
     def action_focus(self) -> None:
         """Draw only what is linked to the selected item; each further call adds a hop."""
@@ -346,7 +352,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
 
     def action_focus_history(self, where: str) -> None:
         """Go to the previous or next focus."""
-        if self._focus_history.back() if where == "back" else self._focus_history.forth():
+        if self._focus_history.back() if where == "back" else self._focus_history.forward():
             self._draw()
             if self._focus_history.now.item:
                 self._picture.choose(self._focus_history.now.item)
@@ -362,9 +368,9 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         else:
             space = "" if is_link(item) or not closed else namespace_of(item)
         if not space:
-            self.notify("It is in no namespace." if closed else "Only a folded namespace can be unfolded.")
+            self.notify("It is in no namespace." if closed else "Only a folded namespace can be unfold.")
             return
-        self._folds = folded | {space} if closed else unfolded(folded, space, self._visible)
+        self._folds = folded | {space} if closed else unfold(folded, space, self._visible)
         self._draw()
         self._picture.choose(SPACE + min(self._folds - folded, default=space))
 
@@ -405,6 +411,8 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         self.ask_file("export to (.mmd .dot .svg .txt)", "graph.mmd", self._save)
 
     def _save(self, path: Path) -> Answer:
-        whole = shown(self._info or GraphInfo(), replace(self._view, short=False, whole=True), self._rates.texts)
-        save_file(path, exported(whole.graph, self._picture.drawing, path.suffix))
+        whole = visible_graph(
+            self._info or GraphInfo(), replace(self._view, short=False, whole=True), self._rates.texts
+        )
+        save_file(path, export_graph(whole.graph, self._picture.drawing, path.suffix))
         return Answer(True, f"graph saved to {path}")

@@ -40,7 +40,7 @@ class Rates:
         before, self.texts = self.texts, texts
         return texts != before
 
-    def rest(self, traffic: Topics) -> None:
+    def stop_measuring(self, traffic: Topics) -> None:
         """Measure nothing."""
         if self._polled:
             self._polled = 0.0

@@ -11,9 +11,9 @@ from types import MappingProxyType
 from bot_console.tui.console.graph.connections import TOOL_NAMES, connections, is_hidden, unconnected
 from bot_console.tui.console.model import GraphInfo, NodeInfo
 from bot_console.tui.console.query import Query
-from bot_console.tui.panes.graph.bundles import Bundles, bundled, state_mark
-from bot_console.tui.panes.graph.filtering import filtered
-from bot_console.tui.panes.graph.focus_history import Focus, around
+from bot_console.tui.panes.graph.bundles import Bundles, bundle_edges, state_mark
+from bot_console.tui.panes.graph.filtering import items_passing
+from bot_console.tui.panes.graph.focus_history import Focus, items_around
 from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, SPACE, TOPIC, box_of, folded_edges, is_link
 from bot_console.tui.text.sanitize import counted, sanitize
 from bot_console.tui.widgets.diagram.flow_chart.model import Chart
@@ -61,7 +61,7 @@ class GraphView:
 
 
 @dataclass(frozen=True)
-class Shown:
+class VisibleGraph:
     """The graph to draw, the topics without a publisher or a subscriber, and how many topics are left out."""
 
     graph: Digraph
@@ -105,7 +105,7 @@ class Shown:
         return self.bundles.chart if self.bundles.chart.boxes else self.listing if self.listing.entries else self.graph
 
 
-def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingProxyType({})) -> Shown:
+def visible_graph(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingProxyType({})) -> VisibleGraph:
     """Select nodes and topics, and convert them to items and edges; `rates` are appended to topic names."""
     nodes = [each for each in info.nodes if not view.hides_name(each.name)]
     edges = _edges(nodes, view)
@@ -116,7 +116,7 @@ def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingPr
     dead_ends = frozenset(each for each in kept if each not in sources or each not in sinks)
     counts = Counter(each for edge in edges for each in edge)
     kept = {each for each in kept if _wanted(each, view, sources, sinks, counts)}
-    ids = filtered(
+    ids = items_passing(
         {each.name for each in nodes} | kept, edges, view.query, both_ends=view.mode in (Mode.FLOW, Mode.LIST)
     )
     edges = [(a, b) for a, b in edges if a in ids and b in ids]
@@ -132,16 +132,16 @@ def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingPr
         ids = {each if is_link(each) else box_of(each, view.folded) for each in ids - inside}
         faults = {(topic, box_of(node, view.folded)) for topic, node in faults if topic in ids}
     if view.focus.item:
-        near = around(view.focus, edges)
+        near = items_around(view.focus, edges)
         ids &= near
         edges = [(a, b) for a, b in edges if a in ids and b in ids]
     silent = frozenset((*info.silent, *(name for name, _ in info.frozen)))
     if view.mode is Mode.NODES:
         graph = _nodes_only([each for each in ids if not is_link(each)], edges, _Labels(info, view, {}, ids, set()))
-        return Shown(graph, silent=silent)
+        return VisibleGraph(graph, silent=silent)
     label = _Labels(info, view, rates, ids, {topic for topic, _ in faults})
     items = tuple(Item(each, label.of(each), not is_link(each), int(is_link(each))) for each in sorted(ids))
-    found = Shown(Digraph(items, tuple(sorted(edges))), dead_ends & ids, frozenset(faults), silent)
+    found = VisibleGraph(Digraph(items, tuple(sorted(edges))), dead_ends & ids, frozenset(faults), silent)
     found = replace(found, links_drawn=sum(map(is_link, ids)), links_there=there, links_hidden=hidden)
     if view.mode is Mode.LIST:
         return replace(found, listing=_listing(info, {each.name for each in nodes}, ids, view))
@@ -152,7 +152,9 @@ def shown(info: GraphInfo, view: GraphView, rates: Mapping[str, str] = MappingPr
         for topic, pairs in info.incompatible.items()
         for a, b, _ in pairs
     )
-    bundles = bundled((each for each in ids if not is_link(each)), edges, label.members, triples, rates, info.lifecycle)
+    bundles = bundle_edges(
+        (each for each in ids if not is_link(each)), edges, label.members, triples, rates, info.lifecycle
+    )
     dead = sorted(dead_ends & ids)
     return replace(
         found,

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from bot_console.tui.console.model import Change, Value
 from bot_console.tui.files.save_file import NotSaved, save_file
-from bot_console.tui.panes.history.rows import command, who
+from bot_console.tui.panes.history.rows import set_command, source_text
 from bot_console.tui.text.refusals import verdict_of_change
 from bot_console.tui.text.value_text import value_text
 from bot_console.tui.text.yaml_flow import quoted
@@ -42,7 +42,7 @@ def as_csv(changes: Sequence[Change]) -> str:
     writer = csv.writer(file)
     writer.writerow(COLUMNS)
     for each in changes:
-        row = (moment(each.stamp), each.node, each.name, _text(each.old), _text(each.new), who(each))
+        row = (moment(each.stamp), each.node, each.name, _text(each.old), _text(each.new), source_text(each))
         writer.writerow((*row, "true" if each.accepted else "false", each.reason))
     return file.getvalue()
 
@@ -57,7 +57,7 @@ def as_yaml(changes: Sequence[Change]) -> str:
             "parameter": quoted(each.name),
             "old": _yaml(each.old),
             "new": _yaml(each.new),
-            "who": quoted(who(each)),
+            "who": quoted(source_text(each)),
             "accepted": "true" if each.accepted else "false",
         }
         if each.reason:
@@ -71,8 +71,8 @@ def as_script(changes: Sequence[Change]) -> str:
     """`ros2 param set` lines that repeat the accepted changes; refused changes are comments."""
     lines = ["#!/bin/sh", "# Parameter changes, oldest first, as they were made."]
     for each in changes:
-        lines.append(f"# {moment(each.stamp)} {_one_line(who(each))}")
-        line = command(each, each.new)
+        lines.append(f"# {moment(each.stamp)} {_one_line(source_text(each))}")
+        line = set_command(each, each.new)
         lines.append(
             line if each.accepted else f"# {verdict_of_change(each)}: {_one_line(each.reason)}: {_one_line(line)}"
         )

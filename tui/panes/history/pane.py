@@ -22,9 +22,9 @@ from bot_console.tui.console.model import (
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.panes.history.effect import Effects
 from bot_console.tui.panes.history.export import FORMS, export
-from bot_console.tui.panes.history.revert import Return, returns, values_at
-from bot_console.tui.panes.history.rows import ChangeRows, command, day_text, details, set_details, words
-from bot_console.tui.panes.history.sets import ChangeSet, changes_of, grouped
+from bot_console.tui.panes.history.revert import Restoration, restorations, values_at
+from bot_console.tui.panes.history.rows import ChangeRows, day_text, details, searched_text, set_command, set_details
+from bot_console.tui.panes.history.sets import ChangeSet, changes_of, group_changes
 from bot_console.tui.panes.history.strip import time_strip
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.text.refusals import of_many
@@ -119,7 +119,7 @@ class HistoryPane(ListPane):
     def _arrange(self) -> None:
         """Show the changes that pass the filter."""
         shown = [each for each in reversed(self._every) if self._wanted(each)]
-        self._list.exchange(grouped(shown, self._opened, self._is_unsafe))
+        self._list.exchange(group_changes(shown, self._opened, self._is_unsafe))
         more = ("refused" if self._only_refused else "", self._journal.problem)
         self.report_filter(len(shown), len(self._every), *more)
         self._describe()
@@ -127,7 +127,7 @@ class HistoryPane(ListPane):
     def _wanted(self, change: Change) -> bool:
         if self._only_refused and change.accepted:
             return False
-        return not self._query.terms or self._query.matches(words(change), change.node)
+        return not self._query.terms or self._query.matches(searched_text(change), change.node)
 
     def _is_unsafe(self, change: Change) -> bool:
         parameter = parameter_in(self.console.snapshot().parameters, change.node, change.name)
@@ -235,7 +235,7 @@ class HistoryPane(ListPane):
         if not self.may_change():
             return
         trees = self.console.snapshot().parameters
-        found, missing = returns(then, trees)
+        found, missing = restorations(then, trees)
         if not found:
             self.notify("; ".join(["The robot has these values already." if not missing else "", *missing]).strip("; "))
             return
@@ -246,13 +246,13 @@ class HistoryPane(ListPane):
         lines += [f"not set: {each}" for each in missing[:MAX_NAMED_VALUES]]
         self.ask(Confirmation(question, lambda _: self._go(found), reasons="\n".join(lines)))
 
-    def _line(self, each: Return) -> str:
+    def _line(self, each: Restoration) -> str:
         parameter = parameter_in(self.console.snapshot().parameters, each.node, each.name)
         unsafe = takes_safety(parameter, each.now, each.then) if parameter else ""
         text = f"{each.node} {each.name}  {value_text(each.now)} → {value_text(each.then)}"
         return f"⚠ {text}: {unsafe}" if unsafe else f"  {text}"
 
-    def _go(self, found: list[Return]) -> None:
+    def _go(self, found: list[Restoration]) -> None:
         values: dict[str, dict[str, Value]] = {}
         for each in found:
             values.setdefault(each.node, {})[each.name] = each.then
@@ -281,7 +281,7 @@ class HistoryPane(ListPane):
         change = self._current
         if change is not None:
             row = self._list.current
-            text = "\n".join(command(each, each.new) for each in reversed(changes_of(row))) if row else ""
+            text = "\n".join(set_command(each, each.new) for each in reversed(changes_of(row))) if row else ""
             self.host.copy_to_clipboard(text)
             self.notify(text, title="Copied")
 

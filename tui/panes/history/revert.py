@@ -9,7 +9,7 @@ from bot_console.tui.console.model import Change, ParameterTree, Value, same
 
 
 @dataclass(frozen=True)
-class Return:
+class Restoration:
     """One value that going back would set."""
 
     node: str
@@ -34,13 +34,13 @@ def values_at(changes: Sequence[Change], row: Change) -> dict[tuple[str, str], V
     return then
 
 
-def returns(
+def restorations(
     then: Mapping[tuple[str, str], Value], trees: Mapping[str, ParameterTree]
-) -> tuple[list[Return], list[str]]:
+) -> tuple[list[Restoration], list[str]]:
     """The values to set in order to get the values in `then`, and texts about those that cannot be set because the
     node or the parameter no longer exists.
     """
-    found: list[Return] = []
+    found: list[Restoration] = []
     missing: list[str] = []
     for (node, name), value in sorted(then.items()):
         tree = trees.get(node)
@@ -48,5 +48,5 @@ def returns(
         if parameter is None:
             missing.append(f"{node} {name}: " + ("the parameter no longer exists" if tree else "node not running"))
         elif not same(parameter.value, value) and value is not None and not parameter.read_only:
-            found.append(Return(node, name, parameter.value, value))
+            found.append(Restoration(node, name, parameter.value, value))
     return found, missing

@@ -46,18 +46,18 @@ MIN_CELLS_WITH_NODE = 70
 """Minimum cells of a row that names the node; in narrower panes only the details at the cursor do."""
 
 
-def who(change: Change) -> str:
+def source_text(change: Change) -> str:
     """Who made a change, and the operation it was part of."""
     if change.source is ChangeSource.OTHER and change.by:
         return change.by  # more precise than "another program or the node"
     return f"{WHO[change.source]} {change.by}".rstrip()
 
 
-def words(change: Change) -> str:
+def searched_text(change: Change) -> str:
     """The text that a filter searches, besides the node."""
     verdict = verdict_of_change(change) or "taken"
     values = f"{value_text(change.old)} {value_text(change.new)}"
-    return f"{change.name} {values} {who(change)} {verdict} {change.reason}"
+    return f"{change.name} {values} {source_text(change)} {verdict} {change.reason}"
 
 
 def day_text(stamp: int) -> str:
@@ -74,7 +74,7 @@ def changed_text(change: Change) -> str:
     return f"{sanitize(value_text(change.old))} → {sanitize(value_text(change.new))}"
 
 
-def command(change: Change, value: Value) -> str:
+def set_command(change: Change, value: Value) -> str:
     """The `ros2` command line that sets the parameter of a change to a value."""
     of_bytes = isinstance(value, tuple) and any(isinstance(each, bytes) for each in value)
     kind = Kind.BYTE_ARRAY if of_bytes else Kind.NOT_SET
@@ -89,9 +89,9 @@ def details(change: Change, effect: str) -> Text:
         text.append(f"{MARKS[verdict_of_change(change)]} {sanitize(verdict)}\n", "bold")
     at = time.strftime("%Y-%m-%d ", time.localtime(change.stamp // 10**9)) + clock_text(change.stamp)
     text.append(f"{sanitize(change.node)} {sanitize(change.name)}  {changed_text(change)}\n")
-    text.append(f"{at} · {sanitize(who(change))}{' · an earlier run' if change.seq < 0 else ''}", "dim")
+    text.append(f"{at} · {sanitize(source_text(change))}{' · an earlier run' if change.seq < 0 else ''}", "dim")
     text.append(f" · after it {effect}\n" if effect else "\n", "dim")
-    text.append(sanitize(command(change, change.new)), "dim italic")
+    text.append(sanitize(set_command(change, change.new)), "dim italic")
     return text
 
 
@@ -107,7 +107,7 @@ def set_details(row: ChangeSet) -> Text:
     """Everything known about a set: its source, its times, and the names of its parameters."""
     text = Text(no_wrap=False, overflow="fold")
     begin, end = clock_text(row.changes[-1].stamp), clock_text(row.stamp)
-    text.append(f"{sanitize(who(row.newest))}  {set_text(row)}\n", "bold")
+    text.append(f"{sanitize(source_text(row.newest))}  {set_text(row)}\n", "bold")
     text.append(f"{day_text(row.stamp)[:5]} {begin} .. {end} · Enter lists them, u goes back to after them\n", "dim")
     text.append(", ".join(dict.fromkeys(sanitize(each.name) for each in reversed(row.changes))), "dim")
     return text
@@ -145,7 +145,7 @@ class ChangeRows(ItemList[HistoryRow]):
 
     def matches(self, index: int, query: Query) -> bool:
         """Whether a change, or one of a set, matches a filter."""
-        return any(query.matches(words(each), each.node) for each in changes_of(self.rows[index]))
+        return any(query.matches(searched_text(each), each.node) for each in changes_of(self.rows[index]))
 
     def _widths(self, width: int) -> tuple[int, int, int]:
         """The cells of node, name and values in a row of `width` cells; a narrow row has no node."""
@@ -174,10 +174,11 @@ class ChangeRows(ItemList[HistoryRow]):
         return [
             Segment(f"{_moment(row.newest):<{MOMENT_CELLS}}", self.row_style("dim")),
             Segment(f"{sign} ", self.row_style("dim")),
-            Segment(sanitize(who(row.newest)) + GAP, self.row_style("strong")),
+            Segment(sanitize(source_text(row.newest)) + GAP, self.row_style("strong")),
             Segment(set_text(row), loud),
             *self._after(
-                row.newest, width - MOMENT_CELLS - MARK_CELLS - cell_len(f"{who(row.newest)}{GAP}{set_text(row)}")
+                row.newest,
+                width - MOMENT_CELLS - MARK_CELLS - cell_len(f"{source_text(row.newest)}{GAP}{set_text(row)}"),
             ),
         ]
 
@@ -204,7 +205,11 @@ class ChangeRows(ItemList[HistoryRow]):
         mark = MARKS[verdict_of_change(change)]
         values = cut(changed_text(change), of_values, pad=True)
         refused = self.row_style("error")
-        tail = f"{sanitize(change.reason)} ({sanitize(who(change))})" if not change.accepted else sanitize(who(change))
+        tail = (
+            f"{sanitize(change.reason)} ({sanitize(source_text(change))})"
+            if not change.accepted
+            else sanitize(source_text(change))
+        )
         segments = [
             *head,
             Segment(f"{mark} ", refused),

@@ -42,7 +42,7 @@ class ChangeSet:
 HistoryRow: TypeAlias = "Change | ChangeSet"
 
 
-def grouped(
+def group_changes(
     changes: Iterable[Change], opened: Collection[tuple[str, int]], is_unsafe: Callable[[Change], bool]
 ) -> tuple[HistoryRow, ...]:
     """Group changes (newest first) into rows: one for each set, followed by its changes if it is open."""
@@ -68,7 +68,7 @@ def _runs(changes: Iterable[Change]) -> list[list[Change]]:
     names: set[tuple[str, str]] = set()
     for each in changes:
         name = (each.node, each.name)
-        if found and _together(found[-1][-1], each) and name not in names:
+        if found and _made_together(found[-1][-1], each) and name not in names:
             found[-1].append(each)
             names.add(name)
         else:
@@ -77,7 +77,7 @@ def _runs(changes: Iterable[Change]) -> list[list[Change]]:
     return found
 
 
-def _together(newer: Change, older: Change) -> bool:
+def _made_together(newer: Change, older: Change) -> bool:
     """Whether two consecutive changes were made by the same operation."""
     operations = [(each.source, each.by, each.run, each.seq < 0) for each in (newer, older)]
     named = bool(newer.by) or newer.source in ALWAYS_SETS

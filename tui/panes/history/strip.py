@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from bot_console.tui.format import clock_text
 from bot_console.tui.panes.history.sets import HistoryRow, changes_of
 from bot_console.tui.text.refusals import verdict_of_change
-from bot_console.tui.widgets.picture import Line, Piece, joined
+from bot_console.tui.widgets.picture import Line, Piece, merged_line
 
 MIN_CELLS = 12
 """Minimum cells of the timeline; if there is less room, it is not drawn."""
@@ -38,4 +38,4 @@ def time_strip(rows: Sequence[HistoryRow], chosen: HistoryRow | None, width: int
     if chosen is not None:
         at = (chosen.stamp - first) * (cells - 1) // (last - first)
         marks[at] = (CHOSEN, "error" if marks[at][0] == REFUSED else "strong")
-    return ((begin, "dim"), *joined(marks), (end, "dim"))
+    return ((begin, "dim"), *merged_line(marks), (end, "dim"))

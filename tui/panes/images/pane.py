@@ -16,7 +16,7 @@ from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.placeholder import NO_PLACEHOLDER, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
-from bot_console.tui.widgets.prompt.question import Choice, Option, narrowed
+from bot_console.tui.widgets.prompt.question import Choice, Option, matching_options
 from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
 from textual.events import Click
@@ -184,7 +184,7 @@ class ImagesPane(Pane):
         """Choose a topic."""
 
         def find(typed: str) -> list[Option]:
-            return narrowed(map(Option, self._topics()), typed)
+            return matching_options(map(Option, self._topics()), typed)
 
         self.ask(Choice("Images of", self._choose, find=find, hint="type part of a topic", empty=EMPTY.sentence))
 

@@ -31,7 +31,7 @@ class OutputLine:
 
 
 @dataclass
-class Followed:
+class ProcessActivity:
     """The measurements of one process."""
 
     cpu: deque[float] = field(default_factory=lambda: deque[float](maxlen=CPU_SAMPLES))
@@ -45,23 +45,23 @@ class Follower:
     """Gathers measurements from snapshots and the log; while the pane is hidden, only CPU usage is sampled."""
 
     def __init__(self) -> None:
-        self._known: dict[str, Followed] = {}
+        self._known: dict[str, ProcessActivity] = {}
         self._by_logger: dict[str, str] = {}
         """The key of the process that logs or prints under each name."""
         self._processes: object = None
         self._sampled = float("-inf")
         self._cursor = 0
 
-    def of(self, key: str) -> Followed:
+    def of(self, key: str) -> ProcessActivity:
         """The measurements of the process with a key; empty for one that has just appeared."""
-        return self._known.get(key) or Followed()
+        return self._known.get(key) or ProcessActivity()
 
-    def know(self, processes: tuple[ProcessInfo, ...]) -> None:
+    def update_processes(self, processes: tuple[ProcessInfo, ...]) -> None:
         """Update the known processes, and the names under which they log."""
         if processes is self._processes:
             return
         self._processes = processes
-        self._known = {each.key: self._known.get(each.key) or Followed() for each in processes}
+        self._known = {each.key: self._known.get(each.key) or ProcessActivity() for each in processes}
         names = {logger_of(node): each.key for each in processes for node in each.nodes}
         self._by_logger = {**{each.label: each.key for each in processes}, **names}
 
@@ -90,7 +90,7 @@ class Follower:
                 found = True
         return found
 
-    def _add(self, followed: Followed, record: LogRecord) -> None:
+    def _add(self, followed: ProcessActivity, record: LogRecord) -> None:
         last = followed.lines.pop() if followed.lines else None
         if last is not None and _same(last.record, record):
             followed.lines.append(OutputLine(record, last.count + 1))

@@ -37,7 +37,7 @@ from bot_console.tui.text.sanitize import counted, cut, sanitize
 from bot_console.tui.widgets.picture import Line, Picture
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
-from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Form, Option, narrowed
+from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Form, Option, matching_options
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
@@ -135,7 +135,7 @@ class LaunchPane(ListPane):
         if not self.has_parts:
             return
         processes = snapshot.launch.processes
-        self._follower.know(processes)
+        self._follower.update_processes(processes)
         self._has_usage |= self._follower.sample(processes, self.clock())
 
     def _show_news(self) -> None:
@@ -276,14 +276,14 @@ class LaunchPane(ListPane):
         """List all launch events, newest first; choosing one moves the time cursor to it."""
         events = {str(each.seq): each for each in reversed((self._info or LaunchInfo()).timeline)}
 
-        def poll(seq: str) -> None:
+        def go(seq: str) -> None:
             self.time_cursor.move(events[seq].stamp, self)
             self.time_moved(events[seq].stamp)
 
-        find = partial(narrowed, [Option(event_text(each), value=seq) for seq, each in events.items()])
+        find = partial(matching_options, [Option(event_text(each), value=seq) for seq, each in events.items()])
         hint = "type to filter, Enter shows that moment in Logs, Plot and World"
         empty = "No event matches." if events else "Nothing has been launched yet."
-        self.ask(Choice("Launch events", poll, find=find, hint=hint, empty=empty))
+        self.ask(Choice("Launch events", go, find=find, hint=hint, empty=empty))
 
     def action_do(self, verb: str) -> None:
         """Start, stop, restart or kill the process or group at the cursor."""

@@ -8,7 +8,7 @@ from itertools import accumulate
 
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
 from bot_console.tui.console.query import Query
-from bot_console.tui.panes.launch.follow import CPU_SAMPLES, Followed, Follower
+from bot_console.tui.panes.launch.follow import CPU_SAMPLES, Follower, ProcessActivity
 from bot_console.tui.text.bars import strip
 from bot_console.tui.text.sanitize import counted, cut, sanitize
 from bot_console.tui.widgets.item_list import ItemList
@@ -61,7 +61,7 @@ def rows(info: LaunchInfo, folded: Collection[tuple[str, ...]] = ()) -> list[Row
     for process in info.processes:
         for depth in range(1, len(process.group) + 1):
             by_group.setdefault(process.group[:depth], []).append(process)
-    for process in _together(info.processes):
+    for process in _sorted_by_group(info.processes):
         for depth in range(1, len(process.group) + 1):
             group = process.group[:depth]
             if group not in seen and not _inside(group[:-1], folded):
@@ -80,7 +80,7 @@ def matches(process: ProcessInfo, query: Query) -> bool:
     return any(query.matches(text, node) for node in process.nodes or ("",))
 
 
-def _together(processes: Sequence[ProcessInfo]) -> list[ProcessInfo]:
+def _sorted_by_group(processes: Sequence[ProcessInfo]) -> list[ProcessInfo]:
     """Sort processes so that each group follows the processes beside it; otherwise keep their order."""
     first: dict[tuple[str, ...], int] = {}
     for at, process in enumerate(processes):
@@ -94,12 +94,12 @@ def _inside(group: tuple[str, ...], folded: Collection[tuple[str, ...]]) -> bool
     return any(group[:depth] in folded for depth in range(1, len(group) + 1))
 
 
-def _gathered(followed: Followed, width: int) -> tuple[str, str, str]:
+def _activity_texts(followed: ProcessActivity, width: int) -> tuple[str, str, str]:
     """The CPU usage over time as bars, and the numbers of errors and of warnings."""
     return strip(followed.cpu, 1.0), *_counts(followed, width)
 
 
-def _counts(followed: Followed, width: int) -> tuple[str, str]:
+def _counts(followed: ProcessActivity, width: int) -> tuple[str, str]:
     """The numbers of errors and of warnings, with the words written out if there is room."""
 
     def text(number: int, word: str) -> str:
@@ -154,7 +154,7 @@ class ProcessRows(ItemList[Row]):
             self.refresh()
         for index, each in enumerate(self.rows):
             key = each.process.key if each.process else ""
-            if key and self._drawn.get(key) != (drawn := _gathered(self._follower.of(key), width)):
+            if key and self._drawn.get(key) != (drawn := _activity_texts(self._follower.of(key), width)):
                 self._drawn[key] = drawn
                 self.row_changed(index)
 
@@ -186,7 +186,7 @@ class ProcessRows(ItemList[Row]):
         name = cut(f"{head} {sanitize(process.label)}", names, pad=True)
         columns = [f"  {process.state.value:<10}", f"{process.pid or '':>8}"]
         columns.append(f"{f'↻{process.restarts}' if process.restarts or process.restart_policy else '':>5}")
-        trace, errors, warnings = _gathered(self._follower.of(process.key), width)
+        trace, errors, warnings = _activity_texts(self._follower.of(process.key), width)
         states = max((len(self._states(each.process)) for each in self.rows if each.process), default=0)
         count_cells = self._count_cells(width)
         room = width - names - STATE_AND_PID_CELLS - RESTARTS_CELLS - states - count_cells

@@ -24,7 +24,7 @@ class Filtering:
     off: bool = field(default=False)
     """Whether the filter is suspended; the choices are kept."""
 
-    def which(self) -> LogFilter:
+    def log_filter(self) -> LogFilter:
         """The filter that results from the choices."""
         if self.off:
             return LogFilter(folded=self.folded)
@@ -33,7 +33,7 @@ class Filtering:
 
     def narrowed_to(self, words: str, minimum: Severity) -> LogFilter:
         """The filter narrowed to lines that also match these words, and with repeats not folded."""
-        which = self.which()
+        which = self.log_filter()
         both = " ".join(each for each in (which.words, words) if each)
         return replace(which, words=both, minimum=max(minimum, which.minimum), folded=False)
 
@@ -42,11 +42,11 @@ class Filtering:
         at = LEVELS.index(self.minimum) if self.minimum in LEVELS else 0
         self.minimum, self.off = LEVELS[(at + 1) % len(LEVELS)], False
 
-    def warnings(self) -> None:
+    def toggle_warnings(self) -> None:
         """Switch between warnings and worse, and everything."""
         self.minimum, self.off = (Severity.UNSET if self.minimum is Severity.WARN else Severity.WARN), False
 
-    def everything(self) -> None:
+    def clear(self) -> None:
         """Clear words and severity; rules stay, since they are meant to last."""
         self.words, self.minimum, self.only_highlighted, self.off = "", Severity.UNSET, False, False
 

@@ -57,7 +57,7 @@ class LevelsScreen(DimmedScreen):
 
     def __init__(self, console: Console, graph: GraphInfo) -> None:
         super().__init__()
-        self._of_robot = console
+        self._robot_console = console
         served = {each.name for each in graph.services}
         names = [each.name for each in graph.nodes if not each.hidden]
         self._offering = [each for each in names if f"{each}/set_logger_levels" in served]
@@ -94,10 +94,10 @@ class LevelsScreen(DimmedScreen):
         self.query_one("#levels-state", StaticText).show_text(what or hint)
 
     def _ask(self, node: str) -> None:
-        answer = self._of_robot.logs.levels(node)
-        answer.add_done_callback(lambda done: self._host.call_later(self._came, node, done))
+        answer = self._robot_console.logs.levels(node)
+        answer.add_done_callback(lambda done: self._host.call_later(self._levels_arrived, node, done))
 
-    def _came(self, node: str, done: Future[tuple[LoggerLevel, ...]]) -> None:
+    def _levels_arrived(self, node: str, done: Future[tuple[LoggerLevel, ...]]) -> None:
         if not self.is_running:  # the screen was closed in the meantime
             return
         error = done.exception()
@@ -111,7 +111,7 @@ class LevelsScreen(DimmedScreen):
         """Set the level of the logger at the cursor."""
         level = self._list.current
         if level is not None:
-            answer = self._of_robot.logs.set_level(level.node, Severity(severity), level.logger)
+            answer = self._robot_console.logs.set_level(level.node, Severity(severity), level.logger)
             answer.add_done_callback(lambda done: self._host.call_later(partial(self._was_set, level.node), done))
 
     def _was_set(self, node: str, done: Future[Answer]) -> None:

@@ -28,7 +28,7 @@ from bot_console.tui.panes.logs.source import LiveLog
 from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
-from bot_console.tui.widgets.prompt.common import wrong_filter, wrong_path
+from bot_console.tui.widgets.prompt.common import filter_problem, path_problem
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Line
 from bot_console.tui.widgets.row_list import RowList
@@ -140,7 +140,7 @@ class LogsPane(LinePane):
     def _take_in(self) -> bool:
         """Show the lines found; the lines of the previous filter stay until there is something to show."""
         if self._view is None:
-            self._view = self._source.view(self._filtering.which())
+            self._view = self._source.view(self._filtering.log_filter())
         found = self._view.poll()
         if found is self._found or not (len(found.numbers) or found.complete or found.problem):
             return False
@@ -179,7 +179,7 @@ class LogsPane(LinePane):
 
     def _search(self) -> None:
         """Search all stored lines with the current filter."""
-        self._view = self._source.view(self._filtering.which(), self._view)
+        self._view = self._source.view(self._filtering.log_filter(), self._view)
         self._found = None
         self._take_in()
         self._list.refresh()
@@ -261,7 +261,7 @@ class LogsPane(LinePane):
 
     def action_warnings(self) -> None:
         """Switch between warnings and worse, and everything."""
-        self._filtering.warnings()
+        self._filtering.toggle_warnings()
         self._search()
 
     def action_level(self) -> None:
@@ -292,7 +292,7 @@ class LogsPane(LinePane):
         filtering.only_highlighted, filtering.off = not filtering.only_highlighted, False
         self._search()
 
-    def filter_is(self, words: str) -> None:
+    def apply_filter(self, words: str) -> None:
         """Show the lines that pass the filter."""
         self._filtering.words, self._filtering.off = words, False
         self._search()
@@ -303,7 +303,7 @@ class LogsPane(LinePane):
             self.time_cursor.move(None, self)
             self.time_moved(None)
             return
-        self._filtering.everything()
+        self._filtering.clear()
         self._searched_for = None
         super().action_clear_filter()
 
@@ -331,13 +331,13 @@ class LogsPane(LinePane):
         """Open the screen that shows and sets logger levels."""
         self.host.push_screen(LevelsScreen(self.console, self.console.snapshot().graph))
 
-    def stands_on_match(self, words: str) -> bool:
+    def is_on_match(self, words: str) -> bool:
         """True: every line shown matches the filter."""
         return True
 
     def action_search(self) -> None:
         """Ask for words to search for; nothing is hidden."""
-        self.ask(Line("search", self._search_for, text=self._sought, check=wrong_filter))
+        self.ask(Line("search", self._search_for, text=self._sought, check=filter_problem))
 
     def _search_for(self, words: str) -> None:
         """Go to the newest match if the newest line is followed, otherwise to the next one."""
@@ -381,7 +381,7 @@ class LogsPane(LinePane):
         if self._source.name:
             self._read(LiveLog(self.console))
         else:
-            self.ask(Line("read the log file", self._open, text="log.txt", check=wrong_path))
+            self.ask(Line("read the log file", self._open, text="log.txt", check=path_problem))
 
     def _open(self, path: str) -> None:
         try:

@@ -117,7 +117,7 @@ class RuleBook:
         return next((colour for query, colour in self._marks if query.passes(record)), "")
 
 
-def turned(rule: Rule) -> Rule:
+def with_next_colour(rule: Rule) -> Rule:
     """The same rule in the next colour; after the last colour, it hides."""
     kinds = (*COLOURS, "")
     return replace(rule, colour=kinds[(kinds.index(rule.colour) + 1) % len(kinds)])

@@ -7,13 +7,13 @@ from dataclasses import replace
 from typing import ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.panes.logs.rules import COLOURS, HIDE, Rule, RuleBook, turned
+from bot_console.tui.panes.logs.rules import COLOURS, HIDE, Rule, RuleBook, with_next_colour
 from bot_console.tui.terminal.dimmed_screen import DimmedScreen
 from bot_console.tui.text.sanitize import counted, sanitize
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.item_list import ItemList
-from bot_console.tui.widgets.prompt.common import wrong_filter
-from bot_console.tui.widgets.prompt.line import Prompt, open_prompt
+from bot_console.tui.widgets.prompt.common import filter_problem
+from bot_console.tui.widgets.prompt.line import Prompt, find_open_prompt
 from bot_console.tui.widgets.prompt.question import Line
 from bot_console.tui.widgets.static_text import StaticText
 from rich.segment import Segment
@@ -71,7 +71,7 @@ class RulesScreen(DimmedScreen):
 
     def check_action(self, action: str, parameters: tuple[object, ...]) -> bool | None:
         """Disable the keys of the list while a filter is typed."""
-        return open_prompt(self) is None and super().check_action(action, parameters)
+        return find_open_prompt(self) is None and super().check_action(action, parameters)
 
     def _report(self, problem: str = "") -> None:
         empty = "" if self._book.rules else "No rules: in the log x hides lines like one, + highlights them."
@@ -99,7 +99,7 @@ class RulesScreen(DimmedScreen):
         """Switch to the next colour; after the last one, hide the lines."""
         rule = self._list.current
         if rule is not None:
-            self._exchange(rule, turned(rule))
+            self._exchange(rule, with_next_colour(rule))
 
     def action_delete(self) -> None:
         """Delete the rule."""
@@ -133,4 +133,4 @@ class RulesScreen(DimmedScreen):
 
 
 def _wrong(words: str) -> str:
-    return wrong_filter(words) if words else "type the words of a filter"
+    return filter_problem(words) if words else "type the words of a filter"

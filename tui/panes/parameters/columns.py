@@ -59,7 +59,7 @@ class Columns:
     description: int
 
 
-def measured(rows: Sequence[Row]) -> Measures:
+def measure(rows: Sequence[Row]) -> Measures:
     """Measure the rows; numbers are rounded up to two cells, so that the columns rarely move when a value changes."""
     names: list[int] = []
     number = MIN_VALUE_CELLS

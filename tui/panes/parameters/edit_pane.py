@@ -166,7 +166,7 @@ class EditPane(ListPane):
         return (row.node, row.parameter.name if row.parameter else "") if row else ("", "")
 
     def action_nudge(self, steps: int) -> None:
-        """Move a number by `steps` of its step, or of a hundredth of its range."""
+        """Move a number by `steps` steps: its own step, or a hundredth of its range."""
         parameter = self._at()
         value = editing.stepped(parameter, self.edits.now(parameter), steps) if parameter else None
         if parameter is not None and value is not None:

@@ -18,14 +18,22 @@ from bot_console.tui.format import command_of
 from bot_console.tui.panes.parameters.absences import Absences
 from bot_console.tui.panes.parameters.details import details
 from bot_console.tui.panes.parameters.edit_pane import EditPane
-from bot_console.tui.panes.parameters.rows import Row, TreeRows, View, folds_at_start, namesake, opened, worth_changing
+from bot_console.tui.panes.parameters.rows import (
+    Row,
+    TreeRows,
+    View,
+    initial_folds,
+    most_important_row,
+    row_named,
+    unfold_to,
+)
 from bot_console.tui.panes.parameters.table import ParameterRows
-from bot_console.tui.panes.parameters.view_state import At, Left, left_of
+from bot_console.tui.panes.parameters.view_state import RowKey, ViewState, view_state_of
 from bot_console.tui.text.sanitize import counted, sanitize
 from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
-from bot_console.tui.widgets.prompt.question import Choice, Option, narrowed
+from bot_console.tui.widgets.prompt.question import Choice, Option, matching_options
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
 from rich.text import Text
@@ -70,7 +78,7 @@ class ParametersPane(EditPane):
         self._table = ParameterRows(self.edits)
         self._tree = TreeRows()
         self._expected = ""
-        self._at_cursor: At | None = None
+        self._at_cursor: RowKey | None = None
         self._chosen = False
         """Whether the user has moved the cursor; until then it stays on the parameter that matters most."""
 
@@ -80,12 +88,12 @@ class ParametersPane(EditPane):
         self._shown: Mapping[str, ParameterTree] = {}
         """The parameter trees from which the rows were made."""
         self._asking_by: object = None
-        self._left: At | None = None
+        self._left: RowKey | None = None
         """The row at the cursor at the end of the last run, until it reappears or the user moves the cursor."""
 
     def on_mount(self) -> None:
         """Restore folds, filter and cursor of the last run, unless a node was preselected."""
-        left = left_of(self.state_store.get(STATE_NAME))
+        left = view_state_of(self.state_store.get(STATE_NAME))
         if left is not None and not self._expected:
             self._left = left.at
             self.words, self._view, self._table.split = left.words, left.view, left.split
@@ -96,7 +104,7 @@ class ParametersPane(EditPane):
     def on_unmount(self) -> None:
         """Save folds, filter and cursor for the next run."""
         at = self._left or self._at_cursor
-        self.state_store.put(STATE_NAME, Left(self.words, self._view, at, self._table.split).data)
+        self.state_store.put(STATE_NAME, ViewState(self.words, self._view, at, self._table.split).data)
 
     def compose(self) -> ComposeResult:
         """The tree, details of the parameter at the cursor, and a prompt."""
@@ -189,7 +197,7 @@ class ParametersPane(EditPane):
                     self._value_changed(before, after)
         shown.exchange(new, stay=self._chosen)
         if not self._chosen:
-            shown.begin_at(worth_changing(new))
+            shown.begin_at(most_important_row(new))
         self._go_to_left()
         self._report_counts()
         if self._expected and not view.essential:  # the short list has no rows of nodes
@@ -198,9 +206,9 @@ class ParametersPane(EditPane):
 
     def _fold_at_start(self) -> None:
         """Fold a large tree, except around the row where the cursor was and the node that is expected."""
-        folded = folds_at_start(self._shown)
+        folded = initial_folds(self._shown)
         for node, name in ((self._left[0], self._left[1]) if self._left else ("", ""), (self._expected, "")):
-            folded = opened(folded, node, name) if node else folded
+            folded = unfold_to(folded, node, name) if node else folded
         if folded != self._view.folded:
             self._view = replace(self._view, folded=folded)
 
@@ -290,10 +298,10 @@ class ParametersPane(EditPane):
         """Redo the change that was undone last."""
         self.report_later(self.console.parameters.redo())
 
-    def filter_is(self, words: str) -> None:
+    def apply_filter(self, words: str) -> None:
         """Show the parameters that pass the filter; the cursor goes to one whose name is the last word."""
         self._change_view(replace(self._view, query=parse(words), folded_matches=frozenset()))
-        at = namesake(self._list.rows, words.rpartition(" ")[2], self._list.cursor)
+        at = row_named(self._list.rows, words.rpartition(" ")[2], self._list.cursor)
         if at is not None:
             self._list.choose(at)
 
@@ -305,7 +313,7 @@ class ParametersPane(EditPane):
         """Change the view; when a filter is cleared, unfold the parameter at the cursor so that it stays visible."""
         parameter = self._at()
         if parameter is not None and not view.filtering and self._view.filtering:
-            view = replace(view, folded=opened(view.folded, parameter.node, parameter.name))
+            view = replace(view, folded=unfold_to(view.folded, parameter.node, parameter.name))
         self._view, self._folds_itself = view, False
         self._arrange()
 
@@ -385,7 +393,7 @@ class ParametersPane(EditPane):
         if self.words and 1 < len(shown) < every:
             choices[f"the {len(shown)} nodes that are shown"] = (tuple(shown), False)
         choices |= {f"{each}, only what differs": (nodes, True) for each, (nodes, _) in tuple(choices.items())}
-        find = partial(narrowed, [Option(each) for each in choices])
+        find = partial(matching_options, [Option(each) for each in choices])
         self.ask(Choice("Save", lambda chosen: self._save_what(*choices[chosen]), find=find))
 
     def _save_what(self, nodes: tuple[str, ...], only_changed: bool) -> None:

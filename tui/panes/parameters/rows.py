@@ -66,7 +66,7 @@ class View:
         return self.folded_matches if self.filtering else self.folded
 
 
-def opened(folded: Collection[str], node: str, name: str) -> frozenset[str]:
+def unfold_to(folded: Collection[str], node: str, name: str) -> frozenset[str]:
     """The rows that stay folded after a parameter was made visible: all but its namespaces, node and groups."""
 
     def holds(fold: str) -> bool:
@@ -81,7 +81,7 @@ MAX_OPEN_NODES = 14
 """Maximum nodes of a tree that starts unfolded; a larger one starts folded."""
 
 
-def folds_at_start(nodes: Iterable[str]) -> frozenset[str]:
+def initial_folds(nodes: Iterable[str]) -> frozenset[str]:
     """The rows that are folded before the user has folded or unfolded anything."""
     names = tuple(nodes)
     if len(names) <= MAX_OPEN_NODES:
@@ -178,7 +178,7 @@ def _name_among(parameter: ParameterInfo, names: Mapping[str, int]) -> str:
     return parameter.name if names[parameter.name] == 1 else f"{parameter.name} {parameter.node.removeprefix('/')}"
 
 
-def worth_changing(found: Sequence[Row]) -> int:
+def most_important_row(found: Sequence[Row]) -> int:
     """The row where the cursor starts: the parameter that matters most, else the first one, else the first row."""
     parameters = [(at, row.parameter) for at, row in enumerate(found) if row.parameter is not None]
     ranked = [(rank, at) for at, each in parameters if (rank := importance(each)) is not None]
@@ -261,7 +261,7 @@ def _is_built_in(name: str) -> bool:
     return name in BUILT_IN or name.startswith(BUILT_IN_PREFIX)
 
 
-def namesake(found: Sequence[Row], name: str, cursor: int) -> int | None:
+def row_named(found: Sequence[Row], name: str, cursor: int) -> int | None:
     """The row of a parameter with exactly this name, or else with it as the last level; None if there is none.
 
     Of several, the one at the cursor is preferred, then the first. A filter also shows rows that merely mention the

@@ -13,7 +13,7 @@ from bot_console.tui.panes.parameters.columns import (
     MARKS_CELLS,
     Measures,
     columns,
-    measured,
+    measure,
     name_column,
     shown_value,
 )
@@ -96,7 +96,7 @@ class ParameterRows(ItemList[Row]):
 
     def exchange(self, rows: Sequence[Row], *, stay: bool = True) -> None:
         """Show these rows; if the columns have moved, redraw all of them."""
-        before, self._measures = self._measures, measured(rows)
+        before, self._measures = self._measures, measure(rows)
         super().exchange(rows, stay=stay)
         if self._measures != before:
             self.refresh()
@@ -151,7 +151,7 @@ class ParameterRows(ItemList[Row]):
             unit = f" {parameter.unit}" if parameter.unit else ""
             text = f"{sanitize(value_text(parameter.value))} → {sanitize(value_text(staged[key]))}{unit}"
             return [*segments, Segment(cut(text, left), self.row_style("good"))]
-        slider = bar(parameter, own.bar) if own.bar and not over else ""
+        slider = slider_text(parameter, own.bar) if own.bar and not over else ""
         has_room = left >= max(own.value, len(value)) + GAP_CELLS + len(READ_ONLY)
         tail = slider or (READ_ONLY if parameter.read_only and has_room else "")
         segments.append(self._value(value, own.value, left, parameter, bool(tail)))
@@ -196,13 +196,13 @@ class ParameterRows(ItemList[Row]):
         taken = name_column(row, own, self.across, self.split)
         begin = MARKS_CELLS + taken + GAP_CELLS + own.value + GAP_CELLS
         slides = own.bar and taken == own.name and not row.parameter.read_only
-        if slides and bar(row.parameter, own.bar) and begin <= event.x < begin + own.bar:
+        if slides and slider_text(row.parameter, own.bar) and begin <= event.x < begin + own.bar:
             self.post_message(self.Slid(row.parameter, (event.x - begin) / (own.bar - 1)))
         elif chosen:
             self.post_message(self.Pressed(row))
 
 
-def bar(parameter: ParameterInfo, cells: int) -> str:
+def slider_text(parameter: ParameterInfo, cells: int) -> str:
     """A slider of `cells` cells that shows where a number is in its range; empty without a finite range."""
     limits, value = parameter.range, parameter.value
     if limits is None or not limits.finite or isinstance(value, (bool, str, tuple)) or value is None:

@@ -10,7 +10,7 @@ from bot_console.tui.console.query import parse
 from bot_console.tui.files.state_store import strings_in
 from bot_console.tui.panes.parameters.rows import View
 
-At = tuple[str, str, str]
+RowKey = tuple[str, str, str]
 """The key of a row: its node, its name in the tree, and the name of its parameter."""
 MAX_FOLDS = 5000
 """Maximum number of folds kept."""
@@ -19,12 +19,12 @@ MAX_SPLIT = 500
 
 
 @dataclass(frozen=True)
-class Left:
+class ViewState:
     """The state of the tree when the console was left: the filter, the view, and the row at the cursor."""
 
     words: str
     view: View
-    at: At | None = None
+    at: RowKey | None = None
     split: int = 0
     """The number of cells by which the edge between names and values was moved."""
 
@@ -36,7 +36,7 @@ class Left:
         return {key: each for key, each in found.items() if each} | ({"at": list(self.at)} if self.at else {})
 
 
-def left_of(data: object) -> Left | None:
+def view_state_of(data: object) -> ViewState | None:
     """Restore the state; None if `data` is no state, or its filter is no longer valid."""
     if not isinstance(data, Mapping):
         return None
@@ -51,4 +51,4 @@ def left_of(data: object) -> Left | None:
     view = View(query, given.get("changed") is True, given.get("built_in") is True, frozenset(folds))
     row, split = strings_in(at), given.get("split")
     cells = split if isinstance(split, int) and abs(split) <= MAX_SPLIT else 0
-    return Left(words, view, (row[0], row[1], row[2]) if len(row) == 3 else None, cells)
+    return ViewState(words, view, (row[0], row[1], row[2]) if len(row) == 3 else None, cells)

@@ -74,7 +74,7 @@ class Curve:
         place = int(np.searchsorted(times, time, side="right")) - 1
         return float(values[place]) if place >= 0 else None
 
-    def take_in(self, plots: Plots) -> bool:
+    def fetch_samples(self, plots: Plots) -> bool:
         """Fetch new samples; returns whether there were any, or the problem has changed."""
         samples = plots.samples(self.path, self.cursor)
         changed = self.problem != samples.problem or samples.cursor != self.cursor

@@ -10,7 +10,7 @@ from bot_console.tui.arrangement.opening import matching
 from bot_console.tui.console.model import ConsoleSnapshot, JournalState
 from bot_console.tui.format import clock_text
 from bot_console.tui.panes.plot import view as plot_view
-from bot_console.tui.panes.plot.formulas.formula import Formula, read
+from bot_console.tui.panes.plot.formulas.formula import Formula, parse_formula
 from bot_console.tui.panes.plot.pictures import sparklines, xy_plot
 from bot_console.tui.panes.plot.questions import PlotQuestions
 from bot_console.tui.panes.plot.responses import Responses, wrong_formula
@@ -98,7 +98,7 @@ class PlotPane(PlotQuestions):
             self._responses.read(changes)
             self._wanted = True
         if self._wanted or not self._heartbeats:
-            self.take_in(force=True)
+            self.fetch_samples(force=True)
 
     def _add_defaults(self) -> None:
         known = self.console.plots.plottable()
@@ -140,13 +140,13 @@ class PlotPane(PlotQuestions):
     def tick(self) -> None:
         """Fetch new samples; draw once the newest has moved by a dot, or no more follow."""
         self._heartbeats = True
-        self.take_in(force=self._wanted)
+        self.fetch_samples(force=self._wanted)
 
-    def take_in(self, *, force: bool = False) -> None:
+    def fetch_samples(self, *, force: bool = False) -> None:
         """Fetch new samples if the pane is visible, and draw them if that changes the picture; `force` always draws."""
         if not self.display or self.is_ending:
             return
-        changed = self._timeline.take_in()
+        changed = self._timeline.fetch_samples()
         self._undrawn = self._undrawn or changed
         rests = self._undrawn and not changed
         if force or rests or self._timeline.moment(self._across()) != self._moment:
@@ -191,12 +191,12 @@ class PlotPane(PlotQuestions):
             return sparklines.sparklines(timeline.curves, axes, width, height, self._chosen)
         base = next((each for each in timeline.curves if each.path == timeline.against), None)
         if base is not None and len(timeline.curves) > 1:
-            return xy_plot.against(base, timeline.curves, axes, width, height)
-        return plot_view.framed(timeline.curves, timeline.marks, axes, width, height)
+            return xy_plot.draw_xy(base, timeline.curves, axes, width, height)
+        return plot_view.framed_plot(timeline.curves, timeline.marks, axes, width, height)
 
     def time_moved(self, stamp: int | None) -> None:
         """Show the moment to which the time cursor has moved, and what was changed then."""
-        self._timeline.watch_image(stamp)
+        self._timeline.show_moment(stamp)
         if self.display and not self.is_ending:
             self.draw()
 
@@ -344,7 +344,7 @@ class PlotPane(PlotQuestions):
 
     def action_header_time(self) -> None:
         """Switch between the times in message headers and arrival times."""
-        self._timeline.time_of(by_header=not self._timeline.by_header)
+        self._timeline.place_samples(by_header=not self._timeline.by_header)
         self.draw()
 
     def action_clear(self) -> None:
@@ -359,7 +359,7 @@ def _within(wanted: str, known: Collection[str], topics: Collection[str]) -> boo
     The plottable paths name only the first element of an array, and nothing in arrays of messages.
     """
     try:
-        formula = read(wanted)
+        formula = parse_formula(wanted)
     except ValueError:
         return False
     paths = formula.paths if isinstance(formula, Formula) else (formula,)

@@ -11,10 +11,10 @@ from bot_console.tui.files import plot_presets
 from bot_console.tui.files.plot_presets import PlotPresetError, Preset, SavedCurve
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.panes.pane import Pane
-from bot_console.tui.panes.plot.formulas.formula import split
+from bot_console.tui.panes.plot.formulas.formula import split_expressions
 from bot_console.tui.panes.plot.thresholds import thresholds_of, thresholds_text, wrong_thresholds
-from bot_console.tui.panes.plot.time_window import Timeline, limits_of, wrong_limits, zoomed
-from bot_console.tui.widgets.prompt.question import Choice, Option, narrowed
+from bot_console.tui.panes.plot.time_window import Timeline, limits_of, wrong_limits, zoom_limits
+from bot_console.tui.widgets.prompt.question import Choice, Option, matching_options
 from bot_console.tui.widgets.prompt.question import Line as Asked
 
 STAMP = re.compile(r"[/.](?:nano)?sec$")
@@ -33,7 +33,7 @@ class PlotQuestions(Pane):
         """Draw the plot."""
         raise NotImplementedError
 
-    def take_in(self, *, force: bool = False) -> None:
+    def fetch_samples(self, *, force: bool = False) -> None:
         """Fetch new samples, and draw if they change the picture; `force` always draws."""
         raise NotImplementedError
 
@@ -44,7 +44,7 @@ class PlotQuestions(Pane):
 
     def action_add(self) -> None:
         """Ask for curves."""
-        from bot_console.tui.panes.plot.formulas.suggestions import suggested
+        from bot_console.tui.panes.plot.formulas.suggestions import suggestions
 
         known = [each for each in self.console.plots.plottable() if each.isprintable()]
         self.ask(
@@ -52,14 +52,14 @@ class PlotQuestions(Pane):
                 "Plot",
                 lambda _: None,
                 attempt=self._add_all,
-                find=partial(suggested, known),
+                find=partial(suggestions, known),
                 hint="type part of a path, or an expression such as /a/x - /b/x or mean(/a/x, 1 s)",
                 empty="Nothing that can be plotted matches.",
             )
         )
 
     def _add_all(self, paths: str) -> str:
-        return next((wrong for path in split(paths) if (wrong := self._added(path))), "")
+        return next((wrong for path in split_expressions(paths) if (wrong := self._added(path))), "")
 
     def add(self, path: str) -> bool:
         """Plot a path or an expression; if that is not possible, notifies why and returns False."""
@@ -78,7 +78,7 @@ class PlotQuestions(Pane):
         if answer.ok:
             self._chosen = len(self.paths) - 1
             self._hint_at_parameters(path)
-        self.take_in(force=True)
+        self.fetch_samples(force=True)
         return "" if answer.ok else answer.text
 
     def _hint_at_parameters(self, path: str) -> None:
@@ -117,8 +117,8 @@ class PlotQuestions(Pane):
         now = timeline.limits or limits([reach_of(each, axes, WIDTH_CELLS) for each in shown])
         chosen = timeline.curves[self._chosen]
         value = chosen.latest if axes.cursor is None else chosen.at(axes.cursor)
-        timeline.limits = zoomed(now, value if chosen in shown else None, factor)
-        self.take_in(force=True)
+        timeline.limits = zoom_limits(now, value if chosen in shown else None, factor)
+        self.fetch_samples(force=True)
 
     def _limits_text(self) -> str:
         now = self._timeline.limits
@@ -188,7 +188,7 @@ class PlotQuestions(Pane):
             self.notify("No curves have been saved; w saves those that are shown.")
             return
 
-        find = partial(narrowed, [Option(each) for each in names])
+        find = partial(matching_options, [Option(each) for each in names])
         self.ask(Choice("Curves", self.show_kept, find=find, hint="name", empty="No saved curves have this name."))
 
     def show_kept(self, name: str) -> None:

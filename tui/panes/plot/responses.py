@@ -9,7 +9,7 @@ from bot_console.tui.console.model import Change
 from bot_console.tui.console.plot.port import Plots
 from bot_console.tui.panes.plot.curves import Curve
 from bot_console.tui.panes.plot.step_response import Figures, Response, figures, figures_text, moments, response, score
-from bot_console.tui.panes.plot.view import Axes, framed
+from bot_console.tui.panes.plot.view import Axes, framed_plot
 from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.picture import Line
 
@@ -51,7 +51,7 @@ class Responses:
             return [()] * ((height - 1) // 2) + [((HOW[:width].center(width), "dim"),)]
         drawn = [Curve(each.name, at, each.times, each.values) for at, each in enumerate(found)]
         axes = Axes(0.0, max(min(window, max(float(each.times[-1]) for each in found)), 1e-3), since=True)
-        lines = framed(drawn, (), axes, width, max(4, height - len(found)))
+        lines = framed_plot(drawn, (), axes, width, max(4, height - len(found)))
         for at, each in enumerate(found):
             text = figures_text(figures(each, self._reference_value(curves, each)), self.formula)
             lines.append(((f"━ {each.name} ", f"curve-{at}"), (text, "")))

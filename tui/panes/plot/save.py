@@ -13,7 +13,7 @@ import numpy as np
 from bot_console.tui.files.save_file import save_file
 from bot_console.tui.panes.plot.curves import Curve
 from bot_console.tui.panes.plot.pictures import image_files
-from bot_console.tui.panes.plot.pictures.vector_drawing import sheet
+from bot_console.tui.panes.plot.pictures.vector_drawing import plot_drawing
 from bot_console.tui.panes.plot.view import Axes, Mark
 
 SIZE_CELLS = (120, 34)
@@ -47,7 +47,7 @@ def picture(
 ) -> None:
     """Write the visible plot as `.svg`, `.png` or `.html`, otherwise as plain text; raises `NotSaved`."""
     if path.suffix in (".svg", ".png"):
-        page = sheet(curves, marks, axes, wall)
+        page = plot_drawing(curves, marks, axes, wall)
         (image_files.write_svg if path.suffix == ".svg" else image_files.write_png)(path, page)
     else:
         _by_plotext(path, curves, axes)

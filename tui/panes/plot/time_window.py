@@ -9,8 +9,8 @@ from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import Change
 from bot_console.tui.console.plot.port import Plots
 from bot_console.tui.panes.plot.curves import Curve
-from bot_console.tui.panes.plot.formulas.computed import Computed
-from bot_console.tui.panes.plot.formulas.formula import Formula, read
+from bot_console.tui.panes.plot.formulas.computed import ComputedCurve
+from bot_console.tui.panes.plot.formulas.formula import Formula, parse_formula
 from bot_console.tui.panes.plot.thresholds import first_crossed
 from bot_console.tui.panes.plot.view import Axes, Mark
 from bot_console.tui.text.value_text import value_text
@@ -59,7 +59,7 @@ class Timeline:
         found: Formula | str = text
         if text not in self._plots.plottable():
             try:
-                found = read(text)
+                found = parse_formula(text)
             except ValueError as error:
                 if any(each in "()*+-% " for each in text):
                     return Answer(False, f"{text}: {error}")
@@ -78,7 +78,7 @@ class Timeline:
             curve = sources[found]
             curve.colour = colour
         else:
-            curve = Computed(found, colour, sources)
+            curve = ComputedCurve(found, colour, sources)
         self.curves.append(curve)
         self._uses[curve.path] = paths
         return Answer(True, text)
@@ -102,7 +102,7 @@ class Timeline:
                 self._sources.pop(path, None)
                 self._plots.unwatch(path)
 
-    def time_of(self, by_header: bool) -> None:
+    def place_samples(self, by_header: bool) -> None:
         """Place samples by the times in message headers, or by their arrival times."""
         self.by_header = by_header
         for each in self._sources.values():
@@ -114,13 +114,13 @@ class Timeline:
             each.clear()
         self.marks.clear()
 
-    def take_in(self) -> bool:
+    def fetch_samples(self) -> bool:
         """Fetch new samples; returns whether anything has to be drawn."""
         before = sum(each.cursor for each in self._sources.values())
-        changed = any([each.take_in(self._plots) for each in self._sources.values()])
+        changed = any([each.fetch_samples(self._plots) for each in self._sources.values()])
         for each in self.curves:
             if each.path not in self._sources:
-                each.take_in(self._plots)
+                each.fetch_samples(self._plots)
         if self.paused_at is not None:
             self.new_samples += sum(each.cursor for each in self._sources.values()) - before
         return changed
@@ -137,7 +137,7 @@ class Timeline:
 
         self.marks = [Mark(self._plots.time(each.stamp), not each.accepted, change_text(each)) for each in changes]
 
-    def watch_image(self, stamp: int | None) -> None:
+    def show_moment(self, stamp: int | None) -> None:
         """Pause the window so that it shows a moment (ns since the epoch); for None, resume."""
         if stamp is None:
             self.cursor = self.paused_at = None
@@ -198,7 +198,7 @@ class Timeline:
         return max(streams) if streams else self._plots.time()
 
     def moment(self, across: int) -> object:
-        """A token for the time shown by a picture of `across` cells; while it is equal, no newer dot would be drawn."""
+        """A token for the time shown by a picture of `across` cells; while it is equal, only the newest dots differ."""
         if not self.curves:
             return None
         dot = min(self.window / max(1, 2 * across), LATEST_VALUE_S)
@@ -242,7 +242,7 @@ MIN_SPAN, MAX_SPAN = 1e-9, 1e12
 """The minimum span of the value axis, as a share of its values, and the maximum span."""
 
 
-def zoomed(limits: tuple[float, float], value: float | None, factor: float) -> tuple[float, float]:
+def zoom_limits(limits: tuple[float, float], value: float | None, factor: float) -> tuple[float, float]:
     """Limits with `factor` times the span, in which `value` keeps its place, or the middle if it is outside or None.
 
     Returns the same limits if the span would become too small or too large.

@@ -61,7 +61,7 @@ class Axes:
         return [] if at is None else [each for each in marks if self.column(each.time, across) == at]
 
 
-def framed(curves: Sequence[Curve], marks: Sequence[Mark], axes: Axes, width: int, height: int) -> list[Line]:
+def framed_plot(curves: Sequence[Curve], marks: Sequence[Mark], axes: Axes, width: int, height: int) -> list[Line]:
     """Draw all curves in one frame; `height` is at least 4 lines, two of them below the picture.
 
     Curves on the right axis have their own limits, labelled on the right; `axes.limits` applies to the left axis.
@@ -75,7 +75,7 @@ def framed(curves: Sequence[Curve], marks: Sequence[Mark], axes: Axes, width: in
     )
     right_limits = limits([each for each, other in zip(reaches, right, strict=True) if other]) if both else left_limits
     spans = [right_limits if other else left_limits for other in right]
-    layers = [canvas(each, *span, across, down) for each, span in zip(reaches, spans, strict=True)]
+    layers = [trace_codes(each, *span, across, down) for each, span in zip(reaches, spans, strict=True)]
     watched = [(curve, span) for curve, span in zip(curves, spans, strict=True) if curve.thresholds]
     layers += [_dotted(curve, *span, across, down) for curve, span in watched]
     styles = [style_of(curve) for curve in (*curves, *(each for each, _ in watched))]
@@ -120,7 +120,7 @@ def strips(curves: Sequence[Curve], axes: Axes, width: int, height: int, chosen:
         seen = reach_of(curve, axes, width)
         low, high = axes.limits or limits([seen])
         lines.append(legend(curve, axes, width, at == chosen))
-        rows = layered([canvas(seen, low, high, width, room - 1)], [style_of(curve)], width, room - 1)
+        rows = layered([trace_codes(seen, low, high, width, room - 1)], [style_of(curve)], width, room - 1)
         lines += [tuple(row) for row in rows]
     return lines[:height]
 
@@ -165,7 +165,7 @@ def tick_step(span: float, maximum: int) -> float:
     return next((each * power for each in (1, 2, 5) if each * power >= raw), 10 * power)
 
 
-def canvas(seen: Reach, low: float, high: float, across: int, down: int) -> npt.NDArray[np.uint8]:
+def trace_codes(seen: Reach, low: float, high: float, across: int, down: int) -> npt.NDArray[np.uint8]:
     """Braille codes of one trace, by row and column of cells."""
     canvas = BrailleCanvas(across, down)
     dots = down * 4

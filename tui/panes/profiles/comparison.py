@@ -62,7 +62,7 @@ def columns_in(width: int) -> int:
     return max(2, (width - NAME_CELLS - UNIT_CELLS) // MIN_COLUMN)
 
 
-def compared(
+def compare_profiles(
     snapshot: ConsoleSnapshot,
     profiles: Sequence[Profile],
     selected: Profile | None,
@@ -93,10 +93,10 @@ def compared(
     ]
     found.sort(key=lambda each: (each[0], each[1].name, each[1].nodes))
     shown = 0 if chosen < 0 else chosen - first + 1
-    return Comparison(titles, _merged(row for _, row in found), len(names) - len(visible), shown)
+    return Comparison(titles, _merge_nodes(row for _, row in found), len(names) - len(visible), shown)
 
 
-def _merged(rows: Iterable[ComparedValue]) -> tuple[ComparedValue, ...]:
+def _merge_nodes(rows: Iterable[ComparedValue]) -> tuple[ComparedValue, ...]:
     """Merge the rows of nodes that have the same parameter with the same values."""
     found: dict[tuple[str, str, tuple[Cell, ...]], ComparedValue] = {}
     for row in rows:

@@ -18,15 +18,15 @@ Asked = tuple[ParameterTree, Mapping[str, Value]]
 
 
 @dataclass
-class Asking:
+class DryRun:
     """Asks each node whose values a profile would change, once per set of values.
 
-    `later` runs a call in the panes' thread; `heard` is called there when an answer has arrived.
+    `later` runs a call in the panes' thread; `on_answer` is called there when an answer has arrived.
     """
 
     console: Console
     later: Callable[..., object]
-    heard: Callable[[], object]
+    on_answer: Callable[[], object]
     unasked: frozenset[str] = frozenset()
     """The nodes that cannot check values in advance."""
     concerned: int = 0
@@ -71,7 +71,7 @@ class Asking:
     def _take(self, node: str, asked: Asked, answer: Answer) -> None:
         if self._asked.get(node) is asked:  # else a newer question replaced this one
             self.answers[node] = answer
-            self.heard()
+            self.on_answer()
 
     def refusals(self) -> Mapping[str, str]:
         """The nodes that would refuse or did not answer, each with its reason."""

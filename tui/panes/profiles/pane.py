@@ -23,18 +23,18 @@ from bot_console.tui.console.query import parse
 from bot_console.tui.files.save_file import typed_path
 from bot_console.tui.files.state_store import LAST_FILE
 from bot_console.tui.panes.list_pane import ListPane
-from bot_console.tui.panes.profiles.comparison import ComparisonRows, compared
-from bot_console.tui.panes.profiles.dry_run import Asking
+from bot_console.tui.panes.profiles.comparison import ComparisonRows, compare_profiles
+from bot_console.tui.panes.profiles.dry_run import DryRun
 from bot_console.tui.panes.profiles.presets import PresetMenu
 from bot_console.tui.panes.profiles.replacement import Replacement
 from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries, outcome_text
-from bot_console.tui.panes.profiles.user_profiles import OwnProfiles
+from bot_console.tui.panes.profiles.user_profiles import UserProfiles
 from bot_console.tui.safety.stop_wording import ended_lock_warning
 from bot_console.tui.text.sanitize import counted
 from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.placeholder import NO_PLACEHOLDER, Placeholder
-from bot_console.tui.widgets.prompt.common import wrong_path
+from bot_console.tui.widgets.prompt.common import path_problem
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Confirmation, Line
 from bot_console.tui.widgets.row_list import RowList
@@ -79,8 +79,8 @@ class ProfilesPane(ListPane):
         self._held = False
         self._comparing = False
         """Whether the user wants the comparison even if there are differences to preview."""
-        self._own = OwnProfiles(self.console, self._later, self.ask, self.report)
-        self._asking = Asking(self.console, self._later, self._compare)
+        self._own = UserProfiles(self.console, self._later, self.ask, self.report)
+        self._asking = DryRun(self.console, self._later, self._compare)
 
     def _later(self, work: Callable[..., object], *given: object) -> None:
         self.host.call_later(work, *given)
@@ -120,7 +120,7 @@ class ProfilesPane(ListPane):
         self.report_filter(len(there), len(every))
         return self._list.show(there, self._snapshot.active_profile, self._snapshot.profile_changes)
 
-    def filter_is(self, words: str) -> None:
+    def apply_filter(self, words: str) -> None:
         """Show the profiles that pass the filter."""
         self._query = parse(words)
         if self._take_in():
@@ -149,7 +149,7 @@ class ProfilesPane(ListPane):
         rows, width = self.query_one(ComparisonRows), self.size.width
         if wanted:
             snapshot, listed = self._snapshot, self._list.rows
-            rows.show(compared(snapshot, listed, profile, self.console.profiles.differences, width))
+            rows.show(compare_profiles(snapshot, listed, profile, self.console.profiles.differences, width))
             self.query_one("#profile-columns", Picture).set_lines((rows.heading(width),))
         compares = wanted and bool(rows.rows)
         for part, visible in (("#profile-columns", compares), ("#profile-head", not compares)):
@@ -288,7 +288,7 @@ class ProfilesPane(ListPane):
         """Ask for a parameter file, suggesting the last one saved or opened, and show what it would change."""
         last = self.state_store.get(LAST_FILE)
         text = last if isinstance(last, str) else ""
-        self.ask(Line("parameter file, or https://", self._open, text=text, check=wrong_path))
+        self.ask(Line("parameter file, or https://", self._open, text=text, check=path_problem))
 
     def _open(self, place: str) -> None:
         if place.strip().lower().startswith(ADDRESSES):

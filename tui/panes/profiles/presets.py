@@ -11,7 +11,7 @@ from bot_console.tui.console.answer import Answer, answer_of
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.text.sanitize import sanitize
-from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Line, Option, Question, narrowed
+from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Line, Option, Question, matching_options
 
 LIST, CHANGE = "std_srvs/srv/Trigger", "diagnostic_msgs/srv/AddDiagnostics"
 """The types of `list`, and of `apply`, `save` and `delete`."""
@@ -66,7 +66,9 @@ class PresetMenu:
         if offers:
             options = [option for option, _ in offers.values()]
             self.ask(
-                Choice("Presets", lambda chosen: offers[chosen][1](), find=partial(narrowed, options), hint="words")
+                Choice(
+                    "Presets", lambda chosen: offers[chosen][1](), find=partial(matching_options, options), hint="words"
+                )
             )
 
     def _offers(self) -> dict[str, tuple[Option, Callable[[], object]]]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from textwrap import wrap
 
 from bot_console.tui.console.model import Profile, ProfileDifference, SetOutcome, Value
-from bot_console.tui.panes.profiles.dry_run import Asking
+from bot_console.tui.panes.profiles.dry_run import DryRun
 from bot_console.tui.text.refusals import verdict
 from bot_console.tui.text.sanitize import counted, cut, sanitize
 from bot_console.tui.text.value_text import value_text
@@ -16,9 +16,9 @@ from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment
 
-MAX_NAME_CELLS = 16
+MIN_NAME_CELLS = 16
 """Minimum cells of the profile column."""
-MAX_PARAMETER_CELLS = 26
+MIN_PARAMETER_CELLS = 26
 """Minimum cells of the parameter column, if there is room for that."""
 VALUE_CELLS = 12
 """Cells of the present value; the new one may be twice as long."""
@@ -63,7 +63,7 @@ class ProfileRows(ItemList[Profile]):
         profile = self.rows[index]
         mark = "●" if profile.name == self.active else " "
         longest = max(cell_len(sanitize(each.name)) for each in self.rows) + 4
-        room = min(max(longest, MAX_NAME_CELLS), max(MAX_NAME_CELLS, width // 2))
+        room = min(max(longest, MIN_NAME_CELLS), max(MIN_NAME_CELLS, width // 2))
         name = cut(f"{mark} {sanitize(profile.name)}", room - 2)
         style = self.row_style("warn" if profile.problem else "dim")
         changed = f"{self.changes} changed  " if self.changes and profile.name == self.active else ""
@@ -106,7 +106,7 @@ class DifferenceRows(ItemList[Entry]):
                 Segment(message, self.row_style(style)),
             ]
         longest = max(cell_len(sanitize(each.difference.name)) for each in self.rows if each.difference) + 4
-        names = max(min(max(longest, MAX_PARAMETER_CELLS), width - NOTE_CELLS - 3 * VALUE_CELLS), 12)
+        names = max(min(max(longest, MIN_PARAMETER_CELLS), width - NOTE_CELLS - 3 * VALUE_CELLS), 12)
         now = cut(sanitize(value_text(change.now)), VALUE_CELLS) if change.now is not None else "?"
         then = cut(sanitize(value_text(change.then)), 2 * VALUE_CELLS)
         note, style = _note(entry, change)
@@ -146,7 +146,7 @@ def outcome_text(name: str, outcomes: Sequence[SetOutcome], unknown: int) -> str
 def entries(
     differences: Sequence[ProfileDifference],
     outcomes: Mapping[tuple[str, str], SetOutcome],
-    asking: Asking,
+    asking: DryRun,
     width: int = 80,
 ) -> tuple[Entry, ...]:
     """The lines: each node once, followed by its values. The nodes' checks are shown until the profile is applied.
@@ -160,14 +160,14 @@ def entries(
         if each.node != node:
             node = each.node
             found.append(Entry(each.node, message=("", "dim") if outcomes else asking.words(each.node)))
-            found += _folded(each.node, refusals.get(each.node, ""), width)
+            found += _wrapped_reason(each.node, refusals.get(each.node, ""), width)
         outcome = outcomes.get((each.node, each.name))
         found.append(Entry(each.node, each, outcome))
         reason = each.refusal if outcome is None else outcome.reason
         if reason and not each.unknown and not (outcome and outcome.accepted):
-            found += _folded(each.node, reason, width)
+            found += _wrapped_reason(each.node, reason, width)
     return tuple(found)
 
 
-def _folded(node: str, reason: str, width: int) -> list[Entry]:
+def _wrapped_reason(node: str, reason: str, width: int) -> list[Entry]:
     return [Entry(node, reason=line) for line in wrap(sanitize(reason), max(20, width - REASON_INDENT_CELLS))]

@@ -17,7 +17,7 @@ from bot_console.tui.widgets.prompt.question import Confirmation, Line, Question
 
 
 @dataclass
-class OwnProfiles:
+class UserProfiles:
     """The actions on the user's profiles.
 
     `later` runs a call in the panes' thread, `ask` asks the user, `report` shows the outcome.

@@ -17,11 +17,11 @@ from bot_console.tui.panes.steering.state import (
     LEFT,
     RATE_HZ,
     Steering,
-    greatest_of,
+    is_stopped_after_steering,
+    limits_from_parameters,
     parse_limits,
     parse_rate,
     robot_of,
-    stands_after_steering,
 )
 from bot_console.tui.panes.steering.view import lines, same_but_velocities
 from bot_console.tui.text.cadence import is_due
@@ -105,7 +105,7 @@ class SteeringPane(Pane):
         if snapshot.parameters is not before.parameters or whose != (before.drive.topic, before.drive.others):
             self._limit()
         if snapshot.drive.stopped and not before.drive.stopped and self.state.armed:
-            self._steer_no_more()
+            self._stop_steering()
         if snapshot.link.silent_s and self.state.armed:
             self._disarm("Disarmed: the robot does not answer.")
         self._draw()
@@ -177,7 +177,7 @@ class SteeringPane(Pane):
     def _limit(self) -> None:
         """Apply the typed limits, or else those from the robot's parameters."""
         trees, drive = self._snapshot.parameters.values(), self._snapshot.drive
-        self.state.limit(self.state.typed or greatest_of(trees, drive.topic, drive.others))
+        self.state.limit(self.state.typed or limits_from_parameters(trees, drive.topic, drive.others))
 
     def action_limits(self) -> None:
         """Ask for limits."""
@@ -263,7 +263,7 @@ class SteeringPane(Pane):
         self.console.drive.stop(True, why)
         self.console.drive.steer(False)
 
-    def _steer_no_more(self) -> None:
+    def _stop_steering(self) -> None:
         """Stop steering, with a zero velocity."""
         self.state.disarm()
         self._send()
@@ -320,7 +320,7 @@ class SteeringPane(Pane):
     @property
     def _own_stop(self) -> bool:
         """Whether this pane stopped the robot, so that Enter may resume steering."""
-        return stands_after_steering(self._snapshot.drive)
+        return is_stopped_after_steering(self._snapshot.drive)
 
     def _arm(self) -> None:
         """Take the steering before releasing the stop, so that the robot stands still until a key moves it."""
@@ -334,7 +334,7 @@ class SteeringPane(Pane):
     def action_hand_back(self) -> None:
         """Let the robot's own program drive again."""
         if self.state.armed:
-            self._steer_no_more()
+            self._stop_steering()
             self._draw()
         elif self._own_stop:
             self.console.drive.stop(False)

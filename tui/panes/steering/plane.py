@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from bot_console.tui.widgets.picture import Line, Piece, joined
+from bot_console.tui.widgets.picture import Line, Piece, merged_line
 
 Velocity = tuple[float, float]
 ASKED, ROBOT, BOTH = "◌", "●", "◉"
@@ -31,7 +31,7 @@ def plane(
         text = LEFT + "─" * (width - len(LEFT) - len(RIGHT)) + RIGHT if y == down else " " * width
         text = text[:across] + ("┼" if y == down else "│") + text[across + 1 :]
         cells: Sequence[Piece] = [marks.get((x, y), (character, "dim")) for x, character in enumerate(text)]
-        lines.append(joined([(" ", "dim"), ("│", "dim"), *cells, ("│", "dim")]))
+        lines.append(merged_line([(" ", "dim"), ("│", "dim"), *cells, ("│", "dim")]))
     return [*lines, ((f" ╰{BOTTOM.center(width, '─')}╯", "dim"),)]
 
 

@@ -140,7 +140,7 @@ def _moved(value: float, steps: int, greatest: float) -> float:
     return max(-greatest, min(moved, greatest))
 
 
-def stands_after_steering(drive: DriveInfo) -> bool:
+def is_stopped_after_steering(drive: DriveInfo) -> bool:
     """Whether only this pane holds the robot, so that one key may resume steering or hand the robot back."""
     if not drive.lockable:  # it is held only by this console's zeros
         return drive.stopped_here and drive.stop_reason in OWN_REASONS
@@ -179,7 +179,9 @@ def parse_limits(text: str) -> tuple[float, float] | None:
     return speed, turn
 
 
-def greatest_of(trees: Iterable[ParameterTree], topic: str = "", others: Collection[str] = ()) -> tuple[float, float]:
+def limits_from_parameters(
+    trees: Iterable[ParameterTree], topic: str = "", others: Collection[str] = ()
+) -> tuple[float, float]:
     """The limits of speed and turn from the parameters of the steered robot.
 
     Nodes in the namespace of the topic come first, then those that belong to no other robot; `others` are the

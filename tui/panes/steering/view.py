@@ -9,7 +9,7 @@ from itertools import zip_longest
 
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.panes.steering.plane import ASKED, ROBOT, plane
-from bot_console.tui.panes.steering.state import RATE_HZ, Steering, stands_after_steering
+from bot_console.tui.panes.steering.state import RATE_HZ, Steering, is_stopped_after_steering
 from bot_console.tui.safety.stop_wording import held_by, may_move_text, sending_key_text, stop_key_text
 from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.picture import Line
@@ -54,7 +54,7 @@ def lines(
     `figures` holds the velocities to show, by default the newest ones.
     """
     figures = figures or drive
-    top = [_switch(state, drive, width), *_others(others, drive.topic)]
+    top = [_state_line(state, drive, width), *_others(others, drive.topic)]
     sliders = [
         *_sideways(state),
         _slider("linear", state.linear, state.greatest[0], "m/s", width),
@@ -64,8 +64,8 @@ def lines(
     controls: list[Line] = [*top, (), *sliders, deadman, ()]
     size = _plane_size(width, height - len(controls) - 2)
     if size is not None:
-        return [*controls, *_beside(_plane(state, figures, size), _chain(state, figures, narrow=True))][:height]
-    chain = _chain(state, figures)
+        return [*controls, *_side_by_side(_plane(state, figures, size), _stages(state, figures, narrow=True))][:height]
+    chain = _stages(state, figures)
     compact: list[Line] = [*top, *sliders, deadman, *chain]
     roomy: list[Line] = [*top, (), *sliders, (), deadman, (), *chain]
     return (roomy if len(roomy) <= height else compact)[:height]
@@ -102,7 +102,7 @@ def _plane(state: Steering, drive: DriveInfo, size: tuple[int, int]) -> list[Lin
     return plane(asked, drive.actual, state.greatest, size, moving=bool(state.linear or state.angular))
 
 
-def _beside(left: Sequence[Line], right: Sequence[Line]) -> list[Line]:
+def _side_by_side(left: Sequence[Line], right: Sequence[Line]) -> list[Line]:
     """Two blocks side by side, the right one centred vertically."""
     above = max(0, (len(left) - len(right)) // 2)
     blank: Line = ()
@@ -118,7 +118,7 @@ def _sideways(state: Steering) -> list[Line]:
     return [((f" {'sideways':<{WORDS_CELLS}}", ""), (f"{abs(state.sideways):.2f} m/s {where}", "strong"))]
 
 
-def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
+def _state_line(state: Steering, drive: DriveInfo, width: int) -> Line:
     topic = sanitize(drive.topic) or "no robot listens for commands"
     if len(drive.robots) > 1 and drive.robot in drive.robots:
         # Counted as topics, since the graph does not show whether two topics belong to the same robot.
@@ -130,13 +130,13 @@ def _switch(state: Steering, drive: DriveInfo, width: int) -> Line:
     if drive.stopped and drive.nothing_to_stop:
         return ((" STOP ", "warn"), (f" nothing is here to stop: {topic}", ""))
     if drive.refused:
-        return _highlighted(drive, topic)
-    if drive.stopped and not drive.lockable and stands_after_steering(drive):
+        return _line_without_keys(drive, topic)
+    if drive.stopped and not drive.lockable and is_stopped_after_steering(drive):
         key = stop_key_text(drive, "ends them")
         return ((" STOPPED ", "warn"), (f" by zeros, having no emergency stop: Enter resumes steering, {key}", ""))
     if drive.stopped and not drive.stop_confirmed:
         return ((" STOP SENT, NOT CONFIRMED ", "error"), (_unconfirmed(drive), ""))
-    if drive.stopped and stands_after_steering(drive):
+    if drive.stopped and is_stopped_after_steering(drive):
         key = stop_key_text(drive, "returns control to its program")
         return ((" STOPPED ", "warn"), (f" Enter resumes steering, {key}", ""))
     if drive.stopped:
@@ -154,7 +154,7 @@ def _others(nodes: Sequence[str], topic: str) -> list[Line]:
     return [((f" {who} also publishes here: the newest command wins", "warn"),)]
 
 
-def _highlighted(drive: DriveInfo, topic: str) -> Line:
+def _line_without_keys(drive: DriveInfo, topic: str) -> Line:
     """The state while this console may neither steer nor release: it names no key that would be refused."""
     if drive.stopped:
         return ((" ALL STOP ", "error"), (f" released elsewhere: held{held_by(drive)}", ""))
@@ -195,7 +195,7 @@ def _deadman(state: Steering, left: float) -> Line:
             (f"stops {state.deadman:g} s after the last key{rate}", "dim"))  # fmt: skip
 
 
-def _chain(state: Steering, drive: DriveInfo, *, narrow: bool = False) -> list[Line]:
+def _stages(state: Steering, drive: DriveInfo, *, narrow: bool = False) -> list[Line]:
     """The velocity at each stage of the command (asked, limited, sent, robot), as bars and numbers.
 
     With `narrow`, the reason for a limit has a line of its own, which is blank if there is none.

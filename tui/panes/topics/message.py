@@ -11,7 +11,7 @@ from rich.cells import cell_len
 from rich.segment import Segment
 
 
-def unfolded(fields: Sequence[Field], closed: frozenset[str], opened: frozenset[str]) -> list[Field]:
+def visible_fields(fields: Sequence[Field], closed: frozenset[str], opened: frozenset[str]) -> list[Field]:
     """The visible lines, without those below a folded one."""
     found: list[Field] = []
     skip = 0
@@ -20,12 +20,12 @@ def unfolded(fields: Sequence[Field], closed: frozenset[str], opened: frozenset[
             skip -= 1
             continue
         found.append(field)
-        if is_closed(field, closed, opened):
+        if is_folded(field, closed, opened):
             skip = field.holds
     return found
 
 
-def is_closed(field: Field, closed: frozenset[str], opened: frozenset[str]) -> bool:
+def is_folded(field: Field, closed: frozenset[str], opened: frozenset[str]) -> bool:
     """Whether a line is folded."""
     return field.holds > 0 and (field.path in closed or (field.closed and field.path not in opened))
 
@@ -55,7 +55,7 @@ class MessageRows(RowList):
         if fields is self.fields:
             return
         self.fields = fields
-        before, self.lines = self.lines, unfolded(fields, self._shut, self._open)
+        before, self.lines = self.lines, visible_fields(fields, self._shut, self._open)
         names = max((2 * each.depth + cell_len(sanitize(each.name)) + 2 for each in self.lines), default=0)
         widths = (names, len(self.lines))
         if widths != self._widths:
@@ -71,10 +71,10 @@ class MessageRows(RowList):
         line = self.current
         if line is None or not line.holds:
             return False
-        closed = not is_closed(line, self._shut, self._open) if closed is None else closed
+        closed = not is_folded(line, self._shut, self._open) if closed is None else closed
         self._shut = self._shut | {line.path} if closed else self._shut - {line.path}
         self._open = self._open - {line.path} if closed else self._open | {line.path}
-        self.lines = unfolded(self.fields, self._shut, self._open)
+        self.lines = visible_fields(self.fields, self._shut, self._open)
         self._widths = (0, 0)
         self.show_fields(list(self.fields))
         return True
@@ -87,7 +87,7 @@ class MessageRows(RowList):
         """Name, value with its unit, type."""
         line = self.lines[index]
         names = min(self._widths[0] + 2, max(8, width // 2))
-        arrow = "  " if not line.holds else "▸ " if is_closed(line, self._shut, self._open) else "▾ "
+        arrow = "  " if not line.holds else "▸ " if is_folded(line, self._shut, self._open) else "▾ "
         name = cut(f"{'  ' * line.depth}{arrow}{sanitize(line.name)}", names, pad=True)
         unit = line.unit if line.text else ""
         value = cut(f"{sanitize(line.text)}{' ' if unit else ''}{unit}", max(0, width - names))

@@ -13,16 +13,16 @@ from bot_console.tui.console.topics.port import LiveMessage, RequestedQos
 from bot_console.tui.files.save_file import typed_path
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.topics.message import MessageRows
-from bot_console.tui.panes.topics.qos_form import changed_qos, qos_fields, unheard, wrong_qos
-from bot_console.tui.panes.topics.rows import Kind, Row, folds_at_start, grouped, matches, rows
+from bot_console.tui.panes.topics.qos_form import changed_qos, qos_fields, silence_reason, wrong_qos
+from bot_console.tui.panes.topics.rows import Kind, Row, group_by_namespace, initial_folds, matches, rows
 from bot_console.tui.panes.topics.table import TopicRows, heading
 from bot_console.tui.text.cadence import is_due
 from bot_console.tui.text.figures import age_text, rate_text
 from bot_console.tui.text.sanitize import counted
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
-from bot_console.tui.widgets.prompt.common import wrong_path
+from bot_console.tui.widgets.prompt.common import path_problem
 from bot_console.tui.widgets.prompt.line import Prompt
-from bot_console.tui.widgets.prompt.question import Choice, Fill, Form, Line, Option, narrowed
+from bot_console.tui.widgets.prompt.question import Choice, Fill, Form, Line, Option, matching_options
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
@@ -133,7 +133,7 @@ class TopicsPane(ListPane):
         every = rows(self._info or GraphInfo(), self._kind, hidden=self._hidden)
         self._every = len(every)
         found = [each for each in every if matches(self._query, each)]
-        shown.exchange(grouped(found, self._folds(every)))
+        shown.exchange(group_by_namespace(found, self._folds(every)))
         self._listed = len(found)
         self.keys_changed()
         self._head()
@@ -143,7 +143,7 @@ class TopicsPane(ListPane):
         """The namespaces that are folded now."""
         if self._query.terms:
             return self._folded_matches
-        return folds_at_start(every) if self._folded is None else self._folded
+        return initial_folds(every) if self._folded is None else self._folded
 
     @property
     def _current(self) -> Row | None:
@@ -227,7 +227,9 @@ class TopicsPane(ListPane):
         if heard.problem:
             return f"{self._topic}  {heard.problem}"
         if not heard.count:
-            return f"{self._topic}  {qos}no message yet{unheard(asked, self._topic, self._info) if asked else ''}"
+            return (
+                f"{self._topic}  {qos}no message yet{silence_reason(asked, self._topic, self._info) if asked else ''}"
+            )
         if self._frozen:
             return f"{self._topic}  frozen, +{heard.count - self._shown.count} new; space resumes"
         measure = self._list.measure_of(self._topic)
@@ -279,9 +281,9 @@ class TopicsPane(ListPane):
     def on_row_list_resized(self, event: RowList.Resized) -> None:
         """Fit the heading to the columns, and measure the rows in view."""
         event.stop()
-        self._laid_out()
+        self._update_columns()
 
-    def _laid_out(self) -> None:
+    def _update_columns(self) -> None:
         """Update the heading and the measurements for the rows that are visible now."""
         self._head()
         if self.display:
@@ -307,7 +309,7 @@ class TopicsPane(ListPane):
         self.add_class("opened")
         self._poll_message(self.clock())
         self.focus_target()
-        self.call_after_refresh(self._laid_out)
+        self.call_after_refresh(self._update_columns)
 
     def _close(self) -> None:
         self._topic = self._list.opened = ""
@@ -315,7 +317,7 @@ class TopicsPane(ListPane):
         self.console.topics.listen("")
         self.remove_class("opened")
         self.focus_target()
-        self.call_after_refresh(self._laid_out)
+        self.call_after_refresh(self._update_columns)
 
     def action_clear_filter(self) -> None:
         """Close the message; if none is open, clear the filter."""
@@ -391,10 +393,10 @@ class TopicsPane(ListPane):
         self._hidden = not self._hidden
         self._arrange()
 
-    def filter_is(self, words: str) -> None:
+    def apply_filter(self, words: str) -> None:
         """Show the rows that pass the filter."""
         self._folded_matches = frozenset()
-        super().filter_is(words)
+        super().apply_filter(words)
 
     def action_plot(self) -> None:
         """Plot the field at the cursor; in the list, one of the topic's fields."""
@@ -409,7 +411,7 @@ class TopicsPane(ListPane):
             if not paths:
                 self.notify(f"{row.name} has no number that could be plotted.", severity="warning")
             else:
-                find = partial(narrowed, [Option(each) for each in paths])
+                find = partial(matching_options, [Option(each) for each in paths])
                 self.ask(Choice(f"Plot {row.name}", self._plot, find=find, hint="type part of a field"))
 
     def _plot(self, path: str) -> None:
@@ -471,7 +473,7 @@ class TopicsPane(ListPane):
 
 
 def _wrong_or_none(text: str) -> str:
-    return wrong_path(text) if text.strip() else ""
+    return path_problem(text) if text.strip() else ""
 
 
 def _next(kind: Kind) -> Kind:

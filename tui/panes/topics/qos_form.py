@@ -46,7 +46,7 @@ def changed_qos(now: RequestedQos, changed: Mapping[str, str]) -> RequestedQos:
     return replace(now, **values, depth=int(depth or 0))
 
 
-def unheard(asked: RequestedQos, topic: str, info: GraphInfo | None) -> str:
+def silence_reason(asked: RequestedQos, topic: str, info: GraphInfo | None) -> str:
     """Why no messages arrive, if publishers offer less than was requested; otherwise empty."""
     offers = [end.qos for node in (info.nodes if info else ()) for end in node.publishers if end.name == topic]
     wanted = {"best effort": asked.reliability == "reliable", "volatile": asked.durability == "transient_local"}

@@ -139,12 +139,12 @@ MAX_OPEN_ROWS = 40
 """Maximum rows of a list that starts unfolded; in a longer one, namespaces start folded."""
 
 
-def folds_at_start(every: Sequence[Row]) -> frozenset[str]:
+def initial_folds(every: Sequence[Row]) -> frozenset[str]:
     """The namespaces that are folded before the user has folded or unfolded anything."""
     return foldable_namespaces(each.name for each in every) if len(every) > MAX_OPEN_ROWS else frozenset()
 
 
-def grouped(every: Sequence[Row], folded: Collection[str]) -> list[Row]:
+def group_by_namespace(every: Sequence[Row], folded: Collection[str]) -> list[Row]:
     """Group rows by namespace: each namespace of several rows gets a row above them, and hides them if it is folded."""
     spaces = foldable_namespaces(each.name for each in every)
     inside: dict[str, list[Row]] = {}

@@ -28,7 +28,7 @@ class Window:
     scale: float
 
 
-def fitting(world: WorldInfo, width: int, height: int) -> Window:
+def fitting_window(world: WorldInfo, width: int, height: int) -> Window:
     """The window that shows the whole map, or 10 m around the robot if there is none."""
     grid = world.map
     if grid is None:
@@ -39,9 +39,9 @@ def fitting(world: WorldInfo, width: int, height: int) -> Window:
     return Window(grid.origin.x + across / 2, grid.origin.y + down / 2, scale)
 
 
-def following(world: WorldInfo, width: int, height: int, zoom: float) -> Window:
+def following_window(world: WorldInfo, width: int, height: int, zoom: float) -> Window:
     """A window around the robot, magnified `zoom` times compared with the one that shows everything."""
-    whole = fitting(world, width, height)
+    whole = fitting_window(world, width, height)
     pose = world.pose
     return whole if pose is None or zoom <= 1 else Window(pose.x, pose.y, whole.scale * zoom)
 
@@ -65,7 +65,7 @@ class WorldDrawing:
         rows = layered(layers, ("warn", "accent", ""), width, height)
         for (column, row), character, style in _characters(world, window, width, height):
             if 0 <= row < height and 0 <= column < width:
-                rows[row] = _written(rows[row], column, character, style)
+                rows[row] = _with_character(rows[row], column, character, style)
         return [tuple(row) for row in rows]
 
     def _wall_dots(self, grid: GridMap, window: Window, width: int, height: int) -> npt.NDArray[np.bool_]:
@@ -102,7 +102,7 @@ def _dots(
     return np.floor(x), np.floor(y)
 
 
-def _written(pieces: list[Piece], column: int, character: str, style: str) -> list[Piece]:
+def _with_character(pieces: list[Piece], column: int, character: str, style: str) -> list[Piece]:
     """A row in which one character is replaced."""
     result: list[Piece] = []
     at = 0

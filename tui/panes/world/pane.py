@@ -108,10 +108,10 @@ class WorldMap(Picture):
             self.set_lines(())
             return
         # NumPy is imported after the first frame: it would take a third of the start-up time.
-        from bot_console.tui.panes.world.map_drawing import WorldDrawing, following, scale_text, visible_content
+        from bot_console.tui.panes.world.map_drawing import WorldDrawing, following_window, scale_text, visible_content
 
         self._drawing = self._drawing or WorldDrawing()
-        window = following(self._world, width, height, self.zoom)
+        window = following_window(self._world, width, height, self.zoom)
         reported = visible_content(self._world, window, width, height)
         if reported != self._reported:
             self._reported = reported
@@ -192,7 +192,7 @@ class WorldPane(Pane):
         drawn.show_placeholder(EMPTY)
         more = f"  n: next of {len(drawn.places)} places" if len(drawn.places) > 1 else ""
         if drawn.field:
-            text = _of_turtles(drawn.field) + more
+            text = _turtles_text(drawn.field) + more
         elif world.pose is None and world.map is None:
             text = snapshot.problem or snapshot.capabilities.world
         else:
@@ -238,7 +238,7 @@ class WorldPane(Pane):
         self._facts()
 
 
-def _of_turtles(field: TurtleField) -> str:
+def _turtles_text(field: TurtleField) -> str:
     """A line on a field with its turtles in order, as the line may be cut."""
     each = (
         f"{turtle.name} {figure(turtle.pose.x)}, {figure(turtle.pose.y)} {figure(turtle.speed)} m/s"

@@ -30,7 +30,7 @@ class FieldDrawing:
 
     def rows(self, field: TurtleField, width: int, height: int) -> list[Line]:
         """The drawing with an arrow for each turtle, and the names if there are several."""
-        drawing = field.drawing or _of_trails(field)
+        drawing = field.drawing or _drawing_from_trails(field)
         key = (drawing.pixels if field.drawing is None else id(drawing), width, height)
         if key != self._key:
             self._key = key
@@ -42,7 +42,7 @@ class FieldDrawing:
         return [merged_line(row) for row in cells]
 
 
-def _of_trails(field: TurtleField) -> Drawing:
+def _drawing_from_trails(field: TurtleField) -> Drawing:
     """A drawing made from the trails of the turtles."""
     pixels = np.zeros((SIDE_PX, SIDE_PX, 4), np.uint8)
     pixels[:] = (*BACKGROUND.to_bytes(3, "big"), 0)

@@ -10,8 +10,8 @@ from bot_console.tui.widgets.diagram.arrow_direction import RIGHT, ArrowDirectio
 from bot_console.tui.widgets.diagram.columns import Edge, Layers, layers
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
 from bot_console.tui.widgets.diagram.lines import Lines
-from bot_console.tui.widgets.diagram.ordering import ITEM, Columns, Key, ordered
-from bot_console.tui.widgets.diagram.placing import Placed, placed
+from bot_console.tui.widgets.diagram.ordering import ITEM, Columns, Key, order_columns
+from bot_console.tui.widgets.diagram.placing import Placed, place_items
 from bot_console.tui.widgets.diagram.routing import Channel, Trunk, channel
 from rich.cells import cell_len
 
@@ -64,12 +64,12 @@ def draw(graph: Digraph, direction: ArrowDirection = RIGHT) -> Drawing:
         return Drawing((), {})
     items = {item.id: item for item in graph.items}
     found = layers(graph)
-    columns = ordered(found)
+    columns = order_columns(found)
     arrows_in: dict[str, int] = {}
     for _, b in (*found.forward, *found.back):
         arrows_in[b] = arrows_in.get(b, 0) + 1
     pushed: dict[Key, int] = {}
-    plan = _Plan(items, found, columns, placed(columns, items, arrows_in, pushed, direction), direction)
+    plan = _Plan(items, found, columns, place_items(columns, items, arrows_in, pushed, direction), direction)
     for _ in range(MAX_ATTEMPTS):
         blocked = {key for each in plan.channels for key in each.blocked}
         if not blocked:
@@ -77,7 +77,7 @@ def draw(graph: Digraph, direction: ArrowDirection = RIGHT) -> Drawing:
         # Where two arrows would share a row, one of the items moves a row down.
         for key in blocked:
             pushed[key] = pushed.get(key, 0) + 1
-        plan = _Plan(items, found, columns, placed(columns, items, arrows_in, pushed, direction), direction)
+        plan = _Plan(items, found, columns, place_items(columns, items, arrows_in, pushed, direction), direction)
     return plan.picture()
 
 

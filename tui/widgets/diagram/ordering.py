@@ -24,7 +24,7 @@ class Columns:
     steps: Mapping[Key, tuple[Key, ...]]
 
 
-def ordered(layers: Layers) -> Columns:
+def order_columns(layers: Layers) -> Columns:
     """Insert pass-through keys, then sort every column by the mean place of its neighbours, forwards and backwards."""
     count = max(layers.column.values(), default=-1) + 1
     columns: list[list[Key]] = [[] for _ in range(count)]

@@ -37,7 +37,7 @@ class Placed:
         return max((self.top[key] + self.height[key] for key in self.top), default=0)
 
 
-def placed(
+def place_items(
     columns: Columns,
     items: Mapping[str, Item],
     arrows_in: Mapping[str, int],

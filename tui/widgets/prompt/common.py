@@ -9,7 +9,7 @@ from bot_console.tui.files.save_file import NotSaved, typed_path
 from bot_console.tui.widgets.prompt.question import Line
 
 
-def wrong_filter(text: str) -> str:
+def filter_problem(text: str) -> str:
     """Why a filter is invalid; empty if it is valid."""
     try:
         parse(text)
@@ -20,15 +20,15 @@ def wrong_filter(text: str) -> str:
 
 def filter_line(words: str, apply: Callable[[str], object], then: Callable[[str], object]) -> Line:
     """Ask for a filter, applied while it is typed; `then` is called with the final one; cancelling removes it."""
-    return Line("filter", then, given_up=lambda: apply(""), text=words, check=wrong_filter, typed=apply)
+    return Line("filter", then, given_up=lambda: apply(""), text=words, check=filter_problem, typed=apply)
 
 
 def file_line(label: str, name: str, then: Callable[[str], object]) -> Line:
     """Ask for the name of a file to write."""
-    return Line(label, then, text=name, check=wrong_path)
+    return Line(label, then, text=name, check=path_problem)
 
 
-def wrong_path(text: str) -> str:
+def path_problem(text: str) -> str:
     """Why a text cannot be a file path; empty if it can."""
     try:
         typed_path(text)

@@ -26,7 +26,7 @@ class Findable(Widget):
         """Ask for the words."""
         raise NotImplementedError
 
-    def filter_is(self, words: str) -> None:
+    def apply_filter(self, words: str) -> None:
         """Apply a valid filter; an empty one removes it."""
         raise NotImplementedError
 
@@ -34,7 +34,7 @@ class Findable(Widget):
         """Go `step` matches further, wrapping around; returns whether there is any match."""
         raise NotImplementedError
 
-    def stands_on_match(self, words: str) -> bool:
+    def is_on_match(self, words: str) -> bool:
         """Whether the cursor is already on a match."""
         raise NotImplementedError
 
@@ -42,11 +42,11 @@ class Findable(Widget):
         """Set the filter."""
         self.words = words
         self._sought = words or self._sought
-        self.filter_is(words)
+        self.apply_filter(words)
 
     def _taken(self, words: str) -> None:
         self.set_filter(words)
-        if words and not self.stands_on_match(words):
+        if words and not self.is_on_match(words):
             self.find(words, 1)
 
     def action_filter(self) -> None:

@@ -143,6 +143,6 @@ class Prompt(Requester[str], Horizontal):
         self.notify(why, severity="warning", markup=False)
 
 
-def open_prompt(widget: Widget) -> Prompt | None:
+def find_open_prompt(widget: Widget) -> Prompt | None:
     """The open prompt in a widget, which receives all keys; None if there is none."""
     return next((each for each in widget.query(Prompt) if each.is_open), None)

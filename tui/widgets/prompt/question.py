@@ -16,7 +16,7 @@ def _nothing(*_: object) -> None:
     """Ignore the end of a question."""
 
 
-def _all_well(*_: str) -> str:
+def _no_problem(*_: str) -> str:
     return ""
 
 
@@ -32,7 +32,7 @@ class Question(Generic[A]):
     then: Callable[[A], object]
     """Called once with the answer."""
 
-    gone: Callable[[], str] = _all_well
+    gone: Callable[[], str] = _no_problem
     """Why the question has become pointless, for instance because a node has left; empty as long as it makes sense."""
 
     given_up: Callable[[], object] = _nothing
@@ -44,10 +44,10 @@ class Line(Question[str]):
     """A line of text: a value, a filter, the name of a file."""
 
     text: str = ""
-    check: Callable[[str], str] = _all_well
+    check: Callable[[str], str] = _no_problem
     """Returns the problem with a text; empty if there is none."""
 
-    preview: Callable[[str], str] = _all_well
+    preview: Callable[[str], str] = _no_problem
     """The effect of a valid text, shown beside the field before it is accepted."""
 
     typed: Callable[[str], object] = _nothing
@@ -80,7 +80,7 @@ class Option:
     """The answer; empty if it is the title."""
 
 
-def narrowed(options: Iterable[Option], typed: str) -> list[Option]:
+def matching_options(options: Iterable[Option], typed: str) -> list[Option]:
     """The options that contain all typed words, in the title or after it."""
     words = typed.lower().split()
     return [each for each in options if all(word in f"{each.title} {each.about}".lower() for word in words)]
@@ -90,7 +90,7 @@ def narrowed(options: Iterable[Option], typed: str) -> list[Option]:
 class Choice(Question[str]):
     """One of several options, narrowed by typing."""
 
-    attempt: Callable[[str], str] = _all_well
+    attempt: Callable[[str], str] = _no_problem
     """Called with an answer before `then`; may act on it, or return why it cannot, so that the question stays open."""
 
     find: Callable[[str], Sequence[Option]] = _none

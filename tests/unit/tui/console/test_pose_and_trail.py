@@ -7,7 +7,7 @@ from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo, 
 from bot_console.tui.console.robot.drive_link import DriveLink
 from bot_console.tui.console.robot.pose_and_trail import WorldWatch, grid_of
 from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
-from bot_console.tui.panes.world.map_drawing import Window, WorldDrawing, fitting, following, scale_text
+from bot_console.tui.panes.world.map_drawing import Window, WorldDrawing, fitting_window, following_window, scale_text
 from bot_console.tui.widgets.status_bar import drive_figures, status_text
 from domains import unused_domain
 from geometry_msgs.msg import Point, Pose
@@ -85,7 +85,7 @@ def test_any_numbers_in_messages_are_drawn_or_left_out(number):
     scan = LaserScan(ranges=[1.0, small, 2.0], angle_increment=small, angle_min=small, range_max=math.inf)
     grid = OccupancyGrid(info=MapMetaData(width=2, height=1, resolution=small), data=[0, 100])
     info = watched(grid=grid, odometry=odometry, scan=scan)
-    for window in (fitting(info, 40, 12), following(info, 40, 12, 8.0)):
+    for window in (fitting_window(info, 40, 12), following_window(info, 40, 12, 8.0)):
         assert len(WorldDrawing().rows(info, window, 40, 12)) == 12
         assert scale_text(window, 40)
         assert len(scale_text(window, 40, 9)) <= 9

@@ -13,8 +13,8 @@ from bot_console.tui.files import plot_presets
 from bot_console.tui.files.folders import OVERRIDE
 from bot_console.tui.learn.command_log import read_log
 from bot_console.tui.learn.progress import FOLDER, read_progress
-from bot_console.tui.panes.graph.view_state import view_state_of
-from bot_console.tui.panes.parameters.view_state import left_of
+from bot_console.tui.panes.graph.view_state import view_state_of as graph_view_of
+from bot_console.tui.panes.parameters.view_state import view_state_of as parameter_view_of
 from bot_console.tui.tuning.run_journal import TuningJournal
 
 STRANGE = ["1e999", "-1e999", "NaN", "1" + "0" * 400, "-1", "[]", "{}", "null", '"a"', "true", "[" * 100_000]
@@ -76,5 +76,5 @@ def test_curves_with_an_invalid_window_are_read_or_refused(
 
 @pytest.mark.parametrize("value", [10**5000, -1, None, [], {}, 1e308, True], ids=lambda each: type(each).__name__)
 def test_view_with_invalid_values_gets_the_defaults(value: object) -> None:
-    assert view_state_of({"folds": [value], "mode": value, "rates": "x"}) == view_state_of({"folds": []})
-    assert left_of({"filter": value, "closed": [value], "at": [value] * 3}) == left_of({})
+    assert graph_view_of({"folds": [value], "mode": value, "rates": "x"}) == graph_view_of({"folds": []})
+    assert parameter_view_of({"filter": value, "closed": [value], "at": [value] * 3}) == parameter_view_of({})

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
-from bot_console.tui.panes.graph.view import GraphView, shown
+from bot_console.tui.panes.graph.view import GraphView, visible_graph
 from bot_console.tui.widgets.diagram.drawing import Drawing
-from bot_console.tui.widgets.diagram.flow_chart.drawing import draw_chart, drawn
+from bot_console.tui.widgets.diagram.flow_chart.drawing import draw_chart, draw_plan
 from bot_console.tui.widgets.diagram.flow_chart.model import Chart, ChartBox, ChartLink
-from bot_console.tui.widgets.diagram.flow_chart.plan import Style, planned
+from bot_console.tui.widgets.diagram.flow_chart.plan import Style, make_plan
 from hypothesis import given
 from hypothesis import strategies as some
 from samples import graph as robot
@@ -97,7 +97,7 @@ def test_frames_are_left_out_rather_than_the_picture_being_too_high() -> None:
 
 
 def test_the_robot_fits_a_terminal_of_80_columns_and_24_lines() -> None:
-    found = shown(robot(), GraphView()).bundles.chart
+    found = visible_graph(robot(), GraphView()).bundles.chart
     drawing = draw_chart(found, 77, 16)
     readable(found, drawing)
     assert drawing.width <= 77 and len(drawing.rows) <= 16
@@ -110,7 +110,7 @@ def test_words_are_left_out_rather_than_the_picture_being_too_wide() -> None:
 
 
 def test_long_words_are_cut_in_a_narrow_window() -> None:
-    drawing = draw_chart(shown(robot(), GraphView()).bundles.chart, 57, 11)
+    drawing = draw_chart(visible_graph(robot(), GraphView()).bundles.chart, 57, 11)
     assert drawing.width <= 57 and len(drawing.rows) <= 11
     assert "cm…ired" in drawing.text() and "[motion_controller]" in drawing.text()
 
@@ -128,24 +128,24 @@ def test_nothing_is_an_empty_picture() -> None:
 
 def test_no_later_line_runs_through_the_words_of_an_earlier_one() -> None:
     found = chart("c|d>a: scan", "a>b: scan", "e>g: scan", "f>g: scan")
-    readable(found, drawn(found, planned(found, Style(rightward=9, slack=10), 80)))
+    readable(found, draw_plan(found, make_plan(found, Style(rightward=9, slack=10), 80)))
 
 
 def test_no_later_line_runs_through_an_arrow_head() -> None:
     found = chart("c>a: x", "a>b: y", "e>b: y", "b>a: x")
     readable(found, draw_chart(found, 60, 30))
     found = chart("d|h>a: scan x", "a>c: scan x", "a>f|g: scan x", "b>e: scan x o")
-    readable(found, drawn(found, planned(found, Style(rightward=9, slack=10), 80)))
+    readable(found, draw_plan(found, make_plan(found, Style(rightward=9, slack=10), 80)))
 
 
 def test_without_frames_backward_lines_from_several_boxes_have_a_separate_row() -> None:
     found = chart("a|b>c: x", "a|b>d: x", "c>a|b: x", "c>d: x", "d>a|b: x")
-    readable(found, drawn(found, planned(found, Style(slack=4, framed=False), 80)))
+    readable(found, draw_plan(found, make_plan(found, Style(slack=4, framed=False), 80)))
 
 
 @pytest.mark.parametrize("size", [(60, 11), (77, 16), (117, 30), (197, 40)])
 def test_who_publishes_and_who_subscribes_can_be_read_from_the_picture(size: tuple[int, int]) -> None:
-    drawing = draw_chart(shown(robot(), GraphView()).bundles.chart, *size)
+    drawing = draw_chart(visible_graph(robot(), GraphView()).bundles.chart, *size)
     reader = Reader(drawing)
 
     def ends(word: str) -> tuple[set[str], set[str]]:
@@ -185,7 +185,7 @@ def test_any_chart_can_be_read(style: Style, ends: list[tuple[int, int, int]], m
     words = ("scan", "emergency_stop ×2", "o", "零")
     links = tuple(ChartLink(f"{a}>{b}", str(a), str(b), words[:count]) for a, b, count in ends if a != b)
     found = Chart(boxes, links)
-    readable(found, drawn(found, planned(found, style, 80)))
+    readable(found, draw_plan(found, make_plan(found, style, 80)))
 
 
 NAMES = ("/a", "/b", "/left/a", "/left/b", "/right/a", "/right/b", "/right/deep/c", "/d")
@@ -211,7 +211,7 @@ def test_no_connection_is_lost(
             for name in NAMES
         )
     )
-    bundles = shown(info, GraphView(folded=frozenset(folded))).bundles
+    bundles = visible_graph(info, GraphView(folded=frozenset(folded))).bundles
     drawing = draw_chart(bundles.chart, width, 30)
     readable(bundles.chart, drawing)
     members = {box.id: {item for item, _ in box.members} for box in bundles.chart.boxes}
@@ -237,7 +237,7 @@ def test_no_connection_is_lost(
 
 
 def test_boxes_spread_where_rows_would_stay_free_and_each_line_can_still_be_read() -> None:
-    found = shown(robot(), GraphView()).bundles.chart
+    found = visible_graph(robot(), GraphView()).bundles.chart
     close, wide = draw_chart(found, 196, 24), draw_chart(found, 196, 42)
     assert len(wide.rows) == 2 * len(close.rows) - 1
     assert wide.width == close.width

@@ -7,10 +7,10 @@ from collections.abc import Mapping
 import numpy as np
 from bot_console.tui.console.plot.port import Plots
 from bot_console.tui.panes.plot.curves import Array, Curve, stepped
-from bot_console.tui.panes.plot.formulas.formula import Formula, Held
+from bot_console.tui.panes.plot.formulas.formula import Formula, HeldValues
 
 
-class Computed(Curve):
+class ComputedCurve(Curve):
     """An expression over curves. It stores no samples: its values are computed from theirs when they are needed."""
 
     def __init__(self, formula: Formula, colour: int, parts: Mapping[str, Curve]) -> None:
@@ -36,7 +36,7 @@ class Computed(Curve):
         ends = [end for each in leads if (end := self._parts[each].end) is not None]
         return max(ends, default=None)
 
-    def take_in(self, plots: Plots) -> bool:
+    def fetch_samples(self, plots: Plots) -> bool:
         """Fetch nothing, as the parts are fetched separately; returns whether they have changed."""
         cursor = sum(each.cursor for each in self._parts.values())
         problem = next((each.problem for each in self._parts.values() if each.problem), "")
@@ -63,5 +63,5 @@ class Computed(Curve):
         values = np.where(np.isfinite(values), values, np.nan)
         return stepped(times, values, end) if self.steps and len(times) else (times, values)
 
-    def _known(self) -> Mapping[str, Held]:
-        return {path: Held(*each.samples(), each.steps) for path, each in self._parts.items()}
+    def _known(self) -> Mapping[str, HeldValues]:
+        return {path: HeldValues(*each.samples(), each.steps) for path, each in self._parts.items()}

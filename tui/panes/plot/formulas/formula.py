@@ -1,6 +1,6 @@
 """Expressions over curves: `/a/x - /b/x`, `deg(/yaw/data)`, `mean(/odom/..., 1 s)`; parsed, and evaluated in NumPy.
 
-A formula has a value at each sample of the topic named first; every other path contributes its last value before that.
+A formula has a value at each sample of the topic named first; every other path contributes its last value up to then.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Held:
+class HeldValues:
     """The values of a path over time: each holds until the next one."""
 
     times: Array
@@ -55,7 +55,9 @@ class Formula:
         """The path whose sample times the formula uses: the first topic; empty if there are parameters only."""
         return next((each for each in self.paths if not is_parameter(each)), "")
 
-    def values(self, known: Mapping[str, Held], start: float = -np.inf, end: float = np.inf) -> tuple[Array, Array]:
+    def values(
+        self, known: Mapping[str, HeldValues], start: float = -np.inf, end: float = np.inf
+    ) -> tuple[Array, Array]:
         """Times (s) and values from `start` to `end`, plus one sample on either side."""
         times = self._times(known)
         back, before = _reach_back(self.tree)
@@ -63,17 +65,17 @@ class Formula:
         last = int(np.searchsorted(times, end, side="right")) + 1
         times = times[first : last + before]  # functions that need earlier samples may need as many later ones
         with np.errstate(all="ignore"):
-            values = _worked_out(self.tree, times, known)
+            values = _evaluate(self.tree, times, known)
         shown = max(0, int(np.searchsorted(times, start)) - 1)
         return times[shown : last - first], values[shown : last - first]
 
-    def _times(self, known: Mapping[str, Held]) -> Array:
+    def _times(self, known: Mapping[str, HeldValues]) -> Array:
         if self.lead:
             return known[self.lead].times
         return np.unique(np.concatenate([known[each].times for each in self.paths]))
 
 
-def read(text: str) -> Formula | str:
+def parse_formula(text: str) -> Formula | str:
     """Parse a formula; returns the path if the text is only a path. Raises `ValueError` that says what is wrong."""
     tree = parse(text, paths=True)
     if isinstance(tree, Path):
@@ -91,7 +93,7 @@ def read(text: str) -> Formula | str:
     return Formula(text.strip(), tree, paths)
 
 
-def split(text: str) -> list[str]:
+def split_expressions(text: str) -> list[str]:
     """Split expressions at commas outside brackets."""
     parts: list[str] = []
     depth = begin = 0
@@ -147,35 +149,35 @@ def _reach_back(tree: Tree) -> tuple[float, int]:
     return seconds, samples
 
 
-def _worked_out(tree: Tree, times: Array, known: Mapping[str, Held]) -> Array:
+def _evaluate(tree: Tree, times: Array, known: Mapping[str, HeldValues]) -> Array:
     if isinstance(tree, Number):
         return np.full(len(times), float(tree.value))
     if isinstance(tree, Name):
         return np.full(len(times), float(CONSTANTS[tree.text]))
     if isinstance(tree, Path):
-        return held(known[tree.text], times)
+        return held_values(known[tree.text], times)
     if isinstance(tree, Negation):
-        return -_worked_out(tree.of, times, known)
+        return -_evaluate(tree.of, times, known)
     if isinstance(tree, BinaryOperation):
-        both = (_worked_out(tree.left, times, known), _worked_out(tree.right, times, known))
+        both = (_evaluate(tree.left, times, known), _evaluate(tree.right, times, known))
         return OPERATORS[tree.operator](*both)
     if isinstance(tree, Call):
-        return _called(tree, times, known)
-    raise TypeError(f"{tree} has no value")  # a span, which `read` refuses
+        return _evaluate_call(tree, times, known)
+    raise TypeError(f"{tree} has no value")  # a span, which `parse_formula` refuses
 
 
-def _called(call: Call, times: Array, known: Mapping[str, Held]) -> Array:
+def _evaluate_call(call: Call, times: Array, known: Mapping[str, HeldValues]) -> Array:
     given = call.arguments
     if isinstance(span := given[-1], Span):
-        return OVER_TIME[call.function](times, _worked_out(given[0], times, known), span.seconds)
-    parts: Sequence[Array] = [_worked_out(each, times, known) for each in given]
+        return OVER_TIME[call.function](times, _evaluate(given[0], times, known), span.seconds)
+    parts: Sequence[Array] = [_evaluate(each, times, known) for each in given]
     if call.function in OF_CURVES:
         return OF_CURVES[call.function](times, parts[0])
     function: Callable[..., Array] = PLAIN[call.function][2]
     return function(*parts)
 
 
-def held(path: Held, times: Array) -> Array:
+def held_values(path: HeldValues, times: Array) -> Array:
     """The last value of a path at each of these times; NaN before its first."""
     at = np.searchsorted(path.times, times, side="right") - 1
     if not len(path.values):

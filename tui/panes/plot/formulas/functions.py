@@ -131,12 +131,12 @@ def rms(times: Array, values: Array, seconds: float) -> Array:
     return np.hypot(middle, spread)
 
 
-def least(times: Array, values: Array, seconds: float) -> Array:
+def minimum(times: Array, values: Array, seconds: float) -> Array:
     """The minimum within the last `seconds` of each sample, ignoring NaN."""
     return _extreme(np.fmin, times, values, seconds)
 
 
-def greatest(times: Array, values: Array, seconds: float) -> Array:
+def maximum(times: Array, values: Array, seconds: float) -> Array:
     """The maximum within the last `seconds` of each sample, ignoring NaN."""
     return _extreme(np.fmax, times, values, seconds)
 
@@ -150,4 +150,4 @@ def _extreme(function: np.ufunc, times: Array, values: Array, seconds: float) ->
     return found
 
 
-OVER_TIME: Mapping[str, OverTime] = {"mean": mean, "min": least, "max": greatest, "std": std, "rms": rms}
+OVER_TIME: Mapping[str, OverTime] = {"mean": mean, "min": minimum, "max": maximum, "std": std, "rms": rms}

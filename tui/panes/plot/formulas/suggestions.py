@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from bot_console.tui.panes.plot.formulas.formula import Formula, read
+from bot_console.tui.panes.plot.formulas.formula import Formula, parse_formula
 from bot_console.tui.text.expression.tree import is_parameter
 from bot_console.tui.widgets.prompt.question import Option
 from textual.fuzzy import Matcher
@@ -17,7 +17,7 @@ PATH = re.compile(r"(/\w+)+(/|:)\w[\w.\[\]]*")
 LAST_PATH = re.compile(r"(.*[-+*/%(,]\s*)(/[^\s()+*%,-]*)")
 
 
-def suggested(known: Sequence[str], typed: str) -> list[Option]:
+def suggestions(known: Sequence[str], typed: str) -> list[Option]:
     """The options for a typed text, best first. `known` lists fields before array elements and functions of arrays."""
     text = typed.strip()
     if not text:
@@ -33,13 +33,13 @@ def suggested(known: Sequence[str], typed: str) -> list[Option]:
         completed = [Option(f"{opened[1]}{each}{close}") for each in _best(known, opened[2])]
         return [*completed, *_as_typed(text, completed)]
     found = [Option(each, _about(each)) for each in _best(known, text)]
-    return [*_as_typed(text, found), *found, *_to_come(text, found)]
+    return [*_as_typed(text, found), *found, *_missing_path(text, found)]
 
 
 def _as_typed(text: str, found: Sequence[Option]) -> list[Option]:
     """The text itself as an option, if it is an expression or no known path matches it."""
     try:
-        formula = read(text)
+        formula = parse_formula(text)
     except ValueError as error:
         return [] if found else [Option(text, f"✗ {error}")]
     if isinstance(formula, Formula):
@@ -47,7 +47,7 @@ def _as_typed(text: str, found: Sequence[Option]) -> list[Option]:
     return [] if found else [Option(text)]
 
 
-def _to_come(text: str, found: Sequence[Option]) -> list[Option]:
+def _missing_path(text: str, found: Sequence[Option]) -> list[Option]:
     """The typed path as an option even if it does not exist yet, after known paths that only match it loosely."""
     if not found or any(text in each.title for each in found) or not PATH.fullmatch(text):
         return []

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bot_console.tui.panes.plot.curves import Curve
-from bot_console.tui.panes.plot.view import Axes, canvas, legend_value, limits, reach_of, short_number, style_of
+from bot_console.tui.panes.plot.view import Axes, legend_value, limits, reach_of, short_number, style_of, trace_codes
 from bot_console.tui.panes.plot.window_facts import WindowFacts, window_facts
 from bot_console.tui.text.sanitize import cut, sanitize
 from bot_console.tui.widgets.braille import layered
@@ -33,7 +33,7 @@ def sparklines(curves: Sequence[Curve], axes: Axes, width: int, height: int, cho
         facts = window_facts(curve, axes.start, axes.end)
         figures = _figures(curve, facts, axes)
         seen = reach_of(curve, axes, across)
-        trace = layered([canvas(seen, *limits([seen]), across, 1)], [style_of(curve)], across, 1)[0]
+        trace = layered([trace_codes(seen, *limits([seen]), across, 1)], [style_of(curve)], across, 1)[0]
         mark = "▸ " if at == chosen else "  "
         text = "".join(f"{figures[each]:>{FIGURE_CELLS}}" for each in columns)
         lines.append(((mark, "strong"), (cut(sanitize(curve.path), name - 3, pad=True) + " ", style_of(curve)),

@@ -51,7 +51,9 @@ class VectorDrawing:
     words: list[Words] = field(default_factory=list[Words])
 
 
-def sheet(curves: Sequence[Curve], marks: Sequence[Mark], axes: Axes, wall: Callable[[float], float]) -> VectorDrawing:
+def plot_drawing(
+    curves: Sequence[Curve], marks: Sequence[Mark], axes: Axes, wall: Callable[[float], float]
+) -> VectorDrawing:
     """Lay out the visible plot; `wall` converts a time on the axis to wall-clock time (s since the epoch)."""
     page = VectorDrawing(height=HEIGHT_PX + ROW_PX * len(curves) + 12)
     right = [each.right for each in curves]

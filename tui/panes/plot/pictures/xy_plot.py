@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from bot_console.tui.panes.plot.curves import Array, Curve, stepped
-from bot_console.tui.panes.plot.formulas.formula import Held, held
+from bot_console.tui.panes.plot.formulas.formula import HeldValues, held_values
 from bot_console.tui.panes.plot.view import (
     LABEL_CELLS,
     Axes,
@@ -31,11 +31,11 @@ def pairs(across: Curve, curve: Curve, axes: Axes) -> tuple[Array, Array]:
     base_times, base = across.samples()
     if across.steps and len(base_times):
         base_times, base = stepped(base_times, base, axes.end)
-    x = held(Held(base_times, np.where(np.isfinite(base), base, np.nan)), times)
+    x = held_values(HeldValues(base_times, np.where(np.isfinite(base), base, np.nan)), times)
     return np.where(np.isnan(values), np.nan, x), np.where(np.isnan(x), np.nan, values)
 
 
-def against(across: Curve, curves: Sequence[Curve], axes: Axes, width: int, height: int) -> list[Line]:
+def draw_xy(across: Curve, curves: Sequence[Curve], axes: Axes, width: int, height: int) -> list[Line]:
     """Draw curves against the curve `across` in a frame with both value axes; ◆ marks the values at the cursor."""
     wide, down = max(4, width - LABEL_CELLS), max(2, height - 2)
     shown = [each for each in curves if each is not across]

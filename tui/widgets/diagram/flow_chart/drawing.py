@@ -10,7 +10,7 @@ from itertools import product
 from bot_console.tui.widgets.diagram.columns import Edge
 from bot_console.tui.widgets.diagram.drawing import Drawing, Place, Rows, Run
 from bot_console.tui.widgets.diagram.flow_chart.model import Chart, ChartLink
-from bot_console.tui.widgets.diagram.flow_chart.plan import Placed, Plan, Style, planned
+from bot_console.tui.widgets.diagram.flow_chart.plan import Placed, Plan, Style, make_plan
 from bot_console.tui.widgets.diagram.flow_chart.spreading import spread
 from bot_console.tui.widgets.diagram.lines import LEFT, RIGHT, UP, Lines
 from rich.cells import cell_len
@@ -32,7 +32,7 @@ SOME_LINKS, MANY_LINKS = 24, 80
 def best_plan(chart: Chart, width: int, height: int) -> Plan:
     """The first plan that fits, or the one with the largest visible part."""
     lengths = (replace(each, words=tuple("─" * cell_len(word) for word in each.words)) for each in chart.links)
-    return planned(chart, _best_style(Chart(chart.boxes, tuple(lengths)), width, height), width)
+    return make_plan(chart, _best_style(Chart(chart.boxes, tuple(lengths)), width, height), width)
 
 
 @lru_cache(maxsize=8)
@@ -43,7 +43,7 @@ def _best_style(shape: Chart, width: int, height: int) -> Style:
         return styles[0]
     best: tuple[float, Style] | None = None
     for style in styles:
-        plan = planned(shape, style, width)
+        plan = make_plan(shape, style, width)
         excess = max(1.0, plan.width / max(1, width)) * max(1.0, plan.height / max(1, height))
         if excess == 1.0:
             return style
@@ -67,10 +67,10 @@ def _styles(chart: Chart, width: int) -> Iterator[Style]:
 
 def draw_chart(chart: Chart, width: int, height: int) -> Drawing:
     """Draw a chart for a window of `width` x `height` cells."""
-    return drawn(chart, spread(best_plan(chart, width, height), height))
+    return draw_plan(chart, spread(best_plan(chart, width, height), height))
 
 
-def drawn(chart: Chart, plan: Plan) -> Drawing:
+def draw_plan(chart: Chart, plan: Plan) -> Drawing:
     """Draw a plan."""
     lines = Lines()
     for link in plan.forward:

@@ -11,7 +11,7 @@ from bot_console.tui.widgets.diagram.columns import greedy_order
 from bot_console.tui.widgets.diagram.flow_chart.model import Chart
 
 
-def ordered(chart: Chart) -> list[list[str]]:
+def order_boxes(chart: Chart) -> list[list[str]]:
     """The ids of all linked boxes in order, one list for each group of connected boxes, largest group first."""
     after: dict[str, set[str]] = {each.id: set() for each in chart.boxes}
     near: dict[str, set[str]] = {each.id: set() for each in chart.boxes}

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from bot_console.tui.widgets.diagram.flow_chart.cells import Cells
 from bot_console.tui.widgets.diagram.flow_chart.model import Chart, ChartBox, ChartLink
-from bot_console.tui.widgets.diagram.flow_chart.order import ordered
+from bot_console.tui.widgets.diagram.flow_chart.order import order_boxes
 from rich.cells import cell_len
 
 BRACKET = 2
@@ -109,10 +109,10 @@ class Plan:
     height: int = 0
 
 
-def planned(chart: Chart, style: Style, room: int) -> Plan:
+def make_plan(chart: Chart, style: Style, room: int) -> Plan:
     """Place everything; boxes without links fill rows of the width `room` below the others."""
     builder = _Builder(chart, style)
-    groups = ordered(chart)
+    groups = order_boxes(chart)
     for group in groups:
         builder.place_group(group)
     builder.add_lanes()
@@ -164,14 +164,14 @@ class _Builder:
         inner += (
             several and back_out and not style.framed
         )  # an extra row; with a frame, the bottom border serves as that row
-        wants = _Wants(box, ins, outs, back_in, back_out, rightward, inner + 2 * style.frame, style)
+        wants = _BoxNeeds(box, ins, outs, back_in, back_out, rightward, inner + 2 * style.frame, style)
         spot = self._spot(wants)
         self._settle(wants, spot)
 
     def _column(self, link: ChartLink) -> int:
         return self.plan.placed[link.source].trunk
 
-    def _spot(self, wants: _Wants) -> tuple[int, int]:
+    def _spot(self, wants: _BoxNeeds) -> tuple[int, int]:
         """The highest free place; among those at the same height, the leftmost."""
         live = [self.plan.placed[each].trunk for each, left in self._left.items() if left]
         left = BRACKET if len(wants.box.members) > 1 and wants.ins else 0
@@ -191,11 +191,11 @@ class _Builder:
                     return x, top
             top += 1
 
-    def _ports(self, wants: _Wants, top: int) -> list[int]:
+    def _ports(self, wants: _BoxNeeds, top: int) -> list[int]:
         start = top + (wants.height - len(wants.ins)) // 2
         return [start + at for at in range(len(wants.ins))]
 
-    def _fits(self, wants: _Wants, x: int, top: int) -> bool:
+    def _fits(self, wants: _BoxNeeds, x: int, top: int) -> bool:
         cells = self._cells
         several = len(wants.box.members) > 1
         bracket = BRACKET if several else 0
@@ -215,7 +215,7 @@ class _Builder:
             for each, port in zip(wants.ins, self._ports(wants, top), strict=True)
         )
 
-    def _reaches(self, link: ChartLink, port: int, end: int, wants: _Wants) -> bool:
+    def _reaches(self, link: ChartLink, port: int, end: int, wants: _BoxNeeds) -> bool:
         """Whether the link can run along a row to the left side of its target, with its words."""
         source, cells = self.plan.placed[link.source], self._cells
         below = not source.rightward
@@ -231,7 +231,7 @@ class _Builder:
             return False
         return self._gap(link, port, end, wants) is not None
 
-    def _gap(self, link: ChartLink, port: int, end: int, wants: _Wants) -> int | None:
+    def _gap(self, link: ChartLink, port: int, end: int, wants: _BoxNeeds) -> int | None:
         """The column at which the words have room on the row, as near to the arrow as possible; None if nowhere."""
         name = wants.box.id
         passing = {
@@ -247,7 +247,7 @@ class _Builder:
             stop = wall
         return None
 
-    def _settle(self, wants: _Wants, spot: tuple[int, int]) -> None:
+    def _settle(self, wants: _BoxNeeds, spot: tuple[int, int]) -> None:
         x, top = spot
         cells, box = self._cells, wants.box
         found = Placed(box, x, top, wants.height, self._style.framed, rightward=wants.rightward)
@@ -355,7 +355,7 @@ class _Builder:
 
 
 @dataclass(frozen=True)
-class _Wants:
+class _BoxNeeds:
     """What a box needs at its place: its links in and out, and its height."""
 
     box: ChartBox

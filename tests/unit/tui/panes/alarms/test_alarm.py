@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.panes.alarms.alarm import Alarm, AlarmText, texts_of
+from bot_console.tui.panes.alarms.alarm import Alarm, AlarmText, alarm_texts_in
 from fakes.console import FakeConsole
 
 A, B = "/a/x", "/b/x"
@@ -43,5 +43,5 @@ def test_alarm_state_is_unknown_without_a_value() -> None:
 
 def test_alarms_are_stored_as_plain_data_and_invalid_ones_ignored() -> None:
     alarm = AlarmText("low", "/a/x < 1", bell=True)
-    assert texts_of([alarm.data, {"name": "bad", "condition": "1 <"}, 7, {"name": 3}]) == [alarm]
-    assert texts_of("nothing") == []
+    assert alarm_texts_in([alarm.data, {"name": "bad", "condition": "1 <"}, 7, {"name": 3}]) == [alarm]
+    assert alarm_texts_in("nothing") == []

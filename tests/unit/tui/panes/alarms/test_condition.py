@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from bot_console.tui.panes.alarms.condition import read
+from bot_console.tui.panes.alarms.condition import parse_condition
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -34,7 +34,7 @@ BATTERY, SPEED = "/battery/percentage", "/odom/twist.twist.linear.x"
     ],
 )
 def test_condition_is_evaluated(text: str, values: dict[str, float], holds: bool) -> None:
-    condition = read(text)
+    condition = parse_condition(text)
     assert set(condition.paths) == set(values)
     assert condition.holds(values) is holds
 
@@ -59,11 +59,11 @@ def test_condition_is_evaluated(text: str, values: dict[str, float], holds: bool
 )
 def test_invalid_condition_is_rejected_with_a_reason(text: str, why: str) -> None:
     with pytest.raises(ValueError, match=why or "."):
-        read(text)
+        parse_condition(text)
 
 
 def test_evaluation_error_of_a_value_is_raised() -> None:
-    condition = read("1 / /a/b > 2")
+    condition = parse_condition("1 / /a/b > 2")
     assert condition.holds({"/a/b": 0.25})
     with pytest.raises(ValueError, match="zero"):
         condition.holds({"/a/b": 0.0})
@@ -72,7 +72,7 @@ def test_evaluation_error_of_a_value_is_raised() -> None:
 @given(st.text("/ab.x:[]0123<>=!() +-*/andor,_'\"\\", max_size=40))
 def test_any_text_is_parsed_or_rejected_with_a_reason(text: str) -> None:
     try:
-        condition = read(text)
+        condition = parse_condition(text)
     except ValueError as error:
         assert str(error)
     else:

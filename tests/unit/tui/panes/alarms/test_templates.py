@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from bot_console.tui.console.model import Endpoint
-from bot_console.tui.panes.alarms.alarm import texts_of
+from bot_console.tui.panes.alarms.alarm import alarm_texts_in
 from bot_console.tui.panes.alarms.templates import MAX_TEMPLATES, templates
 
 KINDS = {
@@ -27,7 +27,7 @@ def test_each_kind_of_topic_has_conditions_that_can_be_read() -> None:
     assert [each.name for each in found if "rate(" in each.condition] == ["no odometry", "no scan", "no picture"]
     assert {"battery low", "close to something", "stands still", "collision"} <= {each.name for each in found}
     assert not any("/lights/on" in each.condition for each in found)
-    assert len(texts_of([each.data for each in found])) == len(found), "a condition that is wrong is left out"
+    assert len(alarm_texts_in([each.data for each in found])) == len(found), "a condition that is wrong is left out"
 
 
 def test_names_are_unique_and_there_are_not_too_many() -> None:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.console.query import parse
-from bot_console.tui.panes.graph.filtering import completed
-from bot_console.tui.panes.graph.view import GraphView, Mode, shown
+from bot_console.tui.panes.graph.filtering import complete_word
+from bot_console.tui.panes.graph.view import GraphView, Mode, visible_graph
 from samples import graph
 
 
 def pairs(words: str) -> set[str]:
     """The lines of the flow chart, without slashes: `simulator>sensor_handler scan_raw`."""
-    chart = shown(graph(), GraphView(query=parse(words, lists=True))).bundles.chart
+    chart = visible_graph(graph(), GraphView(query=parse(words, lists=True))).bundles.chart
     members = {box.id: [name for name, _ in box.members] for box in chart.boxes}
     return {
         f"{a[1:]}>{b[1:]} {' '.join(link.words)}"
@@ -68,12 +68,14 @@ def test_a_node_that_passes_is_drawn_with_the_other_ends_of_its_topics() -> None
     ],
 )
 def test_the_last_word_is_completed(typed: str, suggested: str) -> None:
-    assert completed(typed, graph()) == suggested
+    assert complete_word(typed, graph()) == suggested
 
 
 def test_items_hidden_by_settings_are_shown_on_request() -> None:
     view = GraphView(mode=Mode.ALL, hides=("/scan*", "/safety_monitor"))
-    ids = {item.id for item in shown(graph(), view).graph.items}
+    ids = {item.id for item in visible_graph(graph(), view).graph.items}
     assert not {"topic:/scan", "topic:/scan_raw", "/safety_monitor"} & ids and "topic:/rosout" in ids
-    every = {item.id for item in shown(graph(), GraphView(mode=Mode.ALL, hides=("/scan*",), debug=True)).graph.items}
+    every = {
+        item.id for item in visible_graph(graph(), GraphView(mode=Mode.ALL, hides=("/scan*",), debug=True)).graph.items
+    }
     assert "topic:/scan" in every

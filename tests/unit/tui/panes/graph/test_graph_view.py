@@ -7,20 +7,20 @@ from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.query import parse
 from bot_console.tui.panes.graph.about import summary
-from bot_console.tui.panes.graph.export import exported
-from bot_console.tui.panes.graph.view import GraphView, Mode, shown
+from bot_console.tui.panes.graph.export import export_graph
+from bot_console.tui.panes.graph.view import GraphView, Mode, visible_graph
 from bot_console.tui.widgets.diagram.drawing import draw
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
 from samples import graph
 
 
 def ids(view: GraphView, info: GraphInfo | None = None) -> set[str]:
-    return {item.id.removeprefix("topic:") for item in shown(info or graph(), view).graph.items}
+    return {item.id.removeprefix("topic:") for item in visible_graph(info or graph(), view).graph.items}
 
 
 def test_dead_ends_are_marked_and_can_be_hidden() -> None:
-    assert "topic:/cmd_vel_teleop" in shown(graph(), GraphView()).dead_ends
-    assert "topic:/telemetry/speed" in shown(graph(), GraphView()).dead_ends
+    assert "topic:/cmd_vel_teleop" in visible_graph(graph(), GraphView()).dead_ends
+    assert "topic:/telemetry/speed" in visible_graph(graph(), GraphView()).dead_ends
     assert "/telemetry/speed" not in ids(GraphView(dead_sinks=False))
     assert "/cmd_vel_teleop" in ids(GraphView(dead_sinks=False))
     assert "/cmd_vel_teleop" not in ids(GraphView(leaves=False))
@@ -28,7 +28,7 @@ def test_dead_ends_are_marked_and_can_be_hidden() -> None:
 
 
 def test_nodes_only_links_publishers_to_listeners() -> None:
-    found = shown(graph(), GraphView(mode=Mode.NODES)).graph
+    found = visible_graph(graph(), GraphView(mode=Mode.NODES)).graph
     assert ("/sensor_handler", "/safety_monitor") in found.edges
     assert ("/simulator", "/sensor_handler") in found.edges
     assert all(item.boxed for item in found.items)
@@ -61,15 +61,15 @@ def test_a_topic_with_two_types_is_reported() -> None:
 def test_exports_quote_special_characters() -> None:
     odd = Digraph((Item("a", 'say "hi" <b>'), Item("b\\", "b", False)), (("a", "b\\"),))
     drawing = draw(odd)
-    assert "#quot;hi#quot; <b>" in exported(odd, drawing, ".mmd")
-    assert '"a" -> "b\\\\";' in exported(odd, drawing, ".dot")
-    assert exported(odd, drawing, ".txt").count("▶") == 1
-    assert 'say "hi" &lt;b&gt;' in exported(odd, drawing, ".svg")
+    assert "#quot;hi#quot; <b>" in export_graph(odd, drawing, ".mmd")
+    assert '"a" -> "b\\\\";' in export_graph(odd, drawing, ".dot")
+    assert export_graph(odd, drawing, ".txt").count("▶") == 1
+    assert 'say "hi" &lt;b&gt;' in export_graph(odd, drawing, ".svg")
 
 
 def test_names_are_not_cut_in_a_file() -> None:
     info = GraphInfo((NodeInfo("/fleet/robot_1/a_node_with_a_name_that_no_box_holds"),))
-    (cut,), (whole,) = (shown(info, GraphView(short=True, whole=each)).graph.items for each in (False, True))
+    (cut,), (whole,) = (visible_graph(info, GraphView(short=True, whole=each)).graph.items for each in (False, True))
     assert cut.label.startswith("…/") and whole.label == info.nodes[0].name
 
 
@@ -88,13 +88,13 @@ def test_a_node_in_a_debugger_is_no_fault_and_is_not_drawn_as_dead() -> None:
     assert "/b is stopped in debugger at /ws/b.py:12, in tick" in [
         each.text for each in findings(info) if not each.fault
     ]
-    assert not shown(info, GraphView()).silent
+    assert not visible_graph(info, GraphView()).silent
 
 
 @pytest.mark.parametrize("mode", [Mode.ALL, Mode.NODES])
 def test_nodes_that_do_not_answer_are_distinguished(mode: Mode) -> None:
     info = GraphInfo((NodeInfo("/arm"), NodeInfo("/base")), silent=("/arm",), frozen=(("/base", 7),))
-    assert shown(info, GraphView(mode=mode)).silent == {"/arm", "/base"}
+    assert visible_graph(info, GraphView(mode=mode)).silent == {"/arm", "/base"}
     assert summary(info, "/arm", GraphView().hides_name).endswith(
         " - has not answered for a second: it was killed, it hangs, or it is busy"
     )

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo, IncompatiblePair, NodeInfo
-from bot_console.tui.panes.graph.notes import caption, item_notes, legend, summary_of
+from bot_console.tui.panes.graph.notes import caption, item_notes, item_summary, legend
 from bot_console.tui.panes.graph.rates import IDLE
-from bot_console.tui.panes.graph.view import GraphView, Mode, shown
+from bot_console.tui.panes.graph.view import GraphView, Mode, visible_graph
 
 KIND = ("a/msg/B",)
 
@@ -26,7 +26,7 @@ SYSTEM = GraphInfo(
 
 def notes(item: str, maximum: int, rates: dict[str, str] | None = None) -> list[str]:
     view = GraphView(folded=frozenset({"/arm"}))
-    return item_notes(ConsoleSnapshot(graph=SYSTEM), shown(SYSTEM, view), view, item, rates or {}, 80, maximum)
+    return item_notes(ConsoleSnapshot(graph=SYSTEM), visible_graph(SYSTEM, view), view, item, rates or {}, 80, maximum)
 
 
 def test_folded_namespace_names_what_leads_out_and_in_and_the_topics_of_each_node() -> None:
@@ -54,23 +54,25 @@ def test_node_names_what_it_sends_and_reads() -> None:
 def test_topics_that_are_hidden_are_counted_wherever_topics_are() -> None:
     info = GraphInfo((node("/a", "/rosout /x /y /own/_state"), node("/b", "/rosout", "/x /parameter_events")))
     view = GraphView()
-    found = shown(info, view)
+    found = visible_graph(info, view)
     assert caption(info, found, view, "").startswith("Flow · 2 nodes · 1 of 2 topics · D 3 hidden")
     assert (
-        summary_of(info, found, view, "/b")
+        item_summary(info, found, view, "/b")
         == "/b  publishes 0 + 1 hidden, subscribes to 1 + 1 hidden, 0 services, 0 clients"
     )
     lines = item_notes(ConsoleSnapshot(graph=info), found, view, "/a", {}, 80, 9)
     assert lines[1:] == ["sends  /x → /b    no subscriber:  y    2 hidden"]
     view = GraphView(debug=True)
-    found = shown(info, view)
+    found = visible_graph(info, view)
     assert "1 of 5 topics" in caption(info, found, view, "") and "hidden" not in caption(info, found, view, "")
-    assert "hidden" not in summary_of(info, found, view, "/b")
+    assert "hidden" not in item_summary(info, found, view, "/b")
 
 
 def test_each_drawing_counts_its_own_items() -> None:
     info = GraphInfo((node("/a", "/x /y"), node("/b", "", "/x")))
-    captions = {mode: caption(info, shown(info, view), view, "") for mode in Mode for view in [GraphView(mode=mode)]}
+    captions = {
+        mode: caption(info, visible_graph(info, view), view, "") for mode in Mode for view in [GraphView(mode=mode)]
+    }
     ends = {mode: text.partition(" · ")[2].partition(" · w")[0] for mode, text in captions.items()}
     assert ends == {
         Mode.FLOW: "2 nodes · 1 of 2 topics",
@@ -83,7 +85,7 @@ def test_each_drawing_counts_its_own_items() -> None:
 
 def test_legend_explains_the_marks_that_are_drawn_and_no_others() -> None:
     def words(info: GraphInfo, rates: dict[str, str], width: int = 118) -> str:
-        return legend(shown(info, GraphView(), rates), width)
+        return legend(visible_graph(info, GraphView(), rates), width)
 
     assert words(GraphInfo((node("/a", "/x"), node("/b", "", "/x"))), {}) == ""
     marked = GraphInfo((node("/a", "/stop/x /stop/y /own /map", "/own"), node("/b", "", "/stop/x /stop/y /map")))
@@ -95,6 +97,6 @@ def test_legend_explains_the_marks_that_are_drawn_and_no_others() -> None:
 def test_legend_explains_marks_of_mismatched_qos_and_of_dead_ends() -> None:
     pair = IncompatiblePair("/a", "/b", "reliability")
     mismatched = GraphInfo((node("/a", "/x"), node("/b", "", "/x")), incompatible={"/x": (pair,)})
-    assert legend(shown(mismatched, GraphView()), 118) == "✗ QoS does not match"
+    assert legend(visible_graph(mismatched, GraphView()), 118) == "✗ QoS does not match"
     unheard = GraphInfo((node("/a", "/x /stop/x /stop/y"), node("/b", "", "/x")))
-    assert legend(shown(unheard, GraphView()), 118) == "×2 that many topics of a namespace"
+    assert legend(visible_graph(unheard, GraphView()), 118) == "×2 that many topics of a namespace"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bot_console.tui.console.model import Change, ChangeSource, Kind, ParameterInfo, ParameterTree, Value
-from bot_console.tui.panes.history.revert import Return, returns, values_at
+from bot_console.tui.panes.history.revert import Restoration, restorations, values_at
 
 
 def change(seq: int, name: str, old: Value, new: Value, *, accepted: bool = True, run: int = 0) -> Change:
@@ -43,6 +43,6 @@ def test_only_differing_values_are_set_and_missing_ones_reported() -> None:
         **{("/n", "speed"): 2.0, ("/n", "gain"): 6, ("/n", "mode"): "calm"},
         **{("/n", "frame"): "b", ("/gone", "x"): 1},
     }
-    found, missing = returns(then, {"/n": tree})
-    assert found == [Return("/n", "speed", 3.0, 2.0)]
+    found, missing = restorations(then, {"/n": tree})
+    assert found == [Restoration("/n", "speed", 3.0, 2.0)]
     assert missing == ["/gone x: node not running", "/n mode: the parameter no longer exists"]

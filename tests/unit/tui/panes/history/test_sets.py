@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from bot_console.tui.console.model import Change, ChangeSource
-from bot_console.tui.panes.history.sets import ChangeSet, grouped
+from bot_console.tui.panes.history.sets import ChangeSet, group_changes
 from bot_console.tui.panes.history.strip import time_strip
 
 SECOND = 10**9
@@ -16,7 +16,7 @@ def change(seq: int, name: str, at: float, source: ChangeSource = ChangeSource.P
 
 
 def sizes(*changes: Change) -> list[int]:
-    rows = grouped(reversed(changes), (), lambda _: False)
+    rows = group_changes(reversed(changes), (), lambda _: False)
     return [len(each.changes) if isinstance(each, ChangeSet) else 1 for each in rows]
 
 
@@ -41,11 +41,11 @@ def test_single_edits_are_never_joined_but_an_undo_of_several_values_is() -> Non
 
 def test_open_set_lists_its_changes_and_counts_the_unsafe_ones() -> None:
     changes = [change(2, "b", 1.1), change(1, "a", 1.0)]
-    (row,) = grouped(changes, (), lambda each: each.name == "a")
+    (row,) = group_changes(changes, (), lambda each: each.name == "a")
     assert isinstance(row, ChangeSet) and row.unsafe == 1
-    rows = grouped(changes, {row.key}, lambda _: False)
+    rows = group_changes(changes, {row.key}, lambda _: False)
     assert rows[1:] == tuple(changes)
-    grown = grouped([change(3, "c", 1.2), *changes], {row.key}, lambda _: False)
+    grown = group_changes([change(3, "c", 1.2), *changes], {row.key}, lambda _: False)
     assert len(grown) == 4, "it stays open while changes are added"
 
 

@@ -12,7 +12,7 @@ EAR = ProcessInfo("2", "ear", ProcessState.RUNNING, nodes=("/arm",))
 
 def followed(*lines: tuple[str, Severity]) -> Follower:
     follower = Follower()
-    follower.know((ZOO, EAR))
+    follower.update_processes((ZOO, EAR))
     read(follower, *lines)
     return follower
 
@@ -25,7 +25,7 @@ def read(follower: Follower, *lines: tuple[str, Severity]) -> None:
 
 def test_equal_lines_one_after_another_are_one_with_their_count() -> None:
     follower = Follower()
-    follower.know((ZOO, EAR))
+    follower.update_processes((ZOO, EAR))
     texts = ("SAFE", "SAFE", "SAFE", "Turning", "SAFE")
     records = [LogRecord(at, at, Severity.INFO, "arm.left.zoo", text) for at, text in enumerate(texts)]
     follower.read(LogState(0, len(records)), records.__getitem__)
@@ -45,7 +45,7 @@ def test_lines_belong_to_the_process_of_their_logger_or_of_what_printed_them() -
 
 def test_flood_is_read_in_pieces_and_only_the_newest_lines_are_kept() -> None:
     follower = Follower()
-    follower.know((ZOO, EAR))
+    follower.update_processes((ZOO, EAR))
     records = [LogRecord(at, 0, Severity.WARN, "arm", f"{at}") for at in range(3 * MAX_RECORDS)]
     state = LogState(0, len(records))
     assert follower.read(state, records.__getitem__)
@@ -74,5 +74,5 @@ def test_cpu_usage_is_sampled_at_a_rate_and_drawn_as_bars() -> None:
 
 def test_process_that_is_gone_is_forgotten_and_one_that_stays_is_not() -> None:
     follower = followed(("arm", Severity.WARN), ("zoo.py-1", Severity.WARN))
-    follower.know((EAR,))
+    follower.update_processes((EAR,))
     assert follower.of("2").warnings == 1 and follower.of("1").warnings == 0

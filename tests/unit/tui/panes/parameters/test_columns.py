@@ -12,7 +12,7 @@ from bot_console.tui.panes.parameters.columns import (
     MIN_VALUE_CELLS,
     Columns,
     columns,
-    measured,
+    measure,
     name_column,
 )
 from bot_console.tui.panes.parameters.rows import Row
@@ -30,7 +30,7 @@ def needed(own: Columns) -> int:
 
 
 def test_longest_name_fits_and_slider_takes_the_rest() -> None:
-    need = measured([row("gain"), row("emergency_stop_distance")])
+    need = measure([row("gain"), row("emergency_stop_distance")])
     widths = {width: columns(need, width) for width in range(30, 90)}
     name = 2 + len("emergency_stop_distance")
     assert {each.bar for each in widths.values()} == {0, *range(MIN_BAR_CELLS, BAR_CELLS + 1)}
@@ -39,7 +39,7 @@ def test_longest_name_fits_and_slider_takes_the_rest() -> None:
 
 def test_single_long_name_does_not_remove_all_sliders() -> None:
     rows = [row(f"gain_{number}") for number in range(20)]
-    need = measured([*rows, row(LONG)])
+    need = measure([*rows, row(LONG)])
     own = columns(need, 60)
     assert own.bar >= MIN_BAR_CELLS and needed(own) <= 60
     assert name_column(rows[0], own, 60) == own.name
@@ -48,11 +48,11 @@ def test_single_long_name_does_not_remove_all_sliders() -> None:
         "it runs over its column, and its value is seen"
     )
     assert columns(need, 100).name == 2 + len(LONG), "where there is room all names stand in the column"
-    assert not columns(measured([rows[0], row(LONG)]), 60).bar, "one of two is not few"
+    assert not columns(measure([rows[0], row(LONG)]), 60).bar, "one of two is not few"
 
 
 def test_moved_edge_gives_and_takes_room_but_leaves_names_and_values_some() -> None:
-    need = measured([row("gain"), row("emergency_stop_distance")])
+    need = measure([row("gain"), row("emergency_stop_distance")])
     own, wider, narrower = (columns(need, 52, split) for split in (0, 6, -6))
     assert (wider.name, narrower.name) == (own.name + 6, own.name - 6)
     assert wider.bar < own.bar and all(needed(each) <= 52 for each in (wider, narrower))

@@ -8,7 +8,7 @@ from dataclasses import replace
 import pytest
 from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Value
 from bot_console.tui.console.query import parse
-from bot_console.tui.panes.parameters.rows import TreeRows, View, folds_at_start, matches, namesake, opened, rows
+from bot_console.tui.panes.parameters.rows import TreeRows, View, initial_folds, matches, row_named, rows, unfold_to
 
 
 def tree(node: str, *names: str) -> ParameterTree:
@@ -66,7 +66,7 @@ def test_matches_are_visible_in_a_folded_tree() -> None:
 
 def test_showing_a_parameter_unfolds_only_its_ancestors() -> None:
     closed = {"/a/", "/a/b/", "/a/n", "/a/n:pid.", "/a/n:pid.x.", "/a/n:pid.y.", "/a/nearby", "/n"}
-    assert opened(closed, "/a/n", "pid.x.kp") == {"/a/b/", "/a/n:pid.y.", "/a/nearby", "/n"}
+    assert unfold_to(closed, "/a/n", "pid.x.kp") == {"/a/b/", "/a/n:pid.y.", "/a/nearby", "/n"}
 
 
 def test_filter_count_is_relative_to_the_unfiltered_view() -> None:
@@ -90,7 +90,7 @@ def test_whole_name_selects_the_parameter_of_that_name() -> None:
     found = rows(crowd, View())
 
     def named(name: str, cursor: int = 0) -> str:
-        at = namesake(found, name, cursor)
+        at = row_named(found, name, cursor)
         return "" if at is None else f"{found[at].node}:{found[at].parameter.name}"
 
     assert named("max_speed") == "/b:max_speed"
@@ -187,8 +187,8 @@ def test_rows_are_reused_if_the_same_parameters_match() -> None:
 
 def test_large_tree_starts_folded_with_its_namespaces_and_a_small_one_open() -> None:
     fleet = [f"/robot{robot}/{name}" for robot in range(5) for name in ("base", "lidar", "planner")]
-    assert folds_at_start(fleet[:-1]) == frozenset()
-    folded = folds_at_start(fleet)
+    assert initial_folds(fleet[:-1]) == frozenset()
+    folded = initial_folds(fleet)
     assert set(fleet) <= folded and {f"/robot{robot}/" for robot in range(5)} <= folded
     trees = {node: ParameterTree(node, ()) for node in fleet}
     assert [row.title for row in rows(trees, View(folded=folded))] == [f"/robot{robot}/" for robot in range(5)]

@@ -5,20 +5,22 @@ from __future__ import annotations
 import pytest
 from bot_console.tui.console.query import parse
 from bot_console.tui.panes.parameters.rows import View
-from bot_console.tui.panes.parameters.view_state import Left, left_of
+from bot_console.tui.panes.parameters.view_state import ViewState, view_state_of
 
 
 def test_view_state_survives_a_round_trip() -> None:
-    left = Left("nav speed", View(parse("nav speed"), True, False, frozenset({"/n", "/n:lidar"})), ("/n", "", "speed"))
-    again = left_of(left.data)
+    left = ViewState(
+        "nav speed", View(parse("nav speed"), True, False, frozenset({"/n", "/n:lidar"})), ("/n", "", "speed")
+    )
+    again = view_state_of(left.data)
     assert again is not None and again.data == left.data and again.at == left.at
-    assert left_of(Left("", View()).data) == Left("", View())
+    assert view_state_of(ViewState("", View()).data) == ViewState("", View())
 
 
 @pytest.mark.parametrize("data", [None, 7, [], {"filter": "re:("}])
 def test_invalid_data_yields_no_view_state(data: object) -> None:
-    assert left_of(data) is None
+    assert view_state_of(data) is None
 
 
 def test_invalid_parts_are_ignored() -> None:
-    assert left_of({"filter": 7, "closed": "x", "at": ["a"], "changed": "yes"}).view == View()
+    assert view_state_of({"filter": 7, "closed": "x", "at": ["a"], "changed": "yes"}).view == View()

@@ -26,7 +26,7 @@ class Source:
 
 def take(curve: Curve, source: Source, times: int) -> None:
     for _ in range(times):
-        assert curve.take_in(cast(Console, source))
+        assert curve.fetch_samples(cast(Console, source))
 
 
 def test_newest_samples_are_kept_after_a_burst() -> None:

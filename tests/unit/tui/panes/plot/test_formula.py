@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from bot_console.tui.panes.plot.formulas.formula import Formula, Held, read, split
+from bot_console.tui.panes.plot.formulas.formula import Formula, HeldValues, parse_formula, split_expressions
 from bot_console.tui.panes.plot.time_window import Timeline
 from fakes.console import FakeConsole
 
@@ -12,11 +12,11 @@ A, B = "/a/x", "/b/pose.position.y[0]"
 
 
 def values(text: str) -> list[float]:
-    formula = read(text)
+    formula = parse_formula(text)
     assert isinstance(formula, Formula)
     times = np.arange(4.0)
-    held = {A: Held(times, np.array([1.0, 2.0, 4.0, 8.0])), B: Held(times, np.array([3.0, 3.0, 3.0, 4.0]))}
-    return formula.values({**held, "/n:gain.k": Held(np.array([1.5]), np.array([10.0]), steps=True)})[1].tolist()
+    held = {A: HeldValues(times, np.array([1.0, 2.0, 4.0, 8.0])), B: HeldValues(times, np.array([3.0, 3.0, 3.0, 4.0]))}
+    return formula.values({**held, "/n:gain.k": HeldValues(np.array([1.5]), np.array([10.0]), steps=True)})[1].tolist()
 
 
 @pytest.mark.parametrize(
@@ -54,7 +54,7 @@ def test_expression_is_evaluated_over_samples(text: str, wanted: list[float]) ->
     ],
 )
 def test_function_of_one_message_becomes_a_path(text: str, path: str) -> None:
-    assert read(text) == path
+    assert parse_formula(text) == path
 
 
 @pytest.mark.parametrize(
@@ -74,16 +74,16 @@ def test_function_of_one_message_becomes_a_path(text: str, path: str) -> None:
 )  # fmt: skip
 def test_invalid_expression_is_rejected_with_a_reason(text: str, why: str) -> None:
     with pytest.raises(ValueError, match=why):
-        read(text)
+        parse_formula(text)
 
 
 def test_colon_of_a_slice_is_not_taken_for_a_parameter() -> None:
-    formula = read("min(/scan/ranges[80:100]) * /n:gain.k")
+    formula = parse_formula("min(/scan/ranges[80:100]) * /n:gain.k")
     assert isinstance(formula, Formula) and formula.lead == "/scan/ranges[80:100].min()"
 
 
 def test_commas_in_brackets_do_not_separate_paths() -> None:
-    assert split("/a/x, max(/a/x, /b/y) , /s/r[1:2],") == ["/a/x", "max(/a/x, /b/y)", "/s/r[1:2]"]
+    assert split_expressions("/a/x, max(/a/x, /b/y) , /s/r[1:2],") == ["/a/x", "max(/a/x, /b/y)", "/s/r[1:2]"]
 
 
 def detach(console: FakeConsole) -> list[str]:
@@ -96,9 +96,9 @@ def test_shared_paths_are_released_with_their_last_curve() -> None:
     timeline = Timeline(console.plots)
     assert timeline.add(f"{A} + /c/y").ok and timeline.add(A).ok
     assert [each[1] for each in console.asked] == [A, "/c/y"], "each is watched once"
-    assert timeline.take_in()
+    assert timeline.fetch_samples()
     assert timeline.curves[0].latest == 22.0 and timeline.curves[1].latest == 2.0
-    assert not timeline.take_in()
+    assert not timeline.fetch_samples()
     refused = timeline.add(f"{A} - /no/topic")
     assert not refused.ok and "/no/topic" in refused.text and len(timeline.curves) == 2
     assert detach(console) == [], "what another curve needs is watched on"
@@ -124,9 +124,9 @@ def test_samples_are_placed_by_header_stamps_on_request() -> None:
 
 
 def curve(text: str, given: list[float], start: float, end: float) -> list[float]:
-    formula = read(text)
+    formula = parse_formula(text)
     assert isinstance(formula, Formula)
-    return formula.values({A: Held(np.arange(float(len(given))), np.array(given))}, start, end)[1].tolist()
+    return formula.values({A: HeldValues(np.arange(float(len(given))), np.array(given))}, start, end)[1].tolist()
 
 
 def test_outliers_are_replaced_and_steps_and_gaps_stay() -> None:

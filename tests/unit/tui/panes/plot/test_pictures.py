@@ -12,10 +12,10 @@ from bot_console.tui.files.plot_presets import PlotPresetError, Preset, SavedCur
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.panes.plot.curves import Curve
 from bot_console.tui.panes.plot.pictures.sparklines import sparklines
-from bot_console.tui.panes.plot.pictures.xy_plot import against, pairs
+from bot_console.tui.panes.plot.pictures.xy_plot import draw_xy, pairs
 from bot_console.tui.panes.plot.save import picture
 from bot_console.tui.panes.plot.thresholds import thresholds_of, thresholds_text, wrong_thresholds
-from bot_console.tui.panes.plot.view import Axes, Mark, framed, legend
+from bot_console.tui.panes.plot.view import Axes, Mark, framed_plot, legend
 from bot_console.tui.panes.plot.window_facts import window_facts
 from rich.cells import cell_len
 
@@ -49,24 +49,24 @@ def test_xy_plot_pairs_values_of_the_same_time() -> None:
     found = pairs(x, y, Axes(-1.0, 3.0))
     assert found[0].tolist() == pytest.approx([np.nan, 1.0, 2.0, np.nan], nan_ok=True)
     assert found[1].tolist() == pytest.approx([np.nan, 10.0, 20.0, np.nan], nan_ok=True)
-    lines = text_of(against(x, [x, y], Axes(-1.0, 3.0, cursor=1.6), 60, 12))
+    lines = text_of(draw_xy(x, [x, y], Axes(-1.0, 3.0, cursor=1.6), 60, 12))
     assert len(lines) == 12 and sum("◆" in line for line in lines) == 1
-    assert text_of(against(x, [x, curve("/none", [])], Axes(-1.0, 3.0), 40, 8))
+    assert text_of(draw_xy(x, [x, curve("/none", [])], Axes(-1.0, 3.0), 40, 8))
 
 
 def test_second_axis_has_labels_on_the_right() -> None:
     small, large = curve("/a", [0.0, 1.0] * 20), curve("/b", [1000.0, 2000.0] * 20, colour=1)
     large.right = True
-    lines = text_of(framed([small, large], (), Axes(0.0, 4.0), 80, 12))
+    lines = text_of(framed_plot([small, large], (), Axes(0.0, 4.0), 80, 12))
     labelled = next(each for each in lines if " 1.0 ┤" in each)
     assert "├ 2000" in labelled
-    assert not any("├" in line for line in text_of(framed([large], (), Axes(0.0, 4.0), 80, 12)))
+    assert not any("├" in line for line in text_of(framed_plot([large], (), Axes(0.0, 4.0), 80, 12)))
 
 
 def test_a_crossed_threshold_is_marked_where_it_begins_and_beside_the_value() -> None:
     one = curve("/a", [0.0] * 20 + [2.0] * 5 + [0.0] * 10 + [2.0])
     one.thresholds = thresholds_of("> 1.5")
-    axis = text_of(framed([one], [Mark(1.0)], Axes(0.0, 4.0), 89, 12))[-2]
+    axis = text_of(framed_plot([one], [Mark(1.0)], Axes(0.0, 4.0), 89, 12))[-2]
     assert axis.count("!") == 2 and axis.index("!") - 9 == pytest.approx(40, abs=1)
     (name, _), _, (value, style), _ = legend(one, Axes(0.0, 4.0), 100, True)
     assert (name, value.strip(), style) == ("▸ ", "!2.000", "error")

@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 from bot_console.tui.panes.plot.curves import Curve, reach
-from bot_console.tui.panes.plot.time_window import limits_of, wrong_limits, zoomed
-from bot_console.tui.panes.plot.view import Axes, Mark, framed, legend, limits, short_number, strips, tick_step
+from bot_console.tui.panes.plot.time_window import limits_of, wrong_limits, zoom_limits
+from bot_console.tui.panes.plot.view import Axes, Mark, framed_plot, legend, limits, short_number, strips, tick_step
 from hypothesis import given
 from hypothesis import strategies as st
 from rich.cells import cell_len
@@ -75,7 +75,7 @@ def test_limits_enclose_all_values_and_never_coincide(low: float, span: float) -
 @given(st.lists(st.floats(allow_nan=True, allow_infinity=True), max_size=60), st.integers(16, 130), st.integers(4, 40))
 def test_any_series_is_drawn_in_the_requested_width(values: list[float], width: int, height: int) -> None:
     axes = Axes(0.0, 5.0)
-    lines = framed([curve(values)], [Mark(1.0), Mark(2.0, True), Mark(99.0)], axes, width, height)
+    lines = framed_plot([curve(values)], [Mark(1.0), Mark(2.0, True), Mark(99.0)], axes, width, height)
     assert len(lines) == height
     assert {width_of(line) for line in lines} == {width}
     assert len(strips([curve(values), curve(values)], axes, width, height, 0)) <= height
@@ -85,7 +85,7 @@ def test_any_series_is_drawn_in_the_requested_width(values: list[float], width: 
 def test_extreme_values_and_limits_are_drawn(limits: tuple[float, float]) -> None:
     for values in (list(limits), [-1.7e308, 1.7e308]):
         for axes in (Axes(0.0, 5.0), Axes(0.0, 5.0, limits)):
-            assert len(framed([curve(values)], [], axes, 60, 20)) == 20
+            assert len(framed_plot([curve(values)], [], axes, 60, 20)) == 20
 
 
 @given(st.floats(allow_nan=True, allow_infinity=True), st.sampled_from([0.0, 1e-7, 0.01, 0.5, 1.0, 20.0, 1e9]))
@@ -117,10 +117,13 @@ def test_the_legend_writes_numbers_of_many_digits_out(value: float, shown: str) 
 
 
 def test_zoom_keeps_the_value_in_its_place_and_stays_within_bounds() -> None:
-    assert zoomed((0.0, 4.0), 1.0, 0.5) == (0.5, 2.5)
-    assert zoomed(zoomed((0.0, 4.0), 1.0, 0.5), 1.0, 2) == (0.0, 4.0)
+    assert zoom_limits((0.0, 4.0), 1.0, 0.5) == (0.5, 2.5)
+    assert zoom_limits(zoom_limits((0.0, 4.0), 1.0, 0.5), 1.0, 2) == (0.0, 4.0)
     assert (
-        zoomed((0.0, 4.0), None, 0.5) == zoomed((0.0, 4.0), 9.0, 0.5) == zoomed((0.0, 4.0), math.nan, 0.5) == (1.0, 3.0)
+        zoom_limits((0.0, 4.0), None, 0.5)
+        == zoom_limits((0.0, 4.0), 9.0, 0.5)
+        == zoom_limits((0.0, 4.0), math.nan, 0.5)
+        == (1.0, 3.0)
     )
     tiny, huge = (1.0, 1.0 + 1e-9), (-5e11, 5e11)
-    assert zoomed(tiny, None, 0.5) == tiny and zoomed(huge, None, 2) == huge
+    assert zoom_limits(tiny, None, 0.5) == tiny and zoom_limits(huge, None, 2) == huge

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.panes.plot.formulas.suggestions import suggested
+from bot_console.tui.panes.plot.formulas.suggestions import suggestions
 
 KNOWN = (
     "/n:max_speed",
@@ -14,7 +14,7 @@ KNOWN = (
 
 
 def titles(typed: str) -> list[str]:
-    return [each.title for each in suggested(KNOWN, typed)]
+    return [each.title for each in suggestions(KNOWN, typed)]
 
 
 def test_paths_match_by_characters_with_numbers_first() -> None:
@@ -36,10 +36,10 @@ def test_the_last_path_of_an_expression_is_completed_and_its_brackets_closed() -
 
 def test_a_path_that_is_not_there_yet_can_be_chosen_behind_what_has_its_characters() -> None:
     assert titles("/odm/pose.x") == ["/odom/pose.pose.position.x", "/odm/pose.x"]
-    assert suggested(KNOWN, "/odm/pose.x")[-1].about == "is not there yet"
+    assert suggestions(KNOWN, "/odm/pose.x")[-1].about == "is not there yet"
     assert titles("/odom/twist") == ["/odom/twist.twist.linear.x"], "what is half typed is no path of its own"
 
 
 def test_invalid_expression_is_reported() -> None:
-    (option,) = suggested(KNOWN, "sine(/q)")
+    (option,) = suggestions(KNOWN, "sine(/q)")
     assert option.about.startswith("✗ 'sine' is not one of")

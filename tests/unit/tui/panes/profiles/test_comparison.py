@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from bot_console.tui.console.model import ConsoleSnapshot, Profile, ProfileDifference
-from bot_console.tui.panes.profiles.comparison import ComparedValue, Comparison, columns_in, compared
+from bot_console.tui.panes.profiles.comparison import ComparedValue, Comparison, columns_in, compare_profiles
 from samples import differences, live
 
 SLOW = (
@@ -26,7 +26,7 @@ def compare(selected: str = "", width: int = 100, **changes: object) -> Comparis
     given = {"competition": differences(), "slow": SLOW, **changes}
     profiles = [profile("indoor"), *(profile(name) for name in given)]
     chosen = next((each for each in profiles if each.name == selected), None)
-    return compared(snapshot(), profiles, chosen, lambda name: given.get(name, ()), width)  # type: ignore[call-overload]
+    return compare_profiles(snapshot(), profiles, chosen, lambda name: given.get(name, ()), width)  # type: ignore[call-overload]
 
 
 def row(comparison: Comparison, name: str) -> ComparedValue:
@@ -36,13 +36,13 @@ def row(comparison: Comparison, name: str) -> ComparedValue:
 def test_columns_are_the_running_values_and_each_other_profile() -> None:
     assert compare().titles == ("● indoor", "competition", "slow")
     changed = replace(snapshot(), profile_changes=2)
-    found = compared(changed, [profile("indoor"), profile("slow")], None, lambda name: SLOW, 100)
+    found = compare_profiles(changed, [profile("indoor"), profile("slow")], None, lambda name: SLOW, 100)
     assert found.titles == ("now", "● indoor", "slow")
 
 
 def test_unreadable_and_launch_profiles_have_no_column() -> None:
     broken, launch = replace(profile("broken"), problem="not YAML"), replace(profile("two"), launch="two.launch.py")
-    assert compared(snapshot(), [broken, launch, profile("slow")], None, lambda _: SLOW, 100).titles == (
+    assert compare_profiles(snapshot(), [broken, launch, profile("slow")], None, lambda _: SLOW, 100).titles == (
         "● indoor",
         "slow",
     )
@@ -79,10 +79,10 @@ def test_nodes_with_the_same_values_share_a_row() -> None:
     other = replace(tree, node="/other", parameters=tuple(replace(each, node="/other") for each in tree.parameters))
     both = replace(snapshot(), parameters={**snapshot().parameters, "/other": other})
     same = (differences()[0], replace(differences()[0], node="/other"))
-    found = compared(both, [profile("competition")], None, lambda _: same, 100)
+    found = compare_profiles(both, [profile("competition")], None, lambda _: same, 100)
     assert [each.nodes for each in found.rows] == [("/other", "/robot_navigator")]
     unequal = (differences()[0], replace(differences()[0], node="/other", then=2.0))
-    assert len(compared(both, [profile("competition")], None, lambda _: unequal, 100).rows) == 2
+    assert len(compare_profiles(both, [profile("competition")], None, lambda _: unequal, 100).rows) == 2
 
 
 def test_selected_profile_is_among_the_columns_that_fit_and_only_these_are_computed() -> None:
@@ -94,7 +94,7 @@ def test_selected_profile_is_among_the_columns_that_fit_and_only_these_are_compu
         return SLOW
 
     profiles = [profile(name) for name in many]
-    found = compared(snapshot(), profiles, profiles[-1], changes, 80)
+    found = compare_profiles(snapshot(), profiles, profiles[-1], changes, 80)
     assert found.titles[found.shown] == "profile_19"
     assert len(found.titles) == columns_in(80) and found.left_out == 20 - len(asked)
     assert asked == list(found.titles[1:])

@@ -12,7 +12,7 @@ from bot_console.tui.console.model import (
     ProfileDifference,
 )
 from bot_console.tui.console.parameters.dry_run import SERVICE, TYPE
-from bot_console.tui.panes.profiles.dry_run import Asking
+from bot_console.tui.panes.profiles.dry_run import DryRun
 from fakes.console import FakeConsole
 
 
@@ -26,7 +26,7 @@ def snapshot(*known: str) -> ConsoleSnapshot:
 
 
 def test_node_whose_parameters_are_not_known_any_more_is_not_asked() -> None:
-    asking = Asking(FakeConsole(), lambda *_: None, lambda: None)
+    asking = DryRun(FakeConsole(), lambda *_: None, lambda: None)
     differences = [ProfileDifference(f"/{each}", "a", 1, 2) for each in ("talker", "monitor")]
     asking.ask(differences, snapshot("talker", "monitor"))
     assert set(asking.answers) == {"/talker", "/monitor"}

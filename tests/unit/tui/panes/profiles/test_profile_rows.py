@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.console.model import Profile, ProfileDifference, SetOutcome
-from bot_console.tui.panes.profiles.dry_run import Asking
+from bot_console.tui.panes.profiles.dry_run import DryRun
 from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries, outcome_text
 from bot_console.tui.terminal.styling import StyledByPart
 from fakes.console import FakeConsole
@@ -40,7 +40,7 @@ def test_long_name_is_cut_with_an_ellipsis() -> None:
 
 def differences(name: str, now: str, then: str) -> DifferenceRows:
     rows = DifferenceRows()
-    rows.rows = entries([ProfileDifference("/node", name, now, then)], {}, Asking(FakeConsole(), print, print))
+    rows.rows = entries([ProfileDifference("/node", name, now, then)], {}, DryRun(FakeConsole(), print, print))
     return rows
 
 
@@ -53,7 +53,7 @@ def test_difference_is_marked_where_it_is_cut() -> None:
 
 def test_reason_is_wrapped_without_loss() -> None:
     why = "Parameter max_speed out of range Min: 0.1, Max: 5.0, value: 10.0, which is more than the robot can take"
-    found = entries([ProfileDifference("/node", "a", 1, 2, refusal=why)], {}, Asking(FakeConsole(), print, print), 60)
+    found = entries([ProfileDifference("/node", "a", 1, 2, refusal=why)], {}, DryRun(FakeConsole(), print, print), 60)
     rows = DifferenceRows()
     rows.rows = found
     lines = [text(rows, index, 60) for index, each in enumerate(found) if each.reason]

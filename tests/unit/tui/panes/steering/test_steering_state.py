@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree
-from bot_console.tui.panes.steering.state import DEFAULT_LIMITS, Steering, greatest_of
+from bot_console.tui.panes.steering.state import DEFAULT_LIMITS, Steering, limits_from_parameters
 
 
 def armed(greatest: tuple[float, float] = (1.0, 3.0)) -> Steering:
@@ -75,7 +75,7 @@ def test_zero_is_sent_while_disarmed_even_if_sent_before() -> None:
 )
 def test_limits_come_from_parameters_that_are_positive_numbers(parameters, expected) -> None:
     infos = tuple(ParameterInfo("/r", name, kind, value) for name, kind, value in parameters)
-    assert greatest_of([ParameterTree("/r", infos)]) == expected
+    assert limits_from_parameters([ParameterTree("/r", infos)]) == expected
 
 
 def test_limits_are_never_those_of_another_robot() -> None:
@@ -83,10 +83,10 @@ def test_limits_are_never_those_of_another_robot() -> None:
         return ParameterTree(node, (ParameterInfo(node, "max_speed", Kind.DOUBLE, speed),))
 
     fleet = [tree("/navigator", 0.5), tree("/robot2/navigator", 2.0), tree("/robot20/navigator", 4.0)]
-    assert greatest_of(fleet, "/cmd_vel", {"/robot2/", "/robot20/"})[0] == 0.5
-    assert greatest_of(fleet, "/robot2/cmd_vel", {"/", "/robot20/"})[0] == 2.0
-    assert greatest_of(fleet, "/robot3/cmd_vel", {"/", "/robot2/", "/robot20/"}) == DEFAULT_LIMITS
-    assert greatest_of(fleet[:1], "/base/cmd_vel")[0] == 0.5, "of one robot, wherever its nodes are"
+    assert limits_from_parameters(fleet, "/cmd_vel", {"/robot2/", "/robot20/"})[0] == 0.5
+    assert limits_from_parameters(fleet, "/robot2/cmd_vel", {"/", "/robot20/"})[0] == 2.0
+    assert limits_from_parameters(fleet, "/robot3/cmd_vel", {"/", "/robot2/", "/robot20/"}) == DEFAULT_LIMITS
+    assert limits_from_parameters(fleet[:1], "/base/cmd_vel")[0] == 0.5, "of one robot, wherever its nodes are"
 
 
 def test_sideways_velocity_is_steered_limited_and_zeroed_like_the_others() -> None:
