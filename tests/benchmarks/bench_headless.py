@@ -29,7 +29,7 @@ def cpu_of_run(profile: str, duration: float) -> float:
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def spread(values: list[float]) -> dict[str, float]:
+def median_and_range(values: list[float]) -> dict[str, float]:
     """Median, lowest and highest."""
     return {
         "median": round(statistics.median(values), 1),
@@ -51,7 +51,7 @@ def main() -> None:
             long, short = cpu_of_run(profile, LONG), cpu_of_run(profile, SHORT)
             whole.append(LONG / long)
             steady.append((LONG - SHORT) / (long - short))
-        report[profile] = {"factor": spread(whole), "steady_factor": spread(steady)}
+        report[profile] = {"factor": median_and_range(whole), "steady_factor": median_and_range(steady)}
     print(json.dumps(report, indent=2))
 
 

@@ -80,31 +80,31 @@ def many_nodes(folder: Path) -> Path:
     """A launch file of many nodes."""
     node = folder / "node.py"
     node.write_text(NODE)
-    return written(folder / "nodes.launch.py", ALL_NODES.format(count=NODES, path=str(node)))
+    return write_file(folder / "nodes.launch.py", ALL_NODES.format(count=NODES, path=str(node)))
 
 
 def includes(folder: Path, ending: str, text: str, below: tuple[str, str]) -> Path:
     """A launch file that includes chains of launch files."""
     heads: list[Path] = []
     for chain in range(CHAINS):
-        path = written(folder / f"{chain}_{DEPTH}.launch.{ending}", text.format(below=below[1]))
+        path = write_file(folder / f"{chain}_{DEPTH}.launch.{ending}", text.format(below=below[1]))
         for level in range(DEPTH - 1, 0, -1):
             own = folder / f"{chain}_{level}.launch.{ending}"
-            path = written(own, text.format(below=below[0].format(path=str(path))))
+            path = write_file(own, text.format(below=below[0].format(path=str(path))))
         heads.append(path)
     separator = ", " if ending == "py" else "\n  "
     together = separator.join(below[0].format(path=str(head)) for head in heads)
-    return written(folder / f"all.launch.{ending}", text.format(below=together))
+    return write_file(folder / f"all.launch.{ending}", text.format(below=together))
 
 
-def written(path: Path, text: str) -> Path:
+def write_file(path: Path, text: str) -> Path:
     """Write a file; return its path."""
     path.write_text(text)
     return path
 
 
 MEASURES: dict[str, tuple[Callable[[Path], Path], str, int]] = {
-    "start": (lambda folder: written(folder / "empty.launch.xml", "<launch/>"), "", 0),
+    "start": (lambda folder: write_file(folder / "empty.launch.xml", "<launch/>"), "", 0),
     "nodes": (many_nodes, "process has finished cleanly", NODES),
     "includes_python": (lambda folder: includes(folder, "py", PYTHON, PYTHON_BELOW), "[launch.user]: end", CHAINS),
     "includes_xml": (lambda folder: includes(folder, "xml", XML, XML_BELOW), "[launch.user]: end", CHAINS),

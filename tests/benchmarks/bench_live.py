@@ -32,7 +32,7 @@ START_TIMEOUT_S = 200.0
 SETTLE_S = 5.0
 
 
-def used_s(root: int) -> float:
+def cpu_s(root: int) -> float:
     """CPU time (s) of a process and its living descendants."""
     return cpu([*tree(root)])
 
@@ -45,13 +45,13 @@ def memory_mb(root: int) -> float:
 
 def shares(roots: Sequence[int], seconds: float, pause: Callable[[float], object]) -> list[float]:
     """The share of a processor that each process tree uses meanwhile."""
-    began, before = time.monotonic(), [used_s(each) for each in roots]
+    began, before = time.monotonic(), [cpu_s(each) for each in roots]
     pause(seconds)
     passed = time.monotonic() - began
-    return [(used_s(each) - start) / passed for each, start in zip(roots, before, strict=True)]
+    return [(cpu_s(each) - start) / passed for each, start in zip(roots, before, strict=True)]
 
 
-def opened(line: Sequence[str]) -> Terminal:
+def open_console(line: Sequence[str]) -> Terminal:
     """A console in a terminal, as soon as it shows the robot's nodes."""
     terminal = Terminal(line, SIZE)
     assert terminal.run(START_TIMEOUT_S, lambda: "robot_navigator" in terminal.text()), terminal.text()
@@ -59,7 +59,7 @@ def opened(line: Sequence[str]) -> Terminal:
     return terminal
 
 
-def in_background(program: Sequence[str], seconds: float) -> dict[str, float]:
+def measure_in_background(program: Sequence[str], seconds: float) -> dict[str, float]:
     """Measure the robot alone, and with a console attached."""
     started = subprocess.run([*program, "up", "--seed", "1"], check=True, capture_output=True, text=True)
     found = re.search(r"process (\d+)", started.stdout)
@@ -68,7 +68,7 @@ def in_background(program: Sequence[str], seconds: float) -> dict[str, float]:
     try:
         time.sleep(SETTLE_S)
         (alone,) = shares([robot], seconds, time.sleep)
-        console = opened([*program, "attach"])
+        console = open_console([*program, "attach"])
         try:
             received = console.received
             beside, attached = shares([robot, console.pid], seconds, console.run)
@@ -80,9 +80,9 @@ def in_background(program: Sequence[str], seconds: float) -> dict[str, float]:
     return {"robot": alone, "robot_beside_console": beside, "attached_console": attached, **figures}
 
 
-def together(program: Sequence[str], seconds: float) -> dict[str, float]:
+def measure_with_console(program: Sequence[str], seconds: float) -> dict[str, float]:
     """Measure a console with its own robot."""
-    console = opened([*program, "--seed", "1"])
+    console = open_console([*program, "--seed", "1"])
     try:
         (share,) = shares([console.pid], seconds, console.run)
         return {"together": share, "together_mb": memory_mb(console.pid)}
@@ -98,7 +98,7 @@ def measured(program: Sequence[str], seconds: float) -> dict[str, Any]:
         os.environ["BOT_CONSOLE_USER_DIR"] = os.path.join(folder, "u")
         os.chdir(folder)
         loop = loop_s()
-        figures = {**in_background(program, seconds), **together(program, seconds)}
+        figures = {**measure_in_background(program, seconds), **measure_with_console(program, seconds)}
         loop = (loop + loop_s()) / 2
         os.chdir("/")
     others = {name: figures.pop(name) for name in ("bytes_per_s", "console_mb", "together_mb")}

@@ -41,7 +41,7 @@ FILTERS = {
 }
 
 
-def filled(records: int) -> LogStore:
+def filled_store(records: int) -> LogStore:
     store = LogStore(max(CAPACITY, records))
     kinds = ("scan of", "speed is", "obstacle at", "target at", "odometry says")
     nodes = ("robot_navigator", "safety_monitor", "telemetry", "sensors")
@@ -104,7 +104,7 @@ def slowest_add(store: LogStore) -> float:
 def main() -> None:
     records = int(sys.argv[1]) if len(sys.argv) > 1 else 1_000_000
     started = time.process_time()
-    store = filled(records)
+    store = filled_store(records)
     adding = (time.process_time() - started) / records * 1e6
     text = sum(int(each.start[each.count]) for each in store.segments)
     columns = ("stamp", "severity", "node", "site", "start", "key")

@@ -85,13 +85,13 @@ def local_set(watched: bool) -> float:
     return cost
 
 
-def together(count: int, heard: bool = False) -> float:
+def set_together(count: int, heard: bool = False) -> float:
     """`set_parameters_atomically` of `count` parameters, per parameter; if `heard`, another node receives events."""
     node = rclpy.create_node("together")
     for number in range(count):
         node.declare_parameter(f"p{number}", 0.0)
     if heard:
-        return heard_together(node, count)
+        return set_together_with_listener(node, count)
     rounds = [
         [Parameter(f"p{number}", value=float(turn)) for number in range(count)] for turn in range(TOGETHER // count)
     ]
@@ -100,8 +100,8 @@ def together(count: int, heard: bool = False) -> float:
     return cost
 
 
-def heard_together(node: Any, count: int) -> float:
-    """Like `together`, with another node's subscription to `/parameter_events`, served after each change."""
+def set_together_with_listener(node: Any, count: int) -> float:
+    """Like `set_together`, with another node's subscription to `/parameter_events`, served after each change."""
     got: list[int] = []
     hearer, executor = rclpy.create_node("hearer"), SingleThreadedExecutor()
     executor.add_node(hearer)
@@ -172,10 +172,10 @@ MEASURES: dict[str, Callable[[], float]] = {
     "floor_us": floor_of_a_change,
     "local_set_us": lambda: local_set(False),
     "local_set_watched_us": lambda: local_set(True),
-    "together_10_us_each": lambda: together(10),
-    f"together_{MANY}_us_each": lambda: together(MANY),
-    "together_10_heard_us_each": lambda: together(10, heard=True),
-    f"together_{MANY}_heard_us_each": lambda: together(MANY, heard=True),
+    "together_10_us_each": lambda: set_together(10),
+    f"together_{MANY}_us_each": lambda: set_together(MANY),
+    "together_10_heard_us_each": lambda: set_together(10, heard=True),
+    f"together_{MANY}_heard_us_each": lambda: set_together(MANY, heard=True),
     "service_call_us": service_call,
     "get_parameter_us": read,
     "file_and_declare_us_each": parameter_file,

@@ -119,7 +119,7 @@ class Ros:
         self.node.create_subscription(type(SAMPLES[name][0]), f"/{kind}/{topic}/{name}", take, PROFILES[kind])
 
 
-def other(way: Bare | Ros, kinds: Sequence[str]) -> None:
+def run_other_process(way: Bare | Ros, kinds: Sequence[str]) -> None:
     """The other process: it counts, sends back, and adds.
 
     Each line it reads is a number of messages: once that many have arrived, it prints how many did and its CPU time
@@ -151,7 +151,7 @@ def other(way: Bare | Ros, kinds: Sequence[str]) -> None:
         print(json.dumps([counts[0], time.process_time()]), flush=True)
 
 
-class Other:
+class OtherProcess:
     """The other process, seen from this one."""
 
     def __init__(self, way: str) -> None:
@@ -182,7 +182,7 @@ def until(true: Callable[[], bool]) -> None:
 class Pair:
     """One kind of message between the two processes, sent in one way."""
 
-    def __init__(self, way: Bare | Ros, kind: str, name: str, there: Other) -> None:
+    def __init__(self, way: Bare | Ros, kind: str, name: str, there: OtherProcess) -> None:
         self._there = there
         self._send = way.publisher(kind, name, "there")
         self._ping = way.publisher(kind, name, "ping")
@@ -224,7 +224,7 @@ class Pair:
         return found
 
 
-def service(way: Ros, there: Other) -> float:
+def service(way: Ros, there: OtherProcess) -> float:
     client = way.node.create_client(AddTwoInts, "/add")
     until(client.service_is_ready)
     client.call(AddTwoInts.Request())
@@ -250,7 +250,7 @@ def compared(pairs: Mapping[str, Pair]) -> dict[str, Any]:
 def main(count: int) -> None:
     folder = tempfile.mkdtemp(prefix="bc-", dir="/tmp")
     os.environ["BOT_CONSOLE_SOCKET_DIR"] = os.path.join(folder, "s")
-    others = {way: Other(way) for way in ("bare", "ros")}
+    others = {way: OtherProcess(way) for way in ("bare", "ros")}
     ros, bare = Ros(), Bare()
     ros.serve()
     figures: dict[str, Any] = {}
@@ -273,6 +273,6 @@ def main(count: int) -> None:
 
 if __name__ == "__main__":
     if sys.argv[1:2] == ["--other"]:
-        other(*((Bare(), BARE) if sys.argv[2] == "bare" else (Ros(), tuple(PROFILES))))
+        run_other_process(*((Bare(), BARE) if sys.argv[2] == "bare" else (Ros(), tuple(PROFILES))))
     else:
         main(int(sys.argv[1]) if sys.argv[1:] else 5_000)

@@ -274,9 +274,9 @@ def many_nodes() -> tuple[float, float, float]:
 
     rclpy.init(args=[])
     rclpy.create_node("first")
-    before = resident()
+    before = resident_kb()
     idle = [rclpy.create_node(f"idle{number}") for number in range(IDLE)]
-    memory = (resident() - before) / len(idle)
+    memory = (resident_kb() - before) / len(idle)
     start = time.process_time()
     nodes = [rclpy.create_node(f"node{number}") for number in range(NODES)]
     made = time.process_time()
@@ -287,7 +287,7 @@ def many_nodes() -> tuple[float, float, float]:
     return (made - start) * 1000, (gone - made) * 1000, memory
 
 
-def resident() -> float:
+def resident_kb() -> float:
     """Resident memory in kilobytes, after garbage collection."""
     import gc
 

@@ -92,7 +92,7 @@ with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
 """
 
 
-def typed(terminal: Terminal) -> dict[str, float]:
+def type_text(terminal: Terminal) -> dict[str, float]:
     """Type the text into the search of the log."""
     took: list[float] = []
     for _ in range(TIMES):
@@ -111,7 +111,7 @@ def typed(terminal: Terminal) -> dict[str, float]:
     return summary(took)
 
 
-def recorded(terminal: Terminal) -> int:
+def recorded_lines(terminal: Terminal) -> int:
     """The number of lines in the console's log, as its pane shows it."""
     found = re.search(r" of ([\d,]+) ·", terminal.text())
     return int(found[1].replace(",", "")) if found else 0
@@ -136,14 +136,14 @@ def run(report: Callable[[str], None]) -> dict[str, object]:
             assert terminal.run(START_TIMEOUT_S, lambda: "ready to work" in terminal.text()), terminal.text()
             report("quiet")
             terminal.run(SETTLE_S)
-            quiet = typed(terminal)
+            quiet = type_text(terminal)
             report("busy")
             robot.send_signal(signal.SIGUSR1)
             terminal.run(SETTLE_S)
-            used, lines, began = terminal.cpu(), recorded(terminal), time.monotonic()
-            busy = typed(terminal)
+            used, lines, began = terminal.cpu(), recorded_lines(terminal), time.monotonic()
+            busy = type_text(terminal)
             took = time.monotonic() - began
-            used, lines = terminal.cpu() - used, recorded(terminal) - lines
+            used, lines = terminal.cpu() - used, recorded_lines(terminal) - lines
         finally:
             terminal.close()
             robot.kill()

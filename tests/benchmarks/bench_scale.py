@@ -82,7 +82,7 @@ def fan_out(count: int) -> float:
     return cost * MICRO
 
 
-class Watched:
+class WatchedGraph:
     """`count` nodes with two publishers, two subscriptions and the usual services each, and a console's graph poll."""
 
     def __init__(self, count: int) -> None:
@@ -103,7 +103,7 @@ class Watched:
 
 def first_poll(count: int) -> float:
     """Milliseconds of the console's first poll of a graph."""
-    watched = Watched(count)
+    watched = WatchedGraph(count)
     cost = least(lambda: GraphWatch(watched.console, lambda graph: None).poll(), 1)
     watched.end()
     return cost * MILLI
@@ -111,7 +111,7 @@ def first_poll(count: int) -> float:
 
 def poll_after_change(count: int) -> float:
     """Milliseconds of a poll after one publisher came or went."""
-    watched, costs = Watched(count), []
+    watched, costs = WatchedGraph(count), []
     watched.watch.poll()
     for number in range(2 * RUNS):
         publisher = watched.nodes[0].create_publisher(Float64, f"new{number}", 10)

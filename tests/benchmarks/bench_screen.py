@@ -87,7 +87,7 @@ def drawing() -> dict[str, float]:
     return found
 
 
-def started(options: list[str], size: tuple[int, int], *wanted: re.Pattern[str]) -> dict[str, float]:
+def measure_start(options: list[str], size: tuple[int, int], *wanted: re.Pattern[str]) -> dict[str, float]:
     """The time and bytes until all `wanted` texts are on the screen."""
     terminal = Terminal([*CONSOLE, *options], size)
     seen = terminal.run(20, lambda: all(each.search(terminal.text()) for each in wanted))
@@ -128,7 +128,7 @@ def keys(command: list[str], link: Link, pressed: str, shown: Callable[[Terminal
         terminal.run(random.uniform(0.1, 0.3))
     terminal.close()
     took.sort()
-    return {"p50": _at(took, 0.5), "p99": _at(took, 0.99), "lost %": 100 * lost / (len(took) + lost)}
+    return {"p50": _percentile(took, 0.5), "p99": _percentile(took, 0.99), "lost %": 100 * lost / (len(took) + lost)}
 
 
 def stalled() -> dict[str, float]:
@@ -162,10 +162,10 @@ def counted(terminal: Terminal) -> object:
 def run() -> dict[str, Any]:
     found: dict[str, Any] = {
         "first": first_frames(),
-        "start 120x40": started([], WIDE, PARAMETERS, LOG, ROBOT),
-        "start 80x24, parameters": started([], NARROW, PARAMETERS),
-        "start 80x24, log": started(["--pane", "logs"], NARROW, LOG),
-        "start 80x24, robot": started(["--pane", "world"], NARROW, ROBOT),
+        "start 120x40": measure_start([], WIDE, PARAMETERS, LOG, ROBOT),
+        "start 80x24, parameters": measure_start([], NARROW, PARAMETERS),
+        "start 80x24, log": measure_start(["--pane", "logs"], NARROW, LOG),
+        "start 80x24, robot": measure_start(["--pane", "world"], NARROW, ROBOT),
         "live 120x40": live(CONSOLE, WIDE, 6),
         "live 80x24": live(CONSOLE, NARROW, 6),
         "live 120x40, stock": live(STOCK, WIDE, 2),
@@ -183,7 +183,7 @@ def run() -> dict[str, Any]:
     return found
 
 
-def _at(values: list[float], share: float) -> float:
+def _percentile(values: list[float], share: float) -> float:
     return values[min(len(values) - 1, int(share * len(values)))] if values else float("nan")
 
 

@@ -28,7 +28,7 @@ BUDGET = 0.15
 """Minimum CPU seconds of one measurement."""
 
 
-def crowded(shapes: int) -> Simulation:
+def crowded_room(shapes: int) -> Simulation:
     """A 10 m room with `shapes` walls and pillars."""
     rng = np.random.default_rng(shapes)
     walls, circles = [], []
@@ -63,7 +63,7 @@ def cpu(work: Callable[[], object], repeats: int) -> float:
 
 def lidar(shapes: int, repeats: int) -> dict[str, float]:
     """One scan of 360 beams against 360 single queries, and the largest difference in m."""
-    simulation = crowded(shapes)
+    simulation = crowded_room(shapes)
     simulation.step()
     settings, heading = simulation.lidar.settings, simulation.pose.heading
     angles = [heading + settings.first_angle + i * settings.increment for i in range(settings.beams)]

@@ -128,7 +128,7 @@ def sleep_outside(wrapped: bool) -> float:
     return (cpu() - start) / TURNS * 1e6
 
 
-def look_up() -> float:
+def current_process() -> float:
     """`current()`."""
     start = cpu()
     for _ in range(TURNS):
@@ -170,7 +170,7 @@ MEASURES: dict[str, Measure] = {
     "turn by wakeups, real time": turn_in_real_time,
     "time.sleep(0) outside, not wrapped": lambda: sleep_outside(False),
     "time.sleep(0) outside, wrapped": lambda: sleep_outside(True),
-    "current()": look_up,
+    "current()": current_process,
     "start and end of a process": start_and_end,
     "interrupt of a sleeping process": interrupt_sleeping,
 }

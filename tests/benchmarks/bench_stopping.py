@@ -204,7 +204,7 @@ def presses(robot: LiveRobot, base: Base, load: str, count: int) -> dict[str, An
     return summary(stops) | {"release": summary(releases), "lost": lost, "pressed again": again}
 
 
-def flooded(robot: LiveRobot, base: Base, flood: str, count: int) -> dict[str, Any]:
+def press_behind_flood(robot: LiveRobot, base: Base, flood: str, count: int) -> dict[str, Any]:
     """Press `!` repeatedly right behind a flood of input, each time on a robot that is not held."""
     pieces, pause, resized = FLOODS[flood]
     times: list[float] = []
@@ -326,7 +326,7 @@ def main() -> None:
                 report["stop behind a flood (ms)"] = behind = {}
                 for flood in FLOODS:
                     if options.floods and (not options.only or any(word in flood for word in options.only)):
-                        behind[flood] = flooded(robot, base, flood, options.floods)
+                        behind[flood] = press_behind_flood(robot, base, flood, options.floods)
                         print(flood, behind[flood], file=sys.stderr, flush=True)
                 if options.consoles:
                     report |= first_key_and_quit(robot, options.consoles)

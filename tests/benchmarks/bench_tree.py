@@ -51,14 +51,14 @@ def trees() -> dict[str, ParameterTree]:
     return found
 
 
-class Counted(ParameterRows):
+class CountingRows(ParameterRows):
     """Counts the rows that are drawn."""
 
     drawn = 0
 
     def row(self, index: int, width: int) -> Any:
         """Count a row."""
-        Counted.drawn += 1
+        CountingRows.drawn += 1
         return super().row(index, width)
 
 
@@ -70,7 +70,7 @@ async def measure() -> dict[str, float]:
     async with app.run_test(size=(120, 40)) as pilot:
         await pilot.pause()
         pane = app.query_one(ParametersPane)
-        pane.query_one(ParameterRows).__class__ = Counted
+        pane.query_one(ParameterRows).__class__ = CountingRows
         every = trees()
 
         async def timed(work: Callable[[], object]) -> float:
@@ -92,9 +92,9 @@ async def measure() -> dict[str, float]:
         node = next(iter(every))
         first, *rest = every[node].parameters
         tree = replace(every[node], parameters=(replace(first, value=2.0), *rest))
-        Counted.drawn = 0
+        CountingRows.drawn = 0
         found["one_change_ms"] = await timed(lambda: show({**every, node: tree}))
-        found["rows_drawn_for_it"] = Counted.drawn
+        found["rows_drawn_for_it"] = CountingRows.drawn
     return found
 
 

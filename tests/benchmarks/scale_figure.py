@@ -76,11 +76,11 @@ def panel(name: str, table: Table) -> str:
     for tick in across.ticks():
         at = f"{across(tick):.1f}"
         drawn.append(f'<line x1="{at}" x2="{at}" y1="{TOP}" y2="{HEIGHT - BOTTOM}" class="grid"/>')
-        drawn.append(f'<text x="{at}" y="{HEIGHT - BOTTOM + 16}" text-anchor="middle">{_reported(tick)}</text>')
+        drawn.append(f'<text x="{at}" y="{HEIGHT - BOTTOM + 16}" text-anchor="middle">{_tick_label(tick)}</text>')
     for tick in up.ticks():
         at = f"{up(tick):.1f}"
         drawn.append(f'<line x1="{LEFT}" x2="{WIDTH - RIGHT}" y1="{at}" y2="{at}" class="grid"/>')
-        drawn.append(f'<text x="{LEFT - 6}" y="{at}" dy="4" text-anchor="end">{_reported(tick)}</text>')
+        drawn.append(f'<text x="{LEFT - 6}" y="{at}" dy="4" text-anchor="end">{_tick_label(tick)}</text>')
     for kind, points in lines.items():
         places = [(across(x), up(y)) for x, y in points]
         path = " ".join(f"{x:.1f},{y:.1f}" for x, y in places)
@@ -115,7 +115,7 @@ def measured() -> Table:
     return table
 
 
-def _reported(tick: float) -> str:
+def _tick_label(tick: float) -> str:
     return f"{tick:,.0f}" if tick >= 1 else f"{tick:g}"
 
 

@@ -21,7 +21,7 @@ install()
 sys.path[:0] = [str(Path(__file__).parents[1] / "helpers"), str(Path(__file__).parent)]
 
 import numpy as np
-from bench_logs import filled
+from bench_logs import filled_store
 from bench_simulation import WORLDS
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.arrangement.opening import Opening
@@ -65,7 +65,7 @@ def least(action: Callable[[], Any]) -> float:
     return min(found) * MILLI
 
 
-async def shown(app: App[None], work: Callable[[], object]) -> float:
+async def draw_cost(app: App[None], work: Callable[[], object]) -> float:
     """Milliseconds of CPU time from a change until the screen of 120x40 shows it."""
     async with app.run_test(size=(120, 40)) as pilot:
         await pilot.pause()
@@ -101,7 +101,7 @@ def parameter_tree(count: int) -> float:
             app.pull()
 
         console.change(parameters=MappingProxyType({}))
-        return await shown(app, show)
+        return await draw_cost(app, show)
 
     return once_or_more(measured)
 
@@ -140,7 +140,7 @@ def stock_table(count: int) -> float:
 
     async def measured() -> float:
         app = StockTable()
-        return await shown(app, lambda: app.fill(count))
+        return await draw_cost(app, lambda: app.fill(count))
 
     return once_or_more(measured)
 
@@ -150,20 +150,20 @@ def stock_log(count: int) -> float:
 
     async def measured() -> float:
         app = StockLog()
-        return await shown(app, lambda: app.fill(count))
+        return await draw_cost(app, lambda: app.fill(count))
 
     return once_or_more(measured)
 
 
 def severity_filter(count: int) -> float:
     """Milliseconds to find the errors among `count` records."""
-    store = filled(count)
+    store = filled_store(count)
     return least(lambda: matching(store, LogFilter(minimum=Severity.ERROR)))
 
 
 def rare_word(count: int) -> float:
     """Milliseconds to find a rare word among `count` records."""
-    store = filled(count)
+    store = filled_store(count)
     return least(lambda: matching(store, LogFilter(words="zebra")))
 
 

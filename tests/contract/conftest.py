@@ -32,7 +32,7 @@ OURS = {
 """Files that test only features of our runtime, with the reason why they are skipped on another rclpy."""
 
 
-class OfOurs(pytest.Module):
+class SkippedFile(pytest.Module):
     """A file whose imports may be missing on another rclpy."""
 
     def collect(self) -> Iterable[pytest.Item | pytest.Collector]:
@@ -44,7 +44,7 @@ def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> 
     """Skip the files of `OURS` if `rclpy` is not ours."""
     if is_embedded_rclpy() or module_path.name not in OURS:
         return None
-    return OfOurs.from_parent(parent, path=module_path)
+    return SkippedFile.from_parent(parent, path=module_path)
 
 
 ONCE = ("mesh", "hosted", "attached")

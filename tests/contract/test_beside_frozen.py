@@ -30,14 +30,14 @@ def here(tmp_path_factory):
         yield system
 
 
-def took(action) -> float:
+def duration_of(action) -> float:
     began = time.monotonic()
     action()
     return time.monotonic() - began
 
 
 def test_a_reliable_publisher_does_not_block_and_active_subscribers_get_everything(here):
-    longest = max(took(lambda: here.publisher.publish(SCAN)) for _ in range(SCANS))
+    longest = max(duration_of(lambda: here.publisher.publish(SCAN)) for _ in range(SCANS))
     assert longest < 1.0  # waiting for the frozen process would take 2 s; this takes 0.1 s on a quiet machine
     asked = here.node.create_client(Trigger, "/scans")
     here.until(asked.service_is_ready)
@@ -45,11 +45,11 @@ def test_a_reliable_publisher_does_not_block_and_active_subscribers_get_everythi
 
 
 def test_graph_queries_and_new_entities_do_not_wait_for_the_frozen_process(here):
-    assert took(here.node.get_node_names) < 1.0
+    assert duration_of(here.node.get_node_names) < 1.0
     assert "peer" in here.node.get_node_names()
-    assert took(lambda: here.node.create_publisher(String, "/new", 10)) < 1.0
-    assert took(lambda: here.node.create_subscription(String, "/new", lambda message: None, 10)) < 1.0
-    assert took(lambda: Node("another", context=here.context).destroy_node()) < 2.0
+    assert duration_of(lambda: here.node.create_publisher(String, "/new", 10)) < 1.0
+    assert duration_of(lambda: here.node.create_subscription(String, "/new", lambda message: None, 10)) < 1.0
+    assert duration_of(lambda: Node("another", context=here.context).destroy_node()) < 2.0
 
 
 def test_a_service_of_another_process_responds(here):

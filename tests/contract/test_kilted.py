@@ -17,7 +17,7 @@ RECORDED = LIVE / "kilted_answers.txt"
 OURS = str(Path(sys.executable).with_name("bot-console"))
 
 
-def printed(*words: str, **environment: str) -> str:
+def run_program(*words: str, **environment: str) -> str:
     environment = {**os.environ, **environment}
     run = subprocess.run([*words, PROGRAM], env=environment, capture_output=True, text=True, check=False)
     assert run.returncode == 0, run.stderr
@@ -35,11 +35,11 @@ def printed(*words: str, **environment: str) -> str:
     ids=["option", "option with =", "variable"],
 )
 def test_answers_are_those_of_kilted(words: list[str], environment: dict[str, str]) -> None:
-    assert printed(OURS, *words, **environment) == RECORDED.read_text("utf-8")
+    assert run_program(OURS, *words, **environment) == RECORDED.read_text("utf-8")
 
 
 @pytest.mark.ros
 @pytest.mark.skipif(is_embedded_rclpy(), reason="for the rclpy of PyPI: .ci/on_rclpy")
 @pytest.mark.skipif(os.environ.get("BOT_CONSOLE_TESTS_DISTRO") != "kilted", reason="recorded on Kilted")
 def test_real_rclpy_answers_as_recorded() -> None:
-    assert printed(sys.executable) == RECORDED.read_text("utf-8")
+    assert run_program(sys.executable) == RECORDED.read_text("utf-8")

@@ -31,7 +31,7 @@ TIMED = ("programs/main_with_spin_and_interrupt",)
 SETUP = f"exec(open({str(PYPI_TYPES)!r}).read())"
 
 
-def differing(folder: Path, *which: str) -> dict[str, Any]:
+def differing_cases(folder: Path, *which: str) -> dict[str, Any]:
     """Outcomes that differ from the recording, by id of the case."""
     report = folder / "report.json"
     words = [*which, "--setup", SETUP, "--report", str(report)]
@@ -49,11 +49,11 @@ def test_area_is_replayed_as_recorded(
 ) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     known = json.loads((LIVE / f"{DISTRO}.json").read_text("utf-8"))
-    found = differing(tmp_path, area)
+    found = differing_cases(tmp_path, area)
     doubtful = [case for case in found if case not in known and not absent_types(found[case])]
     if doubtful:  # a busy machine may have been too slow the first time
         found = {case: got for case, got in found.items() if case not in doubtful}
-        found |= differing(tmp_path, *doubtful)
+        found |= differing_cases(tmp_path, *doubtful)
     absent = [case for case, got in found.items() if absent_types(got)]
     if absent:
         print(f"{area}: {len(absent)} cases need types that PyPI does not have, and did not run")

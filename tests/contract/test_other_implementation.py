@@ -14,7 +14,7 @@ pytest.importorskip("zenoh_ros2_sdk", reason="zenoh-ros2-sdk is not installed")
 PEER = Path(__file__).resolve().parents[1] / "helpers" / "processes" / "sdk_peer.py"
 
 
-def beside(socket: Path) -> dict[str, str]:
+def other_environment(socket: Path) -> dict[str, str]:
     """The environment in which the other implementation connects to our socket, and neither listens nor scouts."""
     settings = {
         "mode": '"peer"',
@@ -32,7 +32,7 @@ def here(tmp_path_factory):
     folder = tmp_path_factory.mktemp("mesh") / "s"
     with two_processes(folder, peers=0) as (system, _):
         (socket,) = (each for each in (folder / str(DOMAIN)).iterdir() if each.suffix != ".lock")
-        other = subprocess.Popen([sys.executable, str(PEER)], env=beside(socket))
+        other = subprocess.Popen([sys.executable, str(PEER)], env=other_environment(socket))
         try:
             system.until(lambda: "sdk" in system.node.get_node_names())
             yield system

@@ -23,7 +23,7 @@ def setting(rig: Rig, values: dict[str, Any], node: str = ROBOT, *, atomically: 
     return list(rig.console.parameters.set(node, values, atomically=atomically).result(TIMEOUT_S))
 
 
-def shown(rig: Rig, name: str, value: Any) -> None:
+def wait_until_shown(rig: Rig, name: str, value: Any) -> None:
     """Wait until the snapshot shows a value."""
     until(lambda: parameter(rig, name).value == value, f"{name} = {value}")
 
@@ -44,7 +44,7 @@ def test_parameters_are_listed_and_described(rig: Rig) -> None:
 def test_an_accepted_value_is_shown_and_recorded_in_the_journal(rig: Rig, name: str, value: Any) -> None:
     before = parameter(rig, name).value
     assert setting(rig, {name: value}) == [SetOutcome(ROBOT, name, value, True)]
-    shown(rig, name, value)
+    wait_until_shown(rig, name, value)
     assert parameter(rig, name).changed
     until(rig.console.parameters.changes, "the journal")
     (change,) = rig.console.parameters.changes()
@@ -93,7 +93,7 @@ def test_values_set_in_a_burst_are_undone_one_by_one(rig: Rig) -> None:
     setting(rig, {"speed": 1.3})  # it has this value already: neither a change nor something to undo
     for value in (1.2, 1.1, 1.0):
         assert rig.console.parameters.undo().result(TIMEOUT_S).ok
-        shown(rig, "speed", value)
+        wait_until_shown(rig, "speed", value)
     assert not rig.console.snapshot().journal.undoes
     until(lambda: len(rig.console.parameters.changes()) == 6, "the journal")
     assert [(each.old, each.new) for each in rig.console.parameters.changes()] == [
@@ -104,12 +104,12 @@ def test_values_set_in_a_burst_are_undone_one_by_one(rig: Rig) -> None:
 
 def test_undo_names_the_value_of_somebody_else_that_it_overwrites(rig: Rig) -> None:
     setting(rig, {"speed": 1.5})
-    shown(rig, "speed", 1.5)
+    wait_until_shown(rig, "speed", 1.5)
     rig.set_elsewhere("speed", 1.75)
-    shown(rig, "speed", 1.75)
+    wait_until_shown(rig, "speed", 1.75)
     undone = rig.console.parameters.undo().result(TIMEOUT_S)
     assert undone.ok and undone.text.endswith(f"had set meanwhile is overwritten: {ROBOT} speed = 1.75")
-    shown(rig, "speed", 1.0)
+    wait_until_shown(rig, "speed", 1.0)
     redone = rig.console.parameters.redo().result(TIMEOUT_S)
     assert redone.ok and "overwritten" not in redone.text
 
@@ -117,17 +117,17 @@ def test_undo_names_the_value_of_somebody_else_that_it_overwrites(rig: Rig) -> N
 def test_undo_passes_over_what_has_been_undone_elsewhere(rig: Rig) -> None:
     assert setting(rig, {"count": 4})[0].accepted
     assert setting(rig, {"speed": 1.5})[0].accepted
-    shown(rig, "speed", 1.5)
+    wait_until_shown(rig, "speed", 1.5)
     rig.set_elsewhere("speed", 1.0)
-    shown(rig, "speed", 1.0)
+    wait_until_shown(rig, "speed", 1.0)
     assert rig.console.parameters.undo().result(TIMEOUT_S).ok
-    shown(rig, "count", 3)
+    wait_until_shown(rig, "count", 3)
 
 
 def test_each_of_several_values_has_its_outcome(rig: Rig) -> None:
     outcomes = setting(rig, {"speed": 9.0, "count": 5})
     assert [(each.name, each.accepted) for each in outcomes] == [("speed", False), ("count", True)]
-    shown(rig, "count", 5)
+    wait_until_shown(rig, "count", 5)
     assert parameter(rig, "speed").value == 1.0
 
 
@@ -186,11 +186,11 @@ def test_a_profile_refused_by_the_second_node_leaves_the_first_unchanged(rig: Ri
 
 def test_undo_and_redo_restore_values_and_say_which(rig: Rig) -> None:
     setting(rig, {"gains": (0.5, 0.25)})
-    shown(rig, "gains", (0.5, 0.25))
+    wait_until_shown(rig, "gains", (0.5, 0.25))
     for ask, value, source in (("undo", (1.0, 2.0), ChangeSource.UNDO), ("redo", (0.5, 0.25), ChangeSource.REDO)):
         answer = getattr(rig.console.parameters, ask)().result(TIMEOUT_S)
         assert answer == Answer(True, f"{ask}: {ROBOT} gains = [{value[0]}, {value[1]}]")
-        shown(rig, "gains", value)
+        wait_until_shown(rig, "gains", value)
         until(lambda source=source: rig.console.parameters.changes()[-1].source is source, "the journal")
         journal = rig.console.snapshot().journal
         assert (bool(journal.undoes), bool(journal.redoes)) == (ask == "redo", ask == "undo")
@@ -212,7 +212,7 @@ def test_undo_without_changes_is_refused(rig: Rig, ask: str) -> None:
 
 def test_a_change_made_elsewhere_is_shown_and_cannot_be_undone_here(rig: Rig) -> None:
     rig.set_elsewhere("mode", "brave")
-    shown(rig, "mode", "brave")
+    wait_until_shown(rig, "mode", "brave")
     until(rig.console.parameters.changes, "the journal")
     assert rig.console.parameters.changes()[-1].source is ChangeSource.OTHER
     assert not rig.console.snapshot().journal.undoes
@@ -221,10 +221,10 @@ def test_a_change_made_elsewhere_is_shown_and_cannot_be_undone_here(rig: Rig) ->
 def test_the_origin_of_a_value_says_who_has_set_it(rig: Rig) -> None:
     assert parameter(rig, "speed").origin == "start value"
     setting(rig, {"speed": 0.5})
-    shown(rig, "speed", 0.5)
+    wait_until_shown(rig, "speed", 0.5)
     assert parameter(rig, "speed").origin.startswith("set here at ")
     rig.set_elsewhere("mode", "brave")
-    shown(rig, "mode", "brave")
+    wait_until_shown(rig, "mode", "brave")
     assert parameter(rig, "mode").origin.startswith("set by another program or the node at ")
 
 
@@ -257,13 +257,13 @@ def test_a_profile_shows_what_it_would_change(rig: Rig) -> None:
 def test_a_profile_is_applied_and_can_be_undone(rig: Rig) -> None:
     outcomes = rig.console.profiles.apply("slow").result(TIMEOUT_S)
     assert {each.name: each.accepted for each in outcomes} == {"speed": True, "count": True}
-    shown(rig, "speed", 0.2)
+    wait_until_shown(rig, "speed", 0.2)
     until(lambda: rig.console.snapshot().active_profile == "slow", "the active profile")
     assert not rig.console.profiles.differences("slow")
     assert {each.source for each in rig.console.parameters.changes()} == {ChangeSource.PROFILE}
     assert rig.console.parameters.undo().result(TIMEOUT_S).ok
-    shown(rig, "speed", 1.0)
-    shown(rig, "count", 3)
+    wait_until_shown(rig, "speed", 1.0)
+    wait_until_shown(rig, "count", 3)
 
 
 def test_one_undo_reverts_a_profile_and_its_name_on_all_nodes(rig: Rig) -> None:
@@ -295,7 +295,7 @@ def test_one_undo_reverts_a_profile_and_its_name_on_all_nodes(rig: Rig) -> None:
 
 def test_an_undo_refused_by_one_node_is_reported_and_the_profile_stays_active(rig: Rig) -> None:
     rig.console.profiles.apply("careful").result(TIMEOUT_S)
-    shown(rig, "speed", 0.5)
+    wait_until_shown(rig, "speed", 0.5)
     rig.forbid_speed()
     answer = rig.console.parameters.undo().result(TIMEOUT_S)
     assert not answer.ok and TOO_FAST in answer.text
@@ -317,7 +317,7 @@ def test_values_set_here_are_unsaved_until_saved_or_undone(rig: Rig, tmp_path: P
     assert unsaved() == ()
     rig.console.profiles.apply("careful").result(TIMEOUT_S)
     rig.set_elsewhere("mode", "brave")
-    shown(rig, "mode", "brave")
+    wait_until_shown(rig, "mode", "brave")
     assert unsaved() == ()
     setting(rig, {"count": 9})
     assert rig.console.parameters.save(str(tmp_path / "arm.yaml"), [ARM]).ok
@@ -366,13 +366,13 @@ def test_any_file_can_be_opened_as_a_profile_and_previewed(rig: Rig, tmp_path: P
 
 def test_current_values_are_saved_as_a_profile_and_can_be_restored(rig: Rig) -> None:
     setting(rig, {"speed": 1.5})
-    shown(rig, "speed", 1.5)
+    wait_until_shown(rig, "speed", 1.5)
     assert rig.console.profiles.save("fast", "For the long hall.").ok
     saved = next(each for each in rig.console.snapshot().profiles if each.name == "fast")
     assert saved.title == "For the long hall." and saved.values[ROBOT, "speed"] == 1.5
     assert rig.console.snapshot().journal.unsaved == ()
     setting(rig, {"speed": 0.5})
-    shown(rig, "speed", 0.5)
+    wait_until_shown(rig, "speed", 0.5)
     found = {each.name: each.then for each in rig.console.profiles.differences("fast") if not each.refusal}
     assert found == {"speed": 1.5}
     assert rig.console.profiles.rename("fast", "faster").ok

@@ -57,7 +57,7 @@ def differences(recorded: Any, seen: Any, place: str = "") -> list[str]:
     return [line for one, other, where in found for line in differences(one, other, where)]
 
 
-def as_worded_here(text: str) -> str:
+def as_printed_here(text: str) -> str:
     """Recorded refusals with types as this rclpy prints them: by name on Jazzy, by number on Kilted.
 
     Process ids are left out, since nodes of the embedded runtime have none.
@@ -70,7 +70,7 @@ def compare(name: str, way: str, scene: Callable[[], Any]) -> None:
     seen = json.loads(json.dumps(scene()))
     if folder := os.environ.get("BOT_CONSOLE_TESTS_RECORD"):
         (Path(folder) / f"{name}-{way}.json").write_text(json.dumps(seen, indent=1) + "\n", encoding="utf-8")
-    recorded = json.loads(as_worded_here((RECORDED / f"{name}.json").read_text(encoding="utf-8")))
+    recorded = json.loads(as_printed_here((RECORDED / f"{name}.json").read_text(encoding="utf-8")))
     found = differences(recorded, seen)
     assert not found, "\n".join(found)
 

@@ -18,7 +18,7 @@ PRINTED_NODES = {
 }
 
 
-def launched(page: Page, command: str) -> Program:
+def start_launch(page: Page, command: str) -> Program:
     """Start a launch and leave it running."""
     launch = page.start(command, 1.5)
     assert launch.exit is None, launch.output
@@ -35,40 +35,40 @@ def has(page: Page, node: str, **values: str) -> None:
 
 @row(64)
 def step_1_loads(page: Page, row: Row) -> None:
-    launch = launched(page, page.row(65).command)
+    launch = start_launch(page, page.row(65).command)
     assert nodes(page) == ["/my_robot"]
     assert ("INFO", "my_robot", "Robot initialized with speed: 1.0 m/s") in logs(launch)
 
 
 @row(65, 69, 88, 106)
 def the_command_launches(page: Page, row: Row) -> None:
-    launch = launched(page, row.command)
+    launch = start_launch(page, row.command)
     assert re.search(r"\[INFO\] \[\w+-1\]: process started with pid \[\d+\]", launch.stdout)
     assert page.stop(launch).exit is not None
 
 
 @row(66, 67, alike=True)
 def the_node_is_listed(page: Page, row: Row) -> None:
-    launched(page, page.row(65).command)
+    start_launch(page, page.row(65).command)
     assert page.ask(page.row(66).command).stdout == f"{page.row(67).command}\n"
 
 
 @row(60, 68, alike=True)
 def step_2_gives_parameters(page: Page, row: Row) -> None:
-    launched(page, page.row(69).command)
+    start_launch(page, page.row(69).command)
     has(page, "explorer_bot", speed="2.0", robot_name="Explorer-1", enable_safety="True")
 
 
 @row(70, 71, 72)
 def step_2_says(page: Page, row: Row) -> None:
-    launch = launched(page, page.row(69).command)
+    launch = start_launch(page, page.row(69).command)
     assert message_of(launch, stated(row.command)) == 1
     assert f"[simple_robot_step2-1] [{stated(row.command).severity}] [" in launch.stdout
 
 
 @row(59, 73, complete=True, alike=True)
 def step_3_starts_three_nodes(page: Page, row: Row) -> None:
-    launched(page, page.row(74).command)
+    start_launch(page, page.row(74).command)
     assert nodes(page) == sorted(f"/{each}" for each in PRINTED_NODES)
     for name, values in PRINTED_NODES.items():
         has(page, name, **values)
@@ -88,7 +88,7 @@ def without_the_executables_that_are_not_printed_it_says_which_is_missing(page: 
 @row(75, 76, 77, 78, complete=True)
 def the_three_nodes_are_listed(page: Page, row: Row) -> None:
     """In alphabetical order, not in the page's (N9)."""
-    launched(page, page.row(74).command)
+    start_launch(page, page.row(74).command)
     listed = page.ask(page.row(75).command).stdout.split()
     assert row.number == 75 or row.command in listed
     assert listed == sorted(listed)
@@ -103,20 +103,20 @@ FROM_FILE = {
 
 @row(79, 80, complete=True, alike=True)
 def step_4_gives_the_file_to_all(page: Page, row: Row) -> None:
-    launched(page, page.row(85).command)
+    start_launch(page, page.row(85).command)
     for name, values in FROM_FILE.items():
         has(page, name, **values)
 
 
 @row(86)
 def step_5_has_arguments(page: Page, row: Row) -> None:
-    launched(page, page.row(88).command)
+    start_launch(page, page.row(88).command)
     has(page, "configurable_robot", speed="1.0", robot_name="MyRobot", enable_safety="True")
 
 
 @row(87, 89, alike=True)
 def arguments_are_overridden(page: Page, row: Row) -> None:
-    launched(page, page.row(89).command)
+    start_launch(page, page.row(89).command)
     has(page, "configurable_robot", speed="3.0", robot_name="SpeedRacer", enable_safety="False")
 
 
@@ -134,14 +134,14 @@ def arguments_are_shown(page: Page, row: Row) -> None:
 
 @row(95)
 def the_basic_file_loads(page: Page, row: Row) -> None:
-    launched(page, "ros2 launch my_package basic_launch.py")
+    start_launch(page, "ros2 launch my_package basic_launch.py")
     has(page, "robot_node", max_speed="2.0", safety_distance="0.5")
 
 
 @row(96, 105, complete=True, alike=True)
 def the_system_loads(page: Page, row: Row) -> None:
     """The configuration file has another key, so the defaults stay (N7)."""
-    launched(page, page.row(105).command)
+    start_launch(page, page.row(105).command)
     assert nodes(page) == ["/controller", "/planner", "/robot_navigator", "/sensor_handler"]
     has(page, "robot_navigator", max_speed="1.0")
     shown = page.ask(f"{page.row(105).command} --show-args").stdout
@@ -167,7 +167,7 @@ def namespaces_and_remappings_are_configured(page: Page, row: Row) -> None:
     """No listing of the page has a namespace: two of its robots in different namespaces drive on separate topics."""
     file = page.scratch / "namespaces.launch.py"
     file.write_text(NAMESPACES, "utf-8")
-    launched(page, f"ros2 launch {file}")
+    start_launch(page, f"ros2 launch {file}")
     assert nodes(page) == ["/fleet/two/configurable_robot", "/one/configurable_robot"]
     topics = page.ask("ros2 topic list").stdout.split()
     assert {"/one/drive", "/fleet/two/drive", "/lidar"} <= set(topics)
@@ -176,7 +176,7 @@ def namespaces_and_remappings_are_configured(page: Page, row: Row) -> None:
 
 @row(97, complete=True)
 def topics_are_remapped(page: Page, row: Row) -> None:
-    launched(page, page.row(105).command)
+    start_launch(page, page.row(105).command)
     info = page.ask("ros2 node info /robot_navigator").stdout
     assert "    /robot/scan: sensor_msgs/msg/LaserScan\n" in info
     assert "    /robot/cmd_vel: geometry_msgs/msg/Twist\n" in info
@@ -185,7 +185,7 @@ def topics_are_remapped(page: Page, row: Row) -> None:
 
 @row(98, complete=True)
 def each_node_gets_its_own(page: Page, row: Row) -> None:
-    launch = launched(page, page.row(105).command)
+    launch = start_launch(page, page.row(105).command)
     has(page, "sensor_handler", detection_threshold="100", update_rate="10.0")
     has(page, "planner", algorithm="A*", resolution="0.05")
     command = next(
@@ -204,14 +204,14 @@ def the_environment_chooses_the_values(page: Page, row: Row) -> None:
     stated = name or re.match(r"environment (\w+): .* = (.*)", page.row(100).text)
     assert stated is not None
     argument = "" if row.number == 99 else f" environment:={environment}"
-    launched(page, f"ros2 launch my_package multi_environment_launch.py{argument}")
+    start_launch(page, f"ros2 launch my_package multi_environment_launch.py{argument}")
     has(page, f"robot_{environment}", **dict(zip(VALUES, stated[2].split(", "), strict=True)))
 
 
 @row(107, complete=True)
 def a_file_that_is_not_there_leaves_the_defaults(page: Page, row: Row) -> None:
     """Real launch warns and starts the nodes (N11)."""
-    launch = launched(page, row.command)
+    launch = start_launch(page, row.command)
     assert "Parameter file path is not a file: /path/to/custom_config.yaml" in "".join(
         each for _, each in launch.output
     )
@@ -230,7 +230,7 @@ PROJECT = ("robot_navigator", "sensor_handler", "safety_monitor", "telemetry_pub
 
 
 def runs_all_four(page: Page, command: str) -> Program:
-    launch = launched(page, command)
+    launch = start_launch(page, command)
     assert {f"/{each}" for each in PROJECT} <= set(nodes(page))
     return launch
 
@@ -292,5 +292,5 @@ def our_launch_file_starts_the_node(page: Page, row: Row) -> None:
 def the_launch_file_is_there(page: Page, row: Row) -> None:
     name = re.search(r"[\w.]+\.py", row.text)
     assert name is not None
-    launched(page, f"ros2 launch intelligent_robot {name[0]}")
+    start_launch(page, f"ros2 launch intelligent_robot {name[0]}")
     assert "/robot_navigator" in nodes(page)

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import yaml
-from course.checks_launch import launched, nodes
+from course.checks_launch import nodes, start_launch
 from course.checks_own_driving import FREE, answers
 from course.checks_own_robot import NODES, profile, start
 from course.page import Page
@@ -20,7 +20,7 @@ STEPS = [round(0.1 + 0.05 * each, 2) for each in range(39)]
 """Distances (m) of an obstacle ahead, from 0.1 to 2."""
 
 
-class Manner(NamedTuple):
+class DrivingStyle(NamedTuple):
     """How the robot drives with a profile."""
 
     speed: float
@@ -31,21 +31,21 @@ class Manner(NamedTuple):
     """The fastest command (m/s) in the first 2 s in the profile's own world."""
 
 
-_manners: dict[str, Manner] = {}
+_manners: dict[str, DrivingStyle] = {}
 
 
-def manner(page: Page, name: str) -> Manner:
+def manner(page: Page, name: str) -> DrivingStyle:
     """How the robot drives with a profile's file; measured once for all rows."""
     if name not in _manners:
         program = start(page, "robot_navigator", "--ros-args", "--params-file", str(profile(page, name)[0]))
         free, *near = answers(page, FREE, *STEPS)
         page.stop(program)
         stopped = [distance for distance, each in zip(STEPS, near, strict=True) if each.linear == 0.0]
-        launch = launched(page, f"{LAUNCH} profile:={name}")
+        launch = start_launch(page, f"{LAUNCH} profile:={name}")
         echo = page.ask("ros2 topic echo /cmd_vel --csv", stop_after=2.0)
         page.stop(launch)
         driven = max(float(line.split(",")[0]) for line in echo.stdout.splitlines())
-        _manners[name] = Manner(free.linear, max(stopped, default=0.0), driven)
+        _manners[name] = DrivingStyle(free.linear, max(stopped, default=0.0), driven)
     return _manners[name]
 
 
@@ -118,7 +118,7 @@ def as_written(page: Page, sections: dict[str, dict[str, Any]]) -> None:
 
 
 def system(page: Page, words: str) -> Program:
-    return launched(page, f"{LAUNCH} {words}")
+    return start_launch(page, f"{LAUNCH} {words}")
 
 
 @row(299, 335, own=True, alike=True)
@@ -132,7 +132,7 @@ def all_nodes_load_the_one_file(page: Page, row: Row) -> None:
 def each_environment_has_its_configuration(page: Page, row: Row) -> None:
     """Settings and world, selected by the argument of the environment launch file."""
     for environment in ("warehouse", "competition"):
-        launch = launched(page, f"ros2 launch intelligent_robot environment_launch.py environment:={environment}")
+        launch = start_launch(page, f"ros2 launch intelligent_robot environment_launch.py environment:={environment}")
         sections = {node: each["ros__parameters"] for node, each in profile(page, environment)[1].items()}
         picked = ("robot_name", "max_speed", "warning_distance", "world")
         as_written(page, {

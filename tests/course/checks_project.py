@@ -125,7 +125,7 @@ def safety_is_reported(page: Page, row: Row) -> None:
         assert logs(started)[-1] == ("WARN", "robot_navigator", text)
 
 
-def answer_to(page: Page, *ranges: float) -> list[str]:
+def response_to_scan(page: Page, *ranges: float) -> list[str]:
     """`linear.x` and `angular.z` of the answer to a scan; empty if there is none."""
     echo = page.start("ros2 topic echo /cmd_vel --csv")
     page.ask(f"ros2 topic pub --once /scan sensor_msgs/msg/LaserScan '{{ranges: {list(ranges)}}}'")
@@ -136,7 +136,7 @@ def answer_to(page: Page, *ranges: float) -> list[str]:
 @row(255)
 def it_turns_before_an_obstacle(page: Page, row: Row) -> None:
     started = robot(page)
-    assert answer_to(page, 3.0, 0.25) == ["0.0", "1.0"]
+    assert response_to_scan(page, 3.0, 0.25) == ["0.0", "1.0"]
     text = row.quoted[-1].replace("<d, 2 decimals>", "0.25")
     assert ("WARN", "robot_navigator", text) in logs(started)
 
@@ -144,14 +144,14 @@ def it_turns_before_an_obstacle(page: Page, row: Row) -> None:
 @row(256)
 def it_drives_where_nothing_is_near(page: Page, row: Row) -> None:
     robot(page)
-    assert answer_to(page, 3.0, 2.0) == ["1.0", "0.0"]
+    assert response_to_scan(page, 3.0, 2.0) == ["1.0", "0.0"]
 
 
 @row(257)
 def ranges_of_zero_are_ignored(page: Page, row: Row) -> None:
     robot(page)
-    assert answer_to(page, 0.0, 2.0) == ["1.0", "0.0"]
-    assert answer_to(page, 0.0, -1.0) == []
+    assert response_to_scan(page, 0.0, 2.0) == ["1.0", "0.0"]
+    assert response_to_scan(page, 0.0, -1.0) == []
 
 
 @row(258)

@@ -24,11 +24,11 @@ def drive(folder: Path, config: Path) -> dict[str, Any]:
     """The report of a minute with the student's launch file and one configuration, run once for all rows."""
     text = config.read_text("utf-8")
     if text not in _reports:
-        _reports[text] = driven(folder, config)
+        _reports[text] = drive_for_a_minute(folder, config)
     return _reports[text]
 
 
-def driven(folder: Path, config: Path) -> dict[str, Any]:
+def drive_for_a_minute(folder: Path, config: Path) -> dict[str, Any]:
     """Drive for a minute."""
     launch = "src/intelligent_robot/launch/robot_system.launch.py"
     words = ["--headless", "--fast", "--duration", "60", "--launch", launch, f"config_file:={config}"]

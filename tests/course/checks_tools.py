@@ -104,7 +104,7 @@ INSTEAD = {370: "pass", 371: "pass", 372: "pass", 373: "twist.linear.x = 1.0"}
 """What replaces a forgotten part: nothing, or a number instead of the member."""
 
 
-def driven(page: Page) -> str:
+def driven_speed(page: Page) -> str:
     return page.ask("ros2 topic echo /cmd_vel --once --field linear.x").stdout.split()[0]
 
 
@@ -112,10 +112,10 @@ def change(page: Page, left_out: int) -> tuple[str, str, str]:
     """The robot's speed before a change to 2.5 m/s, the response to the change, and the speed afterwards."""
     parts = {part: INSTEAD[each] if each == left_out else page.row(each).command for each, part in PARTS.items()}
     robot = page.python(FOUR.format(**parts))
-    before = driven(page)
+    before = driven_speed(page)
     answer = page.ask("ros2 param set /robot speed 2.5")
     assert robot.exit is None, robot.stderr
-    return before, answer.stdout + answer.stderr, driven(page)
+    return before, answer.stdout + answer.stderr, driven_speed(page)
 
 
 @row(370)

@@ -34,13 +34,13 @@ def feed(target: Target, count: int, seed: int, findings: dict[str, dict[str, An
         except KeyboardInterrupt:
             raise
         except BaseException as error:
-            _found(target.name, error, text, findings)
+            _record_finding(target.name, error, text, findings)
         finally:
             signal.setitimer(signal.ITIMER_VIRTUAL, 0)
     return time.process_time() - began
 
 
-def _found(name: str, error: BaseException, text: str, findings: dict[str, dict[str, Any]]) -> None:
+def _record_finding(name: str, error: BaseException, text: str, findings: dict[str, dict[str, Any]]) -> None:
     frames = [each for each in traceback.extract_tb(error.__traceback__) if "bot_console" in each.filename]
     where = frames[-1] if frames else traceback.extract_tb(error.__traceback__)[-1]
     kind = f"{name}: {type(error).__name__} at {Path(where.filename).name}:{where.lineno}"

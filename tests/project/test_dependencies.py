@@ -59,11 +59,11 @@ def by_name(text):
     if "import_module" not in text:
         return set()
     calls = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Call)]
-    named = (node.args[0] for node in calls if called(node.func) == "import_module" and node.args)
+    named = (node.args[0] for node in calls if called_name(node.func) == "import_module" and node.args)
     return {str(each.value).split(".")[0] for each in named if isinstance(each, ast.Constant)}
 
 
-def called(function):
+def called_name(function):
     """The last part of a called function's name."""
     return function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
 

@@ -24,7 +24,7 @@ def sources() -> Iterator[Path]:
         yield from sorted(each for each in found if "generated" not in each.parts)
 
 
-def without_a_reason(text: str) -> Iterator[int]:
+def lines_without_reason(text: str) -> Iterator[int]:
     """The numbers of the lines without a reason."""
     lines = text.splitlines()
     for number, (above, line, below) in enumerate(zip(["", *lines], lines, [*lines[1:], ""], strict=False), 1):
@@ -42,7 +42,7 @@ def test_each_ignore_has_a_reason() -> None:
     found = [
         f"{path.relative_to(ROOT)}:{number}"
         for path in sources()
-        for number in without_a_reason(path.read_text(encoding="utf-8"))
+        for number in lines_without_reason(path.read_text(encoding="utf-8"))
     ]
     assert not found, "\n".join(found)
 
@@ -59,4 +59,4 @@ def test_each_ignore_has_a_reason() -> None:
     ],
 )
 def test_ignore_comments_are_recognised(text: str, lines: list[int]) -> None:
-    assert list(without_a_reason(text)) == lines
+    assert list(lines_without_reason(text)) == lines

@@ -51,7 +51,7 @@ def test_import_contracts_hold(house):
 
 
 @pytest.fixture(scope="module")
-def planted(house):
+def violation_messages(house):
     """The messages about all planted violations at once."""
     for path, line in PLANTED.items():
         place = house / "build" / "editable" / "bot_console" / path
@@ -62,6 +62,8 @@ def planted(house):
 
 
 @pytest.mark.parametrize("path", PLANTED)
-def test_planted_violation_is_reported(planted, path):
+def test_planted_violation_is_reported(violation_messages, path):
     module = "bot_console." + path.removesuffix(".py").replace("/", ".")
-    assert re.search(rf"{re.escape(module)} -> {PLANTED[path].removeprefix('import ')}\b", planted), planted
+    assert re.search(rf"{re.escape(module)} -> {PLANTED[path].removeprefix('import ')}\b", violation_messages), (
+        violation_messages
+    )

@@ -9,7 +9,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 
 
-def made_up(text: str) -> Iterator[int]:
+def process_id_lines(text: str) -> Iterator[int]:
     """The lines that ask `os` for the process id."""
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.Attribute) and node.attr == "getpid":
@@ -20,11 +20,11 @@ def made_up(text: str) -> Iterator[int]:
 
 
 def test_planted_call_is_found() -> None:
-    assert sorted(made_up("import os\nos.getpid()\nfrom os import getpid\nreal.getpid()\n")) == [2, 3]
+    assert sorted(process_id_lines("import os\nos.getpid()\nfrom os import getpid\nreal.getpid()\n")) == [2, 3]
 
 
 def test_middleware_never_asks_os_for_the_process_id() -> None:
     files = sorted((ROOT / "runtime" / "rmw").rglob("*.py"))
     assert files
-    found = [f"{file}:{line}" for file in files for line in made_up(file.read_text(encoding="utf-8"))]
+    found = [f"{file}:{line}" for file in files for line in process_id_lines(file.read_text(encoding="utf-8"))]
     assert found == [], "use bot_console.runtime.process.unpatched.getpid"

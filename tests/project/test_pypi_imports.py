@@ -27,14 +27,14 @@ EXCEPTIONS = {
 """Modules that are not loaded on the rclpy of PyPI, with the reason."""
 
 
-def of_pypi(distro: str) -> set[str]:
+def packages_of_pypi(distro: str) -> set[str]:
     """The ROS packages that are installed from PyPI, and those that we provide there."""
     lines = (ROOT / ".ci" / "ros" / f"{distro}.txt").read_text(encoding="utf-8").splitlines()
     installed = {line.partition("==")[0] for line in lines if line.startswith("ros-")}
     return {each.removeprefix("ros-").replace("-", "_") for each in installed} | set(BUNDLED_PACKAGE)
 
 
-LACKING = ros_names() - set.intersection(*map(of_pypi, DISTROS)) - OWN
+LACKING = ros_names() - set.intersection(*map(packages_of_pypi, DISTROS)) - OWN
 
 
 def imported_while_loading(tree: ast.AST) -> Iterator[str]:
@@ -52,7 +52,7 @@ def imported_while_loading(tree: ast.AST) -> Iterator[str]:
             yield from imported_while_loading(node)
 
 
-def lacking(path: Path) -> set[str]:
+def missing_packages(path: Path) -> set[str]:
     """The packages that a module imports while it loads although PyPI lacks them."""
     text = path.read_text(encoding="utf-8")
     named = {each for each in LACKING if each in text}  # most files need not be parsed
@@ -61,7 +61,7 @@ def lacking(path: Path) -> set[str]:
 
 def test_modules_import_at_once_only_what_pypi_has() -> None:
     paths = (path for folder in FOLDERS for path in sorted(folder.rglob("*.py")))
-    found = {str(path.relative_to(ROOT)): names for path in paths if (names := lacking(path))}
+    found = {str(path.relative_to(ROOT)): names for path in paths if (names := missing_packages(path))}
     assert {path: names for path, names in found.items() if path not in EXCEPTIONS and not path.startswith(DEMOS)} == {}
     assert EXCEPTIONS.keys() <= found.keys(), "remove what is no exception any more"
 
@@ -79,4 +79,4 @@ def test_modules_import_at_once_only_what_pypi_has() -> None:
 )
 def test_only_imports_while_loading_count(source: str, found: set[str], tmp_path: Path) -> None:
     (tmp_path / "module.py").write_text(source)
-    assert lacking(tmp_path / "module.py") == found
+    assert missing_packages(tmp_path / "module.py") == found

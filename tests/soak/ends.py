@@ -26,7 +26,7 @@ UNCLEAN = ("killed", "crash")
 """Kinds that may leave files, which the next start removes."""
 
 
-def sent(*numbers: signal.Signals) -> Callable[[Terminal], None]:
+def send_signals(*numbers: signal.Signals) -> Callable[[Terminal], None]:
     """Sends these signals, one right after the other."""
 
     def send(terminal: Terminal) -> None:
@@ -36,7 +36,7 @@ def sent(*numbers: signal.Signals) -> Callable[[Terminal], None]:
     return send
 
 
-def armed(terminal: Terminal) -> None:
+def quit_while_armed(terminal: Terminal) -> None:
     """`q` while the steering is armed."""
     terminal.type("6")
     terminal.read_until(lambda: b"cmd_vel_teleop" in terminal.output, "the topic that is steered by")
@@ -48,14 +48,14 @@ def armed(terminal: Terminal) -> None:
 KINDS: dict[str, Callable[[Terminal], None]] = {
     "q": lambda terminal: terminal.type("q"),
     "Ctrl-C": lambda terminal: terminal.type("\x03"),
-    "TERM": sent(signal.SIGTERM),
-    "HUP": sent(signal.SIGHUP),
-    "QUIT": sent(signal.SIGQUIT),
-    "TERM and HUP": sent(signal.SIGTERM, signal.SIGHUP),
+    "TERM": send_signals(signal.SIGTERM),
+    "HUP": send_signals(signal.SIGHUP),
+    "QUIT": send_signals(signal.SIGQUIT),
+    "TERM and HUP": send_signals(signal.SIGTERM, signal.SIGHUP),
     "closed terminal": lambda terminal: terminal.hang_up(),
-    "killed": sent(signal.SIGKILL),
-    "crash": sent(signal.SIGSEGV),
-    "armed": armed,
+    "killed": send_signals(signal.SIGKILL),
+    "crash": send_signals(signal.SIGSEGV),
+    "armed": quit_while_armed,
     "node aborts": lambda terminal: terminal.type("q"),
     "node raises": lambda terminal: terminal.type("q"),
 }
@@ -98,7 +98,7 @@ def end(kind: str, folder: Path, base: Path) -> str:
         if code in (-signal.SIGSEGV, -signal.SIGABRT) and kind != "crash":
             return f"ended by signal {-code}"
         deadline = time.monotonic() + TIMEOUT_S
-        while wrong := _left(terminal, kind, base):
+        while wrong := _leftovers(terminal, kind, base):
             if time.monotonic() > deadline:
                 return wrong
             if terminal.master >= 0:
@@ -112,7 +112,7 @@ def end(kind: str, folder: Path, base: Path) -> str:
     return ""
 
 
-def _left(terminal: Terminal, kind: str, base: Path) -> str:
+def _leftovers(terminal: Terminal, kind: str, base: Path) -> str:
     if terminal.master >= 0 and not terminal.is_usable():
         return "the terminal is not usable"
     if processes := terminal.processes():

@@ -32,7 +32,7 @@ Work = Callable[[int, Callable[[], None]], Any]
 """The work of a process, called with its number and a function that waits for the others; returns its report."""
 
 
-def together(count: int, work: Work, steps: int) -> list[Any]:
+def run_together(count: int, work: Work, steps: int) -> list[Any]:
     """Fork processes that take each step at the same moment; return their reports."""
     addresses = [os.pipe() for _ in range(steps)]
     arrivals, reports, children = os.pipe(), [os.pipe() for _ in range(count)], []
@@ -68,7 +68,7 @@ def together(count: int, work: Work, steps: int) -> list[Any]:
     return reported
 
 
-def joined(name: str) -> Any:
+def joined_node(name: str) -> Any:
     """A node in the common domain."""
     import rclpy
     from bot_console.runtime.rmw.zenoh.domain.domain_bus import share_domains
@@ -97,7 +97,7 @@ def meet(number: int, wait: Callable[[], None]) -> int:
     from std_msgs.msg import Int32
 
     wait()
-    node = joined(f"guest_{number}")
+    node = joined_node(f"guest_{number}")
     heard = set[int]()
     node.create_subscription(Int32, "/here", lambda message: heard.add(message.data), PROCESSES)
     publisher = node.create_publisher(Int32, "/here", PROCESSES)
@@ -112,7 +112,7 @@ def hold(number: int, wait: Callable[[], None]) -> dict[str, Any]:
     import rclpy
     from std_msgs.msg import Int32
 
-    first = joined(f"holder_{number}")
+    first = joined_node(f"holder_{number}")
     nodes = [first, *(rclpy.create_node(f"holder_{number}_{each}") for each in range(1, NODES))]
     (own,) = first.context.bus._local.tables()  # Not by a graph query, since none may have been made yet.
     few = entities([own]) // NODES
@@ -147,7 +147,7 @@ def own_mb() -> float:
 
 def graph() -> dict[str, Any]:
     """One system of many nodes."""
-    reported = together(HOLDERS, hold, 2)
+    reported = run_together(HOLDERS, hold, 2)
     return {
         "entities": [min(each["entities"] for each in reported), HOLDERS * NODES * ENTITIES],
         "complete": all(each["complete"] for each in reported),
@@ -171,7 +171,7 @@ def main() -> None:
     for _ in range(given.meet):
         with tempfile.TemporaryDirectory(prefix="bc-", dir="/tmp") as folder:
             os.environ["BOT_CONSOLE_SOCKET_DIR"] = f"{folder}/s"
-            reported = together(PROCESSES, meet, 1)
+            reported = run_together(PROCESSES, meet, 1)
         print(json.dumps({"pairs": [sum(reported), PROCESSES * (PROCESSES - 1)]}), flush=True)
     if given.graph:
         with tempfile.TemporaryDirectory(prefix="bc-", dir="/tmp") as folder:

@@ -62,7 +62,7 @@ def sample(pid: int) -> Sample:
     return memory, threads, descriptors
 
 
-def fitted(samples: list[Sample], length: float) -> dict[str, Any]:
+def fit_line(samples: list[Sample], length: float) -> dict[str, Any]:
     """The line fitted to the samples of a run of some length (hours, minutes), for each quantity."""
     rows = np.array(samples, dtype=float)
     start, tenth = len(rows) // 5, max(1, len(rows) // 10)
@@ -90,7 +90,7 @@ def simulated(hours: float, folder: Path) -> dict[str, Any]:
         process = subprocess.Popen([sys.executable, *words], cwd=folder, stdout=report, stderr=log)
         samples = _until(lambda: process.poll() is not None, process.pid)
     (folder / "log").unlink()
-    return {"hours": hours, "exit_code": process.returncode, "samples": len(samples), **fitted(samples, hours)}
+    return {"hours": hours, "exit_code": process.returncode, "samples": len(samples), **fit_line(samples, hours)}
 
 
 def live(minutes: float, filled: float, folder: Path) -> dict[str, Any]:
@@ -122,7 +122,7 @@ def live(minutes: float, filled: float, folder: Path) -> dict[str, Any]:
         "filled": filled,
         "exit_code": code,
         "samples": len(samples),
-        **fitted(samples, minutes),
+        **fit_line(samples, minutes),
     }
 
 

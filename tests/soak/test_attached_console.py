@@ -40,7 +40,7 @@ GROWTH = 10e6
 
 
 @dataclass
-class Seen:
+class Measurements:
     """The measurements."""
 
     rounds: int = 0
@@ -53,7 +53,7 @@ class Seen:
     """The number of the console's endpoints, at the same times."""
 
 
-def resident() -> int:
+def resident_bytes() -> int:
     """This process's memory in bytes."""
     gc.collect()
     with contextlib.suppress(OSError):
@@ -86,7 +86,7 @@ def visitor(domain: int, name: str) -> Iterator[None]:
         thread.join(TIMEOUT_S)
 
 
-def a_round(rig: RosRig, number: int, seen: Seen) -> None:
+def a_round(rig: RosRig, number: int, seen: Measurements) -> None:
     """Set a value, be refused, publish, log and drive; sometimes change the view, stop, and add a visiting node."""
     console = rig.console
     began = time.monotonic()
@@ -124,7 +124,7 @@ def ends_of_console(rig: RosRig) -> int:
 @pytest.mark.parametrize("make", WAYS)
 def test_nothing_is_lost_and_nothing_grows(make, tmp_path: Path) -> None:
     assert make is machine_rig or is_embedded_rclpy()
-    rig, seen = make(tmp_path), Seen()
+    rig, seen = make(tmp_path), Measurements()
     began, step = time.monotonic(), min(60.0, MINUTES * 60 / 10)
     try:
         for number in itertools.count():
@@ -132,7 +132,7 @@ def test_nothing_is_lost_and_nothing_grows(make, tmp_path: Path) -> None:
             seen.rounds += 1
             now = time.monotonic() - began
             if now >= step * (len(seen.sizes) + 1):
-                seen.sizes.append(resident())
+                seen.sizes.append(resident_bytes())
                 seen.threads.append(threading.active_count())
                 seen.ends.append(ends_of_console(rig))
             if now >= MINUTES * 60:

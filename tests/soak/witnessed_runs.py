@@ -42,7 +42,7 @@ GROUPS: dict[str, dict[str, Run]] = {
 }
 
 
-def witnessed(group: str, ways: Sequence[str], runs: int, robot: LiveRobot) -> dict[str, Any]:
+def run_group(group: str, ways: Sequence[str], runs: int, robot: LiveRobot) -> dict[str, Any]:
     """Run the ways of a group in turn; count failures, and release the robot after each."""
     went_on: dict[str, list[float]] = {each: [] for each in ways}
     failed: list[str] = []
@@ -82,7 +82,7 @@ def main() -> None:
                     continue
                 kind = BackgroundRobot if group == IN_BACKGROUND else LiveRobot
                 with live_robot(folder, sockets, kind=kind) as robot:
-                    report[group] = witnessed(group, ways, options.runs, robot)
+                    report[group] = run_group(group, ways, options.runs, robot)
     finally:
         for each in (folder, sockets):
             shutil.rmtree(each, ignore_errors=True)

@@ -125,7 +125,7 @@ def test_processes_are_visible_and_controllable_from_changing_consoles(state: Pa
         )
 
     def attached() -> CombinedLauncher:
-        return CombinedLauncher(never, tuple, OtherHosts(lambda: host_addresses(folder), enter))
+        return CombinedLauncher(start_nothing, tuple, OtherHosts(lambda: host_addresses(folder), enter))
 
     first, second = attached(), attached()
     begun = until(lambda: process(first), "the process")
@@ -144,7 +144,7 @@ def test_processes_are_visible_and_controllable_from_changing_consoles(state: Pa
     second.close()
 
 
-def never() -> tuple[str, HostedLauncher]:
+def start_nothing() -> tuple[str, HostedLauncher]:
     """Nothing is launched from these consoles."""
     raise AssertionError
 

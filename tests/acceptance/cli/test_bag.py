@@ -50,7 +50,7 @@ def bag(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
     return typed("bag", *words, cwd=folder)
 
 
-def grown(file: Path, size: int) -> bool:
+def wait_for_size(file: Path, size: int) -> bool:
     """Wait until a file has reached a size (bytes)."""
     end = time.monotonic() + 240
     while not (file.exists() and file.stat().st_size >= size) and time.monotonic() < end:
@@ -75,7 +75,7 @@ def test_topics_are_recorded_and_played(robot: Path) -> None:
     assert "pose:" in out and played.returncode == 0, played.stderr
 
 
-def called(name: str, kind: str, request: str = "{}") -> str:
+def call_service(name: str, kind: str, request: str = "{}") -> str:
     """Call a service of rosbag2; return its response."""
     return typed("service", "call", name, f"rosbag2_interfaces/srv/{kind}", request).stdout
 
@@ -85,16 +85,16 @@ def test_a_recorder_and_a_player_follow_options_and_services(robot: Path) -> Non
     words += ["--compression-mode", "message", "--compression-format", "zstd", "--custom-data", "who=me"]
     words += ["--node-name", "mine", "--start-paused", "--duration", "1000"]
     recorder = Typed("bag", *words, cwd=robot)
-    assert "paused=True" in called("/mine/is_paused", "IsPaused")
-    called("/mine/resume", "Resume")
-    assert grown(robot / "options" / "options_2.db3", 1)
+    assert "paused=True" in call_service("/mine/is_paused", "IsPaused")
+    call_service("/mine/resume", "Resume")
+    assert wait_for_size(robot / "options" / "options_2.db3", 1)
     recorder.end(signal.SIGINT)
     reported = bag(robot, "info", "options")
     assert reported.returncode == 0 and "who=me" in reported.stdout and "Storage id:        sqlite3" in reported.stdout
     player = Typed("bag", "play", "options", "--start-paused", "--remap", "/odom:=/copy", cwd=robot)
-    assert "success=True" in called("/rosbag2_player/play_next", "PlayNext")
-    assert "success=True" in called("/rosbag2_player/set_rate", "SetRate", "{rate: 100.0}")
-    called("/rosbag2_player/resume", "Resume")
+    assert "success=True" in call_service("/rosbag2_player/play_next", "PlayNext")
+    assert "success=True" in call_service("/rosbag2_player/set_rate", "SetRate", "{rate: 100.0}")
+    call_service("/rosbag2_player/resume", "Resume")
     played = player.end()
     assert played.returncode == 0 and "0 messages published" not in f" {played.stderr}".splitlines(), played.stderr
 
@@ -109,7 +109,7 @@ def test_a_recorder_of_a_launch_file_records(robot: Path) -> None:
         "        '--topics', '/odom', '--max-cache-size', '1000', '--disable-keyboard-controls'], output='screen')])\n"
     )
     launch = subprocess.Popen([*PROGRAM, "ros2", "launch", "record.launch.py"], cwd=robot)
-    assert grown(robot / "launched" / "launched_0.mcap", 20_000)
+    assert wait_for_size(robot / "launched" / "launched_0.mcap", 20_000)
     launch.send_signal(signal.SIGINT)
     assert launch.wait(240) == 0
     reported = bag(robot, "info", "launched")
@@ -118,7 +118,7 @@ def test_a_recorder_of_a_launch_file_records(robot: Path) -> None:
 
 def test_killed_recorder_leaves_a_readable_bag(robot: Path) -> None:
     recorder = Typed("bag", "record", "-a", "-o", "killed", cwd=robot)
-    assert grown(robot / "killed" / "killed_0.mcap", 200_000)
+    assert wait_for_size(robot / "killed" / "killed_0.mcap", 200_000)
     recorder.end(signal.SIGKILL)
     reported = bag(robot, "info", "killed")
     assert reported.returncode == 0 and "was given one" in reported.stderr and "/scan" in reported.stdout

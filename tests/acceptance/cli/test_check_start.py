@@ -15,7 +15,7 @@ NAVIGATOR = "run bot_console_robot robot_node"
 SIMULATOR = "launch bot_console_robot simulator.launch.py seed:=3"
 
 
-def checked(folder: Path, steps: str, *starts: str) -> tuple[int, list[dict[str, Any]]]:
+def run_check(folder: Path, steps: str, *starts: str) -> tuple[int, list[dict[str, Any]]]:
     (folder / "steps").write_text(steps, "utf-8")
     options = [word for each in starts for word in ("--start", each)]
     done = typed("check", "steps", "--json", *options, cwd=folder, env={**os.environ, "ROS_HOME": str(folder)})
@@ -29,16 +29,16 @@ def test_steps_run_on_the_started_programs_with_the_same_result_each_time(tmp_pa
         "expect /odom/twist.twist.linear.x > 0.5 within 60 s\n"
         "expect-node /never within 2 s\n"
     )
-    first = checked(tmp_path, steps, SIMULATOR, NAVIGATOR)
+    first = run_check(tmp_path, steps, SIMULATOR, NAVIGATOR)
     code, found = first
     assert code == 1
     assert [each["why"] for each in found] == ["", "", "", "there is none; nodes: /robot_navigator, /simulator"]
     assert found[3]["seconds"] == pytest.approx(2.0, abs=0.5)
-    assert checked(tmp_path, steps, SIMULATOR, NAVIGATOR) == first
+    assert run_check(tmp_path, steps, SIMULATOR, NAVIGATOR) == first
 
 
 def test_step_after_the_end_of_all_nodes_is_reported_as_not_reached(tmp_path: Path) -> None:
-    _, found = checked(tmp_path, "expect-node /robot_navigator\n", f"{NAVIGATOR} --ros-args -p max_speed:=1")
+    _, found = run_check(tmp_path, "expect-node /robot_navigator\n", f"{NAVIGATOR} --ros-args -p max_speed:=1")
     assert [each["why"] for each in found] == ["not reached: robot_node-1 ended with exit code 1"]
 
 

@@ -59,7 +59,7 @@ def run(place: str, *words: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(line, env=environment, capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
 
 
-def reached(place: str, *words: str) -> subprocess.CompletedProcess[str]:
+def run_connected(place: str, *words: str) -> subprocess.CompletedProcess[str]:
     return typed(*words, env=dict(os.environ, BOT_CONSOLE_CONNECT=place, ROS_DOMAIN_ID="0"))
 
 
@@ -69,14 +69,14 @@ def test_a_program_with_a_session_ends_without_finalizing_the_interpreter_under_
 
 
 def test_status_reports_the_robot_behind_the_named_router(place: str) -> None:
-    assert f"nothing runs in ROS domain 0 at {place}" in reached(place, "status").stderr
+    assert f"nothing runs in ROS domain 0 at {place}" in run_connected(place, "status").stderr
     session = open_network_session(0, Way((place,)))
     node = TokenNode(session.zid, 0, "", "/", "base")
     session.declare_token(node_token(0, node))
     velocity = "/cmd_vel", "geometry_msgs/msg/Twist", f"RIHS01_{'0' * 64}", "::,10:,:,:,,"
     session.declare_token(entity_token(0, node, 1, "MS", *velocity))
     try:
-        seen = reached(place, "status")
+        seen = run_connected(place, "status")
     finally:
         session.close()
     assert seen.returncode == 0, seen.stderr
@@ -94,12 +94,12 @@ def test_run_starts_a_node_and_bag_records_behind_the_named_router(place: str, t
             recorder.send_signal(signal.SIGINT)
         talker.kill()
     assert recorder.returncode in (0, 130), "130 where the interrupt came before it began to spin"
-    assert "/chatter | Type: std_msgs/msg/String" in reached(place, "bag", "info", str(bag)).stdout
+    assert "/chatter | Type: std_msgs/msg/String" in run_connected(place, "bag", "info", str(bag)).stdout
 
 
 def test_launch_says_that_it_starts_nodes_on_this_machine(place: str, tmp_path: Path) -> None:
     file = tmp_path / "empty.launch.py"
     file.write_text("import launch\n\ndef generate_launch_description():\n    return launch.LaunchDescription([])\n")
-    started = reached(place, "launch", str(file))
+    started = run_connected(place, "launch", str(file))
     assert started.returncode == 0, started.stderr
     assert f"BOT_CONSOLE_CONNECT names {place}, but what is started here runs in ROS domain 0" in started.stderr

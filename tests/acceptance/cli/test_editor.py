@@ -71,7 +71,7 @@ def workspace(tmp_path: Path, user: Path, monkeypatch: pytest.MonkeyPatch) -> Pa
     return folder
 
 
-def reported(server: LanguageServer, file: Path) -> dict[int, list[str]]:
+def errors_by_line(server: LanguageServer, file: Path) -> dict[int, list[str]]:
     found: dict[int, list[str]] = {}
     for each in server.reports(file):
         if each["severity"] == 1:
@@ -89,7 +89,7 @@ def test_editor_finds_every_import_offers_fields_and_shows_units(workspace: Path
     with language_server(workspace) as server:
         for each in files:
             server.open(each)
-        errors = {each.name: found for each in files if (found := reported(server, each))}
+        errors = {each.name: found for each in files if (found := errors_by_line(server, each))}
         lines = (PROGRAM + WRONG).splitlines()
         offered = server.at("completion", workspace / "wrong.py", len(lines) - 1, len("scan."))
         hovered = {

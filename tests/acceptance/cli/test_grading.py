@@ -87,12 +87,12 @@ def change(folder: Path, file: str, pattern: str, replacement: str) -> None:
 def failed(folder: Path, rows: set[str] | None = None) -> dict[str, str]:
     course = read_course(find_course("week6"))
     if rows is not None:
-        chapters = tuple(_with_rows(each, rows) for each in course.chapters)
+        chapters = tuple(_keep_rows(each, rows) for each in course.chapters)
         course = type(course)(course.name, course.title, chapters, course.defaults)
     return {each.row.title: each.why for each in grade(course, folder) if each.failed}
 
 
-def _with_rows(chapter: Any, rows: set[str]) -> Any:
+def _keep_rows(chapter: Any, rows: set[str]) -> Any:
     kept = tuple(each for each in chapter.rows if each.title in rows)
     return type(chapter)(chapter.title, chapter.text, chapter.steps, kept)
 
@@ -136,7 +136,9 @@ def course_of(folder: Path, row: str) -> Any:
     return read_course(folder)
 
 
-def graded(tmp_path: Path, program: str, row: str = "run {package} node\nexpect-node /never within 1 s") -> RowResult:
+def grade_program(
+    tmp_path: Path, program: str, row: str = "run {package} node\nexpect-node /never within 1 s"
+) -> RowResult:
     place = tmp_path / "ws" / "src" / "mine"
     (place / "mine").mkdir(parents=True)
     (place / "package.xml").write_text(
@@ -174,7 +176,7 @@ def escape(tmp_path_factory: pytest.TempPathFactory) -> Escape:
         f"    subprocess.Popen(['sh', '-c', 'sleep 1000 # {place}/alive'], start_new_session=True)\n"
         "    print('started', flush=True)\n"
     )
-    why = graded(place, program).why
+    why = grade_program(place, program).why
     listed = subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True, check=True)
     return Escape(why, place, listed.stdout)
 
@@ -241,7 +243,7 @@ def test_installed_package_of_the_same_name_is_not_graded(row: str, tmp_path: Pa
 
 @needs_namespaces
 def test_file_conditions_are_graded_without_starting_anything(tmp_path: Path) -> None:
-    result = graded(tmp_path, "", "expect-entry-point other")
+    result = grade_program(tmp_path, "", "expect-entry-point other")
     assert result.why == "src/mine/setup.py has no line for other in console_scripts"
 
 

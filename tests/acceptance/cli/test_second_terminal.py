@@ -70,7 +70,7 @@ class Terminals:
             each.end(signal.SIGKILL)
 
 
-def in_order(of_system: Sequence[Row]) -> list[Row]:
+def sort_rows(of_system: Sequence[Row]) -> list[Row]:
     """The rows, ordered so that each finds the system as it needs it: rows that change it come last of their kind."""
     changing = [words for row in of_system for words in row["before"]]
     return sorted(of_system, key=lambda row: (len(row["before"]), row["argv"] in changing))
@@ -84,7 +84,7 @@ def test_commands_in_a_second_terminal_equal_recordings(programs: list[Words], t
     terminals = Terminals(programs, tmp_path)
     differences: list[tuple[str, object, object]] = []
     try:
-        for row in in_order(of_system):
+        for row in sort_rows(of_system):
             for name, text in row["files"].items():
                 (tmp_path / name).write_text(text, "utf-8")
             if row["before"] != terminals.history:

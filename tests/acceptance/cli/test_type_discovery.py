@@ -69,7 +69,7 @@ DEFINITIONS = {
 
 
 @pytest.fixture
-def elsewhere(tmp_path: Path) -> Iterator[Path]:
+def other_workspace(tmp_path: Path) -> Iterator[Path]:
     """A folder with the packages, outside the workspace, and a node running in it that uses them."""
     source = tmp_path / "here" / "src"
     for name, text in DEFINITIONS.items():
@@ -94,63 +94,63 @@ def form_of(traffic: Topics, payload: Payload, type_name: str) -> Sequence[Slot]
         return ()
 
 
-def test_verb_reads_messages_by_definition_from_their_node_unless_hash_differs(elsewhere: Path) -> None:
-    while "/spots" not in typed("topic", "list", cwd=elsewhere).stdout:
+def test_verb_reads_messages_by_definition_from_their_node_unless_hash_differs(other_workspace: Path) -> None:
+    while "/spots" not in typed("topic", "list", cwd=other_workspace).stdout:
         pass
-    echo = typed("topic", "echo", "--once", "/spots", cwd=elsewhere)
+    echo = typed("topic", "echo", "--once", "/spots", cwd=other_workspace)
     assert echo.stdout.startswith("spots:\n- x: 1.5\n  y: 0.0\nheader:\n") and "tag: abc" in echo.stdout
     assert echo.returncode == 0
-    untrue = typed("topic", "echo", "--once", "/false_spots", cwd=elsewhere)
+    untrue = typed("topic", "echo", "--once", "/false_spots", cwd=other_workspace)
     assert untrue.returncode == 1 and untrue.stdout == ""
     assert "'false_shapes/msg/Spot' of topic '/false_spots' is not installed here" in untrue.stderr
     assert "/painter describes it by a definition that does not have the hash RIHS01_" in untrue.stderr
 
 
 @pytest.mark.slow
-def test_bag_records_foreign_types_and_names_topics_without_definition_or_publisher(elsewhere: Path) -> None:
-    while "/spots" not in typed("topic", "list", cwd=elsewhere).stdout:
+def test_bag_records_foreign_types_and_names_topics_without_definition_or_publisher(other_workspace: Path) -> None:
+    while "/spots" not in typed("topic", "list", cwd=other_workspace).stdout:
         pass
     topics = "/spots", "/false_spots", "/nowhere"
-    recorded = typed("bag", "record", "-o", "bag", "--duration", "4", *topics, cwd=elsewhere)
+    recorded = typed("bag", "record", "-o", "bag", "--duration", "4", *topics, cwd=other_workspace)
     assert recorded.returncode == 0, recorded.stderr
     ended = recorded.stderr.splitlines()[-1]
     assert "/false_spots was recorded without a definition" in ended
     assert "'/false_spots' is recorded without a definition: its type false_shapes/msg/Spot is not" in recorded.stderr
     assert "/nowhere was not recorded: nobody has published it" in ended and "/spots was" not in ended.split("; ")
-    shown = typed("bag", "info", "bag", cwd=elsewhere).stdout
+    shown = typed("bag", "info", "bag", cwd=other_workspace).stdout
     assert "Topic: /spots | Type: told_shapes/msg/Path" in shown
     assert "Topic: /false_spots | Type: false_shapes/msg/Spot" in shown
 
 
 @pytest.mark.slow
-def test_verbs_send_goals_requests_and_messages_of_foreign_types(elsewhere: Path) -> None:
-    while "/draw" not in typed("action", "list", cwd=elsewhere).stdout:
+def test_verbs_send_goals_requests_and_messages_of_foreign_types(other_workspace: Path) -> None:
+    while "/draw" not in typed("action", "list", cwd=other_workspace).stdout:
         pass
-    assert "/draw [told_shapes/action/Draw]\n" in typed("action", "list", "-t", cwd=elsewhere).stdout
-    info = typed("action", "info", "-t", "/draw", cwd=elsewhere)
+    assert "/draw [told_shapes/action/Draw]\n" in typed("action", "list", "-t", cwd=other_workspace).stdout
+    info = typed("action", "info", "-t", "/draw", cwd=other_workspace)
     assert "Action servers: 1\n    /painter [told_shapes/action/Draw]\n" in info.stdout
-    sent = typed("action", "send_goal", "-f", "/draw", "told_shapes/action/Draw", "{to: {x: 1.5}}", cwd=elsewhere)
+    sent = typed("action", "send_goal", "-f", "/draw", "told_shapes/action/Draw", "{to: {x: 1.5}}", cwd=other_workspace)
     assert (sent.stderr, sent.returncode) == ("", 0)
     assert "Sending goal:\n     to:\n  x: 1.5\n  y: 0.0\nhow: 2\n" in sent.stdout
     assert "Feedback:\n    done: 0.5\n" in sent.stdout and "Result:\n    drawn:\n- x: 1.5\n" in sent.stdout
     assert sent.stdout.endswith("Goal finished with status: SUCCEEDED\n")
 
-    shown = typed("interface", "show", "told_shapes/action/Draw", cwd=elsewhere).stdout
+    shown = typed("interface", "show", "told_shapes/action/Draw", cwd=other_workspace).stdout
     assert shown.startswith("# To\nSpot to\n\tfloat64 x\n\tfloat64 y\nint8 BY=2\nint8 how 2\n---\n")
-    called = typed("service", "call", "/paint", "told_shapes/srv/Paint", "{at: {x: 1.0, y: 2.0}}", cwd=elsewhere)
+    called = typed("service", "call", "/paint", "told_shapes/srv/Paint", "{at: {x: 1.0, y: 2.0}}", cwd=other_workspace)
     assert called.stdout.endswith("told_shapes.srv.Paint_Response(painted=3.0)\n\n")
-    published = typed("topic", "pub", "--once", "/wanted", "told_shapes/Spot", "{x: 4.0}", cwd=elsewhere)
+    published = typed("topic", "pub", "--once", "/wanted", "told_shapes/Spot", "{x: 4.0}", cwd=other_workspace)
     assert "publishing #1: told_shapes.msg.Spot(x=4.0, y=0.0)" in published.stdout
 
-    wrong = typed("action", "send_goal", "/draw", "told_shapes/action/Drew", cwd=elsewhere)
+    wrong = typed("action", "send_goal", "/draw", "told_shapes/action/Drew", cwd=other_workspace)
     assert (wrong.stdout, wrong.stderr.strip(), wrong.returncode) == ("", "The passed action type is invalid", 1)
-    untrue = typed("action", "send_goal", "/draw_falsely", "false_shapes/action/Draw", cwd=elsewhere)
+    untrue = typed("action", "send_goal", "/draw_falsely", "false_shapes/action/Draw", cwd=other_workspace)
     assert untrue.stdout == "" and untrue.returncode == 1
     assert "/painter describes it by a definition that does not have the hash RIHS01_" in untrue.stderr
 
 
-def test_panes_show_plot_fill_in_and_call_foreign_types(elsewhere: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(elsewhere)
+def test_panes_show_plot_fill_in_and_call_foreign_types(other_workspace: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(other_workspace)
     assert take_part() == ""
     console = RosConsole(types=DomainTypes())
     console.start()

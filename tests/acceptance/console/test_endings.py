@@ -97,12 +97,12 @@ OFTEN = ("crash",)
 """The cases of the default run, besides `q` and SIGHUP, which have separate tests below; each takes a console."""
 
 
-def some(values, often):
+def soak_unless_often(values, often):
     """All values as parameters; those not in `often` are marked for `-m soak`."""
     return [pytest.param(each, marks=() if each in often else pytest.mark.soak) for each in values]
 
 
-@pytest.mark.parametrize("how", some(ENDS, OFTEN))
+@pytest.mark.parametrize("how", soak_unless_often(ENDS, OFTEN))
 def test_robot_is_stopped_and_terminal_usable(console, how):
     before = len((console.folder / "received").read_text().splitlines())
     ENDS[how](console)
@@ -148,7 +148,9 @@ def test_vanished_terminal_ends_the_console(console):
     assert (console.folder / "received").read_text().splitlines()[-1] == "0.0"
 
 
-@pytest.mark.parametrize("number", some((signal.SIGKILL, signal.SIGSEGV, signal.SIGABRT), (signal.SIGKILL,)))
+@pytest.mark.parametrize(
+    "number", soak_unless_often((signal.SIGKILL, signal.SIGSEGV, signal.SIGABRT), (signal.SIGKILL,))
+)
 def test_killed_console_leaves_no_process(console, number):
     console.process.send_signal(number)
     assert console.wait() == -number

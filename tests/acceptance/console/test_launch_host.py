@@ -26,7 +26,7 @@ TIMEOUT_S = 240.0
 CRASHES = "import ctypes\nprint('up', flush=True)\nctypes.string_at(0)\n"
 
 
-class Hosted:
+class HostedSystem:
     """A host, its proxy, and a folder for programs."""
 
     def __init__(self, folder: Path) -> None:
@@ -74,9 +74,9 @@ class Hosted:
 
 
 @pytest.fixture
-def hosted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Hosted]:
+def hosted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[HostedSystem]:
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
-    made = Hosted(tmp_path)
+    made = HostedSystem(tmp_path)
     yield made
     made.launcher.close()
     assert made.process.wait(TIMEOUT_S) is not None
@@ -91,7 +91,7 @@ def is_running(pid: int) -> bool:
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
-def test_node_has_its_own_process_and_its_crash_ends_nothing_else(hosted: Hosted) -> None:
+def test_node_has_its_own_process_and_its_crash_ends_nothing_else(hosted: HostedSystem) -> None:
     assert hosted.launch(waiter=WAITS, crasher=CRASHES).ok
     waiter = hosted.up("waiter")
     assert is_running(waiter.pid) and waiter.pid != hosted.process.pid
@@ -107,7 +107,7 @@ def test_node_has_its_own_process_and_its_crash_ends_nothing_else(hosted: Hosted
 
 
 @pytest.mark.slow
-def test_host_reports_number_of_delayed_starts(hosted: Hosted) -> None:
+def test_host_reports_number_of_delayed_starts(hosted: HostedSystem) -> None:
     late = "TimerAction(period={}, actions=[ExecuteProcess(cmd=['true'])])"
     assert hosted.launch(late.format("3600.0"), late.format("0.01"), waiter=WAITS).ok
     hosted.until(lambda: len(hosted.launcher.info().processes) == 2)
@@ -127,7 +127,7 @@ bytearray(100_000_000)
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
 @pytest.mark.soak  # test_faulty_nodes has the same nodes beside a robot
-def test_busy_process_is_named_and_others_go_on(hosted: Hosted) -> None:
+def test_busy_process_is_named_and_others_go_on(hosted: HostedSystem) -> None:
     assert hosted.launch(waiter=WAITS, fills=FILLS, full=FULL).ok
     waiter = hosted.up("waiter")
     hosted.until(lambda: (hosted.named("fills").memory or 0) >= 300)
@@ -142,7 +142,7 @@ def test_busy_process_is_named_and_others_go_on(hosted: Hosted) -> None:
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
-def test_killed_host_takes_its_processes_along_and_console_reports_it(hosted: Hosted) -> None:
+def test_killed_host_takes_its_processes_along_and_console_reports_it(hosted: HostedSystem) -> None:
     assert hosted.launch(waiter=WAITS).ok
     pid = hosted.up("waiter").pid
     hosted.process.kill()
@@ -158,7 +158,7 @@ STARTS_OTHERS = "sleep 600 & echo $!; (trap '' TERM; echo $BASHPID; sleep 600; s
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
 @pytest.mark.parametrize("end", [pytest.param("close", marks=pytest.mark.slow), "kill"])
-def test_grandchildren_end_with_the_host(hosted: Hosted, end: str) -> None:
+def test_grandchildren_end_with_the_host(hosted: HostedSystem, end: str) -> None:
     assert hosted.launch(f"ExecuteProcess(cmd=['bash', '-c', {STARTS_OTHERS!r}])").ok
     lines = hosted.until(lambda: len(found := [text for *_, text in hosted.printed if text.isdecimal()]) == 2 and found)
     pids = [hosted.named("bash").pid, *map(int, lines)]
@@ -171,7 +171,7 @@ def test_grandchildren_end_with_the_host(hosted: Hosted, end: str) -> None:
 
 
 @pytest.mark.slow
-def test_frozen_host_ends_its_processes_and_itself(hosted: Hosted) -> None:
+def test_frozen_host_ends_its_processes_and_itself(hosted: HostedSystem) -> None:
     assert hosted.launch(waiter=WAITS).ok
     hosted.up("waiter")
     hosted.process.send_signal(signal.SIGSTOP)

@@ -36,12 +36,12 @@ def values_of(path: Path) -> dict[str, dict[str, Value]]:
     return found
 
 
-def other(value: Value) -> Value:
+def different_value(value: Value) -> Value:
     """A different value of the same type."""
     if isinstance(value, bool):
         return not value
     if isinstance(value, tuple):
-        return (*value[:-1], other(value[-1]))  # type: ignore[return-value]
+        return (*value[:-1], different_value(value[-1]))  # type: ignore[return-value]
     return f"{value}_2" if isinstance(value, str) else value + 1  # type: ignore[operator]
 
 
@@ -61,7 +61,7 @@ class Package:
             space, _, name = full.rpartition("/")
             node = self.nodes[full] = rclpy.create_node(name, namespace=space or None, context=self._context)
             for each, value in declared.items():
-                node.declare_parameter(each, other(value))
+                node.declare_parameter(each, different_value(value))
             self._executor.add_node(node)
         self._thread = threading.Thread(target=self._spin, daemon=True)
         self._thread.start()
@@ -137,8 +137,8 @@ def _saved_with_one_line_changed(path: Path, copy: Path, console: RosConsole, va
         return  # It is saved in a separate section, since the wildcard applies to other nodes too.
     name, value = next((name, value) for name, value in values[node].items() if isinstance(value, (int, float)))
     copy.write_text(path.read_text())
-    assert all(each.accepted for each in console.parameters.set(node, {name: other(value)}).result(TIMEOUT_S))
-    until(lambda: console.snapshot().parameters[node].get(name).value == other(value), "the new value")
+    assert all(each.accepted for each in console.parameters.set(node, {name: different_value(value)}).result(TIMEOUT_S))
+    until(lambda: console.snapshot().parameters[node].get(name).value == different_value(value), "the new value")
     assert console.parameters.save(str(copy), (node,)).ok
     before, after = path.read_text().splitlines(), copy.read_text().splitlines()
     assert len(before) == len(after)

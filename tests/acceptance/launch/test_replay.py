@@ -35,14 +35,14 @@ pytestmark = pytest.mark.skipif(not GIVEN, reason=NOT_GIVEN)
 @pytest.mark.timeout(600)
 @pytest.mark.parametrize("area", AREAS)
 def test_area_equals_recording(area: str, tmp_path: Path) -> None:
-    expected = {row["id"] for row in recorded() if row["area"] == area}
+    expected = {row["id"] for row in recorded_cases() if row["area"] == area}
     assert replayed(tmp_path, "--area", area) == expected
 
 
 @pytest.mark.recorded
 def test_every_area_is_replayed() -> None:
-    assert {row["area"] for row in recorded()} == set(AREAS)
-    assert set(differing_on_purpose("launch")) <= {row["id"] for row in recorded()}
+    assert {row["area"] for row in recorded_cases()} == set(AREAS)
+    assert set(differing_on_purpose("launch")) <= {row["id"] for row in recorded_cases()}
 
 
 @pytest.mark.soak
@@ -51,7 +51,7 @@ def test_some_course_cases_equal_recording(tmp_path: Path) -> None:
     assert replayed(tmp_path, *(word for each in OFTEN for word in ("--only", each))) == set(OFTEN)
 
 
-def recorded() -> list[dict[str, Any]]:
+def recorded_cases() -> list[dict[str, Any]]:
     """The recorded cases."""
     rows: list[dict[str, Any]] = json.loads((RECORDINGS / "launch" / "cases.json").read_text("utf-8"))
     return rows

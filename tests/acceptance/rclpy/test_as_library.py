@@ -74,7 +74,7 @@ def env(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
 
 
 @pytest.fixture(autouse=True)
-def apart(env: dict[str, str], tmp_path: Path) -> None:
+def isolated_sockets(env: dict[str, str], tmp_path: Path) -> None:
     env["BOT_CONSOLE_SOCKET_DIR"] = str(tmp_path)
 
 

@@ -66,7 +66,7 @@ threads.
 """
 
 
-class Line(NamedTuple):
+class CommandLine(NamedTuple):
     """The arguments after `run` or `python3`, and when to interrupt the program.
 
     That is a pattern in its output, or the end of all other programs; with an empty pattern it ends by itself.
@@ -81,53 +81,57 @@ def demo(module: str, function: str) -> str:
     return f"-c 'from bot_console_demos.demo_nodes.{module} import {function}; {function}()'"
 
 
-def some(values: Sequence[Any], *marks: pytest.MarkDecorator) -> list[Any]:
+def soak_after_first(values: Sequence[Any], *marks: pytest.MarkDecorator) -> list[Any]:
     """The values as parameters: the first with these marks, the others for the soak run."""
     return [pytest.param(each, marks=pytest.mark.soak if n else marks) for n, each in enumerate(values)]
 
 
 CASTS = [
-    [Line("listener", "I heard"), Line("talker", "Publishing")],
-    [Line("add_server", "Incoming"), Line("add_client async 2 3")],
-    [Line("add_server", "Incoming"), Line("client_in_callback")],
-    [Line("fibonacci_server", "goal of order"), Line("fibonacci_client 5 10.0")],
+    [CommandLine("listener", "I heard"), CommandLine("talker", "Publishing")],
+    [CommandLine("add_server", "Incoming"), CommandLine("add_client async 2 3")],
+    [CommandLine("add_server", "Incoming"), CommandLine("client_in_callback")],
+    [CommandLine("fibonacci_server", "goal of order"), CommandLine("fibonacci_client 5 10.0")],
     [
-        Line("latched listener reliable transient_local", "map"),
-        Line("latched talker reliable transient_local", OTHERS_END),
+        CommandLine("latched listener reliable transient_local", "map"),
+        CommandLine("latched talker reliable transient_local", OTHERS_END),
     ],
-    [Line("lifecycle_listener", "finalized"), Line("lifecycle_talker", "on_shutdown"), Line("lifecycle_client")],
-    [Line("waits_for_message"), Line("talker", "Publishing")],
-    [Line("sim_clock 10.0", OTHERS_END), Line("talker --ros-args -p use_sim_time:=true", "Publishing")],
     [
-        Line("tunable", OTHERS_END),
-        Line("parameter_watcher", "remote parameter"),
-        Line(f"-c {shlex.quote(SETS_SPEED)}", "True"),
+        CommandLine("lifecycle_listener", "finalized"),
+        CommandLine("lifecycle_talker", "on_shutdown"),
+        CommandLine("lifecycle_client"),
     ],
-    [Line("callback_groups one", "b ends")],
-    [Line("callback_groups two", "b ends")],
-    [Line("callback_groups reentrant", "b ends")],
-    [Line("single_goal_server", OTHERS_END), Line("fibonacci_client 3 0")],
-    [Line("composed", "I heard")],
-    [Line("guarded")],
-    [Line("rates")],
-    [Line("spins_in_threads")],
+    [CommandLine("waits_for_message"), CommandLine("talker", "Publishing")],
+    [CommandLine("sim_clock 10.0", OTHERS_END), CommandLine("talker --ros-args -p use_sim_time:=true", "Publishing")],
+    [
+        CommandLine("tunable", OTHERS_END),
+        CommandLine("parameter_watcher", "remote parameter"),
+        CommandLine(f"-c {shlex.quote(SETS_SPEED)}", "True"),
+    ],
+    [CommandLine("callback_groups one", "b ends")],
+    [CommandLine("callback_groups two", "b ends")],
+    [CommandLine("callback_groups reentrant", "b ends")],
+    [CommandLine("single_goal_server", OTHERS_END), CommandLine("fibonacci_client 3 0")],
+    [CommandLine("composed", "I heard")],
+    [CommandLine("guarded")],
+    [CommandLine("rates")],
+    [CommandLine("spins_in_threads")],
 ]
 COURSE_NODES = [
-    [Line("simple_robot_step1.py", OTHERS_END), Line(f"-c {shlex.quote(ASKS)} simple_robot")],
-    [Line("simple_robot_step2.py", OTHERS_END), Line(f"-c {shlex.quote(ASKS)} simple_robot")],
-    [Line("simple_robot_step3.py", "Speed"), Line(f"-c {shlex.quote(ASKS)} simple_robot")],
-    [Line("configurable_robot.py", OTHERS_END), Line(f"-c {shlex.quote(ASKS)} configurable_robot")],
-    [Line("data_publisher.py", OTHERS_END), Line(f"-c {shlex.quote(ASKS)} data_publisher")],
-    [Line("intelligent_robot/robot_node.py", r"SAFE.*Speed")],
+    [CommandLine("simple_robot_step1.py", OTHERS_END), CommandLine(f"-c {shlex.quote(ASKS)} simple_robot")],
+    [CommandLine("simple_robot_step2.py", OTHERS_END), CommandLine(f"-c {shlex.quote(ASKS)} simple_robot")],
+    [CommandLine("simple_robot_step3.py", "Speed"), CommandLine(f"-c {shlex.quote(ASKS)} simple_robot")],
+    [CommandLine("configurable_robot.py", OTHERS_END), CommandLine(f"-c {shlex.quote(ASKS)} configurable_robot")],
+    [CommandLine("data_publisher.py", OTHERS_END), CommandLine(f"-c {shlex.quote(ASKS)} data_publisher")],
+    [CommandLine("intelligent_robot/robot_node.py", r"SAFE.*Speed")],
 ]
 DEMOS = [
-    [Line(demo("talker", "main_py"), "Publishing"), Line(demo("listener", "main"), "heard")],
-    [Line(demo("talker", "main_minimal"), "Publishing"), Line(demo("listener", "main_minimal"), "heard")],
-    [Line(demo("add_two_ints", "serve"), "Incoming"), Line(demo("add_two_ints", "ask"))],
+    [CommandLine(demo("talker", "main_py"), "Publishing"), CommandLine(demo("listener", "main"), "heard")],
+    [CommandLine(demo("talker", "main_minimal"), "Publishing"), CommandLine(demo("listener", "main_minimal"), "heard")],
+    [CommandLine(demo("add_two_ints", "serve"), "Incoming"), CommandLine(demo("add_two_ints", "ask"))],
 ]
 
 
-class Running:
+class RunningProgram:
     """A program, and what it has printed so far."""
 
     def __init__(self, line: Sequence[str], env: Mapping[str, str], cwd: Path, until: str) -> None:
@@ -170,15 +174,17 @@ class Running:
         return {**shown, "exit": self.exit_code if self.exit_code >= 0 else 128 - self.exit_code}
 
 
-def play(cast: Sequence[Line], start: Sequence[str], env: Mapping[str, str], cwd: Path) -> list[dict[str, object]]:
+def play(
+    cast: Sequence[CommandLine], start: Sequence[str], env: Mapping[str, str], cwd: Path
+) -> list[dict[str, object]]:
     """Run the programs of a cast together."""
-    running: list[Running] = []
+    running: list[RunningProgram] = []
     try:
         for each in cast:
             words = shlex.split(each.words)
             files = [path for path in (PROGRAMS / f"{words[0]}.py", COURSE / words[0]) if path.is_file()]
             file = [str(files[0])] if files else [words[0]]
-            running.append(Running([*start, *file, *words[1:]], env, cwd, each.until or OTHERS_END))
+            running.append(RunningProgram([*start, *file, *words[1:]], env, cwd, each.until or OTHERS_END))
         for program, each in zip(running, cast, strict=True):
             if each.until not in ("", OTHERS_END):
                 program.await_text()
@@ -211,7 +217,7 @@ def test_uncaught_exception_is_shown_alike(home: Path, tmp_path: Path) -> None:
         assert (plain.stderr, plain.returncode) == (run.stderr, run.returncode)
 
 
-def compare(cast: Sequence[Line], home: Path, tmp_path: Path) -> None:
+def compare(cast: Sequence[CommandLine], home: Path, tmp_path: Path) -> None:
     (tmp_path / "a").mkdir(mode=0o700)
     (tmp_path / "b").mkdir(mode=0o700)
     ours = {**environment(home), "BOT_CONSOLE_SOCKET_DIR": str(tmp_path / "a"), "ROS_DOMAIN_ID": "0"}
@@ -225,23 +231,25 @@ def compare(cast: Sequence[Line], home: Path, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "cast",
-    some(CASTS),
+    soak_after_first(CASTS),
     ids=lambda cast: cast[0].words.split()[0],
 )
-def test_programs_print_the_same_under_plain_python(cast: list[Line], home: Path, tmp_path: Path) -> None:
+def test_programs_print_the_same_under_plain_python(cast: list[CommandLine], home: Path, tmp_path: Path) -> None:
     compare(cast, home, tmp_path)
 
 
 @pytest.mark.skipif(not COURSE.is_dir(), reason="BOT_CONSOLE_COURSE names no course")
-@pytest.mark.parametrize("cast", some(COURSE_NODES, pytest.mark.slow), ids=lambda cast: cast[0].words)
-def test_listings_of_the_course_print_the_same_under_plain_python(cast: list[Line], home: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("cast", soak_after_first(COURSE_NODES, pytest.mark.slow), ids=lambda cast: cast[0].words)
+def test_listings_of_the_course_print_the_same_under_plain_python(
+    cast: list[CommandLine], home: Path, tmp_path: Path
+) -> None:
     """The other two, `dynamic_robot.py` and `parameter_client.py`, start nothing, and `bot-console run` says so."""
     compare(cast, home, tmp_path)
 
 
 @pytest.mark.soak
 @pytest.mark.parametrize("cast", DEMOS, ids=["demo_nodes", "minimal", "services"])
-def test_demo_nodes_print_the_same_under_plain_python(cast: list[Line], home: Path, tmp_path: Path) -> None:
+def test_demo_nodes_print_the_same_under_plain_python(cast: list[CommandLine], home: Path, tmp_path: Path) -> None:
     compare(cast, home, tmp_path)
 
 

@@ -28,11 +28,11 @@ def test_cases_end_as_on_kilted(tmp_path: Path, monkeypatch: pytest.MonkeyPatch)
     words = [*KILTED, "--setup", SETUP, "--report", str(report)]
     subprocess.run([sys.executable, str(RECORDINGS / "replay.py"), *words], check=False, capture_output=True)
     differing = json.loads(report.read_text("utf-8"))["cases"]
-    wrong = {case: differing.get(case, "as Jazzy") for case in KILTED if not _as_kilted(case, differing)}
+    wrong = {case: differing.get(case, "as Jazzy") for case in KILTED if not _matches_kilted(case, differing)}
     assert sorted(wrong) == sorted(KEPT), {case: wrong.get(case) for case in sorted(set(wrong) ^ set(KEPT))}
 
 
-def _as_kilted(case: str, differing: dict[str, Any]) -> bool:
+def _matches_kilted(case: str, differing: dict[str, Any]) -> bool:
     if case not in differing:
         return False
     got = {key: value for key, value in differing[case]["got"].items() if key != "trace"}

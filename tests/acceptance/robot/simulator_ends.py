@@ -81,7 +81,7 @@ class Person:
         self._context.try_shutdown()
 
 
-class Kept:
+class KeptSimulation:
     """Keeps a simulation in a reference cycle, as a node does, so that only the garbage collector frees it."""
 
     def __init__(self, simulation: Simulation) -> None:
@@ -93,7 +93,7 @@ def churn() -> None:
     """A node that makes one world after the other, and collects garbage nearly all the time."""
     with contextlib.suppress(KeyboardInterrupt):
         while True:
-            kept = Kept(Simulation(find_world("warehouse"), 1))
+            kept = KeptSimulation(Simulation(find_world("warehouse"), 1))
             kept.simulation.step()
             gc.collect()
 

@@ -105,7 +105,7 @@ def witness(speeds: list[float]) -> None:
     rclpy.spin(node)
 
 
-class Counted:
+class CallCounter:
     """Counts calls; the counts can be waited for."""
 
     def __init__(self) -> None:
@@ -141,7 +141,7 @@ def spinning(make: Callable[[Any], object]) -> Callable[[], None]:
 
 def test_callback_that_hangs_delays_neither_monitor_nor_simulator() -> None:
     """In real time: each composed executable has a separate executor thread."""
-    count, hanging, release = Counted(), threading.Event(), threading.Event()
+    count, hanging, release = CallCounter(), threading.Event(), threading.Event()
 
     def hang(_scan: LaserScan) -> None:
         hanging.set()

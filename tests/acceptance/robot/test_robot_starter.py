@@ -82,7 +82,7 @@ def test_late_node_is_noticed(tmp_path):
     assert report["distance"] > 0.2
 
 
-def later(period, *actions):
+def timer_action(period, *actions):
     return f"TimerAction(period={period}, actions=[{', '.join(actions)}])"
 
 
@@ -93,9 +93,11 @@ WAITS = "waiting at most 30 s for what the launch file starts later, before a si
 @pytest.mark.parametrize(
     "bringing",
     [
-        pytest.param(later(5.0, BRINGING), marks=pytest.mark.soak),
-        pytest.param(f"OpaqueFunction(function=lambda context: [{later(5.0, BRINGING)}])", marks=pytest.mark.soak),
-        later(2.0, later(3.0, f"GroupAction([{BRINGING}])")),
+        pytest.param(timer_action(5.0, BRINGING), marks=pytest.mark.soak),
+        pytest.param(
+            f"OpaqueFunction(function=lambda context: [{timer_action(5.0, BRINGING)}])", marks=pytest.mark.soak
+        ),
+        timer_action(2.0, timer_action(3.0, f"GroupAction([{BRINGING}])")),
     ],
     ids=["timer", "timer of a function", "timer of a timer"],
 )
@@ -108,13 +110,13 @@ def test_launch_that_starts_a_robot_later_gets_no_second_one(tmp_path, bringing)
 
 @pytest.mark.soak
 def test_delayed_start_without_a_robot_delays_the_simulated_robot_only_until_then(tmp_path):
-    write(tmp_path, "driver", later(4.0, "Node(executable='blind.py')"), later(900.0, "Shutdown()"))
+    write(tmp_path, "driver", timer_action(4.0, "Node(executable='blind.py')"), timer_action(900.0, "Shutdown()"))
     report = headless(tmp_path, "--duration", "10", "--launch", "mine.launch.py")
     assert report["log"].count(WAITS) == report["log"].count(BESIDE) == 1
 
 
 def test_long_delayed_start_is_not_waited_for(tmp_path):
-    write(tmp_path, "driver", later(900.0, "Node(executable='blind.py')"))
+    write(tmp_path, "driver", timer_action(900.0, "Node(executable='blind.py')"))
     report = headless(tmp_path, "--duration", "35", "--launch", "mine.launch.py")
     assert report["log"].count(WAITS) == report["log"].count(BESIDE) == 1
 

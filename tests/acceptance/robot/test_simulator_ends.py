@@ -14,7 +14,7 @@ PROGRAM = Path(__file__).with_name("simulator_ends.py")
 KINDS = 8
 
 
-def ends(rounds: int, seed: int, timeout_s: float) -> None:
+def run_simulator_ends(rounds: int, seed: int, timeout_s: float) -> None:
     """Run the program; an exit code of -11 means a segmentation fault."""
     line = [sys.executable, "-X", "faulthandler", str(PROGRAM), str(rounds), str(seed)]
     environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
@@ -27,11 +27,11 @@ def ends(rounds: int, seed: int, timeout_s: float) -> None:
 @pytest.mark.soak
 @pytest.mark.timeout(120)
 def test_one_end_of_each_kind_does_not_crash() -> None:
-    ends(KINDS, 1, 100.0)
+    run_simulator_ends(KINDS, 1, 100.0)
 
 
 @pytest.mark.soak
 @pytest.mark.timeout(900)
 def test_five_hundred_ends_do_not_crash() -> None:
     for seed in range(10):
-        ends(50, seed, 400.0)
+        run_simulator_ends(50, seed, 400.0)

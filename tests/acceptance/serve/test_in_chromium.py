@@ -90,7 +90,7 @@ def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 
 
 @pytest.fixture
-def watched() -> Iterator[tuple[str, int]]:
+def watching_server() -> Iterator[tuple[str, int]]:
     """A server of read-only consoles."""
     with serving() as place:
         yield place
@@ -107,9 +107,9 @@ def run(work: Callable[[], Awaitable[Any]]) -> None:
 
 @pytest.mark.slow
 def test_watching_console_takes_keys_mouse_and_touch_and_its_stop_works(
-    chromium: str, watched: tuple[str, int]
+    chromium: str, watching_server: tuple[str, int]
 ) -> None:
-    address, server = watched
+    address, server = watching_server
 
     async def work() -> None:
         async with new_page(chromium) as page:
@@ -137,8 +137,8 @@ def test_watching_console_takes_keys_mouse_and_touch_and_its_stop_works(
     run(work)
 
 
-def test_tablet_has_a_stop_button(chromium: str, watched: tuple[str, int]) -> None:
-    address, _ = watched
+def test_tablet_has_a_stop_button(chromium: str, watching_server: tuple[str, int]) -> None:
+    address, _ = watching_server
 
     async def work() -> None:
         async with new_page(chromium) as page:

@@ -34,7 +34,7 @@ print("after", round((node.get_clock().now() - began).nanoseconds * 1e-9, 1))
 """
 
 
-def asking(running: System, ask: str, wait: float = 5.0) -> Program:
+def look_up(running: System, ask: str, wait: float = 5.0) -> Program:
     return running.finish(running.python("-c", ASKING.format(ask=ask, wait=wait)))
 
 
@@ -48,11 +48,11 @@ def test_buffer_in_another_process_answers(running: System) -> None:
     static(running, "map", "base", 1.5)
     running.run(0.5)
     ask = "buffer.lookup_transform('map', 'base', Time()).transform.translation.x"
-    assert asking(running, ask).stdout == "1.5\nafter 0.0\n"
+    assert look_up(running, ask).stdout == "1.5\nafter 0.0\n"
     full = "buffer.lookup_transform_full('base', Time(), 'map', Time(), 'map').transform.translation.x"
-    assert asking(running, full).stdout == "-1.5\nafter 0.0\n"
+    assert look_up(running, full).stdout == "-1.5\nafter 0.0\n"
     there = "PointStamped(header=buffer.lookup_transform('map', 'base', Time()).header)"
-    assert "x=-1.5" in asking(running, f"buffer.transform({there}, 'base').point").stdout
+    assert "x=-1.5" in look_up(running, f"buffer.transform({there}, 'base').point").stdout
 
 
 def test_lookup_waits_for_a_transform_within_its_time_out(running: System) -> None:
@@ -69,15 +69,15 @@ def test_missing_transform_is_reported_with_its_reason(running: System) -> None:
     running.executable("tf2_ros", "buffer_server")
     running.run(0.5)
     ask = "buffer.lookup_transform('map', 'base', Time(), Duration(seconds=1))"
-    assert asking(running, ask).stdout == (
+    assert look_up(running, ask).stdout == (
         'LookupException "map" passed to lookupTransform argument target_frame does not exist. \nafter 1.0\n'
     )
-    assert asking(running, "buffer.can_transform('map', 'base', Time())").stdout == "False\nafter 0.0\n"
+    assert look_up(running, "buffer.can_transform('map', 'base', Time())").stdout == "False\nafter 0.0\n"
 
 
 def test_missing_buffer_server_is_reported(running: System) -> None:
     ask = "buffer.lookup_transform('map', 'base', Time())"
-    assert asking(running, ask, 0.5).stdout == "TimeoutException The BufferServer is not ready.\nafter 0.0\n"
+    assert look_up(running, ask, 0.5).stdout == "TimeoutException The BufferServer is not ready.\nafter 0.0\n"
 
 
 LISTENING = """

@@ -14,7 +14,7 @@ from piloting import Session, run
 from samples import with_array
 
 
-async def opened(session: Session) -> None:
+async def open_array(session: Session) -> None:
     await session.press("1", "home")
     rows = session.pane(ParametersPane).query_one(ParameterRows)
     at = next(index for index, row in enumerate(rows.rows) if row.name == "a_list")
@@ -27,12 +27,12 @@ def sets(session: Session) -> list[Value]:
     return [each[2]["a_list"] for each in session.console.asked if each[0] == "set"]
 
 
-def edited(kind: Kind, value: Value, play: Callable[[Session], Awaitable[None]]) -> list[Value]:
+def edit_array(kind: Kind, value: Value, play: Callable[[Session], Awaitable[None]]) -> list[Value]:
     """Open the list of an array, press keys, and return the values that were set."""
     found: list[Value] = []
 
     async def scene(session: Session) -> None:
-        await opened(session)
+        await open_array(session)
         await play(session)
         found.extend(sets(session))
 
@@ -49,7 +49,7 @@ def test_array_is_edited_element_by_element_and_set_once() -> None:
         await session.press("enter", "down", "d", "J")  # 9 7.5 3, then 3 is the last: it stays
         await session.press("K", "s")  # 9 3 7.5
 
-    assert edited(Kind.DOUBLE_ARRAY, (1.0, 2.0, 3.0), play) == [(9.0, 3.0, 7.5)]
+    assert edit_array(Kind.DOUBLE_ARRAY, (1.0, 2.0, 3.0), play) == [(9.0, 3.0, 7.5)]
 
 
 @pytest.mark.slow
@@ -60,7 +60,7 @@ def test_a_text_with_a_comma_stays_one_element() -> None:
         await session.type("x, y")
         await session.press("enter", "s")
 
-    assert edited(Kind.STRING_ARRAY, ("a", "b, d"), play) == [("a", "x, y", "b, d")]
+    assert edit_array(Kind.STRING_ARRAY, ("a", "b, d"), play) == [("a", "x, y", "b, d")]
 
 
 def test_search_goes_to_matching_elements_and_hides_none() -> None:
@@ -73,7 +73,7 @@ def test_search_goes_to_matching_elements_and_hides_none() -> None:
         await session.press("n")
         assert rows.cursor == 3
 
-    assert edited(Kind.STRING_ARRAY, ("fig", "kiwi", "plum", "kiwi 2"), play) == []
+    assert edit_array(Kind.STRING_ARRAY, ("fig", "kiwi", "plum", "kiwi 2"), play) == []
 
 
 def test_invalid_element_is_explained_and_rejected() -> None:
@@ -84,7 +84,7 @@ def test_invalid_element_is_explained_and_rejected() -> None:
         assert "is not an integer" in session.text()
         await session.press("escape", "s")
 
-    assert edited(Kind.INTEGER_ARRAY, (1,), play) == []
+    assert edit_array(Kind.INTEGER_ARRAY, (1,), play) == []
 
 
 @pytest.mark.slow
@@ -103,7 +103,7 @@ def test_byte_array_and_empty_array_are_edited() -> None:
         assert "0xff" in session.text()
         await session.press("s")
 
-    assert edited(Kind.BYTE_ARRAY, (), play) == [(b"\xff",)]
+    assert edit_array(Kind.BYTE_ARRAY, (), play) == [(b"\xff",)]
 
 
 @pytest.mark.parametrize("undone", [pytest.param(True, marks=pytest.mark.slow), False])
@@ -116,7 +116,7 @@ def test_changes_are_discarded_only_at_the_second_escape(undone: bool) -> None:
             await session.press("escape")
         assert not isinstance(session.app.screen, ElementsScreen)
 
-    assert edited(Kind.BOOL_ARRAY, (True, False), play) == []
+    assert edit_array(Kind.BOOL_ARRAY, (True, False), play) == []
 
 
 def test_the_list_closes_when_the_node_leaves() -> None:
@@ -127,4 +127,4 @@ def test_the_list_closes_when_the_node_leaves() -> None:
         assert not isinstance(session.app.screen, ElementsScreen)
         assert "has left" in session.text()
 
-    assert edited(Kind.BOOL_ARRAY, (True, False), play) == []
+    assert edit_array(Kind.BOOL_ARRAY, (True, False), play) == []

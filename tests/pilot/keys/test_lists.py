@@ -21,7 +21,7 @@ LINES = 60
 MATCH = "kiwi"
 
 
-def crowded(elements: tuple[str, ...] = ()) -> tuple[FakeConsole, FakeLauncher]:
+def crowded_system(elements: tuple[str, ...] = ()) -> tuple[FakeConsole, FakeLauncher]:
     """A system in which every list is longer than the screen, with three rows that match."""
     console, launcher = with_array(Kind.STRING_ARRAY, elements)
     for at in range(LINES):
@@ -62,15 +62,15 @@ def focused(session: Session) -> RowList:
 
 def at_cursor(rows: RowList) -> str:
     """The text that identifies the row at the cursor, whatever the widths of its columns."""
-    return about("".join(each.text for each in rows.row(rows.cursor, 200)))
+    return identifying_text("".join(each.text for each in rows.row(rows.cursor, 200)))
 
 
-def about(text: str) -> str:
+def identifying_text(text: str) -> str:
     found = re.search(rf"{MATCH}[\d _-]*\d", text)
     return found[0] if found else text
 
 
-async def ends_and_pages(session: Session, rows: RowList, home: str, end: str) -> None:
+async def check_ends_and_pages(session: Session, rows: RowList, home: str, end: str) -> None:
     await session.press(end)
     last = rows.row_count() - 1
     assert rows.cursor == last > 20
@@ -88,14 +88,14 @@ def test_keys_go_to_first_and_last_row_and_by_pages(digit: str) -> None:
     async def play(session: Session) -> None:
         await session.press(digit)
         for home, end in (("g", "G"), ("home", "end")):
-            await ends_and_pages(session, focused(session), home, end)
+            await check_ends_and_pages(session, focused(session), home, end)
 
-    run(crowded(), play)
+    run(crowded_system(), play)
 
 
 def matches(rows: RowList) -> Sequence[str]:
     texts = ("".join(each.text for each in rows.row(index, 200)) for index in range(rows.row_count()))
-    return [about(text) for text in texts if MATCH in text]
+    return [identifying_text(text) for text in texts if MATCH in text]
 
 
 async def filter_and_step(session: Session) -> None:
@@ -127,7 +127,7 @@ def test_filter_counts_matches_and_n_steps_through_them(digit: str) -> None:
         await session.press(digit)
         await filter_and_step(session)
 
-    run(crowded(), play, size=(120, 40))
+    run(crowded_system(), play, size=(120, 40))
 
 
 @pytest.mark.parametrize("digits", ["2", pytest.param("31278", marks=pytest.mark.slow)])
@@ -166,7 +166,7 @@ def test_search_in_elements_hides_nothing() -> None:
     async def play(session: Session) -> None:
         await session.press("1", "slash", *"a_list", "enter", "enter")
         rows = focused(session)
-        await ends_and_pages(session, rows, "g", "G")
+        await check_ends_and_pages(session, rows, "g", "G")
         await session.press("slash", *MATCH, "enter")
         assert rows.row_count() == LINES and rows.cursor == 10
         await session.press("n", "n")
@@ -174,7 +174,7 @@ def test_search_in_elements_hides_nothing() -> None:
         await session.press("N")
         assert rows.cursor == 30
 
-    run(crowded(tuple(f"{name(at)}_{at}" for at in range(LINES))), play)
+    run(crowded_system(tuple(f"{name(at)}_{at}" for at in range(LINES))), play)
 
 
 def test_picker_has_the_same_keys_for_ends_and_pages() -> None:
@@ -182,11 +182,11 @@ def test_picker_has_the_same_keys_for_ends_and_pages() -> None:
         await session.press("8", "o")
         assert isinstance(session.app.screen, PickerScreen)
         rows = session.app.screen.query_one(RowList)
-        await ends_and_pages(session, rows, "home", "end")
+        await check_ends_and_pages(session, rows, "home", "end")
         await session.type(MATCH)
         assert rows.row_count() == 3 and "3 of " in session.text()
 
-    run(crowded(), play)
+    run(crowded_system(), play)
 
 
 def test_pane_keys_are_disabled_while_typing() -> None:

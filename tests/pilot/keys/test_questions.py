@@ -24,7 +24,7 @@ def rows(session: Session) -> ParameterRows:
     return session.pane(ParametersPane).query_one(ParameterRows)
 
 
-def asked(session: Session) -> list[tuple[object, ...]]:
+def set_requests(session: Session) -> list[tuple[object, ...]]:
     return [each[1:] for each in session.console.asked if each[0] == "set"]
 
 
@@ -50,7 +50,7 @@ async def edit(session: Session, name: str) -> None:
     assert prompt(session).is_open
 
 
-def without(session: Session, node: str) -> None:
+def remove_node(session: Session, node: str) -> None:
     trees = session.console.current.parameters
     session.console.change(parameters=MappingProxyType({name: tree for name, tree in trees.items() if name != node}))
 
@@ -62,7 +62,7 @@ def test_value_is_set_on_the_edited_parameter_after_the_cursor_moved() -> None:
         rows(session).cursor += 2
         await session.type("2")
         await session.press("enter")
-        assert asked(session) == [("/robot_navigator", {"max_speed": 2.0})]
+        assert set_requests(session) == [("/robot_navigator", {"max_speed": 2.0})]
 
     run(live(), play)
 
@@ -85,7 +85,7 @@ def test_click_moves_cursor_and_prompt_keeps_focus() -> None:
         assert rows(session).cursor == at + 2
         await session.type("2")
         await session.press("enter")
-        assert asked(session) == [("/robot_navigator", {"max_speed": 2.0})]
+        assert set_requests(session) == [("/robot_navigator", {"max_speed": 2.0})]
         assert session.app.focused is rows(session)
 
     run(live(), play)
@@ -110,7 +110,7 @@ def test_edit_closes_when_its_node_leaves(gone: str) -> None:
     async def play(session: Session) -> None:
         await edit(session, "max_speed")
         if gone == "node":
-            without(session, "/robot_navigator")
+            remove_node(session, "/robot_navigator")
         else:
             trees = dict(session.console.current.parameters)
             tree = trees["/robot_navigator"]
@@ -121,7 +121,7 @@ def test_edit_closes_when_its_node_leaves(gone: str) -> None:
         assert not prompt(session).is_open and "was not set" in session.text().replace("\n", " ")
         assert session.app.focused is rows(session)
         await session.press("enter")
-        assert asked(session) == []
+        assert set_requests(session) == []
 
     run(live(), play, (120, 30))
 
@@ -129,9 +129,9 @@ def test_edit_closes_when_its_node_leaves(gone: str) -> None:
 def test_answer_is_refused_if_the_node_has_just_left() -> None:
     async def play(session: Session) -> None:
         await edit(session, "max_speed")
-        without(session, "/robot_navigator")
+        remove_node(session, "/robot_navigator")
         await at_once(session, "2\r")
-        assert asked(session) == [] and not prompt(session).is_open
+        assert set_requests(session) == [] and not prompt(session).is_open
 
     run(live(), play)
 
@@ -167,7 +167,7 @@ def test_keys_typed_fast_go_to_the_value_until_enter() -> None:
         await edit(session, "max_speed")
         await session.press("escape")
         await at_once(session, "e2.5\rj")
-        assert asked(session) == [("/robot_navigator", {"max_speed": 2.5})]
+        assert set_requests(session) == [("/robot_navigator", {"max_speed": 2.5})]
         assert rows(session).current.name != "max_speed"
 
     run(live(), play)
@@ -232,7 +232,7 @@ def test_prompt_regains_the_focus_when_the_terminal_is_large_again(away: tuple[t
         assert "esc Cancel" in session.lines()[-1]
         await session.type(".5")
         await session.press("enter")
-        assert asked(session) == [("/robot_navigator", {"max_speed": 2.5})]
+        assert set_requests(session) == [("/robot_navigator", {"max_speed": 2.5})]
 
     run(live(), play)
 

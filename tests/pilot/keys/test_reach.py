@@ -24,12 +24,12 @@ from textual.widgets import Input
 IDS = [each.id for each in PANES]
 
 
-def shown(session: Session) -> list[str]:
+def visible_pane_ids(session: Session) -> list[str]:
     return [each.id or "" for each in session.app.visible_panes()]
 
 
 @dataclass
-class Visit:
+class PaneVisit:
     """The state of the console after the key of a pane was pressed."""
 
     shown: list[str]
@@ -44,20 +44,20 @@ class Visit:
 
 
 @cache
-def visits() -> dict[str, Visit]:
+def visits() -> dict[str, PaneVisit]:
     """Walk once through all panes; several tests examine the keys found there."""
-    found: dict[str, Visit] = {}
+    found: dict[str, PaneVisit] = {}
 
     async def play(session: Session) -> None:
         for entry in PANES:
             await session.press(entry.key)
             pane, key_bar = session.app.current_pane, session.lines()[-1]
-            at, seen, held = session.app.focused, shown(session), claims(session)
+            at, seen, held = session.app.focused, visible_pane_ids(session), claims(session)
             await session.press("exclamation_mark")
             first, status = session.console.asked[-1], session.lines()[-2]
             await session.press("exclamation_mark")
             second = session.console.asked[-1]
-            found[entry.id] = Visit(seen, pane and pane.id, at is not None, key_bar, held, first, status, second)
+            found[entry.id] = PaneVisit(seen, pane and pane.id, at is not None, key_bar, held, first, status, second)
 
     run(live(), play, (60, 20))
     return found
@@ -82,7 +82,7 @@ def test_tab_and_shift_tab_open_the_next_pane_and_the_one_before() -> None:
     async def play(session: Session) -> None:
         await session.press("1", "tab")
         following = session.app.current_pane.id
-        assert following in IDS[1:] and shown(session) == [following]
+        assert following in IDS[1:] and visible_pane_ids(session) == [following]
         await session.press("shift+tab")
         assert session.app.current_pane.id == "parameters"
         await session.press("shift+tab")
@@ -122,7 +122,7 @@ def test_overview_shows_the_panes_that_fit() -> None:
             await session.press("4")
             await session.pilot.resize_terminal(*size)
             await session.press("0")
-            assert set(shown(session)) == expected, size
+            assert set(visible_pane_ids(session)) == expected, size
 
     run(live(), play)
 
@@ -130,9 +130,9 @@ def test_overview_shows_the_panes_that_fit() -> None:
 def test_z_maximises_a_pane_and_restores_the_overview() -> None:
     async def play(session: Session) -> None:
         await session.press("tab", "z")
-        assert shown(session) == ["world"]
+        assert visible_pane_ids(session) == ["world"]
         await session.press("z")
-        assert len(shown(session)) == 4
+        assert len(visible_pane_ids(session)) == 4
 
     run(live(), play, (120, 40))
 
@@ -199,7 +199,7 @@ def test_palette_runs_an_action(key: str) -> None:
         assert isinstance(session.app.screen, PickerScreen)
         await session.type("world")
         await session.press("enter")
-        assert shown(session) == ["world"]
+        assert visible_pane_ids(session) == ["world"]
 
     run(live(), play)
 
@@ -210,7 +210,7 @@ def test_the_palette_shows_the_pane_of_an_action_and_runs_it() -> None:
         await session.type("load parameters")
         await session.press("enter")
         await session.settle()
-        assert shown(session) == ["profiles"]
+        assert visible_pane_ids(session) == ["profiles"]
         assert isinstance(session.app.screen, PickerScreen) or "parameter file" in session.text().lower()
         assert not [each for each in session.console.asked if each[0] != "watch"]
 
@@ -243,7 +243,7 @@ def test_in_a_text_field_the_all_stop_and_digits_are_text() -> None:
         field = session.app.focused
         assert isinstance(field, Input) and field.value == "!5z"
         assert not [each for each in session.console.asked if each[0] == "all_stop"]
-        assert shown(session) == ["logs"]
+        assert visible_pane_ids(session) == ["logs"]
 
     run(live(), play)
 

@@ -14,7 +14,7 @@ from textual.widgets import Input
 STOP = "exclamation_mark"
 
 
-async def behind(session: Session, *keys: str) -> list[str]:
+async def type_unhandled(session: Session, *keys: str) -> list[str]:
     """Type keys without letting any of them have its turn; return those that wait."""
     await session.app._keyboard.hold(lambda _: False)
     for each in keys:
@@ -25,7 +25,7 @@ async def behind(session: Session, *keys: str) -> list[str]:
 
 def test_held_key_acts_only_a_few_times_after_its_release() -> None:
     async def play(session: Session) -> None:
-        waiting = await behind(session, *"x" * 3 * MAX_REPEATS, *"yx" * MAX_REPEATS)
+        waiting = await type_unhandled(session, *"x" * 3 * MAX_REPEATS, *"yx" * MAX_REPEATS)
         assert waiting == [*"x" * MAX_REPEATS, *"yx" * MAX_REPEATS]
 
     run(live(), play)
@@ -34,7 +34,7 @@ def test_held_key_acts_only_a_few_times_after_its_release() -> None:
 def test_stops_are_never_dropped() -> None:
     async def play(session: Session) -> None:
         stops = [STOP] * (3 * MAX_REPEATS)
-        assert await behind(session, *stops) == stops
+        assert await type_unhandled(session, *stops) == stops
 
     run(live(), play)
 
@@ -42,7 +42,7 @@ def test_stops_are_never_dropped() -> None:
 def test_typed_text_is_not_dropped() -> None:
     async def play(session: Session) -> None:
         await session.press("colon")
-        assert len(await behind(session, *"a" * 3 * MAX_REPEATS)) == 3 * MAX_REPEATS
+        assert len(await type_unhandled(session, *"a" * 3 * MAX_REPEATS)) == 3 * MAX_REPEATS
         await session.app._keyboard.detach()
         await session.settle()
         assert session.pane(CommandField).query_one(Input).value == "a" * 3 * MAX_REPEATS
@@ -55,7 +55,7 @@ def test_waiting_keys_are_limited_except_stops(monkeypatch: MonkeyPatch) -> None
     monkeypatch.setattr(keyboard, "MAX_WAITING_KEYS", 2 * MAX_REPEATS)
 
     async def play(session: Session) -> None:
-        waiting = await behind(session, *"xy" * 3 * MAX_REPEATS, STOP)
+        waiting = await type_unhandled(session, *"xy" * 3 * MAX_REPEATS, STOP)
         assert waiting == [*"xy" * MAX_REPEATS, STOP]
 
     run(live(), play)

@@ -13,7 +13,7 @@ from samples import live
 SPEED = "/odom/twist.twist.linear.x"
 
 
-async def later(session: Session, *values: float) -> None:
+async def feed_speeds(session: Session, *values: float) -> None:
     """Let new values of the speed arrive, and a second pass."""
     times, known = session.console.series[SPEED]
     for value in values:
@@ -26,7 +26,7 @@ async def later(session: Session, *values: float) -> None:
     await session.settle()
 
 
-def reported(session: Session) -> int:
+def alarm_notifications(session: Session) -> int:
     return sum(each.title == "Alarm" for each in session.app._notifications)
 
 
@@ -40,22 +40,22 @@ def test_alarm_is_announced_once_per_crossing_even_while_hidden() -> None:
     async def play(session: Session) -> None:
         await session.press("B")
         await add(session, f"too fast: {SPEED} > 2")
-        await later(session, 1.0)
-        assert reported(session) == 0 and "○ quiet" in session.text()
+        await feed_speeds(session, 1.0)
+        assert alarm_notifications(session) == 0 and "○ quiet" in session.text()
         await session.press("1")
-        await later(session, 2.5, 2.6)
-        assert reported(session) == 1 and "too fast: 2.5" in session.text()
-        await later(session, 2.7)
-        assert reported(session) == 1, "it goes on holding"
+        await feed_speeds(session, 2.5, 2.6)
+        assert alarm_notifications(session) == 1 and "too fast: 2.5" in session.text()
+        await feed_speeds(session, 2.7)
+        assert alarm_notifications(session) == 1, "it goes on holding"
         assert "⚠ too fast" in session.lines()[-2], "the status bar names it in every pane"
         await session.press("B")
         assert "✗ active" in session.text() and "1 time" in session.text() and "1 of 1 active" in session.text()
-        await later(session, 1.0, 3.0, 1.0)
-        assert reported(session) == 1, "the notice of the first time still stands"
+        await feed_speeds(session, 1.0, 3.0, 1.0)
+        assert alarm_notifications(session) == 1, "the notice of the first time still stands"
         session.pane(AlarmsPane).clock.now += 8.0
-        await later(session, 1.0, 4.0, 1.0)
+        await feed_speeds(session, 1.0, 4.0, 1.0)
         assert "(2 times)" in session.text(), "together with the time before"
-        assert reported(session) == 2 and "○ quiet" in session.text() and "3 times" in session.text()
+        assert alarm_notifications(session) == 2 and "○ quiet" in session.text() and "3 times" in session.text()
         assert "⚠" not in session.lines()[-2]
 
     run(live(), play, (120, 30))
@@ -67,10 +67,10 @@ def test_bell_rings_only_for_alarms_with_bell(monkeypatch) -> None:
         monkeypatch.setattr(session.app, "bell", lambda: rung.append(1))
         await session.press("B")
         await add(session, f"{SPEED} > 2")
-        await later(session, 3.0)
+        await feed_speeds(session, 3.0)
         assert rung == []
         await session.press("b")
-        await later(session, 1.0, 3.0)
+        await feed_speeds(session, 1.0, 3.0)
         assert rung == [1] and session.pane(AlarmRows).current.bell
 
     run(live(), play)
@@ -102,12 +102,12 @@ def test_invalid_condition_is_rejected_and_missing_topic_is_awaited() -> None:
         assert "name a field" in session.text()
         await session.press("escape")
         await add(session, "low: /battery/percentage < 0.2")
-        await later(session)
+        await feed_speeds(session)
         assert "? unknown" in session.text() and "there is no topic /battery" in session.text()
         session.console.series["/battery/percentage"] = ([1.0], [0.1])
-        await later(session)
-        await later(session)
-        assert "✗ active" in session.text() and reported(session) == 1
+        await feed_speeds(session)
+        await feed_speeds(session)
+        assert "✗ active" in session.text() and alarm_notifications(session) == 1
 
     run(live(), play, (120, 30))
 
@@ -140,7 +140,7 @@ def test_alarms_are_suggested_with_live_values_and_enter_watches_one() -> None:
 
     async def play(session: Session) -> None:
         await session.press("B")
-        await later(session, 0.5)
+        await feed_speeds(session, 0.5)
         row = next(line for line in session.lines() if "close to something" in line)
         assert "min(/scan/ranges) < 0.3" in row and "now 0.85" in row
         assert "enter Watch" in session.lines()[-1] and "Delete" not in session.lines()[-1]
@@ -149,17 +149,17 @@ def test_alarms_are_suggested_with_live_values_and_enter_watches_one() -> None:
         session.console.change(drive=DriveInfo())
         await session.settle()
         assert "now 0.85" in session.text(), "not with each change of the system: figures that fast cannot be read"
-        await later(session, 0.5)
+        await feed_speeds(session, 0.5)
         assert "now 0.7" in session.text()
         while session.pane(AlarmRows).current.name != "no scan":
             await session.press("down")
         await session.press("enter")
         assert session.app.state_store.get("alarms") == [{"name": "no scan", "condition": "rate(/scan) < 1"}]
-        await later(session, 0.5)
+        await feed_speeds(session, 0.5)
         assert "enter Edit  d Delete  b Bell" in session.lines()[-1]
         assert "○ quiet" in session.text() and "close to something" not in session.text()
         session.console.series["rate(/scan)"] = ([1.0, 2.0], [9.8, 0.0])
-        await later(session, 0.5)
+        await feed_speeds(session, 0.5)
         assert "✗ active" in session.text()
         assert ("unwatch", "/scan/ranges.min()") in session.console.asked, "what is not suggested is not received"
 
@@ -182,13 +182,13 @@ def test_suggested_topics_are_not_received_while_the_pane_is_hidden() -> None:
     system[0].series["rate(/scan)"] = ([1.0], [9.8])
 
     async def play(session: Session) -> None:
-        await later(session, 0.5)
+        await feed_speeds(session, 0.5)
         assert ("watch", "rate(/scan)") not in session.console.asked
         await session.press("B")
-        await later(session, 0.5)
+        await feed_speeds(session, 0.5)
         assert ("watch", "rate(/scan)") in session.console.asked
         await session.press("1")
-        await later(session, 0.5)
+        await feed_speeds(session, 0.5)
         assert ("unwatch", "rate(/scan)") in session.console.asked
 
     run(system, play)

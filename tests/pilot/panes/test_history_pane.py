@@ -18,18 +18,18 @@ from samples import live
 NAVIGATOR = "/robot_navigator"
 
 
-def shown(session: Session) -> list[tuple[str, object]]:
+def shown_changes(session: Session) -> list[tuple[str, object]]:
     return [(each.name, each.new) for each in session.pane(ChangeRows).rows]
 
 
-def asked(session: Session) -> list[dict[str, dict[str, object]]]:
+def set_requests(session: Session) -> list[dict[str, dict[str, object]]]:
     return [each[1] for each in session.console.asked if each[0] == "set_all"]
 
 
 def test_changes_are_listed_newest_first_with_source_and_reason() -> None:
     async def play(session: Session) -> None:
         await session.press("H")
-        assert shown(session) == [("max_speed", 10.0), ("max_speed", 1.0), ("turn_rate", 1.5)]
+        assert shown_changes(session) == [("max_speed", 10.0), ("max_speed", 1.0), ("turn_rate", 1.5)]
         text = session.text()
         assert "✗ max_speed" in text and "too fast" in text
         assert "profile outdoor" in text and "11-13" in text, "an earlier run stands with its date"
@@ -37,7 +37,7 @@ def test_changes_are_listed_newest_first_with_source_and_reason() -> None:
         assert "ros2 param set /robot_navigator max_speed 1.0" in session.text()
         session.console.take(NAVIGATOR, {"turn_rate": 2.0}, ChangeSource.OTHER)
         await session.settle()
-        assert shown(session)[0] == ("turn_rate", 2.0)
+        assert shown_changes(session)[0] == ("turn_rate", 2.0)
         assert session.pane(ChangeRows).current.new == 1.0, "the cursor stays on its change"
 
     run(live(), play, (100, 30))
@@ -89,7 +89,7 @@ def test_values_set_together_are_one_row_that_enter_opens_and_undoes_together() 
         await session.press("down", "left")
         assert "▸ profile outdoor" in session.text() and "1.0 → 2.0" not in session.text()
         await session.press("b", "y")
-        assert asked(session) == [{NAVIGATOR: {"max_speed": 1.0, "turn_rate": 1.0}}]
+        assert set_requests(session) == [{NAVIGATOR: {"max_speed": 1.0, "turn_rate": 1.0}}]
 
     run(live(), play, (100, 30))
 
@@ -104,9 +104,9 @@ def test_going_back_to_a_row_asks_and_sets_all_values_together() -> None:
         assert "turn_rate  2.0 → 1.0" in text and "lidar.beams  90 → 360" in text
         assert "max_speed" not in text.partition("max_speed?")[2].partition("y yes")[0], "it has not changed since"
         await session.press("n")
-        assert asked(session) == []
+        assert set_requests(session) == []
         await session.press("u", "y")
-        assert asked(session) == [{NAVIGATOR: {"turn_rate": 1.0}, "/simulator": {"lidar.beams": 360}}]
+        assert set_requests(session) == [{NAVIGATOR: {"turn_rate": 1.0}, "/simulator": {"lidar.beams": 360}}]
         assert "2 values put back" in session.text()
         tree = session.console.current.parameters[NAVIGATOR]
         assert (tree.get("turn_rate").value, tree.get("max_speed").value) == (1.0, 2.0)
@@ -133,7 +133,7 @@ def test_single_change_is_reverted_with_a_safety_warning() -> None:
         await session.press("H", "down", "b")
         assert "⚠" in session.text() and "lowers a safety margin" in session.text()
         await session.press("y")
-        assert asked(session) == [{NAVIGATOR: {"safety_distance": 0.8}}]
+        assert set_requests(session) == [{NAVIGATOR: {"safety_distance": 0.8}}]
         await session.press("G", "up", "up", "b")
         assert "was not set, so there is nothing" in session.text(), "a refusal"
 
@@ -146,11 +146,11 @@ def test_changes_are_filtered_by_words_and_by_refusal() -> None:
         await session.press("H", "slash")
         await session.paste("outdoor")
         await session.press("enter")
-        assert shown(session) == [("turn_rate", 1.5)] and "1 of 3" in session.text()
+        assert shown_changes(session) == [("turn_rate", 1.5)] and "1 of 3" in session.text()
         await session.press("escape", "escape", "x")
-        assert shown(session) == [("max_speed", 10.0)]
+        assert shown_changes(session) == [("max_speed", 10.0)]
         await session.press("escape")
-        assert len(shown(session)) == 3
+        assert len(shown_changes(session)) == 3
 
     run(live(), play)
 
@@ -163,7 +163,7 @@ def test_value_whose_node_did_not_answer_differs_from_refused_one() -> None:
         await session.press("slash")
         await session.paste("refused")
         await session.press("enter")
-        assert shown(session) == []
+        assert shown_changes(session) == []
 
     run(live(), play)
 

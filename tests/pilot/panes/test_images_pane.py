@@ -18,11 +18,11 @@ def picture(light: int, count: int = 1, topic: str = "/front/image") -> Picture:
     return Picture(topic, count, 640, 480, "mono8", 16, 12, bytes([light, light, light] * 16 * 12))
 
 
-def drawn(session: Session) -> str:
+def drawn_lines(session: Session) -> str:
     return repr(session.pane(ImageView).lines)
 
 
-async def later(session: Session, seconds: float) -> None:
+async def pass_time(session: Session, seconds: float) -> None:
     pane = session.pane(ImagesPane)
     pane.clock.now += seconds
     pane.tick()
@@ -35,7 +35,7 @@ def test_first_topic_is_shown_in_half_blocks_and_n_shows_the_next() -> None:
         sensors = session.console.sensors
         width, height = session.pane(ImageView).size
         assert sensors.watching == ("/front/image", width, 2 * height)
-        assert "/front/image  640x480 mono8" in session.text() and "on #cccccc" in drawn(session)
+        assert "/front/image  640x480 mono8" in session.text() and "on #cccccc" in drawn_lines(session)
         await session.press("n")
         assert sensors.watching[0] == "/rear/image" and "no image yet" in session.text()
         await session.press("t")
@@ -53,16 +53,16 @@ def test_frame_rate_is_limited_and_freezing_stops_updates() -> None:
     async def play(session: Session) -> None:
         await session.press("I")
         session.console.sensors.shown = picture(40, 2)
-        await later(session, 0.3)
-        assert "on #cccccc" in drawn(session), "not before its time"
-        await later(session, 0.3)
-        assert "on #222222" in drawn(session)
+        await pass_time(session, 0.3)
+        assert "on #cccccc" in drawn_lines(session), "not before its time"
+        await pass_time(session, 0.3)
+        assert "on #222222" in drawn_lines(session)
         await session.press("space")
         session.console.sensors.shown = picture(200, 5)
-        await later(session, 10.0)
-        assert "on #222222" in drawn(session) and "frozen, +3 new; space resumes" in session.text()
+        await pass_time(session, 10.0)
+        assert "on #222222" in drawn_lines(session) and "frozen, +3 new; space resumes" in session.text()
         await session.press("space")
-        assert "on #cccccc" in drawn(session)
+        assert "on #cccccc" in drawn_lines(session)
         await session.press("minus", "minus")
         assert "at most 0.5 a second" in session.text()
 
@@ -74,10 +74,10 @@ def test_slow_link_freezes_the_image_and_space_fetches_one(monkeypatch) -> None:
         await session.press("I")
         monkeypatch.setattr(type(session.app.gate), "held_back", 20)
         session.console.sensors.shown = picture(40, 3)
-        await later(session, 10.0)
-        assert "on #cccccc" in drawn(session) and "slow link: frozen, +2 new" in session.text()
+        await pass_time(session, 10.0)
+        assert "on #cccccc" in drawn_lines(session) and "slow link: frozen, +2 new" in session.text()
         await session.press("space")
-        assert "on #222222" in drawn(session)
+        assert "on #222222" in drawn_lines(session)
 
     run(system(), play)
 
@@ -85,12 +85,12 @@ def test_slow_link_freezes_the_image_and_space_fetches_one(monkeypatch) -> None:
 def test_characters_are_used_on_request_and_on_plain_terminals() -> None:
     async def play(session: Session) -> None:
         await session.press("I", "g")
-        assert "################" in session.text() and "#cccccc" not in drawn(session)
+        assert "################" in session.text() and "#cccccc" not in drawn_lines(session)
         await session.press("g")
-        assert "#cccccc" in drawn(session)
+        assert "#cccccc" in drawn_lines(session)
         session.app.action_glyphs()
         session.console.sensors.shown = picture(200, 2)
-        await later(session, 1.0)
+        await pass_time(session, 1.0)
         assert "################" in session.text()
 
     run(system(), play)

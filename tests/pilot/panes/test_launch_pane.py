@@ -201,7 +201,7 @@ def test_a_launch_file_for_the_running_nodes_is_written(tmp_path) -> None:
 LIFECYCLE_NODE = "/sensor_handler"
 
 
-def with_lifecycle_node(session: Session) -> str:
+def add_lifecycle_node(session: Session) -> str:
     graph = session.console.snapshot().graph
     session.console.change(graph=replace(graph, lifecycle={LIFECYCLE_NODE: "inactive"}))
     return LIFECYCLE_NODE
@@ -209,7 +209,7 @@ def with_lifecycle_node(session: Session) -> str:
 
 def test_a_lifecycle_node_shows_its_state_and_makes_transitions() -> None:
     async def play(session: Session) -> None:
-        name = with_lifecycle_node(session)
+        name = add_lifecycle_node(session)
         await session.press("8")
         session.pane(LaunchPane).go_to(name)
         await session.settle()
@@ -228,7 +228,7 @@ def test_a_lifecycle_node_shows_its_state_and_makes_transitions() -> None:
 @pytest.mark.slow
 def test_a_lifecycle_node_makes_transitions_in_the_graph_too() -> None:
     async def play(session: Session) -> None:
-        name = with_lifecycle_node(session)
+        name = add_lifecycle_node(session)
         await session.press("3")
         assert "sensor_handler (inactive)" in session.text()
         session.pane(GraphPane).go_to(name)

@@ -83,7 +83,7 @@ def run(
     asyncio.run(main())
 
 
-async def look(session: Session) -> None:
+async def check_lesson(session: Session) -> None:
     """Let the lesson check what has happened."""
     for _ in range(5):
         session.pane(LessonPane).tick()
@@ -97,11 +97,11 @@ def test_step_is_shown_and_the_next_one_once_it_is_done(size: tuple[int, int], t
         assert "waiting for: speed to be set to 2.0" in session.text()
         assert "ros2 param set /robot speed 2.0" in session.text()
         session.console.journal.append(Change(5, 0, "/robot", "speed", 1.0, 2.0, ChangeSource.OTHER))
-        await look(session)
+        await check_lesson(session)
         assert "2/2 Look at the plot" in session.text()
         assert "1 of 2 done" in session.text()
         await session.press("4", "0")  # The visit is over when the lesson checks.
-        await look(session)
+        await check_lesson(session)
         assert "2 of 2 done" in session.text()
 
     run(tmp_path, play, size)
@@ -128,7 +128,7 @@ def test_enter_does_not_make_a_step_done(tmp_path: Path) -> None:
     async def play(session: Session) -> None:
         session.pane(LessonPane).focus_target()
         await session.press("enter", "escape", "n", "n", "p")
-        await look(session)
+        await check_lesson(session)
         assert "0 of 2 done" in session.text()
 
     run(tmp_path, play, (120, 40))
@@ -192,12 +192,12 @@ def test_each_press_of_y_copies_the_next_listing(tmp_path: Path) -> None:
 def test_steering_counts_once_a_key_moves_the_robot_and_not_when_it_is_armed(tmp_path: Path) -> None:
     async def play(session: Session) -> None:
         await session.press("6", "enter", "0")
-        await look(session)
+        await check_lesson(session)
         assert "0 of 1 done" in session.text()
         await session.press("6", "enter", "w")
         session.pane(LessonPane).tick()
         await session.press("space", "0")
-        await look(session)
+        await check_lesson(session)
         assert "1 of 1 done" in session.text()
 
     chapter = "# One\n## Drive\n```step\nsaw-steering\n```\n"

@@ -20,7 +20,7 @@ AT_ONCE = 5_000
 SITE = ("node.py", "callback", 7)
 
 
-class Flooded(FakeConsole):
+class FloodedConsole(FakeConsole):
     """A console with a real log, searched in the background like that of a robot."""
 
     def __init__(self, lines: int) -> None:
@@ -41,7 +41,7 @@ class Flooded(FakeConsole):
                 self.change(logs=self.records.state)  # the newer half arrives while this one is drawn
 
 
-async def drawn(session: Session, until: str) -> list[tuple[int, int]]:
+async def counts_until(session: Session, until: str) -> list[tuple[int, int]]:
     """Refresh until a line is shown; return the counts that were on the screen meanwhile."""
     counts: list[tuple[int, int]] = []
     while until not in session.text():
@@ -53,29 +53,29 @@ async def drawn(session: Session, until: str) -> list[tuple[int, int]]:
     return counts
 
 
-def shown(session: Session) -> np.ndarray[Any, Any]:
+def shown_numbers(session: Session) -> np.ndarray[Any, Any]:
     numbers: Any = session.pane(LogsPane).query_one(LogRows).numbers
     return numbers.array()
 
 
 @pytest.mark.parametrize("lines", [10_000, pytest.param(100_000, marks=pytest.mark.slow)])
 def test_many_lines_are_followed_and_counted_exactly_once(lines: int) -> None:
-    console = Flooded(lines)
+    console = FloodedConsole(lines)
 
     async def play(session: Session) -> None:
         await session.press("2", "r")  # each line separately
         for first in range(0, lines, AT_ONCE):
             console.flood(first)
-            counts = await drawn(session, f"line {first + AT_ONCE - 1} ")
+            counts = await counts_until(session, f"line {first + AT_ONCE - 1} ")
             assert counts and all(part <= whole for part, whole in counts)
-        assert np.array_equal(shown(session), np.arange(lines)), "no line twice, none missing"
+        assert np.array_equal(shown_numbers(session), np.arange(lines)), "no line twice, none missing"
         console.change(logs=console.records.state)
-        await drawn(session, f"{lines} of {lines}")
+        await counts_until(session, f"{lines} of {lines}")
         await session.press("w")
-        await drawn(session, f"{lines // 10} of {lines} · >= WARN")
-        assert np.array_equal(shown(session), np.arange(0, lines, 10))
+        await counts_until(session, f"{lines // 10} of {lines} · >= WARN")
+        assert np.array_equal(shown_numbers(session), np.arange(0, lines, 10))
         console.flood(lines)
-        counts = await drawn(session, f"line {lines + AT_ONCE - 10} ")
+        counts = await counts_until(session, f"line {lines + AT_ONCE - 10} ")
         assert all(part <= whole for part, whole in counts)
 
     try:

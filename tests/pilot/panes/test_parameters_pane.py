@@ -36,7 +36,7 @@ async def go_to(session: Session, name: str) -> None:
     await session.press("home", *["down"] * at)
 
 
-def asked(session: Session) -> list[tuple[str, dict[str, object]]]:
+def set_requests(session: Session) -> list[tuple[str, dict[str, object]]]:
     return [each[1:] for each in session.console.asked if each[0] == "set"]
 
 
@@ -91,7 +91,7 @@ def test_number_is_edited_and_stepped() -> None:
         await session.press("e")
         await session.type("2")
         await session.press("enter", "plus", "greater_than_sign", "minus")
-        values = [each[1]["max_speed"] for each in asked(session)]
+        values = [each[1]["max_speed"] for each in set_requests(session)]
         assert values == [2.0, 2.05, 2.55, 2.5]
         assert "2.5 m/s" in session.text()
 
@@ -207,11 +207,11 @@ def test_boolean_toggles_and_invalid_value_is_explained() -> None:
         await session.press("1")
         await go_to(session, "enable_safety")
         await session.press("enter", "y")
-        assert asked(session) == [("/robot_navigator", {"enable_safety": False})]
+        assert set_requests(session) == [("/robot_navigator", {"enable_safety": False})]
         await session.press("up", "enter")
         await session.type("many")
         await session.press("enter")
-        assert "is not an integer" in session.text() and len(asked(session)) == 1
+        assert "is not an integer" in session.text() and len(set_requests(session)) == 1
         await session.press("escape")
 
     run(live(), play)
@@ -328,7 +328,7 @@ def test_reset_undo_redo_folding_and_filters_work() -> None:
         assert [row.name for row in rows(session).rows if row.parameter] == ["safety_distance"]
         await go_to(session, "safety_distance")
         await session.press("d")
-        assert asked(session)[-1] == ("/robot_navigator", {"safety_distance": 0.5})
+        assert set_requests(session)[-1] == ("/robot_navigator", {"safety_distance": 0.5})
         await session.press("c", "u", "U")
         assert ("undo",) in session.console.asked and ("redo",) in session.console.asked
         await session.press("C")

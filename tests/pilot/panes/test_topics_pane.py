@@ -20,7 +20,7 @@ SIZE = (100, 30)
 SET_BOOL, FIBONACCI = "std_srvs/srv/SetBool", "example_interfaces/action/Fibonacci"
 
 
-def with_services() -> GraphInfo:
+def graph_with_services() -> GraphInfo:
     """The robot's graph with an additional service and action."""
     known = graph()
     server = NodeInfo(
@@ -38,7 +38,7 @@ def tick(session: Session, seconds: float = 1.0) -> None:
     pane.tick()
 
 
-async def opened(session: Session, *keys: str) -> TopicsPane:
+async def open_pane(session: Session, *keys: str) -> TopicsPane:
     """Open the pane with a clock that the test steps."""
     pane = session.pane(TopicsPane)
     pane.clock = Clock()
@@ -58,7 +58,7 @@ async def at(session: Session, name: str) -> None:
 @pytest.mark.slow
 def test_heading_fits_the_columns_of_a_list_that_is_laid_out_after_the_pane() -> None:
     async def play(session: Session) -> None:
-        pane = await opened(session)
+        pane = await open_pane(session)
         rows, title = pane.query_one(TopicRows), pane.query_one("#topics-heading", StaticText)
         assert str(title.content) == heading(rows.columns(rows.across), Kind.TOPICS)
         rows.styles.width = rows.across - 8
@@ -70,7 +70,7 @@ def test_heading_fits_the_columns_of_a_list_that_is_laid_out_after_the_pane() ->
 
 def test_figures_change_once_a_second_however_often_the_system_changes() -> None:
     async def play(session: Session) -> None:
-        pane = await opened(session)
+        pane = await open_pane(session)
         topics = session.console.topics
         topics.figures["/odom"] = replace(topics.figures["/odom"], rate=20.0)
         drive = session.console.current.drive
@@ -88,7 +88,7 @@ def test_figures_change_once_a_second_however_often_the_system_changes() -> None
 
 def test_topics_show_rates_and_faults() -> None:
     async def play(session: Session) -> None:
-        await opened(session)
+        await open_pane(session)
         line = next(each for each in session.lines() if "/odom" in each)
         assert "1/3" in line and " 50 " in line and "37 kB" in line and "2.1 ms" in line
         await at(session, "/cmd_vel_teleop")
@@ -110,7 +110,7 @@ def test_expected_rates_come_from_a_file_and_show_what_is_late_here_and_in_alarm
     )
 
     async def play(session: Session) -> None:
-        await opened(session, "E")
+        await open_pane(session, "E")
         await session.paste(str(file))
         await session.press("enter")
         assert ("expect", str(file)) in session.console.asked
@@ -133,7 +133,7 @@ def test_expected_rates_come_from_a_file_and_show_what_is_late_here_and_in_alarm
 
 def test_rates_are_provisional_until_three_seconds_are_measured() -> None:
     async def play(session: Session) -> None:
-        await opened(session)
+        await open_pane(session)
         figures = session.console.topics.figures
         figures["/odom"] = replace(figures["/odom"], provisional=True)
         tick(session)
@@ -149,7 +149,7 @@ def test_rates_are_provisional_until_three_seconds_are_measured() -> None:
 
 def test_newest_values_are_a_column_and_follow_the_messages() -> None:
     async def play(session: Session) -> None:
-        await opened(session)
+        await open_pane(session)
         assert "value" in session.text() and "x 2.50 m  y -1.20 m" in next(
             each for each in session.lines() if "/odom" in each
         )
@@ -168,7 +168,7 @@ def test_namespaces_of_a_fleet_start_folded_and_unfold_one_by_one() -> None:
         return [each.name for each in session.pane(TopicRows).rows]
 
     async def play(session: Session) -> None:
-        await opened(session)
+        await open_pane(session)
         assert names(session) == [
             "/clock", "/fleet", "/map", "/parameter_events", "/robot1", "/robot2", "/robot3", "/robot4", "/rosout",
         ]  # fmt: skip
@@ -205,7 +205,7 @@ def test_fault_in_a_folded_namespace_is_marked_on_its_row() -> None:
     async def play(session: Session) -> None:
         nodes = NodeInfo("/n", (*topics[1:], extra)), NodeInfo("/m", (), topics)
         session.console.change(graph=GraphInfo(nodes, (*topics, extra)))
-        await opened(session)
+        await open_pane(session)
         assert "!▸ /arm" in session.text() and "!/arm" not in session.text()
         await at(session, "/arm")
         assert "/arm/t0: nobody publishes it" in session.text()
@@ -218,7 +218,7 @@ def test_only_visible_rows_are_measured() -> None:
 
     async def play(session: Session) -> None:
         session.console.change(graph=GraphInfo((NodeInfo("/n", topics),), topics))
-        pane = await opened(session)
+        pane = await open_pane(session)
         measuring = session.console.topics.measuring
         assert "/t000" in measuring and 10 < len(measuring) < 30
         await session.press("G")
@@ -233,7 +233,7 @@ def test_only_visible_rows_are_measured() -> None:
 
 def test_newest_message_is_a_tree_that_can_be_frozen_and_folded() -> None:
     async def play(session: Session) -> None:
-        await opened(session)
+        await open_pane(session)
         await at(session, ODOM_TOPIC)
         await session.press("enter")
         assert "2.5 m" in session.text() and "yaw 90.0°" in session.text() and "0.58 m/s" in session.text()
@@ -267,7 +267,7 @@ def test_names_beside_a_message_are_cut_in_the_middle() -> None:
 
     async def play(session: Session) -> None:
         session.console.change(graph=GraphInfo((NodeInfo("/n", topics),), topics))
-        await opened(session)
+        await open_pane(session)
         await at(session, deep[1])
         await session.press("enter")
         left = [each.partition("│")[2].split()[0] for each in session.lines() if "/cell_3" in each][:3]
@@ -285,7 +285,7 @@ def test_names_beside_a_message_are_cut_in_the_middle() -> None:
 def test_a_field_at_the_cursor_is_plotted() -> None:
     async def play(session: Session) -> None:
         session.console.series["/cmd_vel/linear.x"] = ([1.0], [1.0])
-        await opened(session)
+        await open_pane(session)
         await at(session, "/cmd_vel")
         session.console.topics.messages["/cmd_vel"] = (Twist(), "geometry_msgs/msg/Twist")
         await session.press("enter", "down", "p")
@@ -298,7 +298,7 @@ def test_a_field_at_the_cursor_is_plotted() -> None:
 
 def test_a_message_is_filled_in_and_published_once_and_at_a_rate() -> None:
     async def play(session: Session) -> None:
-        await opened(session)
+        await open_pane(session)
         await at(session, "/cmd_vel")
         await session.press("P")
         assert "Enter OK" not in session.text()
@@ -326,7 +326,7 @@ def test_a_message_is_filled_in_and_published_once_and_at_a_rate() -> None:
 def test_earlier_sent_messages_are_recalled() -> None:
     async def play(session: Session) -> None:
         session.console.topics.remembered["/cmd_vel"] = [{"linear.x": "0.1"}, {"linear.x": "0.2"}]
-        await opened(session)
+        await open_pane(session)
         await at(session, "/cmd_vel")
         await session.press("P", "left_square_bracket")
         assert "0.2 m/s" in session.text()
@@ -341,7 +341,7 @@ def test_earlier_sent_messages_are_recalled() -> None:
 @pytest.mark.slow
 def test_quaternion_is_typed_as_yaw_and_stamp_as_now() -> None:
     async def play(session: Session) -> None:
-        await opened(session)
+        await open_pane(session)
         await at(session, ODOM_TOPIC)
         await session.press("P")
         assert "now s" in session.text()
@@ -360,9 +360,9 @@ def test_quaternion_is_typed_as_yaw_and_stamp_as_now() -> None:
 
 def test_a_service_is_called_and_its_answer_shown() -> None:
     async def play(session: Session) -> None:
-        session.console.change(graph=with_services())
+        session.console.change(graph=graph_with_services())
         session.console.topics.response = Reply(True, "", 0.0123, (Field("message", "message", 0, "string", "done"),))
-        await opened(session, "m")
+        await open_pane(session, "m")
         await session.press("enter", "enter")
         await session.press("ctrl+u")
         await session.type("true")
@@ -375,8 +375,8 @@ def test_a_service_is_called_and_its_answer_shown() -> None:
 
 def test_goal_is_sent_followed_and_cancelled() -> None:
     async def play(session: Session) -> None:
-        session.console.change(graph=with_services())
-        await opened(session, "m", "m")
+        session.console.change(graph=graph_with_services())
+        await open_pane(session, "m", "m")
         await session.press("enter", "s")
         goals = session.console.topics.sent_goals
         progress = (Field("sequence", "sequence", 0, "sequence<int32>", "[0, 1]"),)
@@ -394,8 +394,8 @@ def test_goal_is_sent_followed_and_cancelled() -> None:
 
 def test_built_in_services_are_hidden_by_default() -> None:
     async def play(session: Session) -> None:
-        session.console.change(graph=with_services())
-        await opened(session, "m")
+        session.console.change(graph=graph_with_services())
+        await open_pane(session, "m")
         assert "─ Services ─" in session.text()
         assert "/enable" in session.text() and "/set_parameters" not in session.text()
         await session.press("D")
@@ -410,7 +410,7 @@ def test_key_bar_describes_keys_for_topics_services_and_actions() -> None:
         def bar() -> str:
             return session.lines()[-1]
 
-        session.console.change(graph=with_services())
+        session.console.change(graph=graph_with_services())
         await session.press("9")
         assert all(each in bar() for each in ("enter Open", "P Publish", "p Plot", "m Services", "space Freeze"))
         for do, following in (("Call", "Actions"), ("Send a goal", "Topics")):
@@ -431,9 +431,9 @@ def test_key_bar_has_no_key_for_a_call_that_cannot_be_made() -> None:
         def bar() -> str:
             return session.lines()[-1]
 
-        pane = await opened(session, "m")
+        pane = await open_pane(session, "m")
         assert "Call" not in bar(), "no service is listed"
-        session.console.change(graph=with_services())
+        session.console.change(graph=graph_with_services())
         await session.settle()
         assert "enter Call" in bar()
         session.console.change(capabilities=replace(session.console.current.capabilities, change="read-only here"))
@@ -448,7 +448,7 @@ def test_key_bar_has_no_key_for_a_call_that_cannot_be_made() -> None:
 
 def test_open_topic_is_subscribed_to_with_the_chosen_qos() -> None:
     async def play(session: Session) -> None:
-        pane = await opened(session)
+        pane = await open_pane(session)
         pane.go_to(ODOM_TOPIC)
         await session.press("enter", "Q", "pagedown", "enter")
         assert session.console.topics.qos == RequestedQos("reliable")

@@ -15,7 +15,7 @@ NODE = RobotStop("node", "simulator", "the safety monitor has gone", by_node=Tru
 STOP = "exclamation_mark"
 
 
-def held_by(session: Session) -> list[str]:
+def stop_keys(session: Session) -> list[str]:
     return [each.key for each in session.console.current.drive.stops]
 
 
@@ -29,7 +29,7 @@ def test_holder_that_has_ended_is_marked_gone_at_80_columns() -> None:
         await session.press(STOP, STOP)
         assert "bot-console of ben@lab (gone): ALL STOP" in session.text()
         await session.press("y")
-        assert held_by(session) == []
+        assert stop_keys(session) == []
 
     run(live(), play, (80, 24))
 
@@ -37,9 +37,9 @@ def test_holder_that_has_ended_is_marked_gone_at_80_columns() -> None:
 def test_stop_key_holds_and_releases_the_robot() -> None:
     async def play(session: Session) -> None:
         await session.press(STOP)
-        assert held_by(session) == ["ours"] and "ALL STOP held (! releases)" in session.text()
+        assert stop_keys(session) == ["ours"] and "ALL STOP held (! releases)" in session.text()
         await session.press(STOP)
-        assert held_by(session) == []
+        assert stop_keys(session) == []
 
     run(live(), play)
 
@@ -70,13 +70,13 @@ def test_first_press_adds_our_stop_and_second_asks_to_release_others() -> None:
         await session.settle()
         assert "(! holds it too, once more releases) by ben" in session.text()
         await session.press(STOP)
-        assert held_by(session) == ["b", "ours"] and "held (! releases)" in session.text()
+        assert stop_keys(session) == ["b", "ours"] and "held (! releases)" in session.text()
         await session.press(STOP)
         assert isinstance(session.app.screen, ConfirmScreen) and "my [foot]" in session.text()
         await session.press("n")
-        assert held_by(session) == ["b", "ours"]
+        assert stop_keys(session) == ["b", "ours"]
         await session.press(STOP, "y")
-        assert held_by(session) == [] and session.console.asked[-1] == ("release", "b")
+        assert stop_keys(session) == [] and session.console.asked[-1] == ("release", "b")
 
     run(live(), play, (120, 40))
 
@@ -92,7 +92,7 @@ def test_status_line_says_that_the_stop_key_is_typed_into_a_text_field(opened: t
         await session.press(*opened, STOP)
         session.app.pull()
         await session.settle()
-        assert session.app.stage.typing() and held_by(session) == ["ours"]
+        assert session.app.stage.typing() and stop_keys(session) == ["ours"]
         assert "held (! is a letter here)" in session.text()
         await session.press("escape")
         session.app.pull()
@@ -106,10 +106,10 @@ def test_stop_pressed_during_the_question_holds_without_asking_again() -> None:
     async def play(session: Session) -> None:
         session.console.hold([BEN])
         await session.press(STOP, STOP, STOP, STOP)
-        assert held_by(session) == ["b", "ours"]
+        assert stop_keys(session) == ["b", "ours"]
         assert len(session.app.screen_stack) == 2 and "held (! keeps it held)" in session.text()
         await session.press("n")
-        assert len(session.app.screen_stack) == 1 and held_by(session) == ["b", "ours"]
+        assert len(session.app.screen_stack) == 1 and stop_keys(session) == ["b", "ours"]
         assert "held (! releases)" in session.text()
 
     run(live(), play)
@@ -123,7 +123,7 @@ def test_release_question_closes_when_others_have_released() -> None:
         session.app.pull()
         await session.settle()
         assert len(session.app.screen_stack) == 1 and "have been released" in session.text()
-        assert held_by(session) == ["ours"]
+        assert stop_keys(session) == ["ours"]
 
     run(live(), play)
 
@@ -134,7 +134,7 @@ def test_yes_does_not_release_a_stop_that_came_after_the_question() -> None:
         await session.press(STOP, STOP)
         session.console.hold([*session.console.current.drive.stops, RobotStop("c", "carl", "wait")])
         await session.press("y")
-        assert held_by(session) == ["c"]
+        assert stop_keys(session) == ["c"]
 
     run(live(), play)
 
@@ -143,6 +143,6 @@ def test_stop_of_a_node_is_released_without_a_question() -> None:
     async def play(session: Session) -> None:
         session.console.hold([NODE])
         await session.press(STOP, STOP)
-        assert held_by(session) == []
+        assert stop_keys(session) == []
 
     run(live(), play)

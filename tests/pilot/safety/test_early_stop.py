@@ -13,11 +13,11 @@ from textual import events
 STOP = "exclamation_mark"
 
 
-def held(session: Session) -> bool:
+def is_held(session: Session) -> bool:
     return bool(session.console.current.drive.stopped_here)
 
 
-async def behind(session: Session, *keys: str) -> None:
+async def type_unhandled(session: Session, *keys: str) -> None:
     """Type keys as the reading thread sees them, without letting any of them have its turn."""
     await session.app._keyboard.hold(lambda _: False)
     for each in keys:
@@ -35,24 +35,24 @@ async def their_turn(session: Session) -> None:
 
 def test_stop_overtakes_earlier_keys_and_does_not_release_in_its_turn() -> None:
     async def play(session: Session) -> None:
-        await behind(session, "3", "2", STOP)
+        await type_unhandled(session, "3", "2", STOP)
         session.app.pull()
-        assert held(session) and "! holds it again" in session.text()
+        assert is_held(session) and "! holds it again" in session.text()
         await their_turn(session)
-        assert held(session), "its turn released what it had held"
+        assert is_held(session), "its turn released what it had held"
         await session.settle()
         assert "! releases" in session.text()
         await session.press(STOP)
-        assert not held(session)
+        assert not is_held(session)
 
     run(live(), play)
 
 
 def test_second_press_before_the_stop_is_shown_does_not_release() -> None:
     async def play(session: Session) -> None:
-        await behind(session, "3", STOP, STOP, STOP, STOP)
+        await type_unhandled(session, "3", STOP, STOP, STOP, STOP)
         await their_turn(session)
-        assert held(session)
+        assert is_held(session)
 
     run(live(), play)
 
@@ -60,10 +60,10 @@ def test_second_press_before_the_stop_is_shown_does_not_release() -> None:
 def test_press_releases_a_stop_that_was_shown() -> None:
     async def play(session: Session) -> None:
         await session.press(STOP)
-        await behind(session, "3", STOP)
-        assert held(session)
+        await type_unhandled(session, "3", STOP)
+        assert is_held(session)
         await their_turn(session)
-        assert not held(session)
+        assert not is_held(session)
 
     run(live(), play)
 
@@ -73,13 +73,13 @@ def test_press_at_a_robot_that_moves_again_stops_it_even_if_the_screen_still_say
         await session.press(STOP)
         shown = session.app._snapshot
         await session.press(STOP)
-        assert not held(session)
-        await behind(session, "3")
+        assert not is_held(session)
+        await type_unhandled(session, "3")
         session.app._snapshot = shown  # as on a machine that is too busy to draw
-        await behind(session, STOP)
-        assert held(session)
+        await type_unhandled(session, STOP)
+        assert is_held(session)
         await their_turn(session)
-        assert held(session), "the robot was let go again"
+        assert is_held(session), "the robot was let go again"
 
     run(live(), play)
 
@@ -87,10 +87,10 @@ def test_press_at_a_robot_that_moves_again_stops_it_even_if_the_screen_still_say
 def test_stop_key_typed_into_a_new_text_field_is_withdrawn_and_inserted() -> None:
     async def play(session: Session) -> None:
         await session.press("2")
-        await behind(session, "slash", STOP)
-        assert held(session), "nobody can know yet that it is a letter"
+        await type_unhandled(session, "slash", STOP)
+        assert is_held(session), "nobody can know yet that it is a letter"
         await their_turn(session)
-        assert not held(session) and session.app.focused.value == "!"
+        assert not is_held(session) and session.app.focused.value == "!"
 
     run(live(), play)
 
@@ -98,10 +98,10 @@ def test_stop_key_typed_into_a_new_text_field_is_withdrawn_and_inserted() -> Non
 def test_typed_character_keeps_the_stop_of_another_press() -> None:
     async def play(session: Session) -> None:
         await session.press("2")
-        await behind(session, STOP, "slash", STOP)
+        await type_unhandled(session, STOP, "slash", STOP)
         await their_turn(session)
         assert session.app.focused.value == "!"
-        assert held(session), session.console.asked
+        assert is_held(session), session.console.asked
 
     run(live(), play)
 
@@ -118,10 +118,10 @@ def test_typed_character_keeps_the_stop_of_another_press() -> None:
 )
 def test_stop_works_over_every_screen(keys: tuple[str, ...]) -> None:
     async def play(session: Session) -> None:
-        await behind(session, *keys, STOP)
-        assert held(session)
+        await type_unhandled(session, *keys, STOP)
+        assert is_held(session)
         await their_turn(session)
-        assert held(session)
+        assert is_held(session)
 
     run(live(), play)
 
@@ -131,9 +131,9 @@ def test_remapped_stop_key_also_stops_at_once(monkeypatch: pytest.MonkeyPatch) -
         monkeypatch.setitem(TABLE, scope, keys)
 
     async def play(session: Session) -> None:
-        await behind(session, "3", "f9")
-        assert held(session)
+        await type_unhandled(session, "3", "f9")
+        assert is_held(session)
         await their_turn(session)
-        assert held(session)
+        assert is_held(session)
 
     run(live(), play, appearance=Appearance(keys=remap({"app.stop": "f9"})))

@@ -33,7 +33,7 @@ def state(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "state"
 
 
-def boom(self: object, *_: object, **__: object) -> None:
+def raise_fault(self: object, *_: object, **__: object) -> None:
     raise KeyError("a [red]thing[/] that is missing")
 
 
@@ -72,7 +72,7 @@ def test_exception_ends_only_its_pane_and_enter_reopens_it(
     async def play(session: Session) -> None:
         await session.press("1")
         with monkeypatch.context() as broken:
-            broken.setattr(owner, name, boom)
+            broken.setattr(owner, name, raise_fault)
             await session.press(*keys)
             await session.settle()
             text = session.text()
@@ -91,7 +91,7 @@ def test_exception_ends_only_its_pane_and_enter_reopens_it(
 
 def test_exception_in_show_does_not_keep_other_panes_from_the_snapshot(monkeypatch: pytest.MonkeyPatch) -> None:
     async def play(session: Session) -> None:
-        monkeypatch.setattr(ParametersPane, "show", boom)
+        monkeypatch.setattr(ParametersPane, "show", raise_fault)
         session.console.change(problem="everything is new")
         session.app.call_later(session.app.pull)
         await session.pilot.pause()
@@ -106,7 +106,7 @@ def test_failed_steering_pane_sends_zero_velocity(monkeypatch: pytest.MonkeyPatc
     async def play(session: Session) -> None:
         await session.press("6", "enter", "w", "w")
         assert session.console.sent[-1][0] > 0
-        monkeypatch.setattr(SteeringPane, "action_steer", boom)
+        monkeypatch.setattr(SteeringPane, "action_steer", raise_fault)
         await session.press("w")
         await session.settle()
         assert session.console.sent[-1] == (0.0, 0.0)
@@ -116,7 +116,7 @@ def test_failed_steering_pane_sends_zero_velocity(monkeypatch: pytest.MonkeyPatc
 
 def test_exception_in_an_overlay_closes_it(monkeypatch: pytest.MonkeyPatch) -> None:
     async def play(session: Session) -> None:
-        monkeypatch.setattr(HelpScreen, "action_scroll_box", boom)
+        monkeypatch.setattr(HelpScreen, "action_scroll_box", raise_fault)
         await session.press("1", "question_mark", "j")
         await session.settle()
         assert len(session.app.screen_stack) == 1
@@ -132,7 +132,7 @@ def test_exception_outside_panes_stops_robot_and_prints_one_line(monkeypatch: py
 
     async def main() -> int | None:
         app = BotConsoleApp(console, refresh_hz=0)
-        monkeypatch.setattr(StatusBar, "show", boom)
+        monkeypatch.setattr(StatusBar, "show", raise_fault)
         try:
             async with app.run_test() as pilot:
                 console.change(problem="new")

@@ -51,7 +51,7 @@ KEYS = {
 each_text = pytest.mark.parametrize("text", [*DRAWN, *(pytest.param(each, marks=pytest.mark.soak) for each in MORE)])
 
 
-async def drawn_in(session: Session, text: str, panes: Iterable[PaneEntry]) -> None:
+async def draw_everywhere(session: Session, text: str, panes: Iterable[PaneEntry]) -> None:
     session.console.change(problem=text)
     await session.press("0")
     for entry in panes:
@@ -66,7 +66,7 @@ async def drawn_in(session: Session, text: str, panes: Iterable[PaneEntry]) -> N
 )  # fmt: skip
 def test_any_text_is_drawn_in_every_pane(text: str) -> None:
     async def play(session: Session) -> None:
-        await drawn_in(session, text, PANES)
+        await draw_everywhere(session, text, PANES)
 
     run(hostile(text), play, (120, 40))
 
@@ -74,7 +74,7 @@ def test_any_text_is_drawn_in_every_pane(text: str) -> None:
 @each_text
 def test_any_text_is_drawn_in_the_overview_and_in_every_overlay(text: str) -> None:
     async def play(session: Session) -> None:
-        await drawn_in(session, text, [])
+        await draw_everywhere(session, text, [])
         session.console.change(problem="")
         await session.settle()
         pane = session.pane(GraphPane)

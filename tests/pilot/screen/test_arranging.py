@@ -19,7 +19,7 @@ def tree(session: Session) -> Tree:
     return session.pane(PaneArea).shown
 
 
-def seen(session: Session) -> dict[str, Region]:
+def visible_regions(session: Session) -> dict[str, Region]:
     return {pane.id or "": pane.region for pane in session.app.visible_panes()}
 
 
@@ -31,8 +31,8 @@ def test_pane_is_split_closed_and_restored() -> None:
         await session.press("v")
         await session.paste("steer")
         await session.press("enter")
-        assert "steering" in seen(session) and session.app.current_pane.id == "steering"
-        parameters, steering = seen(session)["parameters"], seen(session)["steering"]
+        assert "steering" in visible_regions(session) and session.app.current_pane.id == "steering"
+        parameters, steering = visible_regions(session)["parameters"], visible_regions(session)["steering"]
         assert steering.x == parameters.right and steering.y == parameters.y
         await session.press("x")
         assert panes(tree(session)) == panes(before)
@@ -80,14 +80,14 @@ def test_arrow_keys_select_and_swap_panes() -> None:
         assert session.app.current_pane.id == "world"
         await session.press("down")
         assert session.app.current_pane.id == "plot"
-        where = seen(session)["plot"]
+        where = visible_regions(session)["plot"]
         await session.press("K")
         await session.settle()
-        assert seen(session)["world"] == where and session.app.current_pane.id == "plot"
-        wide = seen(session)["plot"].width
+        assert visible_regions(session)["world"] == where and session.app.current_pane.id == "plot"
+        wide = visible_regions(session)["plot"].width
         await session.press("right_square_bracket", "right_square_bracket")
         await session.settle()
-        assert seen(session)["plot"].width > wide, "nothing lies to the right: it grows to the left"
+        assert visible_regions(session)["plot"].width > wide, "nothing lies to the right: it grows to the left"
         await session.press("escape")
 
     run(live(), play, SIZE)
@@ -95,15 +95,15 @@ def test_arrow_keys_select_and_swap_panes() -> None:
 
 def test_growing_a_pane_shrinks_its_neighbour() -> None:
     async def play(session: Session) -> None:
-        before = seen(session)
+        before = visible_regions(session)
         await session.press("V", "right_square_bracket", "plus")
         await session.settle()
-        after = seen(session)
+        after = visible_regions(session)
         assert after["parameters"].width > before["parameters"].width
         assert after["logs"].height < before["logs"].height
         await session.press(*["right_square_bracket"] * 20)
         await session.settle()
-        assert seen(session)["world"].width >= 20, "no pane becomes too small to be used"
+        assert visible_regions(session)["world"].width >= 20, "no pane becomes too small to be used"
 
     run(live(), play, SIZE)
 
@@ -121,7 +121,7 @@ def test_layout_is_saved_under_a_name_and_reopened() -> None:
         await session.press("o")
         await session.paste("tuning")
         await session.press("enter")
-        assert set(seen(session)) == {"parameters", "plot", "world"}
+        assert set(visible_regions(session)) == {"parameters", "plot", "world"}
         await session.press("o")
         await session.paste("mine")
         await session.press("enter")
@@ -141,17 +141,17 @@ def test_layout_without_room_shows_one_pane_and_says_so() -> None:
 
 def test_dragging_a_border_resizes_panes() -> None:
     async def play(session: Session) -> None:
-        before = seen(session)
+        before = visible_regions(session)
         edge = before["parameters"].right - 1
         await session.pilot.mouse_down(offset=(edge, 5))
         await session.pilot.hover(offset=(edge + 12, 5))
         await session.pilot.hover(offset=(edge + 15, 5))
         await session.pilot.mouse_up(offset=(edge + 15, 5))
         await session.settle()
-        assert seen(session)["parameters"].width == before["parameters"].width + 15
+        assert visible_regions(session)["parameters"].width == before["parameters"].width + 15
         session.app.stage.arranging.undo()
         await session.settle()
-        assert seen(session) == before, "a drag is one step"
+        assert visible_regions(session) == before, "a drag is one step"
 
     run(live(), play, SIZE)
 
@@ -162,10 +162,10 @@ def test_click_on_a_tab_selects_the_pane_while_arranging() -> None:
         at = session.lines()[0].index("Graph")
         await session.pilot.click(offset=(at, 0))
         await session.settle()
-        assert set(seen(session)) == {"graph"}
+        assert set(visible_regions(session)) == {"graph"}
         await session.pilot.click(offset=(3, 0))
         await session.settle()
-        assert "logs" in seen(session)
+        assert "logs" in visible_regions(session)
 
     run(live(), play, SIZE)
 

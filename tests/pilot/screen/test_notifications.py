@@ -23,7 +23,7 @@ def lines_of(session: Session, *widgets: object) -> list[str]:
     return [line for region in regions for line in session.lines()[region.y : region.bottom]]
 
 
-def seen(session: Session) -> list[Toast]:
+def visible_toasts(session: Session) -> list[Toast]:
     return [each for each in session.app.screen.query(Toast) if each.region.height]
 
 
@@ -51,7 +51,7 @@ def test_row_at_the_cursor_is_never_covered(size: tuple[int, int], end: str) -> 
         await session.press("2", end)
         session.app.notify(LONG)
         await session.settle()
-        rows, (toast,) = session.app.screen.focused, seen(session)
+        rows, (toast,) = session.app.screen.focused, visible_toasts(session)
         assert isinstance(rows, RowList)
         line = rows.content_region.y + rows.cursor - rows.scroll_offset.y
         in_its_place = line >= size[1] - BELOW_ROWS - MAX_LINES
@@ -81,7 +81,7 @@ def test_a_text_field_is_never_covered() -> None:
         await session.press("1", "down", "slash", "s", "p")
         session.app.notify(LONG)
         await session.settle()
-        (toast,) = seen(session)
+        (toast,) = visible_toasts(session)
         assert toast.region.bottom <= session.app.screen.focused.region.y
 
     run(live(), play, (80, 24))
@@ -92,9 +92,9 @@ def test_only_the_newest_notification_is_shown_with_the_number_of_others() -> No
         for word in ("first", "second", "third"):
             session.app.notify(f"the {word} one")
         await session.settle()
-        assert len(seen(session)) == 1
+        assert len(visible_toasts(session)) == 1
         assert "the third one  +2 more" in session.text() and "the second one" not in session.text()
-        await session.pilot.click(seen(session)[0])
+        await session.pilot.click(visible_toasts(session)[0])
         session.app._heartbeat()
         await session.settle()
         assert "the second one" in session.text() and "the third one" not in session.text()

@@ -14,7 +14,7 @@ from samples import live
 SEEN = 1_700_000_000
 
 
-def with_hall(folder: Path) -> tuple:
+def system_with_own_profile(folder: Path) -> tuple:
     """A system with a profile of the person's own after the robot's; it is the last one."""
     console, launcher = live()
     file = folder / "zz_hall.yaml"
@@ -25,7 +25,7 @@ def with_hall(folder: Path) -> tuple:
     return console, launcher
 
 
-def asked(session: Session) -> list[tuple]:
+def profile_requests(session: Session) -> list[tuple]:
     return [each for each in session.console.asked if str(each[0]).endswith(" profile")]
 
 
@@ -39,13 +39,13 @@ def test_overwriting_a_profile_asks_with_file_and_time(tmp_path: Path) -> None:
         assert "Save over the profile zz_hall?" in text and "zz_hall.yaml" in text
         assert "changed 2023-11-1" in text, "when it was changed"
         await session.press("n")
-        assert asked(session) == []
+        assert profile_requests(session) == []
         await session.press("S")
         await session.paste("zz_hall")
         await session.press("enter", "y")
-        assert asked(session) == [("save profile", "zz_hall", "")]
+        assert profile_requests(session) == [("save profile", "zz_hall", "")]
 
-    run(with_hall(tmp_path), play, (120, 40))
+    run(system_with_own_profile(tmp_path), play, (120, 40))
 
 
 @pytest.mark.slow
@@ -58,13 +58,13 @@ def test_invalid_profile_name_is_rejected() -> None:
         await session.press("escape", "S")
         await session.paste(" ")
         await session.press("enter")
-        assert "a profile needs a name" in session.text() and asked(session) == []
+        assert "a profile needs a name" in session.text() and profile_requests(session) == []
 
     run(live(), play, (120, 40))
 
 
 def test_profile_is_renamed_unless_the_name_is_taken(tmp_path: Path) -> None:
-    system = with_hall(tmp_path)
+    system = system_with_own_profile(tmp_path)
     console = system[0]
     console.change(profiles=(Profile("attic", "/home/attic.yaml", own=True), *console.current.profiles))
 
@@ -72,11 +72,11 @@ def test_profile_is_renamed_unless_the_name_is_taken(tmp_path: Path) -> None:
         await session.press("7", "G", "m")
         await session.paste("attic")
         await session.press("enter")
-        assert "there is a profile attic already" in session.text() and asked(session) == []
+        assert "there is a profile attic already" in session.text() and profile_requests(session) == []
         await session.press("escape", "m")
         await session.paste("cellar")
         await session.press("enter")
-        assert asked(session) == [("rename profile", "zz_hall", "cellar")]
+        assert profile_requests(session) == [("rename profile", "zz_hall", "cellar")]
 
     run(system, play, (120, 40))
 
@@ -87,11 +87,11 @@ def test_profile_is_deleted_after_a_question(tmp_path: Path) -> None:
         text = session.text()
         assert "Delete the profile zz_hall?" in text and "changed 2023-11-1" in text
         await session.press("n")
-        assert asked(session) == []
+        assert profile_requests(session) == []
         await session.press("d", "y")
-        assert asked(session) == [("delete profile", "zz_hall")] and "zz_hall is deleted" in session.text()
+        assert profile_requests(session) == [("delete profile", "zz_hall")] and "zz_hall is deleted" in session.text()
 
-    run(with_hall(tmp_path), play, (80, 24))
+    run(system_with_own_profile(tmp_path), play, (80, 24))
 
 
 def test_built_in_profiles_are_neither_renamed_nor_deleted() -> None:
@@ -99,6 +99,6 @@ def test_built_in_profiles_are_neither_renamed_nor_deleted() -> None:
         await session.press("7", "d")
         assert len(session.app.screen_stack) == 1 and "is not deleted: only profiles that S has saved" in session.text()
         await session.press("m")
-        assert "is not renamed: only profiles that S has saved" in session.text() and asked(session) == []
+        assert "is not renamed: only profiles that S has saved" in session.text() and profile_requests(session) == []
 
     run(live(), play, (120, 40))

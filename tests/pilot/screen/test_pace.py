@@ -148,7 +148,7 @@ def test_worlds_with_equal_drawing_keys_look_the_same() -> None:
         other = replace(world, pose=pose, speed=chance.random())
         if chance.random() < 0.2:
             other = replace(other, trail=(*world.trail, (5.0, 5.0)))
-        reported, lines = zip(*(_drawn(each) for each in (world, other)), strict=True)
+        reported, lines = zip(*(_drawing_key_and_rows(each) for each in (world, other)), strict=True)
         if reported[0] == reported[1]:
             same += 1
             assert lines[0] == lines[1]
@@ -156,6 +156,6 @@ def test_worlds_with_equal_drawing_keys_look_the_same() -> None:
     assert same > 10
 
 
-def _drawn(world: WorldInfo) -> tuple[object, object]:
+def _drawing_key_and_rows(world: WorldInfo) -> tuple[object, object]:
     window = following_window(world, 40, 12, 1.0)
     return visible_content(world, window, 40, 12), WorldDrawing().rows(world, window, 40, 12)

@@ -195,7 +195,7 @@ def test_a_key_waits_only_for_the_panes_that_it_is_for(
     arrive(key, play)
 
 
-def eager(monkeypatch: pytest.MonkeyPatch, asked: Callable[[], bool]) -> list[int]:
+def count_hidden_mounts(monkeypatch: pytest.MonkeyPatch, asked: Callable[[], bool]) -> list[int]:
     """Let `asked` decide whether a key was just pressed; return the number of hidden panes made, at each call."""
     came: list[int] = []
 
@@ -214,7 +214,7 @@ def eager(monkeypatch: pytest.MonkeyPatch, asked: Callable[[], bool]) -> list[in
 
 def test_hidden_panes_are_made_while_no_key_is_pressed(monkeypatch: pytest.MonkeyPatch) -> None:
     pressed = iter([True] * 5)
-    came = eager(monkeypatch, lambda: next(pressed, False))
+    came = count_hidden_mounts(monkeypatch, lambda: next(pressed, False))
 
     async def play(session: Session) -> None:
         assert came[:5] == [0] * 5 and len(session.app.panes()) == len(ORDERED)
@@ -225,7 +225,7 @@ def test_hidden_panes_are_made_while_no_key_is_pressed(monkeypatch: pytest.Monke
 @pytest.mark.slow
 def test_hidden_panes_are_made_even_if_keys_are_pressed_all_the_time(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(startup, "MAX_HIDDEN_PANE_PAUSE_S", 0.1)
-    eager(monkeypatch, lambda: True)
+    count_hidden_mounts(monkeypatch, lambda: True)
 
     async def play(session: Session) -> None:
         assert len(session.app.panes()) == len(ORDERED)
@@ -235,7 +235,7 @@ def test_hidden_panes_are_made_even_if_keys_are_pressed_all_the_time(monkeypatch
 
 def test_a_pane_that_a_key_is_for_is_made_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(startup, "MAX_HIDDEN_PANE_PAUSE_S", float("inf"))
-    came = eager(monkeypatch, lambda: True)
+    came = count_hidden_mounts(monkeypatch, lambda: True)
 
     async def play(session: Session) -> None:
         assert session.app.current_pane is not None and session.app.current_pane.id == "images" and max(came) == 1

@@ -12,7 +12,7 @@ from piloting import Session, run
 from samples import live
 
 
-class Printing:
+class FakeStream:
     """A stream that the test fills."""
 
     def __init__(self) -> None:
@@ -31,14 +31,14 @@ SIZES = [(80, 24), pytest.param((120, 40), marks=pytest.mark.soak)]
 
 
 @pytest.fixture
-def streams(monkeypatch: pytest.MonkeyPatch) -> list[Printing]:
+def streams(monkeypatch: pytest.MonkeyPatch) -> list[FakeStream]:
     """The streams that were started."""
-    begun: list[Printing] = []
+    begun: list[FakeStream] = []
 
     def stream(_: FakeCommandLine, line: str) -> Stream | None:
         if "hz" not in line:
             return None
-        begun.append(Printing())
+        begun.append(FakeStream())
         return begun[-1]
 
     monkeypatch.setattr(FakeCommandLine, "stream", stream)
@@ -58,7 +58,7 @@ async def begin(session: Session, line: str = "ros2 topic hz /odom", *, typed: b
 
 
 @pytest.mark.parametrize("size", SIZES)
-def test_panel_shows_the_last_lines_without_taking_focus(streams: list[Printing], size: tuple[int, int]) -> None:
+def test_panel_shows_the_last_lines_without_taking_focus(streams: list[FakeStream], size: tuple[int, int]) -> None:
     async def play(session: Session) -> None:
         focused = session.app.focused
         assert "runs" not in session.text()
@@ -77,7 +77,7 @@ def test_panel_shows_the_last_lines_without_taking_focus(streams: list[Printing]
     run(live(), play, size)
 
 
-def test_commands_end_with_the_console(streams: list[Printing]) -> None:
+def test_commands_end_with_the_console(streams: list[FakeStream]) -> None:
     async def play(session: Session) -> None:
         await begin(session)
         assert not streams[0].stopped
@@ -87,7 +87,7 @@ def test_commands_end_with_the_console(streams: list[Printing]) -> None:
 
 
 @pytest.mark.parametrize("size", SIZES)
-def test_three_commands_run_side_by_side_and_end_separately(streams: list[Printing], size: tuple[int, int]) -> None:
+def test_three_commands_run_side_by_side_and_end_separately(streams: list[FakeStream], size: tuple[int, int]) -> None:
     async def play(session: Session) -> None:
         focused = session.app.focused
         panels = session.pane(StreamPanels)
@@ -115,7 +115,7 @@ def test_three_commands_run_side_by_side_and_end_separately(streams: list[Printi
 
 
 @pytest.mark.parametrize("size", SIZES)
-def test_panels_never_hide_status_line_or_key_bar(streams: list[Printing], size: tuple[int, int]) -> None:
+def test_panels_never_hide_status_line_or_key_bar(streams: list[FakeStream], size: tuple[int, int]) -> None:
     async def play(session: Session) -> None:
         below = session.text().splitlines()[-2:]
         panels = session.pane(StreamPanels)
@@ -133,7 +133,7 @@ def test_panels_never_hide_status_line_or_key_bar(streams: list[Printing], size:
     run(live(), play, size)
 
 
-def test_command_without_room_is_refused_and_an_ended_one_makes_room(streams: list[Printing]) -> None:
+def test_command_without_room_is_refused_and_an_ended_one_makes_room(streams: list[FakeStream]) -> None:
     async def play(session: Session) -> None:
         has = room(session.app.size)
         panels = session.pane(StreamPanels)
@@ -151,7 +151,7 @@ def test_command_without_room_is_refused_and_an_ended_one_makes_room(streams: li
     run(live(), play, (80, 24))
 
 
-def test_smaller_terminal_shows_the_newest_panels_and_counts_the_others(streams: list[Printing]) -> None:
+def test_smaller_terminal_shows_the_newest_panels_and_counts_the_others(streams: list[FakeStream]) -> None:
     async def play(session: Session) -> None:
         panels = session.pane(StreamPanels)
         while len(streams) < 4:
@@ -165,7 +165,7 @@ def test_smaller_terminal_shows_the_newest_panels_and_counts_the_others(streams:
     run(live(), play, (80, 24))
 
 
-def test_end_is_shown_and_click_on_the_title_closes(streams: list[Printing]) -> None:
+def test_end_is_shown_and_click_on_the_title_closes(streams: list[FakeStream]) -> None:
     async def play(session: Session) -> None:
         await begin(session)
         panels = await begin(session)
@@ -184,7 +184,7 @@ def test_end_is_shown_and_click_on_the_title_closes(streams: list[Printing]) -> 
 
 
 @pytest.mark.slow
-def test_command_that_ends_shows_its_output(streams: list[Printing]) -> None:
+def test_command_that_ends_shows_its_output(streams: list[FakeStream]) -> None:
     async def play(session: Session) -> None:
         await session.press(":")
         await session.paste("ros2 node list")

@@ -58,7 +58,7 @@ async def begin(session: Session) -> FakeTuner:
     return tuner
 
 
-async def goes_on(session: Session, tuner: FakeTuner, progress: Progress) -> None:
+async def show_progress(session: Session, tuner: FakeTuner, progress: Progress) -> None:
     tuner.tuning.progress = progress
     screen = session.app.screen
     assert isinstance(screen, TuningScreen)
@@ -72,10 +72,10 @@ def test_best_setting_is_found_shown_and_applied() -> None:
         question = tuner.asked[0]
         assert [each.name for each in question.tunables] == ["max_speed"]
         assert (question.score.text, question.runs, question.duration) == ("swift", 60, 60.0)
-        await goes_on(session, tuner, Progress((NOW, BUMPED), 20, 70, 10.0, 20))
+        await show_progress(session, tuner, Progress((NOW, BUMPED), 20, 70, 10.0, 20))
         assert "20 of 70 runs, about 25 s left" in session.text()
         rows = (NOW, BUMPED, BEST, BROKEN)
-        await goes_on(session, tuner, Progress(rows, 70, 70, 40.0, 70, (NOW, BEST), True))
+        await show_progress(session, tuner, Progress(rows, 70, 70, 40.0, 70, (NOW, BEST), True))
         text = session.text()
         assert "70 of 70 runs, done" in text
         assert "on 1 other seed 0.800 → 1.500" in text
@@ -92,7 +92,7 @@ def test_best_setting_is_found_shown_and_applied() -> None:
 def test_setting_is_saved_as_profile_and_second_escape_ends_the_runs() -> None:
     async def play(session: Session) -> None:
         tuner = await begin(session)
-        await goes_on(session, tuner, Progress((NOW, BEST), 20, 70, 10.0, 20))
+        await show_progress(session, tuner, Progress((NOW, BEST), 20, 70, 10.0, 20))
         await session.press("down", "S", "ctrl+u")
         await session.paste("quick")
         await session.press("enter")

@@ -29,7 +29,7 @@ COUNT = 11
 WAIT_S = 240
 
 
-class Published:
+class PublishingNode:
     """Replaces the publishing node: keeps what is published, in order."""
 
     def __init__(self) -> None:
@@ -76,8 +76,8 @@ def bag(tmp_path: Path) -> Bag:
     return Bag(tmp_path / "bag")
 
 
-def run(bag: Bag, play: Callable[[BagApp, Any, Published], Awaitable[None]], **how: Any) -> None:
-    published = Published()
+def run(bag: Bag, play: Callable[[BagApp, Any, PublishingNode], Awaitable[None]], **how: Any) -> None:
+    published = PublishingNode()
 
     async def main() -> None:
         console = OpenedBag(Contents(bag), "bag")
@@ -96,17 +96,17 @@ def run(bag: Bag, play: Callable[[BagApp, Any, Published], Awaitable[None]], **h
     asyncio.run(main())
 
 
-def shown(app: BagApp) -> str:
+def player_message(app: BagApp) -> str:
     app.follow_player()
     return str(app.query_one(PlayerBar)._last_message)
 
 
 def test_steps_and_seeking_move_the_cursor_of_all_panes(bag: Bag) -> None:
-    async def play(app: BagApp, pilot: Any, published: Published) -> None:
+    async def play(app: BagApp, pilot: Any, published: PublishingNode) -> None:
         assert app.time_cursor.stamp is None and not published.topics, "nothing is played before it is asked for"
         await pilot.press("number_sign")
         assert published.next() == 0
-        assert "⏸ paused   0.0 / 10.0 s  ×1  1 messages" in shown(app) and app.time_cursor.stamp == BEGIN
+        assert "⏸ paused   0.0 / 10.0 s  ×1  1 messages" in player_message(app) and app.time_cursor.stamp == BEGIN
         await pilot.press("right_parenthesis")
         assert app.time_cursor.stamp == BEGIN + 5 * SECOND
         await pilot.press("number_sign")
@@ -117,16 +117,16 @@ def test_steps_and_seeking_move_the_cursor_of_all_panes(bag: Bag) -> None:
         await pilot.press("number_sign")
         assert published.next() == 7 and published.topics == ["/number"]
         app.console_of_robot.topics.listen("/number")
-        shown(app)
+        player_message(app)
         assert app.console_of_robot.topics.heard().count == 8
 
     run(bag, play)
 
 
 def test_playing_follows_rate_and_loop_and_pauses_at_the_end(bag: Bag) -> None:
-    async def play(app: BagApp, pilot: Any, published: Published) -> None:
+    async def play(app: BagApp, pilot: Any, published: PublishingNode) -> None:
         await pilot.press("right_curly_bracket", "right_curly_bracket", "left_curly_bracket", "at")
-        assert "×1.1  loop" in shown(app)
+        assert "×1.1  loop" in player_message(app)
         await pilot.press("at")
         app._playback.change_rate(1e8)
         await pilot.press("semicolon")
@@ -140,7 +140,7 @@ def test_playing_follows_rate_and_loop_and_pauses_at_the_end(bag: Bag) -> None:
 
 
 def test_topics_that_command_a_robot_are_left_out_with_a_warning(bag: Bag) -> None:
-    async def play(app: BagApp, pilot: Any, published: Published) -> None:
+    async def play(app: BagApp, pilot: Any, published: PublishingNode) -> None:
         notes: list[str] = []
         app.notify = lambda message, **_: notes.append(message)
         await pilot.press("number_sign", "number_sign")
@@ -150,24 +150,24 @@ def test_topics_that_command_a_robot_are_left_out_with_a_warning(bag: Bag) -> No
 
 
 def test_a_domain_that_cannot_be_joined_is_reported(bag: Bag) -> None:
-    async def play(app: BagApp, pilot: Any, published: Published) -> None:
+    async def play(app: BagApp, pilot: Any, published: PublishingNode) -> None:
         await pilot.press("semicolon", "number_sign")
-        assert shown(app).startswith("no such domain") and not published.topics
+        assert player_message(app).startswith("no such domain") and not published.topics
 
     run(bag, play, join=lambda: "no such domain")
 
 
 def test_bag_plays_at_once_on_request(bag: Bag) -> None:
-    async def play(app: BagApp, pilot: Any, published: Published) -> None:
+    async def play(app: BagApp, pilot: Any, published: PublishingNode) -> None:
         assert published.next() == 0
-        assert "▶ playing" in shown(app)
+        assert "▶ playing" in player_message(app)
 
     run(bag, play, plays=True)
 
 
 @pytest.mark.slow
 def test_player_goes_on_while_the_panes_are_dismantled(bag: Bag) -> None:
-    async def play(app: BagApp, pilot: Any, published: Published) -> None:
+    async def play(app: BagApp, pilot: Any, published: PublishingNode) -> None:
         for pane in app.query(Pane):
             await pane.remove_children()
         app.time_cursor.move(BEGIN + SECOND)

@@ -30,7 +30,7 @@ def value(session: Session, name: str, node: str = NAVIGATOR) -> object:
     return session.console.current.parameters[node].get(name).value
 
 
-def sent(session: Session) -> list[dict[str, dict[str, object]]]:
+def set_requests(session: Session) -> list[dict[str, dict[str, object]]]:
     return [each[1] for each in session.console.asked if each[0] == "set_all"]
 
 
@@ -52,7 +52,7 @@ def test_marked_edits_are_sent_together_and_undone_together() -> None:
         text = session.text()
         assert "1.0 → 0.98 rad/s" in text and "360 → 180" in text and "2 marked: a applies" in text
         await session.press("a")
-        assert sent(session) == [{NAVIGATOR: {"turn_rate": 0.98}, "/simulator": {"lidar.beams": 180}}]
+        assert set_requests(session) == [{NAVIGATOR: {"turn_rate": 0.98}, "/simulator": {"lidar.beams": 180}}]
         assert "→ 180" not in session.text() and "marked" not in session.text()
         await session.press("u")
         assert (value(session, "turn_rate"), value(session, "lidar.beams", "/simulator")) == (1.0, 360)
@@ -72,7 +72,7 @@ def test_refusal_by_one_node_keeps_all_marks_and_shows_the_reason() -> None:
         assert "360 → " in session.text(), "what is marked anew is seen in place of the refusal"
         await session.press("x")
         await session.press("a")
-        assert sent(session)[-1] == {NAVIGATOR: {"turn_rate": 0.98}}
+        assert set_requests(session)[-1] == {NAVIGATOR: {"turn_rate": 0.98}}
 
     run(live(), play, (100, 30))
 
@@ -120,7 +120,7 @@ def test_every_way_to_set_an_unsafe_value_warns_first() -> None:
         await session.press("escape", "m", "greater_than_sign", "a")
         assert "Apply what is marked?" in session.text() and "raises a safety limit" in session.text()
         await session.press("n")
-        assert sent(session) == [] and value(session, "max_speed") == 1.0
+        assert set_requests(session) == [] and value(session, "max_speed") == 1.0
         await session.press("A")
         assert "Send set B?" in session.text()
         await session.press("n")

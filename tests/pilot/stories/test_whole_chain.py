@@ -18,7 +18,7 @@ from samples import live
 NAVIGATOR = "/robot_navigator"
 
 
-def crowd() -> tuple[FakeConsole, object]:
+def crowded_system() -> tuple[FakeConsole, object]:
     """The live system among 100 nodes of 25 parameters each."""
     console, launcher = live()
     pattern = console.current.parameters["/simulator"].parameters[0]
@@ -40,7 +40,7 @@ async def find(session: Session, words: str) -> None:
     await session.press("enter")
 
 
-async def typed(session: Session, text: str) -> None:
+async def type_value(session: Session, text: str) -> None:
     await session.press("e")
     await session.type(text)
     await session.press("enter")
@@ -53,22 +53,22 @@ def test_tuning_session_works_by_keyboard_from_search_to_restart(tmp_path: Path)
     async def tune(session: Session) -> None:
         await find(session, "max_speed")
         assert session.pane(ParameterRows).current.parameter.name == "max_speed"
-        await typed(session, "99")
+        await type_value(session, "99")
         assert value(session, "max_speed") == 1.0 and "✗ 99.0" in session.text()
-        await typed(session, "0.8")
+        await type_value(session, "0.8")
         assert value(session, "max_speed") == 0.8
         await session.press("p")
         assert f"{NAVIGATOR}:max_speed" in session.pane(PlotPane).paths
         await find(session, "turn_rate")
         await session.press("m")
-        await typed(session, "0.9")
+        await type_value(session, "0.9")
         await find(session, "safety_distance")
-        await typed(session, "0.9")
+        await type_value(session, "0.9")
         assert (value(session, "turn_rate"), value(session, "safety_distance")) == (1.0, 0.8), "marked, not sent"
         await session.press("a")
         assert (value(session, "turn_rate"), value(session, "safety_distance")) == (0.9, 0.9)
         await session.press("m")
-        await typed(session, "1.0")
+        await type_value(session, "1.0")
         await session.press("A")
         assert value(session, "safety_distance") == 1.0
         await session.press("A")
@@ -94,8 +94,8 @@ def test_tuning_session_works_by_keyboard_from_search_to_restart(tmp_path: Path)
         await session.press("a", "y")
         assert (value(session, "max_speed"), value(session, "turn_rate")) == (0.8, 0.9)
 
-    run(crowd(), tune, (120, 40))
-    run(crowd(), load, (120, 40))
+    run(crowded_system(), tune, (120, 40))
+    run(crowded_system(), load, (120, 40))
 
 
 async def help_line(session: Session, words: str) -> None:
@@ -172,5 +172,5 @@ def test_tuning_session_works_by_mouse_alone(tmp_path: Path, monkeypatch: pytest
         assert [value(session, name) for name in names] == left
 
     appearance = Appearance()
-    run(crowd(), tune, (120, 60), appearance=appearance)
+    run(crowded_system(), tune, (120, 60), appearance=appearance)
     run(live(), load, (120, 60), appearance=appearance)

@@ -40,14 +40,14 @@ def number(chance: random.Random) -> float:
     return chance.choice((*NUMBERS, chance.uniform(-5.0, 5.0), chance.gauss(0.0, 1e6)))
 
 
-def single(chance: random.Random) -> float:
+def float32(chance: random.Random) -> float:
     """A number that a float32 field can hold."""
     return chance.choice((*FLOATS, chance.uniform(-5.0, 5.0), chance.uniform(0.0, 0.02)))
 
 
 def floats(chance: random.Random) -> array[float]:
     count = chance.choice((0, 1, 2, 3, 180, 360, 361, 1000))
-    values = [single(chance) for _ in range(min(count, 7))] or [0.0]
+    values = [float32(chance) for _ in range(min(count, 7))] or [0.0]
     return array("f", (values * (count // len(values) + 1))[:count])
 
 
@@ -60,7 +60,7 @@ def stamp(message: Any, chance: random.Random) -> Any:
 def scan(chance: random.Random) -> LaserScan:
     message = stamp(LaserScan(), chance)
     for name in ("angle_min", "angle_max", "angle_increment", "time_increment", "scan_time", "range_min", "range_max"):
-        setattr(message, name, single(chance))
+        setattr(message, name, float32(chance))
     message.ranges, message.intensities = floats(chance), floats(chance)
     return message
 

@@ -46,28 +46,28 @@ def spoil(value: Any) -> None:
         value.fill(7.0)
 
 
-def shown(message: Any) -> str:
+def full_text(message: Any) -> str:
     """The whole message as text; upstream's `==` misses some differences of fixed-size arrays."""
     return repr(message)
 
 
 @given(messages)
 def test_the_sender_may_change_its_message_at_once(message: Any) -> None:
-    before, got = shown(copy.deepcopy(message)), []
+    before, got = full_text(copy.deepcopy(message)), []
     with serving() as (node, executor):
         node.create_subscription(type(message), "t", got.append, 10)
         node.create_publisher(type(message), "t", 10).publish(message)
         spoil(message)
         executor.spin_once(timeout_sec=5.0)
-    assert shown(got[0]) == before
+    assert full_text(got[0]) == before
 
 
 @given(messages)
 def test_a_receiver_may_change_its_message(message: Any) -> None:
-    before, got = shown(message), []
+    before, got = full_text(message), []
 
     def take(received: Any) -> None:
-        got.append(shown(received))
+        got.append(full_text(received))
         spoil(received)
 
     with serving() as (node, executor):
@@ -77,16 +77,16 @@ def test_a_receiver_may_change_its_message(message: Any) -> None:
         for _ in range(2):
             executor.spin_once(timeout_sec=5.0)
     assert got == [before, before]
-    assert shown(message) == before
+    assert full_text(message) == before
 
 
 @given(messages)
 def test_messages_kept_for_late_subscriptions_are_copies(message: Any) -> None:
     latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-    before, got = shown(copy.deepcopy(message)), []
+    before, got = full_text(copy.deepcopy(message)), []
 
     def take(received: Any) -> None:
-        got.append(shown(received))
+        got.append(full_text(received))
         spoil(received)
 
     with serving() as (node, executor):

@@ -16,18 +16,18 @@ nodes = st.lists(tokens, min_size=1, max_size=4).map(lambda parts: "/" + "/".joi
 keys = st.lists(tokens | st.sampled_from(["*", "**"]), min_size=1, max_size=4).map("/".join)
 
 
-def spelled_out(pattern: list[str], parts: list[str]) -> bool:
+def matches_by_token(pattern: list[str], parts: list[str]) -> bool:
     """Match token by token: `*` is one name, `**` any number of names."""
     if not pattern:
         return not parts
     if pattern[0] == "**":
-        return any(spelled_out(pattern[1:], parts[count:]) for count in range(len(parts) + 1))
-    return bool(parts) and pattern[0] in ("*", parts[0]) and spelled_out(pattern[1:], parts[1:])
+        return any(matches_by_token(pattern[1:], parts[count:]) for count in range(len(parts) + 1))
+    return bool(parts) and pattern[0] in ("*", parts[0]) and matches_by_token(pattern[1:], parts[1:])
 
 
 @given(keys, nodes, st.booleans())
 def test_keys_match_token_by_token(key: str, node: str, absolute: bool) -> None:
-    assert key_matches(f"/{key}" if absolute else key, node) == spelled_out(key.split("/"), node.split("/")[1:])
+    assert key_matches(f"/{key}" if absolute else key, node) == matches_by_token(key.split("/"), node.split("/")[1:])
 
 
 names = st.sampled_from(["p", "q", "r"])
@@ -61,7 +61,7 @@ def expected(given_files: Any, node: str) -> dict[str, Any]:
             order.setdefault(key, {}).setdefault(name, []).append(value)
     found: dict[str, Any] = {}
     for key, parameters in order.items():
-        if spelled_out(key.split("/"), node.split("/")[1:]):
+        if matches_by_token(key.split("/"), node.split("/")[1:]):
             for name, history in parameters.items():
                 best = min(map(rank, history))
                 found[name] = [value for value in history if rank(value) == best][-1]

@@ -43,28 +43,28 @@ def message_of(cls: Any) -> st.SearchStrategy[Any]:
     return st.builds(cls, **fields)
 
 
-def same(one: Any, other: Any) -> bool:
+def are_equal(one: Any, other: Any) -> bool:
     """Whether two messages have the same values; NaN equals NaN, and arrays are compared as a whole."""
     if hasattr(one, "get_fields_and_field_types"):
         names = one.get_fields_and_field_types()
-        return type(one) is type(other) and all(same(getattr(one, each), getattr(other, each)) for each in names)
+        return type(one) is type(other) and all(are_equal(getattr(one, each), getattr(other, each)) for each in names)
     if isinstance(one, (list, array, numpy.ndarray)):
-        return type(one) is type(other) and len(one) == len(other) and all(map(same, one, other))
+        return type(one) is type(other) and len(one) == len(other) and all(map(are_equal, one, other))
     return one == other or (isinstance(one, float) and math.isnan(one) and math.isnan(other))
 
 
-def for_rosbags(message: Any) -> Any:
+def to_rosbags(message: Any) -> Any:
     """A message as rosbags' serializer expects it: numbers in NumPy arrays, bytes as numbers."""
     found = SimpleNamespace(structure_needs_at_least_one_member=0)
     for name, text in message.get_fields_and_field_types().items():
-        setattr(found, name, _for_rosbags(getattr(message, name), parse_type(text)))
+        setattr(found, name, _to_rosbags(getattr(message, name), parse_type(text)))
     return found
 
 
-def _for_rosbags(value: Any, kind: Type) -> Any:
+def _to_rosbags(value: Any, kind: Type) -> Any:
     many = kind.sequence or kind.size
     if not kind.primitive:
-        return [for_rosbags(each) for each in value] if many else for_rosbags(value)
+        return [to_rosbags(each) for each in value] if many else to_rosbags(value)
     if not many:
         # rosbags packs a single byte as a signed number.
         return int.from_bytes(value, "little", signed=True) if kind.item == "octet" else value
@@ -77,4 +77,4 @@ def _for_rosbags(value: Any, kind: Type) -> Any:
 
 @pytest.fixture(scope="session")
 def messages() -> SimpleNamespace:
-    return SimpleNamespace(of=message_of, same=same, for_rosbags=for_rosbags)
+    return SimpleNamespace(of=message_of, same=are_equal, for_rosbags=to_rosbags)

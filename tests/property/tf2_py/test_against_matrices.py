@@ -26,13 +26,13 @@ turns_about_an_axis = st.tuples(st.sampled_from((0, 1, 2, 2, 2)), numbers, numbe
 turns = st.one_of(any_turns, turns_about_an_axis).filter(lambda each: math.hypot(*each) > 0.1)
 
 
-def reported_until(latest: int) -> st.SearchStrategy[list[Entry]]:
+def transforms_until(latest: int) -> st.SearchStrategy[list[Entry]]:
     """Transforms of the first seconds, enough that most lookups succeed."""
     each = st.tuples(st.sampled_from(FRAMES[1:]), st.integers(1, latest), moves, turns)
     return st.lists(each, min_size=20, max_size=40)
 
 
-entries = st.sampled_from([3, 3, 20]).flatmap(reported_until)
+entries = st.sampled_from([3, 3, 20]).flatmap(transforms_until)
 quarters = st.one_of(st.integers(4, 12), st.integers(1, 80))
 
 
@@ -40,7 +40,7 @@ def unit(turn: list[float]) -> np.ndarray:
     return np.array(turn) / np.linalg.norm(turn)
 
 
-def filled(known: list[Entry]) -> BufferCore:
+def filled_buffer(known: list[Entry]) -> BufferCore:
     """A buffer with all transforms, added in the given order; half of them are kept unparsed."""
     buffer = BufferCore()
     for index, (child, second, move, turn) in enumerate(known):
@@ -57,7 +57,7 @@ def filled(known: list[Entry]) -> BufferCore:
     return buffer
 
 
-def in_parent(known: list[Entry], child: str, time: float) -> np.ndarray | None:
+def matrix_in_parent(known: list[Entry], child: str, time: float) -> np.ndarray | None:
     """The matrix of a frame in its parent at a time (s); None if it is unknown.
 
     Of several different transforms with the same time the last one counts, but at the oldest time and at the end of an
@@ -104,7 +104,7 @@ def _common(one: str, other: str) -> str:
 def _to_common(known: list[Entry], frame: str, common: str, time: float) -> np.ndarray | None:
     matrix = np.identity(4)
     while frame != common:
-        step = in_parent(known, frame, time)
+        step = matrix_in_parent(known, frame, time)
         if step is None:
             return None
         matrix, frame = step @ matrix, PARENTS[frame]
@@ -115,7 +115,7 @@ def _to_common(known: list[Entry], frame: str, common: str, time: float) -> np.n
 @given(entries, st.sampled_from(FRAMES), st.sampled_from(FRAMES), quarters)
 def test_a_transform_is_the_product_of_matrices(known: list[Entry], target: str, source: str, quarter: int) -> None:
     time = quarter / 4
-    buffer = filled(known)
+    buffer = filled_buffer(known)
     expected = naive(known, target, source, time)
     stamp = Time(nanoseconds=quarter * 250_000_000)
     there = all(buffer._frameExists(each) for each in (target, source))

@@ -42,7 +42,7 @@ def screens(draw: st.DrawFn) -> dict[int, dict[int, Strip | None]]:
     return screen
 
 
-def looks(cells: list[tuple[str, str]]) -> list[tuple[str, str]]:
+def visible_cells(cells: list[tuple[str, str]]) -> list[tuple[str, str]]:
     """Cells without the text colour and weight of blanks, which nobody sees."""
     unseen = re.compile(r"(^|;)(1|2|3|3[0-7]|9[0-7]|38;2;\d+;\d+;\d+)(?=;|$)")
     lined = re.compile(r"(^|;)[479](;|$)")
@@ -66,7 +66,7 @@ def test_the_terminal_shows_what_was_drawn_last(frames) -> None:
                         (character, ";".join(styled((), codes)))
                         for character, codes in zip(cells.characters, cells.styles, strict=True)
                     ]
-                    assert looks(terminal.cells[y][x : x + strip.cell_length]) == looks(expected)
+                    assert visible_cells(terminal.cells[y][x : x + strip.cell_length]) == visible_cells(expected)
 
 
 @given(screens())

@@ -38,7 +38,7 @@ doubles = st.builds(
 )
 
 
-def described(allowed: Any, value: float) -> tuple[ParameterInfo, ParameterDescriptor]:
+def parameter_and_descriptor(allowed: Any, value: float) -> tuple[ParameterInfo, ParameterDescriptor]:
     """A parameter with a range, as the console sees it, and its descriptor."""
     whole = isinstance(allowed, IntegerRange)
     kind = Kind.INTEGER if whole else Kind.DOUBLE
@@ -68,14 +68,14 @@ def reason(value: Any, descriptor: ParameterDescriptor) -> str | None:
 @example(IntegerRange(from_value=INT64_MIN, to_value=INT64_MAX, step=2**64 - 1), [1, 0.5, -1])
 def test_every_value_that_keys_and_slider_send_is_accepted(allowed: Any, moves: list[Any]) -> None:
     first = min(allowed.from_value, allowed.to_value)
-    parameter, descriptor = described(allowed, first)
+    parameter, descriptor = parameter_and_descriptor(allowed, first)
     for move in moves:
         assert len(slider_text(parameter, 12)) in (0, 12)
         value = at_share(parameter, move) if isinstance(move, float) else stepped(parameter, parameter.value, move)
         if value is not None:
             assert type(value) is type(parameter.value) and math.isfinite(value)
             assert reason(value, descriptor) is None, f"{value} in {allowed} after {move}"
-            parameter, _ = described(allowed, value)
+            parameter, _ = parameter_and_descriptor(allowed, value)
 
 
 @given(
@@ -100,7 +100,7 @@ def test_all_points_of_a_grid_can_be_reached_upwards_and_downwards(allowed: Any,
     walked, back = [low], [allowed.to_value]
     for _ in range(points):
         for path, way in ((walked, 1), (back, -1)):
-            parameter, _ = described(allowed, path[-1])
+            parameter, _ = parameter_and_descriptor(allowed, path[-1])
             path.append(stepped(parameter, parameter.value, way))
     assert (walked[-1], back[-1]) == (allowed.to_value, low)
     assert all(map(math.isclose, back[::-1], walked))
@@ -109,7 +109,7 @@ def test_all_points_of_a_grid_can_be_reached_upwards_and_downwards(allowed: Any,
         if whole
         else all(math.isclose(*pair, rel_tol=1e-6, abs_tol=1e-12) for pair in zip(walked, grid, strict=True))
     )
-    parameter, _ = described(allowed, low)
+    parameter, _ = parameter_and_descriptor(allowed, low)
     shown = [at_share(parameter, at / points) for at in range(points + 1)]
     assert all(map(math.isclose, shown, walked))
 

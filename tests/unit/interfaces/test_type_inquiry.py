@@ -34,7 +34,7 @@ def node() -> Iterator[Any]:
     rclpy.try_shutdown(context=context)
 
 
-def reported(node: Any, type_hash: str) -> Any:
+def node_response(node: Any, type_hash: str) -> Any:
     request = GetTypeDescription.Request(type_hash=type_hash, include_type_sources=True)
     return node._type_description_service._answer(request, GetTypeDescription.Response())
 
@@ -54,7 +54,7 @@ def test_action_hash_follows_from_the_hashes_of_its_parts(node: Any) -> None:
 
     def answer(name: str, type_hash: str) -> Any:
         asked.append(name)
-        return reported(node, type_hash)
+        return node_response(node, type_hash)
 
     assert outcome(inquiry(NAME, HASHES), answer) == ""
     assert asked == [*HASHES, NAME]
@@ -64,7 +64,7 @@ def test_part_with_another_hash_is_refused(node: Any) -> None:
     last = list(HASHES)[-1]
 
     def answer(name: str, type_hash: str) -> Any:
-        response = reported(node, type_hash)
+        response = node_response(node, type_hash)
         if name == last:
             response.type_description.type_description.fields[1].name = "backfeed"
         return response
@@ -77,11 +77,13 @@ def test_part_with_another_hash_is_refused(node: Any) -> None:
 
 def test_useless_answers_are_reported(node: Any) -> None:
     assert outcome(inquiry(NAME, HASHES), lambda name, type_hash: None) == "has not described it"
-    refused = outcome(inquiry(NAME, HASHES), lambda name, type_hash: reported(node, "RIHS01_" + "0" * 64))
+    refused = outcome(inquiry(NAME, HASHES), lambda name, type_hash: node_response(node, "RIHS01_" + "0" * 64))
     assert refused == "does not describe it: Type not currently in use by this node"
     # The hashes are correct, but belong to another action.
     other = {name.replace("Fibonacci", "Other"): hashed for name, hashed in HASHES.items()}
-    elsewhere = outcome(inquiry(NAME.replace("Fibonacci", "Other"), other), lambda name, each: reported(node, each))
+    elsewhere = outcome(
+        inquiry(NAME.replace("Fibonacci", "Other"), other), lambda name, each: node_response(node, each)
+    )
     assert elsewhere.startswith("sent a description of it that is invalid: the definition of example_interfaces/action")
 
 

@@ -23,7 +23,7 @@ def include(*entities: Any, **arguments: str) -> IncludeLaunchDescription:
     return IncludeLaunchDescription(source, launch_arguments=arguments.items())
 
 
-def found(*entities: Any) -> dict[str, bool]:
+def discovered_arguments(*entities: Any) -> dict[str, bool]:
     """Return the names of the arguments, each with whether it is conditional."""
     arguments = LaunchDescription(list(entities)).get_launch_arguments()
     return {each.name: each._conditionally_included for each in arguments}
@@ -31,7 +31,7 @@ def found(*entities: Any) -> dict[str, bool]:
 
 def test_argument_in_a_conditional_branch_is_conditional() -> None:
     group = GroupAction([DeclareLaunchArgument("a")], condition=YES)
-    assert found(group, DeclareLaunchArgument("b", condition=YES), DeclareLaunchArgument("c")) == {
+    assert discovered_arguments(group, DeclareLaunchArgument("b", condition=YES), DeclareLaunchArgument("c")) == {
         "a": True,
         "b": True,
         "c": False,
@@ -40,13 +40,18 @@ def test_argument_in_a_conditional_branch_is_conditional() -> None:
 
 def test_argument_nested_deeper_in_a_conditional_branch_is_not() -> None:
     inside = GroupAction([DeclareLaunchArgument("a")])
-    assert found(GroupAction([inside, include(DeclareLaunchArgument("b"))], condition=YES)) == {"a": False, "b": False}
+    assert discovered_arguments(GroupAction([inside, include(DeclareLaunchArgument("b"))], condition=YES)) == {
+        "a": False,
+        "b": False,
+    }
 
 
 def test_reset_hides_the_rest_of_its_own_list_only() -> None:
     isolated = GroupAction([DeclareLaunchArgument("a")], forwarding=False)
-    assert found(isolated, DeclareLaunchArgument("b")) == {"b": False}
-    assert found(DeclareLaunchArgument("a"), ResetLaunchConfigurations(), DeclareLaunchArgument("b")) == {"a": False}
+    assert discovered_arguments(isolated, DeclareLaunchArgument("b")) == {"b": False}
+    assert discovered_arguments(
+        DeclareLaunchArgument("a"), ResetLaunchConfigurations(), DeclareLaunchArgument("b")
+    ) == {"a": False}
 
 
 def test_nested_includes_do_not_provide_arguments_for_each_other(run: Launch) -> None:

@@ -40,7 +40,7 @@ def python(code: str, **options: Any) -> ExecuteProcess:
     return ExecuteProcess(cmd=[sys.executable, "-S", "-c", code], **options)
 
 
-def of_process(outcome: Outcome) -> list[str]:
+def process_lines(outcome: Outcome) -> list[str]:
     """Return lines about and from processes, without their numbers."""
     lines = [each for each in outcome.lines if re.search(r"-\d+\]", each)]
     lines = [re.sub(r"\[p-\d+\]", "[p]", each) for each in lines]
@@ -49,7 +49,7 @@ def of_process(outcome: Outcome) -> list[str]:
 
 def test_process_prints_start_output_and_exit_code(run: Launch) -> None:
     outcome = run([python("print('a'); import sys; sys.exit(3)", output="screen")])
-    started, printed, died = of_process(outcome)
+    started, printed, died = process_lines(outcome)
     assert (started, printed) == ("[INFO] [p]: process started with pid", "[p] a")
     assert re.fullmatch(r"\[ERROR\] \[p\]: process has died \[pid, exit code 3, cmd '.*'\]\.", died)
     assert outcome.code == 0
@@ -95,7 +95,7 @@ def test_own_log_files_contain_bare_lines(run: Launch) -> None:
 
 def test_environment_variable_overrides_output(run: Launch, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("OVERRIDE_LAUNCH_PROCESS_OUTPUT", "screen")
-    assert "[p] out" in of_process(run([python(OUT, output="nonsense")]))
+    assert "[p] out" in process_lines(run([python(OUT, output="nonsense")]))
 
 
 def test_invalid_output_is_rejected(run: Launch) -> None:
@@ -104,7 +104,7 @@ def test_invalid_output_is_rejected(run: Launch) -> None:
 
 
 def test_unfinished_line_is_printed_after_the_end(run: Launch) -> None:
-    lines = of_process(run([python("print('part', end='')", output="screen")]))
+    lines = process_lines(run([python("print('part', end='')", output="screen")]))
     assert lines[1:] == ["[INFO] [p]: process has finished cleanly [pid", "[p] part"]
 
 
@@ -225,7 +225,7 @@ WAITS = "import os, signal, time; signal.signal(signal.SIGINT, {}); os.write(1, 
 def test_shutdown_sends_sigint(run: Launch) -> None:
     process = python(WAITS.format("lambda *_: os._exit(0)"), output="screen")
     on_io = OnProcessIO(target_action=process, on_stdout=lambda event: EmitEvent(event=ShutdownEvent()))
-    lines = of_process(run([process, RegisterEventHandler(on_io)]))
+    lines = process_lines(run([process, RegisterEventHandler(on_io)]))
     assert lines[2] == "[INFO] [p]: sending signal 'SIGINT' to process[p]", lines
     assert lines[3] == "[INFO] [p]: process has finished cleanly [pid"
 
@@ -410,7 +410,7 @@ def test_launch_starts_with_log_folder_and_verbosity(run: Launch) -> None:
     assert second == "[INFO] [launch]: Default logging verbosity is set to INFO"
 
 
-class _Heard(Event):
+class _CustomEvent(Event):
     """An event for tests."""
 
 
@@ -443,9 +443,9 @@ def test_emit_from_another_thread_returns_once_the_loop_took_the_event() -> None
         free.wait(240.0)
 
     def act(service: LaunchService) -> list[bool]:
-        service.emit_event(_Heard())
+        service.emit_event(_CustomEvent())
         begun.wait(240.0)  # the handler blocks the loop now
-        second = threading.Thread(target=service.emit_event, args=(_Heard(),))
+        second = threading.Thread(target=service.emit_event, args=(_CustomEvent(),))
         second.start()
         second.join(0.1)
         waits = second.is_alive()
@@ -453,13 +453,15 @@ def test_emit_from_another_thread_returns_once_the_loop_took_the_event() -> None
         second.join(240.0)
         return [waits, second.is_alive()]
 
-    handler = EventHandler(matcher=lambda event: isinstance(event, _Heard), entities=OpaqueFunction(function=held_up))
+    handler = EventHandler(
+        matcher=lambda event: isinstance(event, _CustomEvent), entities=OpaqueFunction(function=held_up)
+    )
     assert _while_it_runs(act, handler) == (0, [[True, False]])
 
 
 def test_emit_inside_the_loop_is_refused_instead_of_deadlocking(log_lines: list[str]) -> None:
     service = LaunchService(noninteractive=True)
-    inside = OpaqueFunction(function=lambda context: service.emit_event(_Heard()))
+    inside = OpaqueFunction(function=lambda context: service.emit_event(_CustomEvent()))
     service.include_launch_description(LaunchDescription([inside]))
     assert service.run() == 1
     assert "return the action EmitEvent(event=...)" in "\n".join(log_lines)

@@ -30,7 +30,7 @@ class EndedChild(ForkedChild):
 
 
 @pytest.fixture
-def sent(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, int]]:
+def sent_signals(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, int]]:
     """The signals that reach the operating system; the output of an ended process is awaited for an hour."""
     sent: list[tuple[int, int]] = []
     monkeypatch.setattr(os, "kill", lambda pid, number: sent.append((pid, number)))
@@ -38,7 +38,7 @@ def sent(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, int]]:
     return sent
 
 
-def test_no_signal_is_sent_to_a_pid_whose_process_has_ended(sent: list[tuple[int, int]]) -> None:
+def test_no_signal_is_sent_to_a_pid_whose_process_has_ended(sent_signals: list[tuple[int, int]]) -> None:
     async def play() -> None:
         child = EndedChild()
         with pytest.raises(ProcessLookupError):
@@ -46,11 +46,11 @@ def test_no_signal_is_sent_to_a_pid_whose_process_has_ended(sent: list[tuple[int
         child.close()
 
     asyncio.run(play())
-    assert not sent
+    assert not sent_signals
 
 
 def test_launch_is_interrupted_between_the_end_of_a_process_and_that_of_its_output(
-    sent: list[tuple[int, int]], monkeypatch: pytest.MonkeyPatch
+    sent_signals: list[tuple[int, int]], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     async def start_child(*_: object, **__: object) -> EndedChild:
         return EndedChild()
@@ -65,4 +65,4 @@ def test_launch_is_interrupted_between_the_end_of_a_process_and_that_of_its_outp
         )
     )
     assert service.run() == 0
-    assert not sent
+    assert not sent_signals

@@ -132,14 +132,14 @@ def test_python_xml_and_yaml_launch_files_are_equivalent(run_file: Launch, tmp_p
 
 
 def xml(text: str) -> list[Any]:
-    return described(XmlParser, f"<launch>{text}</launch>")
+    return parse_entities(XmlParser, f"<launch>{text}</launch>")
 
 
 def yaml(text: str) -> list[Any]:
-    return described(YamlParser, f"launch:\n{text}")
+    return parse_entities(YamlParser, f"launch:\n{text}")
 
 
-def described(kind: Any, text: str) -> list[Any]:
+def parse_entities(kind: Any, text: str) -> list[Any]:
     root, parser = kind.load(io.StringIO(text))
     description: LaunchDescription = parser.parse_description(root)
     return description.entities

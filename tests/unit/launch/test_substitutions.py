@@ -156,19 +156,19 @@ def context() -> LaunchContext:
     return found
 
 
-def performed(context: LaunchContext, made: Any) -> str:
+def perform_all(context: LaunchContext, made: Any) -> str:
     return perform_substitutions(context, normalize_to_list_of_substitutions(made))
 
 
 @pytest.mark.parametrize(("make", "value"), [row[1:] for row in VALUES], ids=[row[0] for row in VALUES])
 def test_substitution_performs_to_value(context: LaunchContext, make: Make, value: str) -> None:
-    assert performed(context, make()) == value
+    assert perform_all(context, make()) == value
 
 
 @pytest.mark.parametrize(("make", "kind", "text"), [row[1:] for row in ERRORS], ids=[row[0] for row in ERRORS])
 def test_substitution_raises_error(context: LaunchContext, make: Make, kind: type[Exception], text: str) -> None:
     with pytest.raises(kind) as caught:
-        performed(context, make())
+        perform_all(context, make())
     assert text in str(caught.value)
 
 
@@ -179,14 +179,14 @@ def test_substitution_describes_itself(make: Make, text: str) -> None:
 
 def test_environment_is_read_on_perform(context: LaunchContext, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(os.environ, "BC_TEST", "1")
-    assert performed(context, EnvironmentVariable("BC_TEST")) == "1"
-    assert performed(context, EnvironmentVariable("BC_NONE", default_value=["a", X])) == "a7"
+    assert perform_all(context, EnvironmentVariable("BC_TEST")) == "1"
+    assert perform_all(context, EnvironmentVariable("BC_NONE", default_value=["a", X])) == "a7"
 
 
 def test_anonymous_name_stays_the_same(context: LaunchContext) -> None:
-    first = performed(context, AnonName("rviz"))
+    first = perform_all(context, AnonName("rviz"))
     assert first.startswith("rviz_")
-    assert performed(context, AnonName("rviz")) == first != performed(context, AnonName("rviz2"))
+    assert perform_all(context, AnonName("rviz")) == first != perform_all(context, AnonName("rviz2"))
 
 
 @pytest.mark.parametrize("wrong", [5, None, [1], [["a"]]])

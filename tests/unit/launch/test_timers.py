@@ -41,26 +41,26 @@ def test_timers_fire_in_order_of_period(run: Launch) -> None:
         timer(1, "int")
 
 
-def shown(name: str) -> LogInfo:
+def log_configuration(name: str) -> LogInfo:
     return LogInfo(msg=[f"{name}=", LaunchConfiguration(name, default="unset")])
 
 
 def test_timer_sees_the_configurations_of_its_start(run: Launch) -> None:
-    timer = TimerAction(period=0.01, actions=[shown("x")])
-    in_group = TimerAction(period=0.02, actions=[shown("x")])
+    timer = TimerAction(period=0.01, actions=[log_configuration("x")])
+    in_group = TimerAction(period=0.02, actions=[log_configuration("x")])
     group = GroupAction([SetLaunchConfiguration("x", "group"), in_group])
     outcome = run([SetLaunchConfiguration("x", "start"), timer, group, SetLaunchConfiguration("x", "later")])
     assert outcome.message == ["x=start", "x=group"]
 
 
 def test_timer_sees_configurations_that_were_made_meanwhile(run: Launch) -> None:
-    timer = TimerAction(period=0.01, actions=[shown("x")])
+    timer = TimerAction(period=0.01, actions=[log_configuration("x")])
     assert run([timer, SetLaunchConfiguration("x", "later")]).message == ["x=later"]
 
 
 def test_timer_keeps_its_changes_of_configurations_to_itself(run: Launch) -> None:
-    first = TimerAction(period=0.01, actions=[SetLaunchConfiguration("x", "timer"), shown("x")])
-    second = TimerAction(period=0.02, actions=[shown("x")])
+    first = TimerAction(period=0.01, actions=[SetLaunchConfiguration("x", "timer"), log_configuration("x")])
+    second = TimerAction(period=0.02, actions=[log_configuration("x")])
     assert run([SetLaunchConfiguration("x", "start"), first, second]).message == ["x=timer", "x=start"]
 
 
@@ -71,7 +71,7 @@ def test_timer_with_a_condition_in_its_actions_uses_the_start(run: Launch) -> No
 
 
 def test_timer_in_a_timer_sees_the_configurations_of_the_outer_one(run: Launch) -> None:
-    inner = TimerAction(period=0.01, actions=[shown("x")])
+    inner = TimerAction(period=0.01, actions=[log_configuration("x")])
     outer = TimerAction(period=0.01, actions=[SetLaunchConfiguration("x", "outer"), inner])
     assert run([SetLaunchConfiguration("x", "start"), outer]).message == ["x=outer"]
 

@@ -163,7 +163,7 @@ FILES = {"beside": BESIDE, "common": COMMON, "bad": BAD, "unmarked": UNMARKED, "
 FILES |= {"refused": REFUSED, "itself": BY_ITSELF}
 
 
-class Done:
+class PytestRun:
     """One run of all files: its output, and the test cases of each file with their outcomes."""
 
     def __init__(self, folder: Path) -> None:
@@ -185,45 +185,45 @@ class Done:
 
 
 @pytest.fixture(scope="module")
-def done(tmp_path_factory: pytest.TempPathFactory) -> Done:
-    return Done(tmp_path_factory.mktemp("launched"))
+def pytest_run(tmp_path_factory: pytest.TempPathFactory) -> PytestRun:
+    return PytestRun(tmp_path_factory.mktemp("launched"))
 
 
-def test_functions_coroutines_and_generators_run_beside_and_after_a_launch(done: Done) -> None:
-    assert [kinds for _, kinds in done.cases["beside"]] == [[]] * 7, done.printed
+def test_functions_coroutines_and_generators_run_beside_and_after_a_launch(pytest_run: PytestRun) -> None:
+    assert [kinds for _, kinds in pytest_run.cases["beside"]] == [[]] * 7, pytest_run.printed
 
 
-def test_module_fixture_runs_once_and_shutdown_tests_come_last(done: Done) -> None:
+def test_module_fixture_runs_once_and_shutdown_tests_come_last(pytest_run: PytestRun) -> None:
     order = ["test_one", "test_two", "test_end", "test_two[shutdown_test]"]
-    assert done.cases["common"] == [(name, []) for name in order], done.printed
+    assert pytest_run.cases["common"] == [(name, []) for name in order], pytest_run.printed
 
 
-def test_failures_are_reported_with_their_own_assertion(done: Done) -> None:
-    assert sorted(kind for _, kinds in done.cases["bad"] for kind in kinds) == ["error", *["failure"] * 3]
+def test_failures_are_reported_with_their_own_assertion(pytest_run: PytestRun) -> None:
+    assert sorted(kind for _, kinds in pytest_run.cases["bad"] for kind in kinds) == ["error", *["failure"] * 3]
     for text in (
         "something else",
         "it has ended",
         "must stop iteration after yielding once",
         "before it was ready: no such thing",
     ):
-        assert text in done.printed
+        assert text in pytest_run.printed
 
 
-def test_mark_requires_a_fixture(done: Done) -> None:
-    assert done.code == 1
-    assert "pytest.mark.launch takes fixture=" in done.printed
-    assert done.cases["unmarked"] == [("test_it", ["skipped"])]
-    assert '"fixture" keyword argument is required in a pytest.mark.launch() decorator' in done.printed
+def test_mark_requires_a_fixture(pytest_run: PytestRun) -> None:
+    assert pytest_run.code == 1
+    assert "pytest.mark.launch takes fixture=" in pytest_run.printed
+    assert pytest_run.cases["unmarked"] == [("test_it", ["skipped"])]
+    assert '"fixture" keyword argument is required in a pytest.mark.launch() decorator' in pytest_run.printed
 
 
-def test_invalid_fixtures_are_rejected(done: Done) -> None:
-    cases = dict(done.cases["refused"])
+def test_invalid_fixtures_are_rejected(pytest_run: PytestRun) -> None:
+    cases = dict(pytest_run.cases["refused"])
     assert cases["test_no_description"] == cases["test_ready_twice"] == ["error"]
-    assert "fixture 'no_description': return value must be either a launch description" in done.printed
-    assert "containing only one ReadyToTest action" in done.printed
+    assert "fixture 'no_description': return value must be either a launch description" in pytest_run.printed
+    assert "containing only one ReadyToTest action" in pytest_run.printed
     assert cases["test_two_halves_afterwards"] == ["failure"]
-    assert "launch test items cannot be marked with shutdown=True" in done.printed
+    assert "launch test items cannot be marked with shutdown=True" in pytest_run.printed
 
 
-def test_launch_may_end_by_itself(done: Done) -> None:
-    assert done.cases["itself"] == [("test_by_itself", [])], done.printed
+def test_launch_may_end_by_itself(pytest_run: PytestRun) -> None:
+    assert pytest_run.cases["itself"] == [("test_by_itself", [])], pytest_run.printed

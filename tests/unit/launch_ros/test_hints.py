@@ -100,7 +100,7 @@ UNDECLARED = "{here}/program.py:10: the parameter max_sped is not declared; did 
 
 
 @pytest.fixture
-def launched(run: Launch, tmp_path: Path) -> Any:
+def reported_hints(run: Launch, tmp_path: Path) -> Any:
     """Run the launch file; return the hints that each process has reported."""
     for name, text in (("program", PROGRAM), ("handled", HANDLED)):
         (tmp_path / f"{name}.py").write_text("#!/usr/bin/env python3\n" + text.replace("\n\nrclpy", "\nrclpy", 1))
@@ -123,10 +123,10 @@ def launched(run: Launch, tmp_path: Path) -> Any:
 
 
 def test_processes_of_a_launch_report_mistakes_with_their_lines(
-    launched: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    reported_hints: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(SHOW, "1")
-    found = launched()
+    found = reported_hints()
     for name, hint in HINTS.items():
         expected = [hint.format(here=tmp_path)] if hint else []
         if name in ("misspelt", "file_misspelt", "wildcard"):  # the others end before the program reads anything
@@ -135,7 +135,7 @@ def test_processes_of_a_launch_report_mistakes_with_their_lines(
 
 
 def test_without_a_reader_processes_print_only_the_messages_of_ros(
-    launched: Any, monkeypatch: pytest.MonkeyPatch
+    reported_hints: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.delenv(SHOW, raising=False)
-    assert not any(launched().values())
+    assert not any(reported_hints().values())

@@ -28,12 +28,12 @@ def node(**options: Any) -> Node:
     return Node(executable="true", **options)
 
 
-def words(action: Node) -> list[str]:
+def command_words(action: Node) -> list[str]:
     """Return the command line after the executable."""
     return (action.process_description.final_cmd or [])[1:]
 
 
-def launched(run: Launch, *entities: Any) -> Outcome:
+def run_launch(run: Launch, *entities: Any) -> Outcome:
     outcome = run(entities)
     assert outcome.code == 0, outcome.text
     return outcome
@@ -50,7 +50,7 @@ def test_arguments_are_ordered_as_upstream(run: Launch, tmp_path: Path) -> None:
         parameters=[{"p": 1}, str(file), Parameter("q", 5)],
         remappings=[("a", "b")],
     )
-    launched(
+    run_launch(
         run,
         SetLaunchConfiguration("x", "1"),
         SetParameter("g", True),
@@ -58,7 +58,7 @@ def test_arguments_are_ordered_as_upstream(run: Launch, tmp_path: Path) -> None:
         SetRemap("c", "d"),
         action,
     )
-    found = words(action)
+    found = command_words(action)
     written = found[15]
     assert found == [
         *("-a", "b1", "--ros-args", "--log-level", "debug"),
@@ -77,8 +77,8 @@ def test_arguments_are_ordered_as_upstream(run: Launch, tmp_path: Path) -> None:
 )
 def test_dict_is_written_for_the_nodes_full_name(run: Launch, options: Any, key: str) -> None:
     action = node(parameters=[{"b": {"c": [1, 2]}, "a": "x"}], **options)
-    launched(run, action)
-    text = Path(words(action)[-1]).read_text()
+    run_launch(run, action)
+    text = Path(command_words(action)[-1]).read_text()
     assert text == (f"{key}:\n  ros__parameters:\n    a: x\n    b.c: !!python/tuple\n    - 1\n    - 2\n")
 
 
@@ -101,14 +101,14 @@ def test_node_name_includes_namespaces(
     run: Launch, pushed: str | None, namespace: str | None, name: str | None, full: str
 ) -> None:
     action = node(name=name, namespace=namespace)
-    launched(run, *([PushRosNamespace(pushed)] if pushed else []), action)
+    run_launch(run, *([PushRosNamespace(pushed)] if pushed else []), action)
     assert action.node_name == full
 
 
 def test_empty_namespace_is_the_root(run: Launch) -> None:
     action = node(namespace="")
-    launched(run, action)
-    assert words(action) == ["--ros-args", "-r", "__ns:=/"]
+    run_launch(run, action)
+    assert command_words(action) == ["--ros-args", "-r", "__ns:=/"]
 
 
 def test_node_name_is_unavailable_before_launch() -> None:
@@ -135,7 +135,7 @@ def test_invalid_namespace_is_rejected(run: Launch) -> None:
 
 
 def test_duplicate_names_are_warned_about(run: Launch) -> None:
-    outcome = launched(run, node(name="x", namespace="s"), node(name="x", namespace="s"))
+    outcome = run_launch(run, node(name="x", namespace="s"), node(name="x", namespace="s"))
     assert re.search(
         r"\[WARNING\] \[true-\d+\]: there are now at least 2 nodes with the name /s/x created within this launch",
         outcome.text,
@@ -144,17 +144,17 @@ def test_duplicate_names_are_warned_about(run: Launch) -> None:
 
 def test_pushed_namespace_ends_with_its_group(run: Launch) -> None:
     inside, outside = node(name="a"), node(name="a")
-    launched(run, GroupAction([PushRosNamespace("g"), inside]), outside)
+    run_launch(run, GroupAction([PushRosNamespace("g"), inside]), outside)
     assert (inside.node_name, outside.node_name) == ("/g/a", "<node_namespace_unspecified>/a")
 
 
 def test_set_parameter_leaks_out_of_a_group_if_one_was_set_before(run: Launch) -> None:
     inside, outside = node(), node()
-    launched(run, GroupAction([SetParameter("b", 2), inside]), outside)
-    assert (words(inside), words(outside)) == (["--ros-args", "-p", "b:=2"], ["--ros-args"])
+    run_launch(run, GroupAction([SetParameter("b", 2), inside]), outside)
+    assert (command_words(inside), command_words(outside)) == (["--ros-args", "-p", "b:=2"], ["--ros-args"])
     inside, outside = node(), node()
-    launched(run, SetParameter("a", 1), GroupAction([SetParameter("b", 2), inside]), outside)
-    assert words(inside) == words(outside) == ["--ros-args", "-p", "a:=1", "-p", "b:=2"]
+    run_launch(run, SetParameter("a", 1), GroupAction([SetParameter("b", 2), inside]), outside)
+    assert command_words(inside) == command_words(outside) == ["--ros-args", "-p", "a:=1", "-p", "b:=2"]
 
 
 @pytest.mark.parametrize(
@@ -188,14 +188,14 @@ def test_removed_option_names_are_rejected() -> None:
 
 def test_missing_parameter_file_is_a_warning(run: Launch) -> None:
     action = node(parameters=["/no/such.yaml"])
-    outcome = launched(run, action)
+    outcome = run_launch(run, action)
     assert "[WARNING] [launch_ros.actions.node]: Parameter file path is not a file: /no/such.yaml" in outcome.text
-    assert words(action) == ["--ros-args"]
+    assert command_words(action) == ["--ros-args"]
     assert "was looked for in" not in outcome.text
 
 
 def test_warning_says_where_a_relative_file_was_searched_for(run: Launch) -> None:
-    outcome = launched(run, node(parameters=[Path("config/no_such.yaml")]))
+    outcome = run_launch(run, node(parameters=[Path("config/no_such.yaml")]))
     assert f"config/no_such.yaml was looked for in {Path.cwd()}, the folder that launch was started" in outcome.text
 
 
@@ -203,7 +203,7 @@ def test_warning_names_the_package_that_has_the_file(run: Launch, monkeypatch: p
     from launch_ros import parameter_arguments
 
     monkeypatch.setattr(parameter_arguments, "hint_for", lambda path: f"package 'mine' has src/mine/{path}")
-    outcome = launched(run, node(parameters=[Path("config/no_such.yaml")]))
+    outcome = run_launch(run, node(parameters=[Path("config/no_such.yaml")]))
     assert "launch was started in; package 'mine' has src/mine/config/no_such.yaml" in outcome.text
 
 
@@ -277,7 +277,7 @@ def test_missing_executable_error_lists_existing_ones(log_lines: list[str]) -> N
 def test_set_ros_log_dir_sets_log_folder_of_nodes(run: Launch, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
     seen: list[str] = []
-    launched(
+    run_launch(
         run,
         SetROSLogDir("sub"),
         OpaqueFunction(function=lambda context: seen.append(context.environment["ROS_LOG_DIR"])),

@@ -39,7 +39,7 @@ def script(tmp_path: Path) -> Any:
 
 
 @pytest.fixture
-def meets() -> None:
+def joins_domain() -> None:
     """Let this process take part in a domain, in which it finds the processes that it launches."""
     assert not join_domain()
 
@@ -188,7 +188,7 @@ def test_parameters_and_remappings_arrive(run: Launch, script: Any) -> None:
     assert lines_of(run([node]).text) == ["/s/n 2.5 /s/b"]
 
 
-def test_lifecycle_node_changes_state_on_events(run: Launch, script: Any, meets: None) -> None:
+def test_lifecycle_node_changes_state_on_events(run: Launch, script: Any, joins_domain: None) -> None:
     path = script(
         """
         import rclpy
@@ -217,7 +217,7 @@ def test_lifecycle_node_changes_state_on_events(run: Launch, script: Any, meets:
 
 
 def test_python_components_are_loaded_into_a_container(
-    run: Launch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, meets: None
+    run: Launch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, joins_domain: None
 ) -> None:
     (tmp_path / "bc_components.py").write_text(
         textwrap.dedent(
@@ -255,7 +255,7 @@ def test_python_components_are_loaded_into_a_container(
 
 
 def test_lifecycle_component_activates_automatically(
-    run: Launch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, meets: None
+    run: Launch, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, joins_domain: None
 ) -> None:
     (tmp_path / "bc_lifecycle_component.py").write_text(
         textwrap.dedent(

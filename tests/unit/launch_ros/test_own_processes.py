@@ -73,7 +73,7 @@ def test_node_has_its_own_process_with_arguments_and_environment(run: Launch, sc
 
 
 @pytest.fixture
-def meets(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def joins_domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Let this process take part in a domain, in which its children find it."""
     monkeypatch.delenv("ROS_AUTOMATIC_DISCOVERY_RANGE", raising=False)
     let_children_meet(True)
@@ -89,20 +89,20 @@ print(is_chosen(shared_bus))
 """
 
 
-def test_program_that_can_reach_its_launch_is_a_separate_process(run: Launch, script: Any, meets: None) -> None:
+def test_program_that_can_reach_its_launch_is_a_separate_process(run: Launch, script: Any, joins_domain: None) -> None:
     node = Node(executable=script(WHERE), output="screen")
     assert lines_of(run([node]).text) == ["own"]
 
 
 def test_program_without_discovery_is_a_separate_process_and_finds_nobody(
-    run: Launch, script: Any, meets: None, monkeypatch: pytest.MonkeyPatch
+    run: Launch, script: Any, joins_domain: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF")
     path = script(f"{JOINED}\n{WHERE}")
     assert lines_of(run([Node(executable=path, output="screen")]).text) == ["False", "own"]
 
 
-def test_program_joins_the_domain_that_its_launch_has_joined(run: Launch, script: Any, meets: None) -> None:
+def test_program_joins_the_domain_that_its_launch_has_joined(run: Launch, script: Any, joins_domain: None) -> None:
     assert lines_of(run([Node(executable=script(JOINED), output="screen")]).text) == ["True"]
 
 
@@ -138,7 +138,9 @@ def test_programs_of_an_isolated_system_are_processes_that_meet_in_a_separate_fo
 
 
 @pytest.mark.parametrize("shell", [False, True])
-def test_ros2_run_in_a_launch_file_has_its_own_process(run: Launch, tmp_path: Path, meets: None, shell: bool) -> None:
+def test_ros2_run_in_a_launch_file_has_its_own_process(
+    run: Launch, tmp_path: Path, joins_domain: None, shell: bool
+) -> None:
     for name, text in {
         "package.xml": "<package><name>talks</name><export><build_type>ament_python</build_type></export></package>",
         "setup.py": "from setuptools import setup\nsetup(name='talks', packages=['talks'],"

@@ -13,7 +13,7 @@ from launch_ros.parameter_descriptions import Parameter, ParameterValue
 from launch import LaunchContext
 
 
-def given(node: Node, *arguments: DeclareLaunchArgument) -> dict[str, Any]:
+def parameter_sources(node: Node, *arguments: DeclareLaunchArgument) -> dict[str, Any]:
     found: list[News] = []
     forget = on_news(found.append)
     context = LaunchContext()
@@ -41,7 +41,7 @@ def test_each_parameter_has_its_launch_arguments_or_line() -> None:
             Parameter("single", speed),
         ],
     )
-    found = given(
+    found = parameter_sources(
         node, DeclareLaunchArgument("speed", default_value="1.5"), DeclareLaunchArgument("low", default_value="1")
     )
     assert found.pop("plain").startswith(f"launch file {__file__}:")

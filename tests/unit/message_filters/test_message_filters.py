@@ -30,7 +30,7 @@ def times(messages: Any) -> list[float]:
     return [each.header.stamp.sec + each.header.stamp.nanosec / 1e9 for each in messages]
 
 
-def heard(of: Any) -> list[list[float]]:
+def record_times(of: Any) -> list[list[float]]:
     found: list[list[float]] = []
     of.registerCallback(lambda *messages: found.append(times(messages)))
     return found
@@ -38,7 +38,7 @@ def heard(of: Any) -> list[list[float]]:
 
 def test_time_synchronizer_matches_exact_times() -> None:
     one, two, three = SimpleFilter(), SimpleFilter(), SimpleFilter()
-    sets = heard(TimeSynchronizer([one, two, three], 2))
+    sets = record_times(TimeSynchronizer([one, two, three], 2))
     for at in (1, 2, 3):
         one.signalMessage(message(at))
         two.signalMessage(message(at))
@@ -49,7 +49,7 @@ def test_time_synchronizer_matches_exact_times() -> None:
 
 def test_approximate_synchronizer_takes_the_nearest_messages() -> None:
     one, two = SimpleFilter(), SimpleFilter()
-    sets = heard(ApproximateTimeSynchronizer([one, two], 10, 0.5))
+    sets = record_times(ApproximateTimeSynchronizer([one, two], 10, 0.5))
     for at in (1.0, 1.25, 3.0):
         one.signalMessage(message(at))
     two.signalMessage(message(1.375))
@@ -78,8 +78,8 @@ def test_approximate_sets_respect_slop_and_use_each_message_once(arrivals: list[
 
 def test_headerless_messages_need_allow_headerless(capfd: pytest.CaptureFixture[str]) -> None:
     one, two = SimpleFilter(), SimpleFilter()
-    strict = heard_count(ApproximateTimeSynchronizer([one, two], 10, 5.0))
-    relaxed = heard_count(ApproximateTimeSynchronizer([one, two], 10, 5.0, allow_headerless=True))
+    strict = record_calls(ApproximateTimeSynchronizer([one, two], 10, 5.0))
+    relaxed = record_calls(ApproximateTimeSynchronizer([one, two], 10, 5.0, allow_headerless=True))
     one.signalMessage(String())
     two.signalMessage(String())
     assert (len(strict), len(relaxed)) == (0, 1)
@@ -96,7 +96,7 @@ def test_exact_synchronizer_needs_a_header() -> None:
         one.signalMessage(String())
 
 
-def heard_count(of: Any) -> list[int]:
+def record_calls(of: Any) -> list[int]:
     found: list[int] = []
     of.registerCallback(lambda *messages: found.append(1))
     return found
@@ -105,7 +105,7 @@ def heard_count(of: Any) -> list[int]:
 def test_cache_returns_messages_by_time() -> None:
     source = SimpleFilter()
     cache = Cache(source, 3)
-    passed = heard(cache)
+    passed = record_times(cache)
     for at in (1.0, 3.0, 2.0, 4.0):
         source.signalMessage(message(at))
     assert passed == [[1.0], [3.0], [2.0], [4.0]]
@@ -119,7 +119,7 @@ def test_cache_returns_messages_by_time() -> None:
 def test_chain_passes_on_the_output_of_its_last_filter() -> None:
     source = SimpleFilter()
     chain = Chain(source)
-    passed = heard(chain)
+    passed = record_times(chain)
     source.signalMessage(message(1.0))
     chain.addFilter(Cache(SimpleFilter(), 2))
     chain.addFilter(last := Cache(SimpleFilter(), 5))
@@ -134,7 +134,7 @@ def test_chain_passes_on_the_output_of_its_last_filter() -> None:
 
 def test_late_message_that_its_full_queue_drops_is_not_passed_on() -> None:
     one, two = SimpleFilter(), SimpleFilter()
-    sets = heard(ApproximateTimeSynchronizer([one, two], 1, 0.5))
+    sets = record_times(ApproximateTimeSynchronizer([one, two], 1, 0.5))
     two.signalMessage(message(1.0))
     one.signalMessage(message(5.0))
     one.signalMessage(message(1.0))

@@ -16,7 +16,7 @@ def wall_ahead(distance: float) -> np.ndarray:
         return (distance / np.maximum(np.cos(ANGLES), 1e-9)).astype(np.float32)
 
 
-def thing(angle: float, distance: float, width: float = 0.2) -> np.ndarray:
+def ranges_with_obstacle(angle: float, distance: float, width: float = 0.2) -> np.ndarray:
     ranges = np.full(BEAMS, math.inf, np.float32)
     ranges[np.abs(ANGLES - angle) < width / 2 / distance] = distance
     return ranges
@@ -68,7 +68,7 @@ def test_turn_rate_limits_turning_both_ways(rate: float) -> None:
 
 @pytest.mark.parametrize(("angle", "sign"), [(0.3, -1), (-0.3, 1)])
 def test_robot_steers_away_from_an_obstacle(angle: float, sign: int) -> None:
-    assert math.copysign(1, decide(thing(angle, 1.2, 0.6)).angular) == sign
+    assert math.copysign(1, decide(ranges_with_obstacle(angle, 1.2, 0.6)).angular) == sign
 
 
 def test_weak_returns_count_only_below_the_threshold() -> None:

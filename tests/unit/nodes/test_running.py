@@ -21,7 +21,7 @@ def domain(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     signal.signal(signal.SIGINT, before)
 
 
-class Impatient(Node):
+class InterruptedTwice(Node):
     """Receives Ctrl-C once while it runs, and again while it ends."""
 
     ended = 0
@@ -35,14 +35,14 @@ class Impatient(Node):
 
     def destroy_node(self) -> None:
         signal.raise_signal(signal.SIGINT)
-        Impatient.ended += 1
+        InterruptedTwice.ended += 1
         super().destroy_node()
 
 
 def test_second_interrupt_does_not_break_the_end() -> None:
-    Impatient.ended = 0
-    run(Impatient, [])
-    assert Impatient.ended == 1
+    InterruptedTwice.ended = 0
+    run(InterruptedTwice, [])
+    assert InterruptedTwice.ended == 1
     assert not rclpy.ok()
     signal.raise_signal(signal.SIGINT)  # Until the interpreter has gone.
 
@@ -74,7 +74,7 @@ def test_interrupt_during_error_handling_is_a_clean_end(monkeypatch: pytest.Monk
 
 def test_next_run_can_be_interrupted_again() -> None:
     for _ in range(2):
-        run(Impatient, [])
+        run(InterruptedTwice, [])
 
 
 def test_node_that_cannot_start_reports_why(capfd: pytest.CaptureFixture[str]) -> None:
@@ -93,4 +93,4 @@ def test_error_before_there_is_a_context_is_raised(monkeypatch: pytest.MonkeyPat
 
     monkeypatch.setattr(rclpy, "init", init)
     with pytest.raises(MemoryError):
-        run(Impatient, [])
+        run(InterruptedTwice, [])

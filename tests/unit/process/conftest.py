@@ -15,7 +15,7 @@ LONG = 240.0
 """How long (s) a test waits for an expected event before it fails."""
 
 
-class Started:
+class StartedProcess:
     """A running node process and its output."""
 
     def __init__(self, process: NodeProcess, target: Callable[[], object], **options: Any) -> None:
@@ -52,17 +52,17 @@ class Started:
 
 
 @pytest.fixture
-def start() -> Iterator[Callable[..., Started]]:
+def start() -> Iterator[Callable[..., StartedProcess]]:
     """Start callables as node processes; afterwards kill those that a test has left running and restore patched
     modules."""
     processes: weakref.WeakSet[NodeProcess] = weakref.WeakSet()
 
     def start_one(
         target: Callable[[], object], *, name: str = "node", clock: ClockSource | None = None, **options: Any
-    ) -> Started:
+    ) -> StartedProcess:
         process = NodeProcess(name, clock)
         processes.add(process)
-        return Started(process, target, **options)
+        return StartedProcess(process, target, **options)
 
     yield start_one
     for process in tuple(processes):
@@ -71,10 +71,10 @@ def start() -> Iterator[Callable[..., Started]]:
 
 
 @pytest.fixture
-def run(start: Callable[..., Started]) -> Callable[..., Started]:
+def run(start: Callable[..., StartedProcess]) -> Callable[..., StartedProcess]:
     """Run a callable as a node process until it ends."""
 
-    def run_one(target: Callable[[], object], **options: Any) -> Started:
+    def run_one(target: Callable[[], object], **options: Any) -> StartedProcess:
         started = start(target, **options)
         started.end()
         return started

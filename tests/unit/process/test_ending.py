@@ -19,18 +19,18 @@ os._exit(exit_functions_run(3))
 """
 
 
-def ended(output: Any) -> subprocess.CompletedProcess[str]:
+def run_to_end(output: Any) -> subprocess.CompletedProcess[str]:
     command = [sys.executable, "-c", PROGRAM]
     buffered = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
     return subprocess.run(command, stdout=output, stderr=subprocess.PIPE, text=True, check=False, env=buffered)
 
 
 def test_exit_functions_run_and_output_is_flushed() -> None:
-    end = ended(subprocess.PIPE)
+    end = run_to_end(subprocess.PIPE)
     assert (end.returncode, end.stdout, end.stderr) == (3, "first word\n", "last word\n")
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
 def test_unwritable_output_gives_the_exit_code_of_the_interpreter() -> None:
     with open("/dev/full", "w") as full:
-        assert ended(full).returncode == 120
+        assert run_to_end(full).returncode == 120

@@ -25,7 +25,7 @@ LONG = 240.0
 FILE_PROGRAM = "bot_console.runtime.process.program:file_program"
 
 
-class Forked:
+class ForkedChild:
     """A child process and all its output."""
 
     def __init__(self, server: ForkServer, job: Job) -> None:
@@ -75,15 +75,15 @@ def server() -> Iterator[ForkServer]:
 
 
 @pytest.fixture
-def fork(server: ForkServer, tmp_path: Path) -> Callable[..., Forked]:
+def fork(server: ForkServer, tmp_path: Path) -> Callable[..., ForkedChild]:
     """Fork a program with the given source."""
 
-    def forked(text: str, *words: str, on: ForkServer = server, cwd: str = str(tmp_path), **env: str) -> Forked:
+    def forked(text: str, *words: str, on: ForkServer = server, cwd: str = str(tmp_path), **env: str) -> ForkedChild:
         path = tmp_path / "program.py"
         if not path.is_file() or path.read_text() != text:  # another child with this source may be reading it
             path.write_text(text)
         job = Job("a-long-name-of-a-process-1", FILE_PROGRAM, [str(path)], [str(path), *words], env, cwd)
-        return Forked(on, job)
+        return ForkedChild(on, job)
 
     return forked
 
@@ -273,7 +273,7 @@ if os.fork() == 0:
 """
 
 
-def is_there(pid: int) -> bool:
+def process_exists(pid: int) -> bool:
     try:
         os.kill(pid, 0)
     except ProcessLookupError:
@@ -288,8 +288,8 @@ def test_orphans_of_a_child_end_with_the_server(fork: Any, deaf: tuple[str, ...]
         child = fork(LEAVES, *deaf, on=server)
         child.until(lambda: child.out.endswith("\n") and child.report.exit_code is not None)
         orphan = int(child.out)
-        assert is_there(orphan) and server.is_alive
-    assert not is_there(orphan)
+        assert process_exists(orphan) and server.is_alive
+    assert not process_exists(orphan)
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="a system that hands over no orphans")
@@ -298,5 +298,5 @@ def test_daemon_started_by_a_child_survives(fork: Any) -> None:
         child = fork(LEAVES, on=server)
         child.until(lambda: child.out.endswith("\n") and child.report.exit_code is not None)
         daemon = int(child.out)
-    assert is_there(daemon)
+    assert process_exists(daemon)
     os.kill(daemon, signal.SIGKILL)

@@ -52,7 +52,7 @@ print(json.dumps(facts), flush=True)
 """
 
 
-def ran(
+def run_parent(
     tmp_path: Path, child: str, parent: str = PARENT, before: Sequence[str] = ()
 ) -> subprocess.CompletedProcess[str]:
     beside = tmp_path / "beside"
@@ -64,7 +64,7 @@ def ran(
 
 
 def test_child_inherits_nothing_of_the_forked_program(tmp_path: Path) -> None:
-    done = ran(tmp_path, CHILD)
+    done = run_parent(tmp_path, CHILD)
     assert (done.returncode, done.stderr) == (0, "")
     lines = done.stdout.splitlines()
     assert len(lines) == 4 and lines[0] == "once" and lines[-1] == "end of the parent"
@@ -84,7 +84,7 @@ def test_child_inherits_nothing_of_the_forked_program(tmp_path: Path) -> None:
     [pytest.param("raise SystemExit(3)", marks=pytest.mark.slow), "1 / 0", "import os; os.kill(os.getppid(), 9)"],
 )
 def test_ending_child_or_server_does_not_continue_the_parents_program(tmp_path: Path, text: str) -> None:
-    done = ran(tmp_path, text)
+    done = run_parent(tmp_path, text)
     assert done.stdout.count("end of the parent") == 1 and done.stdout.count("once") == 1
     assert done.returncode == 0 or "kill" in text  # the parent asserts that the server lives
 
@@ -109,7 +109,7 @@ def test_process_with_several_threads_is_not_forked() -> None:
 def test_ctrl_c_reaches_the_parent_only(tmp_path: Path) -> None:
     begun = "    raise\n"
     interrupted = "try:\n    os.killpg(0, 2)\n    while True:\n        pass\nexcept KeyboardInterrupt:\n    pass\n"
-    done = ran(tmp_path, "print('child')", PARENT.replace(begun, begun + interrupted))
+    done = run_parent(tmp_path, "print('child')", PARENT.replace(begun, begun + interrupted))
     assert (done.returncode, done.stderr, done.stdout.count("child")) == (0, "", 1)
 
 
@@ -119,12 +119,12 @@ def test_child_has_its_streams_even_if_the_programs_are_closed(tmp_path: Path, c
     parent = PARENT.replace("stdout=1", "stdout=2").replace('sys.stdout.write("once\\n")', "")
     parent = parent.replace('held = os.open("/", os.O_RDONLY)', "held = os.dup(2)").replace("here=True", f"here={how}")
     parent = parent.replace("server.close()", "server.close(); assert server._process.returncode == 0")
-    done = ran(tmp_path, "print('child')", parent, ["sh", "-c", f'exec "$@" {closed}', "sh"])
+    done = run_parent(tmp_path, "print('child')", parent, ["sh", "-c", f'exec "$@" {closed}', "sh"])
     assert (done.returncode, done.stderr) == (0, "child\n")
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="shown by Linux")
 def test_server_and_children_do_not_share_the_parents_command_line(tmp_path: Path) -> None:
     shown = "print(*open(f'/proc/{pid}/cmdline').read().split('\\0'))\n"
-    done = ran(tmp_path, f"import os\nfor pid in ('self', os.getppid()): {shown}")
+    done = run_parent(tmp_path, f"import os\nfor pid in ('self', os.getppid()): {shown}")
     assert {"x", "bot-console fork server"} < {each.strip() for each in done.stdout.splitlines()}

@@ -21,7 +21,7 @@ sys.stdin.readline()
 """
 
 
-def started(base: Path) -> tuple[subprocess.Popen[str], Path]:
+def start_process(base: Path) -> tuple[subprocess.Popen[str], Path]:
     process = subprocess.Popen(
         [sys.executable, "-c", PROGRAM], env={**os.environ, "TMPDIR": str(base)}, text=True,
         stdin=subprocess.PIPE, stdout=subprocess.PIPE,
@@ -32,15 +32,15 @@ def started(base: Path) -> tuple[subprocess.Popen[str], Path]:
 
 def test_files_are_deleted_at_exit_and_those_of_a_killed_process_by_the_next(tmp_path: Path) -> None:
     base = tmp_path / f"bot-console-{os.geteuid()}"
-    killed, left = started(tmp_path)
-    living, kept = started(tmp_path)
+    killed, left = start_process(tmp_path)
+    living, kept = start_process(tmp_path)
     assert left.read_text() == kept.read_text() == "a: 1" and base.stat().st_mode & 0o777 == 0o700
     killed.send_signal(signal.SIGKILL)
     killed.wait()
     assert left.exists(), "a killed process cleans nothing"
     living.communicate("\n")
     assert not kept.exists() and left.exists()
-    last, _ = started(tmp_path)
+    last, _ = start_process(tmp_path)
     assert not left.exists()
     last.communicate("\n")
     assert list((base / "files").iterdir()) == []
@@ -50,7 +50,7 @@ def test_folder_of_another_user_is_not_used(tmp_path: Path) -> None:
     theirs = tmp_path / "theirs"
     theirs.mkdir()
     (tmp_path / f"bot-console-{os.geteuid()}").symlink_to(theirs)
-    process, file = started(tmp_path)
+    process, file = start_process(tmp_path)
     assert file.exists() and list(theirs.iterdir()) == []
     process.communicate("\n")
     assert not file.exists()

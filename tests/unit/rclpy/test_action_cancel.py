@@ -24,7 +24,7 @@ LATE = Time(sec=2**31 - 1)
 EARLY = Time(sec=1)
 
 
-class Held(Pair):
+class HeldGoals(Pair):
     """Goals that execute until `go` is done; cancel requests are answered with `agree`."""
 
     def __init__(self, ros: Any, agree: Any = CancelResponse.ACCEPT) -> None:
@@ -53,7 +53,7 @@ def ids(response: Any) -> list[bytes]:
 
 
 def test_goal_is_cancelled(ros: Any) -> None:
-    pair = Held(ros)
+    pair = HeldGoals(ros)
     handle = pair.send(3)
     asked = handle.get_result_async()
     answer = pair.outcome(handle.cancel_goal_async())
@@ -64,7 +64,7 @@ def test_goal_is_cancelled(ros: Any) -> None:
 
 
 def test_rejected_cancel_changes_nothing(ros: Any) -> None:
-    pair = Held(ros, CancelResponse.REJECT)
+    pair = HeldGoals(ros, CancelResponse.REJECT)
     handle = pair.send(3)
     answer = pair.outcome(handle.cancel_goal_async())
     assert (answer.return_code, ids(answer), pair.asked) == (NONE, [], [3])
@@ -73,7 +73,7 @@ def test_rejected_cancel_changes_nothing(ros: Any) -> None:
 
 
 def test_second_cancel_finds_the_goal_no_longer_cancelable(ros: Any) -> None:
-    pair = Held(ros)
+    pair = HeldGoals(ros)
     handle = pair.send()
     pair.outcome(handle.cancel_goal_async())
     answer = pair.outcome(handle.cancel_goal_async())
@@ -81,7 +81,7 @@ def test_second_cancel_finds_the_goal_no_longer_cancelable(ros: Any) -> None:
 
 
 def test_ended_goal_cannot_be_cancelled(ros: Any) -> None:
-    pair = Held(ros)
+    pair = HeldGoals(ros)
     pair.go.set_result(None)
     handle = pair.send()
     pair.result(handle)
@@ -106,7 +106,7 @@ def test_ended_goal_cannot_be_cancelled(ros: Any) -> None:
 def test_cancel_request_selects_goals_by_id_and_stamp(
     ros: Any, which: str, stamp: Any, code: int, cancelled: list[int]
 ) -> None:
-    pair = Held(ros)
+    pair = HeldGoals(ros)
     handles = {order: pair.send(order) for order in (1, 2, 3)}
     uuid = {"none": None, "second": handles[2].goal_id, "stranger": UUID(uuid=[1] * 16)}[which]
     answer = pair.request(uuid, stamp)
@@ -115,7 +115,7 @@ def test_cancel_request_selects_goals_by_id_and_stamp(
 
 
 def test_cancel_request_asks_about_all_goals_even_if_some_are_rejected(ros: Any) -> None:
-    pair = Held(ros)
+    pair = HeldGoals(ros)
     handles = {order: pair.send(order) for order in (1, 2, 3, 4)}
     pair.server.register_cancel_callback(
         lambda handle: CancelResponse.ACCEPT if handle.request.order == 3 else CancelResponse.REJECT
@@ -124,7 +124,7 @@ def test_cancel_request_asks_about_all_goals_even_if_some_are_rejected(ros: Any)
 
 
 def test_goal_may_be_cancelled_before_execution(ros: Any) -> None:
-    pair = Held(ros)
+    pair = HeldGoals(ros)
     kept: list[Any] = []
     pair.server.register_handle_accepted_callback(kept.append)
     pair.go.set_result(None)
@@ -136,7 +136,7 @@ def test_goal_may_be_cancelled_before_execution(ros: Any) -> None:
 
 
 def test_goal_may_end_while_the_cancel_callback_runs(ros: Any) -> None:
-    pair = Held(ros)
+    pair = HeldGoals(ros)
     thought: Future[None] = Future()
 
     async def think(handle: Any) -> CancelResponse:

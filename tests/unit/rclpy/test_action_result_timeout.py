@@ -43,7 +43,7 @@ for wait in (1.5, 1.0):
 """
 
 
-class Driven(Pair):
+class SimulatedAction(Pair):
     """An action in simulated time."""
 
     def __init__(self, ros: Any, **server: Any) -> None:
@@ -62,7 +62,7 @@ class Driven(Pair):
 
 
 def test_results_expire_by_the_nodes_clock(ros: Any) -> None:
-    pair = Driven(ros, result_timeout=5)
+    pair = SimulatedAction(ros, result_timeout=5)
     handle = pair.send()
     seen = []
     for now in (1, 6, 7):
@@ -72,7 +72,7 @@ def test_results_expire_by_the_nodes_clock(ros: Any) -> None:
 
 
 def test_each_result_expires_separately(ros: Any) -> None:
-    pair = Driven(ros, result_timeout=5)
+    pair = SimulatedAction(ros, result_timeout=5)
     first = pair.send()
     pair.go_to(4)
     second = pair.send()
@@ -85,7 +85,7 @@ def test_each_result_expires_separately(ros: Any) -> None:
 
 def test_goal_that_has_not_ended_does_not_expire(ros: Any) -> None:
     kept: list[Any] = []
-    pair = Driven(ros, result_timeout=5, handle_accepted_callback=kept.append)
+    pair = SimulatedAction(ros, result_timeout=5, handle_accepted_callback=kept.append)
     handle = pair.send()
     pair.go_to(100)
     kept[0].execute()
@@ -93,7 +93,7 @@ def test_goal_that_has_not_ended_does_not_expire(ros: Any) -> None:
 
 
 def test_expired_goals_leave_the_status(ros: Any) -> None:
-    pair = Driven(ros, result_timeout=5)
+    pair = SimulatedAction(ros, result_timeout=5)
     pair.send()
     pair.go_to(10)
     pair.result(pair.send())

@@ -159,15 +159,15 @@ def test_waiting_coroutine_leaves_a_reentrant_group_free(ros: Any) -> None:
     ros.spin(lambda: len(got) >= 4)
 
 
-class Thing:
+class Member:
     """A member of a group."""
 
 
 def test_group_forgets_deleted_entities() -> None:
-    group, kept = ReentrantCallbackGroup(), [Thing() for _ in range(100)]
+    group, kept = ReentrantCallbackGroup(), [Member() for _ in range(100)]
     for each in kept:
         group.add_entity(each)
     for _ in range(2000):
-        group.add_entity(Thing())
+        group.add_entity(Member())
     assert len(group.entities) <= 2 * len(kept), "a node that makes a timer a second would grow for good"
     assert all(map(group.has_entity, kept))

@@ -219,7 +219,7 @@ def test_clock_attached_later_has_the_last_time(ros: Any) -> None:
     assert clock.now().nanoseconds == 7 * SECOND
 
 
-class Kept:
+class PreemptedClocks:
     """Both clocks of a machine that preempts the thread after each reading."""
 
     now = 0
@@ -233,5 +233,5 @@ class Kept:
 
 def test_deadline_is_never_before_its_time(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = Clock()
-    monkeypatch.setattr(clock, "_source", Kept())
+    monkeypatch.setattr(clock, "_source", PreemptedClocks())
     assert clock._steady_deadline(10 * SECOND) == 11 * SECOND

@@ -23,7 +23,7 @@ from std_msgs.msg import Int32
 from std_srvs.srv import Trigger
 
 
-def everything(ros: Any, node: Any, got: list[str], tag: str = "") -> None:
+def create_all_ready(ros: Any, node: Any, got: list[str], tag: str = "") -> None:
     """Create one entity of each kind in reverse order of service, all ready."""
     requester = ros.node(f"asker{tag}")
     node.create_service(Trigger, f"s{tag}", lambda request, response: (got.append(f"service{tag}"), response)[1])
@@ -38,7 +38,7 @@ def everything(ros: Any, node: Any, got: list[str], tag: str = "") -> None:
 
 def test_kinds_of_entities_are_served_in_order(ros: Any) -> None:
     got: list[str] = []
-    everything(ros, ros.node(), got)
+    create_all_ready(ros, ros.node(), got)
     ros.spin(lambda: "service" in got)
     assert got == ["timer", "subscription", "guard", "service"]
 
@@ -46,8 +46,8 @@ def test_kinds_of_entities_are_served_in_order(ros: Any) -> None:
 def test_nodes_are_served_one_after_the_other(ros: Any) -> None:
     got: list[str] = []
     first, second = ros.node("first"), ros.node("second")
-    everything(ros, second, got, "2")
-    everything(ros, first, got, "1")
+    create_all_ready(ros, second, got, "2")
+    create_all_ready(ros, first, got, "1")
     ros.spin(lambda: len(got) >= 8)
     assert [each[-1] for each in got] == ["1"] * 4 + ["2"] * 4
 

@@ -26,7 +26,7 @@ def process():
         yield made
 
 
-def things(domain):
+def graph_entities(domain):
     (graph,) = local_bus(domain).tables()
     ends = (graph.publishers, graph.subscriptions, graph.servers, graph.clients)
     return [*graph.nodes(), *(each for kind in ends for each in kind.all())]
@@ -42,9 +42,9 @@ def test_entities_created_after_the_kill_stay_out_of_the_graph(process, domain, 
     node.create_subscription(String, "t", lambda message: None, 10)
     node.create_service(Trigger, "s", lambda request, response: response)
     node.create_client(Trigger, "s")
-    assert things(domain) == []
+    assert graph_entities(domain) == []
     node.destroy_node()
-    assert things(domain) == []
+    assert graph_entities(domain) == []
 
 
 def test_node_created_while_its_context_ends_stays_out_of_the_graph(process, domain, monkeypatch):
@@ -53,7 +53,7 @@ def test_node_created_while_its_context_ends_stays_out_of_the_graph(process, dom
     process.finish(-9)
     monkeypatch.setattr(context, "ended", False)  # the state when the node checked
     Node("n", context=context)
-    assert things(domain) == []
+    assert graph_entities(domain) == []
 
 
 def test_context_initialized_after_the_end_is_not_ok(process, domain):
@@ -68,9 +68,9 @@ def test_nodes_of_a_shut_down_context_leave_with_the_process(process, domain):
     context.init([], domain_id=domain)
     node = Node("n", context=context)
     context.shutdown()
-    assert things(domain) != []
+    assert graph_entities(domain) != []
     process.finish(-9)
-    assert things(domain) == []
+    assert graph_entities(domain) == []
     node.destroy_node()
 
 

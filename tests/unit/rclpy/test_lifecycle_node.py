@@ -30,7 +30,7 @@ PATHS = {
 }
 
 
-class Scripted(LifecycleNode):
+class ScriptedNode(LifecycleNode):
     """A node whose callbacks return, or raise, what `answers` says, and record their arguments."""
 
     def __init__(self, name: str, **options: Any) -> None:
@@ -44,7 +44,7 @@ class Scripted(LifecycleNode):
 
 
 def _scripted(name: str) -> Any:
-    def callback(self: Scripted, state: LifecycleState) -> Any:
+    def callback(self: ScriptedNode, state: LifecycleState) -> Any:
         self.reported.append((name, state))
         answer = self.answers.get(name, SUCCESS)
         if isinstance(answer, Exception):
@@ -56,16 +56,16 @@ def _scripted(name: str) -> Any:
 
 
 for each in CALLBACKS:
-    setattr(Scripted, each, _scripted(each))
+    setattr(ScriptedNode, each, _scripted(each))
 
 
 @pytest.fixture
-def node(ros: Any) -> Scripted:
+def node(ros: Any) -> ScriptedNode:
     ros.init()
-    return Scripted("managed", context=ros.context)
+    return ScriptedNode("managed", context=ros.context)
 
 
-def lead(node: Scripted, state: str) -> None:
+def lead(node: ScriptedNode, state: str) -> None:
     for step in PATHS[state]:
         assert getattr(node, f"trigger_{step}")() is SUCCESS
     node.reported.clear()
@@ -102,7 +102,12 @@ def test_names_are_upstreams() -> None:
     ],
 )
 def test_transitions_follow_the_state_machine(
-    node: Scripted, state: str, trigger: str, answers: dict[str, Any], returned: TransitionCallbackReturn, after: str
+    node: ScriptedNode,
+    state: str,
+    trigger: str,
+    answers: dict[str, Any],
+    returned: TransitionCallbackReturn,
+    after: str,
 ) -> None:
     lead(node, state)
     node.answers = answers
@@ -128,7 +133,7 @@ def test_transitions_follow_the_state_machine(
     ],
 )
 def test_error_processing_follows_on_error(
-    node: Scripted, state: str, trigger: str, on_error: Any, after: str, broken: Any
+    node: ScriptedNode, state: str, trigger: str, on_error: Any, after: str, broken: Any
 ) -> None:
     lead(node, state)
     node.answers = {f"on_{trigger}": broken, "on_error": on_error}
@@ -140,7 +145,7 @@ def test_error_processing_follows_on_error(
 @pytest.mark.parametrize("trigger", TRIGGERS)
 @pytest.mark.parametrize("state", PATHS)
 def test_transition_from_another_state_is_refused(
-    node: Scripted, state: str, trigger: str, capfd: pytest.CaptureFixture[str]
+    node: ScriptedNode, state: str, trigger: str, capfd: pytest.CaptureFixture[str]
 ) -> None:
     lead(node, state)
     offered = [row for row in TRANSITIONS if STATES[row.start] == state and row.label == trigger]
@@ -158,13 +163,13 @@ def test_transition_from_another_state_is_refused(
     assert f"[rcl_lifecycle]: No transition matching {number} found for current state {state}" in capfd.readouterr().err
 
 
-def test_exception_in_a_callback_is_reported(node: Scripted, capfd: pytest.CaptureFixture[str]) -> None:
+def test_exception_in_a_callback_is_reported(node: ScriptedNode, capfd: pytest.CaptureFixture[str]) -> None:
     node.answers = {"on_configure": ValueError("no port")}
     node.trigger_configure()
     assert f"[managed]: on_configure raised ValueError: no port, at {__file__}:" in capfd.readouterr().err
 
 
-def test_callback_returning_none_leaves_the_node_in_the_transition_state(node: Scripted) -> None:
+def test_callback_returning_none_leaves_the_node_in_the_transition_state(node: ScriptedNode) -> None:
     node.answers = {"on_configure": None}
     with pytest.raises(AttributeError, match="'NoneType' object has no attribute 'to_label'"):
         node.trigger_configure()

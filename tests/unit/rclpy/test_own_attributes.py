@@ -37,7 +37,7 @@ NAMES = [
 ]
 
 
-class Crowded(Node):
+class NodeWithAttributes(Node):
     """Sets arbitrary attributes before calling the base class."""
 
     def __init__(self, **options: Any) -> None:
@@ -53,7 +53,7 @@ class Crowded(Node):
 def test_own_attributes_do_not_interfere_with_the_node(ros: Any) -> None:
     from rclpy.executors import SingleThreadedExecutor
 
-    node = Crowded(context=ros.init())
+    node = NodeWithAttributes(context=ros.init())
     executor = SingleThreadedExecutor(context=node.context)
     executor.add_node(node)
     node.publisher.publish(Int32(data=4))

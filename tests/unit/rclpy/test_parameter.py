@@ -184,7 +184,7 @@ FILE = """
 """
 
 
-def loaded(path: Path, *arguments: Any, **options: Any) -> dict[str, Any]:
+def load_file(path: Path, *arguments: Any, **options: Any) -> dict[str, Any]:
     found = parameter_dict_from_yaml_file(str(path), *arguments, **options)
     assert all(each.name == name for name, each in found.items())
     return {name: parameter_value_to_python(each.value) for name, each in found.items()}
@@ -194,13 +194,13 @@ def test_parameters_are_read_from_a_file(tmp_path: Path) -> None:
     path = tmp_path / "f.yaml"
     path.write_text(FILE)
     every = {"speed": 3, "gains.p": 1.5, "text": 5, "none": "None"}
-    assert loaded(path) == every
-    assert loaded(path, use_wildcard=True) == {**every, "wild": True}
-    assert loaded(path, False, ["/b"]) == {"speed": 3}
-    assert loaded(path, True, ["/b"]) == {"speed": 3, "wild": True}
-    assert loaded(path, target_nodes=["/b"], namespace="x.") == {"x.speed": 3}
+    assert load_file(path) == every
+    assert load_file(path, use_wildcard=True) == {**every, "wild": True}
+    assert load_file(path, False, ["/b"]) == {"speed": 3}
+    assert load_file(path, True, ["/b"]) == {"speed": 3, "wild": True}
+    assert load_file(path, target_nodes=["/b"], namespace="x.") == {"x.speed": 3}
     with pytest.raises(RuntimeError) as missing:
-        loaded(path, False, ["/c"])
+        load_file(path, False, ["/c"])
     words = "Param file does not contain parameters for /c,only for nodes: ['/a', '/b', '/**'] "
     assert str(missing.value) == words
 
@@ -227,12 +227,12 @@ def test_file_names_nodes_in_every_form_that_rcl_reads(form: str, tmp_path: Path
     content, nodes, others = FORMS[form]
     path = tmp_path / "f.yaml"
     path.write_text(yaml.safe_dump(content))
-    assert loaded(path, use_wildcard=True) == {"speed": 2}
+    assert load_file(path, use_wildcard=True) == {"speed": 2}
     for node in nodes:
-        assert loaded(path, True, [node]) == {"speed": 2}, node
+        assert load_file(path, True, [node]) == {"speed": 2}, node
     for node in others:
         with pytest.raises(RuntimeError, match="does not contain parameters for"):
-            loaded(path, True, [node])
+            load_file(path, True, [node])
 
 
 @pytest.mark.parametrize("form", [each for each in FORMS if "any" in each])
@@ -240,7 +240,7 @@ def test_wildcards_count_only_if_wanted(form: str, tmp_path: Path) -> None:
     path = tmp_path / "f.yaml"
     path.write_text(yaml.safe_dump(FORMS[form][0]))
     with pytest.raises(RuntimeError, match="does not contain selected parameters"):
-        loaded(path)
+        load_file(path)
 
 
 def test_named_node_overrides_wildcards_wherever_they_are(tmp_path: Path) -> None:
@@ -249,15 +249,15 @@ def test_named_node_overrides_wildcards_wherever_they_are(tmp_path: Path) -> Non
         "/robot1:\n  talker:\n    ros__parameters: {speed: 3}\n"
         "/*/talker:\n  ros__parameters: {speed: 2, wild: true}\n/**:\n  ros__parameters: {rate: 5}\n"
     )
-    assert loaded(path, True, ["/robot1/talker"]) == {"speed": 3, "wild": True, "rate": 5}
+    assert load_file(path, True, ["/robot1/talker"]) == {"speed": 3, "wild": True, "rate": 5}
 
 
 def test_section_of_another_node_may_be_invalid(tmp_path: Path) -> None:
     path = tmp_path / "f.yaml"
     path.write_text("/robot1:\n  talker:\n    ros__parameters: {speed: 3}\n  listener: {speed: 4}\n")
-    assert loaded(path, False, ["/robot1/talker"]) == {"speed": 3}
+    assert load_file(path, False, ["/robot1/talker"]) == {"speed": 3}
     with pytest.raises(RuntimeError, match="not a valid ROS parameter file for node /robot1"):
-        loaded(path)
+        load_file(path)
 
 
 @pytest.mark.parametrize(
@@ -272,5 +272,5 @@ def test_files_without_parameters_are_rejected(content: str, kind: type[Exceptio
     path = tmp_path / "f.yaml"
     path.write_text(content)
     with pytest.raises(kind) as refused:
-        loaded(path)
+        load_file(path)
     assert str(refused.value) == words

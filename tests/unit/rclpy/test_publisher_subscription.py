@@ -21,7 +21,7 @@ DESTROYED = "cannot use Destroyable because destruction was requested"
 LATCHED = DurabilityPolicy.TRANSIENT_LOCAL
 
 
-class Line:
+class IntegerTopic:
     """A topic of integers from a node to itself."""
 
     def __init__(self, ros: Any, publisher_qos: Any = 10, subscription_qos: Any = 10) -> None:
@@ -65,7 +65,7 @@ class Line:
 def test_messages_arrive_according_to_qos(
     ros: Any, publisher_qos: Any, subscription_qos: Any, numbers: list[int]
 ) -> None:
-    line = Line(ros, publisher_qos, subscription_qos)
+    line = IntegerTopic(ros, publisher_qos, subscription_qos)
     line.subscribe()
     line.send(5)
     assert line.arrived() == numbers
@@ -84,14 +84,14 @@ def test_messages_arrive_according_to_qos(
 def test_late_joiners_get_latched_messages(
     ros: Any, publisher_qos: Any, subscription_qos: Any, numbers: list[int]
 ) -> None:
-    line = Line(ros, QoSProfile(**publisher_qos), QoSProfile(**subscription_qos))
+    line = IntegerTopic(ros, QoSProfile(**publisher_qos), QoSProfile(**subscription_qos))
     line.send(5)
     line.subscribe()
     assert line.arrived() == numbers
 
 
 def test_late_joiner_continues_with_new_messages(ros: Any) -> None:
-    line = Line(ros, QoSProfile(depth=1, durability=LATCHED), QoSProfile(depth=10, durability=LATCHED))
+    line = IntegerTopic(ros, QoSProfile(depth=1, durability=LATCHED), QoSProfile(depth=10, durability=LATCHED))
     line.send(3)
     line.subscribe()
     line.publisher.publish(Int32(data=9))
@@ -99,7 +99,7 @@ def test_late_joiner_continues_with_new_messages(ros: Any) -> None:
 
 
 def test_latched_messages_of_a_destroyed_publisher_are_gone(ros: Any) -> None:
-    line = Line(ros, QoSProfile(depth=5, durability=LATCHED), QoSProfile(depth=5, durability=LATCHED))
+    line = IntegerTopic(ros, QoSProfile(depth=5, durability=LATCHED), QoSProfile(depth=5, durability=LATCHED))
     line.send(3)
     line.node.destroy_publisher(line.publisher)
     line.subscribe()
@@ -108,7 +108,7 @@ def test_latched_messages_of_a_destroyed_publisher_are_gone(ros: Any) -> None:
 
 @pytest.mark.parametrize(("waited", "numbers"), [(0.05, [0]), (0.2, [])])
 def test_lifespan_expires_waiting_messages(stepped_ros: Any, waited: float, numbers: list[int]) -> None:
-    line = Line(stepped_ros, QoSProfile(depth=5, lifespan=Duration(seconds=0.1)))
+    line = IntegerTopic(stepped_ros, QoSProfile(depth=5, lifespan=Duration(seconds=0.1)))
     line.subscribe()
     line.send(1)
     Clock().sleep_for(Duration(seconds=waited), line.node.context)
@@ -118,7 +118,7 @@ def test_lifespan_expires_waiting_messages(stepped_ros: Any, waited: float, numb
 @pytest.mark.parametrize(("waited", "numbers"), [(0.05, [0]), (0.2, [])])
 def test_lifespan_expires_latched_messages(stepped_ros: Any, waited: float, numbers: list[int]) -> None:
     qos = QoSProfile(depth=5, durability=LATCHED, lifespan=Duration(seconds=0.1))
-    line = Line(stepped_ros, qos, QoSProfile(depth=5, durability=LATCHED))
+    line = IntegerTopic(stepped_ros, qos, QoSProfile(depth=5, durability=LATCHED))
     line.send(1)
     Clock().sleep_for(Duration(seconds=waited), line.node.context)
     line.subscribe()
@@ -126,7 +126,7 @@ def test_lifespan_expires_latched_messages(stepped_ros: Any, waited: float, numb
 
 
 def test_topics_with_different_types_do_not_mix(ros: Any) -> None:
-    line = Line(ros)
+    line = IntegerTopic(ros)
     line.subscribe()
     line.node.create_publisher(String, "t", 10).publish(String(data="x"))
     assert line.arrived() == []
@@ -235,7 +235,7 @@ def test_callbacks_with_other_signatures_are_rejected(ros: Any, callback: Any) -
 
 
 def test_callback_can_be_replaced(ros: Any) -> None:
-    line = Line(ros)
+    line = IntegerTopic(ros)
     subscription, got = line.subscribe(), []
     subscription.callback = lambda message, info: got.append(message.data)
     line.send(1)
@@ -267,7 +267,7 @@ def test_only_message_types_are_accepted(ros: Any, kind: Any) -> None:
 
 
 def test_destroyed_publisher_and_subscription_raise_invalid_handle(ros: Any) -> None:
-    line = Line(ros)
+    line = IntegerTopic(ros)
     subscription = line.subscribe()
     line.send(1)
     assert line.node.destroy_subscription(subscription) and not line.node.destroy_subscription(subscription)
@@ -279,7 +279,7 @@ def test_destroyed_publisher_and_subscription_raise_invalid_handle(ros: Any) -> 
 
 
 def test_publishing_after_shutdown_raises_an_error(ros: Any) -> None:
-    line = Line(ros)
+    line = IntegerTopic(ros)
     ros.context.shutdown()
     with pytest.raises(RCLError, match="Failed to publish: publisher's context is invalid"):
         line.send(1)
@@ -299,7 +299,7 @@ def test_names_are_expanded_and_remapped(ros: Any) -> None:
 
 
 def test_matched_endpoints_are_counted(ros: Any) -> None:
-    line = Line(ros)
+    line = IntegerTopic(ros)
     assert line.publisher.get_subscription_count() == 0
     subscription = line.subscribe()
     line.node.create_subscription(Int32, "t", print, QoSProfile(depth=1, durability=LATCHED))
@@ -329,7 +329,7 @@ def test_matched_events_report_counts(ros: Any) -> None:
 
 
 def test_incompatible_qos_warns_both_sides(ros: Any, capfd: pytest.CaptureFixture[str]) -> None:
-    line = Line(ros, QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT))
+    line = IntegerTopic(ros, QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT))
     line.subscribe()
     ros.settle()
     words = capfd.readouterr().err

@@ -273,7 +273,9 @@ def test_rate_ticks_while_another_thread_spins(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     record = Recorder(node)
     rate = node.create_rate(10)
-    thread = threading.Thread(target=node.executor.spin_until_future_complete, args=(never(), 0.75), daemon=True)
+    thread = threading.Thread(
+        target=node.executor.spin_until_future_complete, args=(pending_future(), 0.75), daemon=True
+    )
     thread.start()
     for _ in range(5):
         rate.sleep()
@@ -287,7 +289,9 @@ def test_late_rate_does_not_wait_for_the_next_tick(stepped_ros: Any) -> None:
     node = stepped_ros.node()
     record = Recorder(node)
     rate = node.create_rate(10)
-    thread = threading.Thread(target=node.executor.spin_until_future_complete, args=(never(), 0.75), daemon=True)
+    thread = threading.Thread(
+        target=node.executor.spin_until_future_complete, args=(pending_future(), 0.75), daemon=True
+    )
     thread.start()
     for _ in range(3):
         node.get_clock().sleep_for(Duration(seconds=0.15), node.context)
@@ -306,7 +310,7 @@ def test_destroying_a_rate_wakes_its_sleeper(stepped_ros: Any) -> None:
         rate.sleep()
 
 
-def never() -> Any:
+def pending_future() -> Any:
     from rclpy.task import Future
 
     return Future()

@@ -50,7 +50,7 @@ def test_name_exists_while_one_node_has_it(changes):
 
 
 @pytest.fixture
-def restless() -> Iterator[None]:
+def eager_collector() -> Iterator[None]:
     """Make the garbage collector run as often as possible."""
     before = gc.get_threshold()
     gc.set_threshold(1)
@@ -58,7 +58,7 @@ def restless() -> Iterator[None]:
     gc.set_threshold(*before)
 
 
-def test_garbage_collection_during_a_change_does_not_deadlock(restless):
+def test_garbage_collection_during_a_change_does_not_deadlock(eager_collector):
     tables = GraphTables(threading.RLock())
     old = [ClientEndpoint(NODES[0], "/s", f"K{number}", lambda: None) for number in range(200)]
     new = [ClientEndpoint(NODES[0], "/s", f"L{number}", lambda: None) for number in range(200)]

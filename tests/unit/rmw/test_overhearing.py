@@ -14,7 +14,7 @@ from std_msgs.msg import String
 
 
 @pytest.fixture
-def heard() -> Iterator[list[Any]]:
+def carried_messages() -> Iterator[list[Any]]:
     """The messages carried on `/words`."""
     found: list[Any] = []
 
@@ -27,19 +27,19 @@ def heard() -> Iterator[list[Any]]:
     bus_of(0).overhear(None)
 
 
-def test_monitor_receives_unsubscribed_messages_and_is_not_counted(node: Any, heard: list[Any]) -> None:
+def test_monitor_receives_unsubscribed_messages_and_is_not_counted(node: Any, carried_messages: list[Any]) -> None:
     publisher = node.create_publisher(String, "/words", 10)
     publisher.publish(String(data="to nobody"))
-    assert [(number, each.data) for number, each in heard] == [(1, "to nobody")]
+    assert [(number, each.data) for number, each in carried_messages] == [(1, "to nobody")]
     assert publisher.get_subscription_count() == node.count_subscribers("/words") == 0
     assert wanted(publisher)
     bus_of(0).overhear(None)
     assert not wanted(publisher)
     publisher.publish(String(data="again"))
-    assert len(heard) == 1
+    assert len(carried_messages) == 1
 
 
-def test_monitor_does_not_see_changes_by_a_subscription(node: Any, heard: list[Any]) -> None:
+def test_monitor_does_not_see_changes_by_a_subscription(node: Any, carried_messages: list[Any]) -> None:
     def spoil(message: Any) -> None:
         message.data = "spoilt"
 
@@ -49,11 +49,11 @@ def test_monitor_does_not_see_changes_by_a_subscription(node: Any, heard: list[A
     executor.add_node(node)
     executor.spin_once(timeout_sec=1.0)
     executor.remove_node(node)
-    assert [each.data for _, each in heard] == ["as it was"]
+    assert [each.data for _, each in carried_messages] == ["as it was"]
 
 
-def test_serialized_message_is_not_serialized_again(node: Any, heard: list[Any]) -> None:
+def test_serialized_message_is_not_serialized_again(node: Any, carried_messages: list[Any]) -> None:
     node.create_subscription(String, "/words", lambda data: None, 10, raw=True)
     node.create_publisher(String, "/words", 10).publish(String(data="bytes"))
-    ((_, data),) = heard
+    ((_, data),) = carried_messages
     assert deserialize_message(data, String).data == "bytes"

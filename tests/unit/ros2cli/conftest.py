@@ -10,7 +10,7 @@ from systems import Program, System, system
 HEAD = "import rclpy\nfrom rclpy.node import Node\nrclpy.init()\n"
 
 
-class Asked(System):
+class CommandSystem(System):
     """A system whose nodes are written in the test."""
 
     def node(self, text: str, seconds: float = 0.1) -> Program:
@@ -23,7 +23,7 @@ class Asked(System):
 
 
 @pytest.fixture
-def ros() -> Iterator[Asked]:
+def ros() -> Iterator[CommandSystem]:
     """A system whose time advances only while a command runs."""
     with system() as running:
-        yield Asked(running.clock)
+        yield CommandSystem(running.clock)

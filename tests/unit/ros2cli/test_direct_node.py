@@ -44,28 +44,28 @@ def no_waiting(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(direct_node, "GONE_POLLS", 2)
 
 
-def asked(it: Any) -> Any:
+def ask(it: Any) -> Any:
     return answer(it, it, it)
 
 
 def test_frozen_process_of_another_node_does_not_end_the_wait() -> None:
     it = Asking(answers=True)
     it.frozen = {7: ["/left/arm"]}
-    assert asked(it) == "answer"
+    assert ask(it) == "answer"
 
 
 def test_frozen_process_is_named() -> None:
     it = Asking(answers=False)
     it.frozen = {7: ["/left/arm", "/robot"]}
     with pytest.raises(NoAnswer, match=r"^/robot does not answer: its process 7 is stopped$"):
-        asked(it)
+        ask(it)
 
 
 def test_node_that_ends_during_the_request_is_reported() -> None:
     it = Asking(answers=False)
     it.gone_at = (2, *range(4, 7))
     with pytest.raises(NoAnswer, match=r"^nobody answers /robot/get: its node has ended"):
-        asked(it)
+        ask(it)
     assert it.polls == 6
 
 
@@ -78,20 +78,20 @@ def test_node_known_to_have_ended_is_reported_sooner_to_a_person(
     it = Asking(answers=False)
     it.gone_at, it.ended = tuple(range(1, 20)), True
     with pytest.raises(NoAnswer, match=r"^nobody answers /robot/get: its node has ended"):
-        asked(it)
+        ask(it)
     assert it.polls == polls
 
 
 def test_node_still_in_the_graph_is_waited_for() -> None:
     it = Asking(answers=True)
     it.ended = True
-    assert asked(it) == "answer"
+    assert ask(it) == "answer"
 
 
 def test_node_missing_in_a_single_poll_is_waited_for() -> None:
     it = Asking(answers=True)
     it.gone_at = (1,)
-    assert asked(it) == "answer"
+    assert ask(it) == "answer"
 
 
 @pytest.mark.parametrize(("polls", "hints"), [(1, 1), (2, 1), (3, 0)])
@@ -100,10 +100,10 @@ def test_hint_names_once_what_is_waited_for(
 ) -> None:
     monkeypatch.setattr(direct_node, "HINT_POLLS", polls)
     monkeypatch.setattr(advice, "is_read", lambda: True)
-    assert asked(Asking(answers=True)) == "answer"
+    assert ask(Asking(answers=True)) == "answer"
     assert capsys.readouterr().err.count("waiting for an answer of /robot/get: its node is busy") == hints
     monkeypatch.setattr(advice, "is_read", lambda: False)
-    assert asked(Asking(answers=True)) == "answer"
+    assert ask(Asking(answers=True)) == "answer"
     assert capsys.readouterr().err == ""
 
 

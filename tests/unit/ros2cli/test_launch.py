@@ -99,7 +99,7 @@ def interrupts() -> Iterator[None]:
     signal.signal(signal.SIGINT, before)
 
 
-def launched(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
+def run_ros2_launch(capsys: pytest.CaptureFixture[str], *words: str) -> tuple[int, str, str]:
     code = main(["launch", *words])
     found = capsys.readouterr()
     return code, found.out, found.err
@@ -112,12 +112,12 @@ def user_lines(text: str) -> list[str]:
 
 @pytest.mark.parametrize("option", ["-s", "--show-args", "--show-arguments"])
 def test_show_args_lists_arguments_with_defaults(capsys: pytest.CaptureFixture[str], option: str) -> None:
-    assert launched(capsys, "listed.launch.py", option) == (0, SHOWN, "")
+    assert run_ros2_launch(capsys, "listed.launch.py", option) == (0, SHOWN, "")
 
 
 def test_show_args_reports_no_arguments(capsys: pytest.CaptureFixture[str]) -> None:
     shown = "Arguments (pass arguments as '<name>:=<value>'):\n\n  No arguments.\n"
-    assert launched(capsys, "empty.launch.py", "-s") == (0, shown, "")
+    assert run_ros2_launch(capsys, "empty.launch.py", "-s") == (0, shown, "")
 
 
 @pytest.mark.parametrize(
@@ -132,18 +132,18 @@ def test_show_args_reports_no_arguments(capsys: pytest.CaptureFixture[str]) -> N
     ],
 )
 def test_launch_arguments_are_passed(capsys: pytest.CaptureFixture[str], words: list[str], message: list[str]) -> None:
-    code, out, err = launched(capsys, "says.launch.py", *words)
+    code, out, err = run_ros2_launch(capsys, "says.launch.py", *words)
     assert (code, user_lines(out), err) == (0, message, "")
 
 
 @pytest.mark.parametrize("word", ["x", "x:=", ":=y"])
 def test_malformed_argument_is_rejected(capsys: pytest.CaptureFixture[str], word: str) -> None:
     message = f"malformed launch argument '{word}', expected format '<name>:=<value>'\n"
-    assert launched(capsys, "says.launch.py", word) == (1, "", message)
+    assert run_ros2_launch(capsys, "says.launch.py", word) == (1, "", message)
 
 
 def test_launch_file_is_found_in_a_package(capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, _ = launched(capsys, "pkg", "deep.launch.py", "x:=1")
+    code, out, _ = run_ros2_launch(capsys, "pkg", "deep.launch.py", "x:=1")
     assert (code, user_lines(out)) == (0, ["1"])
 
 
@@ -155,8 +155,8 @@ def test_missing_packages_and_files_are_reported(capsys: pytest.CaptureFixture[s
         (["pkg", "zz.launch.py"], f"file 'zz.launch.py' was not found {where} which is at '{share}'"),
     ]
     for words, message in rows:
-        assert launched(capsys, *words) == (1, "", message + "\n")
-    code, _, err = launched(capsys, "pkg", "same.launch.py")
+        assert run_ros2_launch(capsys, *words) == (1, "", message + "\n")
+    code, _, err = run_ros2_launch(capsys, "pkg", "same.launch.py")
     assert code == 1
     assert err.startswith(f"file 'same.launch.py' was found more than once {where}: [")
 
@@ -166,9 +166,9 @@ def test_package_without_file_name_lists_its_launch_files(capsys: pytest.Capture
     empty.mkdir()
     marker = folder / "share" / "ament_index" / "resource_index" / "packages" / "empty"
     marker.touch()
-    code, _, err = launched(capsys, "pkg")
+    code, _, err = run_ros2_launch(capsys, "pkg")
     assert code == 1 and err.startswith("name a launch file of package 'pkg': ") and "deep.launch.py" in err
-    assert launched(capsys, "empty") == (
+    assert run_ros2_launch(capsys, "empty") == (
         1,
         "",
         "package 'empty' has no launch files; they are in its folder launch/, and setup.py installs them\n",
@@ -177,7 +177,7 @@ def test_package_without_file_name_lists_its_launch_files(capsys: pytest.Capture
 
 @pytest.mark.parametrize("path", ["./x.launch.py", "x.launch.py", "share/"])
 def test_mistyped_path_is_reported_as_invalid_package_name(capsys: pytest.CaptureFixture[str], path: str) -> None:
-    code, _, err = launched(capsys, path)
+    code, _, err = run_ros2_launch(capsys, path)
     assert code == 1
     assert err.splitlines()[-1] == f"ValueError: '{path}' is not a valid package name"
 
@@ -195,7 +195,7 @@ def test_mistyped_path_is_one_line_for_a_person(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, path: str, expected: str
 ) -> None:
     monkeypatch.setenv(SHOW, "1")
-    assert launched(capsys, path) == (1, "", f"{expected}\n")
+    assert run_ros2_launch(capsys, path) == (1, "", f"{expected}\n")
 
 
 def test_invalid_options_show_usage(capsys: pytest.CaptureFixture[str]) -> None:
@@ -204,7 +204,7 @@ def test_invalid_options_show_usage(capsys: pytest.CaptureFixture[str]) -> None:
         (["says.launch.py", "-s", "-p"], "not allowed with argument"),
         ([], "the following arguments are required"),
     ):
-        code, _, err = launched(capsys, *words)
+        code, _, err = run_ros2_launch(capsys, *words)
         assert code == 2
         assert message in err
 
@@ -224,7 +224,7 @@ def test_write_error_is_not_blamed_on_the_launch_file(
 
 def test_prefix_filter_needs_a_prefix(capsys: pytest.CaptureFixture[str]) -> None:
     message = "--launch-prefix must be specified if --launch-prefix-filter is provided\n"
-    assert launched(capsys, "says.launch.py", "--launch-prefix-filter", "x") == (1, "", message)
+    assert run_ros2_launch(capsys, "says.launch.py", "--launch-prefix-filter", "x") == (1, "", message)
 
 
 def test_print_shows_the_launch_description(capsys: pytest.CaptureFixture[str], folder: Path) -> None:
@@ -236,7 +236,7 @@ def test_print_shows_the_launch_description(capsys: pytest.CaptureFixture[str], 
         "    return LaunchDescription([LogInfo(msg='a'), ExecuteProcess(cmd=['b'], cwd='/tmp', shell=True),\n"
         "        RegisterEventHandler(OnProcessExit(on_exit=[LogInfo(msg='c'), Shutdown()]))])\n"
     )
-    code, out, _ = launched(capsys, "p.launch.py", "--print")
+    code, out, _ = run_ros2_launch(capsys, "p.launch.py", "--print")
     lines = out.splitlines()
     assert code == 0
     assert lines[0].startswith("<launch.launch_description.LaunchDescription object at 0x")
@@ -252,7 +252,7 @@ def test_print_shows_the_launch_description(capsys: pytest.CaptureFixture[str], 
 
 
 def test_print_of_an_empty_file_is_one_line(capsys: pytest.CaptureFixture[str]) -> None:
-    code, out, _ = launched(capsys, "empty.launch.py", "-p")
+    code, out, _ = run_ros2_launch(capsys, "empty.launch.py", "-p")
     assert (code, len(out.splitlines())) == (0, 1)
 
 
@@ -272,7 +272,7 @@ def test_invalid_launch_files_are_reported_without_traceback(
     capsys: pytest.CaptureFixture[str], folder: Path, text: str, code: int, message: str, option: list[str]
 ) -> None:
     (folder / "bad.launch.py").write_text(text)
-    found, out, err = launched(capsys, "bad.launch.py", *option)
+    found, out, err = run_ros2_launch(capsys, "bad.launch.py", *option)
     assert found == code
     assert message in out + err
     assert "Traceback" not in out + err
@@ -286,8 +286,8 @@ def test_show_all_output_option_shows_quiet_processes(
         "from launch import LaunchDescription\nfrom launch.actions import ExecuteProcess\n"
         "def generate_launch_description():\n    return LaunchDescription([ExecuteProcess(cmd=['echo', 'quiet'])])\n"
     )
-    assert "] quiet" not in launched(capsys, "q.launch.py")[1]
-    assert "] quiet" in launched(capsys, "q.launch.py", "-a")[1]
+    assert "] quiet" not in run_ros2_launch(capsys, "q.launch.py")[1]
+    assert "] quiet" in run_ros2_launch(capsys, "q.launch.py", "-a")[1]
     assert os.environ["OVERRIDE_LAUNCH_PROCESS_OUTPUT"] == "both"
 
 
@@ -298,11 +298,11 @@ def test_screen_format_comes_from_the_environment(
 
     monkeypatch.setenv("OVERRIDE_LAUNCH_SCREEN_FORMAT", "{levelname}|{name}|{msg}")
     launch.logging.reset()
-    assert "INFO|launch.user|-" in launched(capsys, "says.launch.py")[1].splitlines()
+    assert "INFO|launch.user|-" in run_ros2_launch(capsys, "says.launch.py")[1].splitlines()
 
 
 def test_debug_option_logs_more(capsys: pytest.CaptureFixture[str]) -> None:
-    _, out, _ = launched(capsys, "says.launch.py", "-d")
+    _, out, _ = run_ros2_launch(capsys, "says.launch.py", "-d")
     assert "[DEBUG]" in out
 
 
@@ -320,7 +320,7 @@ def test_exit_code_reflects_the_outcome(capsys: pytest.CaptureFixture[str], fold
     ]
     for text, code in rows:
         (folder / "e.launch.py").write_text(template.format(text))
-        assert launched(capsys, "e.launch.py")[0] == code, text
+        assert run_ros2_launch(capsys, "e.launch.py")[0] == code, text
 
 
 RESOLVED = """
@@ -345,7 +345,7 @@ def test_print_resolved_shows_evaluated_nodes(capsys: pytest.CaptureFixture[str]
     (folder / "f.yaml").write_text("/**:\n  ros__parameters: {speed: 2.5, names: [a, b]}\n")
     path = folder / "r.launch.xml"
     path.write_text(RESOLVED.format(file=folder / "f.yaml").lstrip())
-    code, out, err = launched(capsys, "--print", "--resolved", str(path), "speed:=7")
+    code, out, err = run_ros2_launch(capsys, "--print", "--resolved", str(path), "speed:=7")
     assert code == 0, err
     assert out.splitlines() == [
         f"include {path}",
@@ -371,13 +371,13 @@ def test_print_resolved_shows_evaluated_nodes(capsys: pytest.CaptureFixture[str]
 
 
 def test_resolved_needs_print(capsys: pytest.CaptureFixture[str]) -> None:
-    assert launched(capsys, "--resolved", "says.launch.py") == (1, "", "--resolved goes with --print\n")
+    assert run_ros2_launch(capsys, "--resolved", "says.launch.py") == (1, "", "--resolved goes with --print\n")
 
 
 def test_first_interrupt_after_the_launch_is_ignored_and_second_ends_program(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    assert launched(capsys, "empty.launch.py")[0] == 0
+    assert run_ros2_launch(capsys, "empty.launch.py")[0] == 0
     signal.raise_signal(signal.SIGINT)
     with pytest.raises(KeyboardInterrupt):
         signal.raise_signal(signal.SIGINT)

@@ -26,7 +26,7 @@ class Own(String):
     """A message subclass defined by a program."""
 
 
-class Changing:
+class CallingInt:
     """An integer that calls a function when it is converted."""
 
     def __init__(self, do: Callable[[], Any]) -> None:
@@ -80,12 +80,12 @@ def test_string_with_lone_surrogate_is_rejected() -> None:
 
 def test_array_growing_during_serialization_is_written_consistently() -> None:
     point = JointTrajectoryPoint(positions=[1.0])
-    point.time_from_start.sec = cast("int", Changing(lambda: point.positions.append(2.0)))
+    point.time_from_start.sec = cast("int", CallingInt(lambda: point.positions.append(2.0)))
     read = deserialize(serialize(point), JointTrajectoryPoint)
     assert (read.time_from_start.sec, read.positions[0]) == (1, 1.0)
 
 
 def test_list_growing_during_serialization_is_written_as_it_was() -> None:
     cloud = PointCloud2(fields=[PointField(name="x")])
-    cloud.fields[0].offset = cast("int", Changing(lambda: cloud.fields.append(PointField(name="y"))))
+    cloud.fields[0].offset = cast("int", CallingInt(lambda: cloud.fields.append(PointField(name="y"))))
     assert deserialize(serialize(cloud), PointCloud2).fields == [PointField(name="x", offset=1)]

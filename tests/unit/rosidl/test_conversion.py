@@ -14,7 +14,7 @@ from std_msgs.msg import Bool, Byte, Float32, Int8, String
 from tf2_msgs.msg import TFMessage
 
 
-def refused(message: Any) -> str:
+def refusal_of(message: Any) -> str:
     with pytest.raises(FieldTypeError) as caught:
         message._copy_()
     return str(caught.value)
@@ -23,7 +23,7 @@ def refused(message: Any) -> str:
 def test_error_names_the_nested_field() -> None:
     twist = Twist()
     twist.linear.x = 1
-    assert refused(twist) == "field 'linear.x' of geometry_msgs/msg/Twist must be a float, not int (1)"
+    assert refusal_of(twist) == "field 'linear.x' of geometry_msgs/msg/Twist must be a float, not int (1)"
 
 
 def test_error_path_leads_into_a_sequence() -> None:
@@ -32,7 +32,7 @@ def test_error_path_leads_into_a_sequence() -> None:
 
     tree.transforms = [TransformStamped(), TransformStamped()]
     tree.transforms[1].transform.rotation.w = "one"
-    text = refused(tree)
+    text = refusal_of(tree)
     assert text.startswith("field 'transforms[1].transform.rotation.w' of tf2_msgs/msg/TFMessage must be a float")
 
 
@@ -51,14 +51,14 @@ def test_error_path_leads_into_a_sequence() -> None:
     ],
 )
 def test_values_that_cannot_be_sent_are_rejected(message: Any, words: str) -> None:
-    assert words in refused(message)
+    assert words in refusal_of(message)
 
 
 def test_fixed_array_of_wrong_length_is_rejected() -> None:
     Imu()._copy_()  # after the first valid message there is a faster path
     message = Imu()
     message.orientation_covariance = [0.0] * 8
-    assert "must be a sequence of exactly 9" in refused(message)
+    assert "must be a sequence of exactly 9" in refusal_of(message)
 
 
 def test_fixed_array_is_copied_each_time() -> None:
@@ -104,4 +104,4 @@ class Unwritable:
 
 @pytest.mark.parametrize("value", [Unwritable(), [16**5000]], ids=["own", "endless"])
 def test_value_without_a_working_repr_is_reported(value: object) -> None:
-    assert refused(Bool(data=value)).endswith("(which cannot be written)")
+    assert refusal_of(Bool(data=value)).endswith("(which cannot be written)")

@@ -211,15 +211,15 @@ def test_bytes_of_a_sequence_are_kept() -> None:
     assert ParameterValue(byte_array_value=[b"a"]).byte_array_value == [b"a"]
 
 
-class Marked(Twist):
+class MessageSubclass(Twist):
     """A subclass of a message class, as a program may define it."""
 
 
 def test_subclass_is_sent_as_its_message_class() -> None:
-    message = Marked(linear=Vector3(x=1.0))
+    message = MessageSubclass(linear=Vector3(x=1.0))
     assert type(message._copy_()) is Twist
-    assert type_name(Marked) == "geometry_msgs/msg/Twist"
-    assert repr(message).endswith("Marked(linear=geometry_msgs.msg.Vector3(x=1.0, y=0.0, z=0.0), "
+    assert type_name(MessageSubclass) == "geometry_msgs/msg/Twist"
+    assert repr(message).endswith("MessageSubclass(linear=geometry_msgs.msg.Vector3(x=1.0, y=0.0, z=0.0), "
                                   "angular=geometry_msgs.msg.Vector3(x=0.0, y=0.0, z=0.0))")  # fmt: skip
 
 

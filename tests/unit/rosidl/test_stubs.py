@@ -34,7 +34,7 @@ def module(text: str, kind: str = "msg") -> ast.Module:
     return ast.parse(files[f"{kind}/_reading.pyi"])
 
 
-def documented(tree: ast.Module) -> dict[str, str]:
+def docstrings(tree: ast.Module) -> dict[str, str]:
     nodes = [each for each in ast.walk(tree) if isinstance(each, (ast.FunctionDef, ast.ClassDef))]
     return {each.name: text for each in nodes if (text := ast.get_docstring(each))}
 
@@ -58,7 +58,7 @@ def test_each_part_of_a_service_has_its_own_comments() -> None:
 
 
 def test_field_shows_its_comment_and_the_range_of_its_values() -> None:
-    shown = documented(module(TEXT))
+    shown = docstrings(module(TEXT))
     assert shown["Reading"].startswith("A reading.\n\nindented\n\nFields: header (std_msgs/Header)")
     assert shown["level"] == "filling level [%]\nof the tank\n\nuint8, 0 to 255, default 3"
     assert shown["few"] == "sequence of int16, -32768 to 32767, at most 4 elements"

@@ -14,27 +14,27 @@ from sensor_msgs.msg import LaserScan
 from std_msgs.msg import Header, Int32, String
 
 
-def filled(message: Any, values: Any) -> Any:
+def fill(message: Any, values: Any) -> Any:
     assert set_message_fields(message, values) == []
     return message
 
 
 def test_nested_fields_are_set_and_converted() -> None:
-    twist = filled(TwistStamped(), {"header": {"frame_id": "map"}, "twist": {"linear": {"x": 1}}})
+    twist = fill(TwistStamped(), {"header": {"frame_id": "map"}, "twist": {"linear": {"x": 1}}})
     assert (twist.header.frame_id, twist.twist.linear.x) == ("map", 1.0)
-    assert filled(Int32(), {"data": "5"}).data == 5
-    assert filled(String(), {"data": 5}).data == "5"
+    assert fill(Int32(), {"data": "5"}).data == 5
+    assert fill(String(), {"data": 5}).data == "5"
 
 
 def test_sequences_are_set() -> None:
-    assert filled(LaserScan(), {"ranges": [1, 2]}).ranges == array("f", [1.0, 2.0])
-    assert filled(PoseWithCovariance(), {"covariance": [1] * 36}).covariance.dtype == "float64"
-    assert filled(Polygon(), {"points": [{"x": 1.0}]}).points == [Point32(x=1.0)]
+    assert fill(LaserScan(), {"ranges": [1, 2]}).ranges == array("f", [1.0, 2.0])
+    assert fill(PoseWithCovariance(), {"covariance": [1] * 36}).covariance.dtype == "float64"
+    assert fill(Polygon(), {"points": [{"x": 1.0}]}).points == [Point32(x=1.0)]
 
 
 def test_nested_sequences_are_set_without_changing_the_values() -> None:
     values = {"parameters": [{"name": "a", "value": {"type": 3, "double_value": 2.0}}]}
-    request = filled(SetParameters.Request(), values)
+    request = fill(SetParameters.Request(), values)
     assert request.parameters[0].value.double_value == 2.0
     assert values["parameters"][0]["name"] == "a"
 

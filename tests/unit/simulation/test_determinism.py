@@ -28,7 +28,7 @@ print(simulation.metrics.digest, scans.hexdigest(), simulation.odometry.pose)
 """
 
 
-def in_a_process(world: str, seed: int, hash_seed: str) -> str:
+def run_in_process(world: str, seed: int, hash_seed: str) -> str:
     environment = {**os.environ, "PYTHONHASHSEED": hash_seed}
     command = [sys.executable, "-c", PROGRAM, str(WORLDS / f"{world}.yaml"), str(seed)]
     return subprocess.run(command, env=environment, check=True, capture_output=True, text=True).stdout
@@ -36,9 +36,9 @@ def in_a_process(world: str, seed: int, hash_seed: str) -> str:
 
 @pytest.mark.slow
 def test_same_seed_gives_the_same_run_in_every_process() -> None:
-    first = in_a_process("outdoor", 1, "1")
-    assert in_a_process("outdoor", 1, "2") == first
-    assert in_a_process("outdoor", 2, "1") != first
+    first = run_in_process("outdoor", 1, "1")
+    assert run_in_process("outdoor", 1, "2") == first
+    assert run_in_process("outdoor", 2, "1") != first
 
 
 def test_report_is_json(shipped_world: World) -> None:

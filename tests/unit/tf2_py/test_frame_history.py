@@ -20,7 +20,7 @@ def history(*entries: Entry, is_static: bool = False) -> FrameHistory:
     return found
 
 
-def unread(time: int) -> Unread:
+def unread_entry(time: int) -> Unread:
     return time, "map", float(time), 0.0, 0.0, 0.0, 0.0, 0.0, 1.0
 
 
@@ -88,14 +88,14 @@ def test_old_entries_are_dropped() -> None:
 @pytest.mark.parametrize("question", ["at", "latest"])
 def test_unread_entries_are_read_on_demand(question: str) -> None:
     found = history(entry(100))
-    found.waiting += [unread(200), unread(300)]
+    found.waiting += [unread_entry(200), unread_entry(300)]
     assert x_at(found, 250) == 250.0 if question == "at" else found.latest() == (300, "map")
     assert found.waiting == []
 
 
 def test_old_unread_entries_are_dropped() -> None:
     found = history(entry(1))
-    found.waiting += [unread(time) for time in range(0, DIGEST_AFTER * 10, 10)]
+    found.waiting += [unread_entry(time) for time in range(0, DIGEST_AFTER * 10, 10)]
     found.drop_old()
     newest = (DIGEST_AFTER - 1) * 10
     assert [each[0] for each in found.waiting] == list(range(newest - KEEP, newest + 1, 10))
@@ -103,6 +103,6 @@ def test_old_unread_entries_are_dropped() -> None:
 
 def test_recent_entries_are_kept_if_unread_ones_are_out_of_order() -> None:
     found = history(entry(1))
-    found.waiting += [unread(time) for time in (10, 5000, 20, 30, 5010)]
+    found.waiting += [unread_entry(time) for time in (10, 5000, 20, 30, 5010)]
     found.drop_old()
-    assert unread(5000) in found.waiting
+    assert unread_entry(5000) in found.waiting

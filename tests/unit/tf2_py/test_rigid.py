@@ -24,7 +24,7 @@ MIN_ANGLE = 2.0 * math.asin(math.sqrt(SMALL))
 """The angle (rad) above which the interpolation does not use its series."""
 
 
-def turned(x: float, half: float, sign: float = 1.0) -> Rigid:
+def rotated_pose(x: float, half: float, sign: float = 1.0) -> Rigid:
     """A pose at x, rotated about the axis by twice the angle `half` (rad)."""
     a, b, c = (sign * math.sin(half) * each for each in AXIS)
     return x, 2.0 * x, 4.0 * x, a, b, c, sign * math.cos(half)
@@ -47,7 +47,7 @@ def test_compose_is_the_product_of_matrices(first: str, second: str) -> None:
 @pytest.mark.parametrize("sign", [1.0, -1.0], ids=["", "the quaternion's other sign"])
 @pytest.mark.parametrize("turn", [0.0, 1e-4, MIN_ANGLE * 0.999, MIN_ANGLE * 1.001, 0.2, 3.0])
 def test_interpolation_is_linear_in_the_angle(turn: float, sign: float) -> None:
-    first, second = turned(0.0, 0.3), turned(1.0, 0.3 + turn / 2, sign)
+    first, second = rotated_pose(0.0, 0.3), rotated_pose(1.0, 0.3 + turn / 2, sign)
     for share in (0.0, 0.25, 0.5, 1.0):
-        expected = turned(share, 0.3 + turn / 2 * share)
+        expected = rotated_pose(share, 0.3 + turn / 2 * share)
         assert interpolate(first, second, share) == pytest.approx(expected, abs=1e-11)

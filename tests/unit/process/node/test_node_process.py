@@ -26,7 +26,7 @@ from bot_console.runtime.process.node import node_process as node_process_module
 LONG = 240.0
 
 
-def leave(code):
+def exit_with(code):
     return lambda: sys.exit(code)
 
 
@@ -43,12 +43,12 @@ def interrupt_self():
     [
         (lambda: None, 0, ""),
         (lambda: 7, 0, ""),
-        (leave(None), 0, ""),
-        (leave(3), 3, ""),
-        (leave(True), 1, ""),
-        (leave(256 + 2), 2, ""),
-        (leave(-1), 255, ""),
-        (leave("no wheels"), 1, "no wheels\n"),
+        (exit_with(None), 0, ""),
+        (exit_with(3), 3, ""),
+        (exit_with(True), 1, ""),
+        (exit_with(256 + 2), 2, ""),
+        (exit_with(-1), 255, ""),
+        (exit_with("no wheels"), 1, "no wheels\n"),
         (fail, 1, "ValueError: broken wheel\n"),
         (interrupt_self, -2, "KeyboardInterrupt\n"),
     ],

@@ -39,7 +39,7 @@ def test_recursive_lock_counts_its_levels() -> None:
         assert lock._recursion_count() == 2
 
 
-class Interrupted:
+class InterruptedLock:
     """A built-in lock that runs a function in the same thread once, right after it was acquired."""
 
     def __init__(self, lock: Any, finalizer: Callable[[], None]) -> None:
@@ -65,7 +65,7 @@ def test_finalizer_may_take_a_lock_during_its_acquisition() -> None:
         taken.append(lock.acquire(False))
         lock.release()
 
-    lock._lock = Interrupted(lock._lock, finalizer)
+    lock._lock = InterruptedLock(lock._lock, finalizer)
     lock.acquire()
     lock.release()
     assert taken == [True]

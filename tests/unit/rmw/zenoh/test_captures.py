@@ -17,7 +17,7 @@ from rosidl_runtime_py.utilities import get_interface
 CAPTURES = sorted((Path(__file__).parents[3] / "captures").glob("*.json"))
 
 
-def written(token):
+def as_we_write(token):
     """Return the token as we would write it."""
     domain = int(token.key.split("/")[1])
     if token.kind == "NN":
@@ -38,7 +38,7 @@ def test_captures_include_the_real_middleware():
 
 def test_tokens_are_written_identically(capture):
     for key in capture["tokens"]:
-        assert "/".join(key.split("/")[:13]) == written(parse_token(key))
+        assert "/".join(key.split("/")[:13]) == as_we_write(parse_token(key))
 
 
 def test_attachments_are_written_identically_and_identify_the_publisher(capture):

@@ -7,7 +7,7 @@ from bot_console.runtime.rmw.zenoh import channel_worker
 from bot_console.runtime.rmw.zenoh.channel_worker import MAX_POLL_S, PAUSE_S, TURN_S, ChannelWorker, drain_in_worker
 
 
-class Over(Exception):
+class ChannelClosed(Exception):
     """Raised once no more samples come."""
 
 
@@ -19,11 +19,11 @@ class Channel:
 
     def try_recv(self):
         if not self._samples:
-            raise Over
+            raise ChannelClosed
         return self._samples.popleft()
 
 
-class Quiet:
+class EmptyChannel:
     """Never has a sample."""
 
     def try_recv(self):
@@ -41,7 +41,7 @@ class Clock:
         return self.now
 
 
-class Waits:
+class FakeEvent:
     """Replaces a thread's stop event.
 
     It records when and how long the thread waited for it, and is set after a number of waits.
@@ -59,15 +59,15 @@ class Waits:
 
 def test_samples_arrive_in_order_and_the_thread_ends():
     taken = []
-    drain_in_worker(Channel(range(1000)), taken.append, Over).join()
+    drain_in_worker(Channel(range(1000)), taken.append, ChannelClosed).join()
     assert taken == list(range(1000))
 
 
 def test_worker_pauses_after_each_turn(monkeypatch):
     clock = Clock()
     monkeypatch.setattr(channel_worker, "time", clock)
-    taking = ChannelWorker(Channel(range(30)), lambda sample: None, Over)
-    taking._over = waits = Waits(clock)
+    taking = ChannelWorker(Channel(range(30)), lambda sample: None, ChannelClosed)
+    taking._over = waits = FakeEvent(clock)
     taking.run()
     begins = [moment + seconds for moment, seconds in waits.waits]
     assert len(waits.waits) > 3
@@ -79,20 +79,20 @@ def test_worker_pauses_after_each_turn(monkeypatch):
 def test_idle_worker_polls_less_and_less_often(monkeypatch):
     clock = Clock()
     monkeypatch.setattr(channel_worker, "time", clock)
-    taking = ChannelWorker(Quiet(), lambda sample: None, Over)
-    taking._over = waits = Waits(clock, 30)
+    taking = ChannelWorker(EmptyChannel(), lambda sample: None, ChannelClosed)
+    taking._over = waits = FakeEvent(clock, 30)
     taking.run()
     lengths = [seconds for _, seconds in waits.waits]
     assert lengths == sorted(lengths) and lengths[-1] == MAX_POLL_S
 
 
 def test_worker_can_be_ended():
-    taking = drain_in_worker(Quiet(), lambda sample: None, Over)
+    taking = drain_in_worker(EmptyChannel(), lambda sample: None, ChannelClosed)
     taking.end()
     assert not taking.is_alive() and taking not in threading.enumerate()
 
 
 def test_waiting_samples_can_be_taken_at_once():
     taken = []
-    ChannelWorker(Channel(range(30)), taken.append, Over).take_waiting()
+    ChannelWorker(Channel(range(30)), taken.append, ChannelClosed).take_waiting()
     assert taken == list(range(30))

@@ -34,7 +34,7 @@ def show(session: Any, count: int) -> list[Any]:
     return [session.declare_token(each) for each in names]
 
 
-def patient(session: MeshSession) -> MeshSession:
+def wait_patiently(session: MeshSession) -> MeshSession:
     """Let a session wait for answers however busy the machine is; return it."""
     session.timeout_s = 60.0
     return session
@@ -50,7 +50,7 @@ def test_snapshot_is_complete_at_once_and_leaves_with_its_process(socket_folder,
     holder = open_session(0)
     for _ in range(ROUNDS):
         shown = show(holder, MANY)
-        watcher = patient(open_session(0))
+        watcher = wait_patiently(open_session(0))
         assert eventually(lambda watcher=watcher: watcher.linked() == {holder.zid})
         watches = Watches(watcher)
         if known:  # it was reported earlier, to watches of these topics
@@ -72,7 +72,7 @@ def test_clients_behind_a_router_of_the_mesh_appear_and_leave(socket_folder):
     place = f"tcp/127.0.0.1:{free_port()}"
     router, client = MeshSession(0, Serving((place,))), open_network_session(0, Way((place,)))
     show(client, MANY)
-    watcher = patient(open_session(0))
+    watcher = wait_patiently(open_session(0))
     assert eventually(lambda: router.zid in watcher.linked())
     assert not watcher.links_directly() and not router.links_directly() and not client.links_directly()
     graph = WholeGraph(watcher, lambda owner: None)
@@ -122,7 +122,7 @@ class Mesh:
         return ([ROLL_CALL_KEY + "a" * 8] if key.startswith(ROLL_CALL_KEY) else ["asked"]), self.answers
 
 
-def taken_in(mesh: Mesh, known: list[str] | None) -> list[tuple[str, bool]]:
+def tokens_taken_in(mesh: Mesh, known: list[str] | None) -> list[tuple[str, bool]]:
     seen: list[tuple[str, bool]] = []
     watch_all(cast("Any", mesh), "**", lambda key, came: seen.append((key, came)), lambda: known)
     return seen
@@ -133,29 +133,29 @@ A, B = "a" * 32, "b" * 32
 
 def test_history_is_completed_by_other_watches_if_all_links_answered():
     mesh = Mesh(A)
-    assert taken_in(mesh, ["known"]) == [("known", True)]
+    assert tokens_taken_in(mesh, ["known"]) == [("known", True)]
     assert mesh.asked == [ROLL_CALL_KEY + "*"]
 
 
 @pytest.mark.parametrize("mesh", [Mesh(A, answers=False), Mesh(A, B), Mesh(A, direct=False)])
 def test_whole_graph_is_requested_if_the_history_may_be_incomplete(mesh):
-    assert taken_in(mesh, ["known"]) == [("asked", True)]
+    assert tokens_taken_in(mesh, ["known"]) == [("asked", True)]
 
 
 def test_whole_graph_is_requested_if_other_watches_have_ended():
-    assert taken_in(Mesh(A), None) == [("asked", True)]
+    assert tokens_taken_in(Mesh(A), None) == [("asked", True)]
 
 
 def test_token_that_leaves_during_the_request_does_not_return():
     mesh = Mesh(A)
     mesh.meanwhile = lambda: mesh.watch.saw("known", False)
-    assert taken_in(mesh, ["known"]) == [("known", False)]
+    assert tokens_taken_in(mesh, ["known"]) == [("known", False)]
     mesh = Mesh(A)
     mesh.meanwhile = lambda: [mesh.watch.saw("known", came) for came in (False, True)]
-    assert taken_in(mesh, ["known"])[-1] == ("known", True)
+    assert tokens_taken_in(mesh, ["known"])[-1] == ("known", True)
 
 
-class Reporting:
+class ReportingSession:
     """A session that reports one token to its first watch."""
 
     zid, domain = "cd", 0
@@ -169,7 +169,7 @@ class Reporting:
 
 
 def test_watches_know_what_they_saw_until_one_ends():
-    watches, listener = Watches(cast("Any", Reporting())), lambda token, came: None
+    watches, listener = Watches(cast("Any", ReportingSession())), lambda token, came: None
     assert watches.known() == []
     watches.listen("MP", "/t", listener)
     (key,) = watches.known() or [""]

@@ -28,7 +28,7 @@ def token(topic: str, number: int = 1, kind: Any = "MP") -> str:
     return entity_token(0, node, number, kind, topic, "a/msg/B", "RIHS01_0", "::,10:,:,:,,")
 
 
-class Reported:
+class FakeSession:
     """A session whose tokens are reported by the test, to each watch by its key."""
 
     zid, domain = "cd", 0
@@ -45,21 +45,21 @@ class Reported:
 
 
 @pytest.fixture
-def session() -> Reported:
-    return Reported()
+def session() -> FakeSession:
+    return FakeSession()
 
 
 @pytest.fixture
-def watch(session: Reported) -> KindWatch:
+def watch(session: FakeSession) -> KindWatch:
     return KindWatch(cast("Any", session), "MP")
 
 
 @pytest.fixture
-def report(session: Reported, watch: KindWatch) -> Any:
+def report(session: FakeSession, watch: KindWatch) -> Any:
     return session.watches[tokens_of_kind(0, "MP")].saw
 
 
-def hears(heard: Heard) -> TokenCallback:
+def recorder(heard: Heard) -> TokenCallback:
     return lambda key, came: heard.append((key, came))
 
 
@@ -68,7 +68,7 @@ def test_listener_receives_existing_new_and_leaving_tokens_of_its_topic_only(wat
     report(there, True)
     report(other, True)
     heard: Heard = []
-    watch.watch("/a/b", hears(heard))
+    watch.watch("/a/b", recorder(heard))
     report(later, True)
     report(other, False)
     report(there, False)
@@ -78,9 +78,9 @@ def test_listener_receives_existing_new_and_leaving_tokens_of_its_topic_only(wat
 
 def test_ended_listener_receives_nothing_and_new_one_receives_existing_tokens(watch, report):
     heard: Heard = []
-    first = watch.watch("/t", hears([]))
+    first = watch.watch("/t", recorder([]))
     report(token("/t"), True)
-    again = watch.watch("/t", hears(heard))
+    again = watch.watch("/t", recorder(heard))
     first.undeclare()  # late: another listener has replaced it
     report(token("/t", 2), True)
     again.undeclare()
@@ -89,7 +89,7 @@ def test_ended_listener_receives_nothing_and_new_one_receives_existing_tokens(wa
 
 
 def test_tokens_that_left_or_are_unwatched_are_not_kept(watch, report):
-    watched = watch.watch("/watched", hears([]))
+    watched = watch.watch("/watched", recorder([]))
     for came in (True, False):
         report(token("/t"), came)
         report(token("/watched"), came)

@@ -35,7 +35,7 @@ def names(folder: str) -> set[str]:
     return {name for name in os.listdir(f"{folder}/0") if name.endswith(".tcp")}
 
 
-def linked_from(settings: dict[str, Any]) -> bool:
+def gets_link(settings: dict[str, Any]) -> bool:
     """Return whether a program with these link settings, besides the defaults, gets a link; waits for it."""
     config = zenoh.Config.from_json5(json.dumps({"mode": "client", "scouting": {"multicast": {"enabled": False}}}))
     for path, value in settings.items():
@@ -79,9 +79,9 @@ def test_only_loopback_is_listened_on(session: MeshSession) -> None:
 def test_program_without_the_secret_gets_no_link(session: MeshSession, socket_folder: str) -> None:
     place = {"connect/endpoints": [session.socket.endpoint()], "connect/timeout_ms": 2000}
     known = loopback.authentication(f"{socket_folder}/0")["usrpwd"]
-    assert linked_from({**place, "transport/auth/usrpwd": {**known}})
-    assert not linked_from(place)
-    assert not linked_from({**place, "transport/auth/usrpwd": {**known, "password": "guessed"}})
+    assert gets_link({**place, "transport/auth/usrpwd": {**known}})
+    assert not gets_link(place)
+    assert not gets_link({**place, "transport/auth/usrpwd": {**known, "password": "guessed"}})
 
 
 def test_secret_is_private_and_stable(session: MeshSession, socket_folder: str) -> None:

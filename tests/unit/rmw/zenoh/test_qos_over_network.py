@@ -42,7 +42,7 @@ def way():
 
 
 @pytest.fixture
-def real(way):
+def captured_nodes(way):
     made = []
 
     def make(*what, **how):
@@ -86,9 +86,9 @@ def until(done, node=None, step=lambda: None):
     [(BEST_EFFORT, QoSProfile(depth=10)), (VOLATILE, LATCHED), (BEST_EFFORT, LATCHED)],
     ids=["best effort to reliable", "volatile to transient local", "both"],
 )
-def test_a_subscription_that_requests_more_than_is_offered_receives(real, console, offered, requested):
+def test_a_subscription_that_requests_more_than_is_offered_receives(captured_nodes, console, offered, requested):
     heard = []
-    talker = real("MP", "/latched", qos=offered)
+    talker = captured_nodes("MP", "/latched", qos=offered)
     subscription = console.create_subscription(String, "/latched", heard.append, requested)
     until(lambda: console.count_publishers("/latched") and subscription.handle.get_publisher_count(), console)
     until(lambda: heard, console, lambda: talker.send(String(data="hello")))
@@ -97,8 +97,8 @@ def test_a_subscription_that_requests_more_than_is_offered_receives(real, consol
     assert rclpy.get_rmw_implementation_identifier() == "rmw_zenoh_cpp"
 
 
-def test_a_publisher_that_offers_less_than_is_requested_matches_and_delivers(real, console):
-    listener = real("MS", "/tl_sub")
+def test_a_publisher_that_offers_less_than_is_requested_matches_and_delivers(captured_nodes, console):
+    listener = captured_nodes("MS", "/tl_sub")
     publisher = console.create_publisher(String, "/tl_sub", WEAK)
     until(lambda: publisher.get_subscription_count() == 1, console)
     until(lambda: listener.heard, console, lambda: publisher.publish(String(data="hello")))
@@ -115,8 +115,8 @@ def test_nodes_of_one_program_match_by_the_same_rules(console):
     until(lambda: heard, console)
 
 
-def test_log_lines_older_than_their_lifespan_are_received(real, console):
-    base = real("MP", "/rosout", cache=1000)
+def test_log_lines_older_than_their_lifespan_are_received(captured_nodes, console):
+    base = captured_nodes("MP", "/rosout", cache=1000)
     assert base.token.qos.lifespan.nanoseconds == 10_000_000_000
     minute_ago = time.time_ns() - 60_000_000_000
     for number in range(MANY):

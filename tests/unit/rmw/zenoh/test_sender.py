@@ -10,7 +10,7 @@ from bot_console.runtime.rmw.zenoh.sender import Sender
 TIMEOUT_S = 240.0
 
 
-class Slow:
+class FullLinkPublisher:
     """A publisher whose link is full until it is freed."""
 
     def __init__(self):
@@ -27,7 +27,7 @@ class Slow:
         self.sent.append("undeclared")
 
 
-class Stepwise:
+class OneAtATimePublisher:
     """A publisher whose link takes one message at a time."""
 
     def __init__(self):
@@ -39,7 +39,7 @@ class Stepwise:
         assert self.free.acquire(timeout=TIMEOUT_S)
 
 
-class Awaited(threading.Event):
+class NotifyingEvent(threading.Event):
     """An event that is set, and calls back before each wait for it."""
 
     def __init__(self, on_wait):
@@ -60,7 +60,7 @@ def sender():
 
 
 def test_publishing_does_not_block_and_order_is_kept(sender):
-    publisher = Slow()
+    publisher = FullLinkPublisher()
     for each in (b"1", b"2", b"3"):
         assert sender.send(publisher, "/t", each, b"a")
     assert publisher.reached.wait(TIMEOUT_S)
@@ -73,7 +73,7 @@ def test_publishing_does_not_block_and_order_is_kept(sender):
 
 def test_message_without_room_is_dropped_and_reported(sender, monkeypatch):
     monkeypatch.setattr(module, "MAX_QUEUED_BYTES", 10)
-    message, publisher = [], Slow()
+    message, publisher = [], FullLinkPublisher()
     forget = on_notice(lambda process, text: message.append(text))
     sender.send(publisher, "/full", b"first", b"a")
     assert publisher.reached.wait(TIMEOUT_S)
@@ -84,20 +84,20 @@ def test_message_without_room_is_dropped_and_reported(sender, monkeypatch):
 
 
 def test_leaving_process_waits_for_a_limited_time(sender):
-    publisher = Slow()
+    publisher = FullLinkPublisher()
     sender.send(publisher, "/t", b"1", b"a")
     assert not sender.end(0.01)
     publisher.free.set()
 
 
 def test_idle_publisher_is_undeclared_at_once(sender):
-    publisher = Slow()
+    publisher = FullLinkPublisher()
     sender.undeclare(publisher)
     assert publisher.sent == ["undeclared"]
 
 
 def test_idle_sender_thread_is_woken(sender):
-    publisher = Slow()
+    publisher = FullLinkPublisher()
     publisher.free.set()
     for number in range(200):
         publisher.reached.clear()
@@ -108,7 +108,7 @@ def test_idle_sender_thread_is_woken(sender):
 
 
 def test_publisher_is_undeclared_after_its_last_message_was_sent(sender):
-    publisher = Slow()
+    publisher = FullLinkPublisher()
     sender.send(publisher, "/t", b"1", b"a")
     assert publisher.reached.wait(TIMEOUT_S)
     sender.undeclare(publisher)
@@ -122,8 +122,8 @@ def test_publisher_is_undeclared_after_its_last_message_was_sent(sender):
 def test_burst_yields_to_the_sender_thread(sender, monkeypatch, limit, value, count):
     monkeypatch.setattr(module, limit, value)
     monkeypatch.setattr(module, "YIELD_TIMEOUT_S", TIMEOUT_S)
-    publisher = Slow()
-    sender._emptied = Awaited(publisher.free.set)
+    publisher = FullLinkPublisher()
+    sender._emptied = NotifyingEvent(publisher.free.set)
     for _ in range(count - 1):
         sender.send(publisher, "/t", b"12", b"a")
         assert publisher.reached.wait(TIMEOUT_S)  # the message being sent does not count as waiting bytes
@@ -137,8 +137,8 @@ def test_burst_to_a_full_link_yields_only_once_until_the_queue_is_empty(sender, 
     monkeypatch.setattr(module, "YIELD_TIMEOUT_S", 0.0)
     waits = []
     for burst in (1, 2):
-        publisher = Slow()
-        sender._emptied = Awaited(lambda: waits.append("once"))
+        publisher = FullLinkPublisher()
+        sender._emptied = NotifyingEvent(lambda: waits.append("once"))
         for _ in range(10):
             assert sender.send(publisher, "/t", b"1", b"a")
         assert waits == ["once"] * burst
@@ -150,8 +150,8 @@ def test_burst_yields_again_beyond_half_of_the_room_if_sending_progresses(sender
     monkeypatch.setattr(module, "BURST_BYTES", 4)
     monkeypatch.setattr(module, "MAX_QUEUED_BYTES", 20)
     monkeypatch.setattr(module, "YIELD_TIMEOUT_S", 0.0)
-    waits, publisher = [], Stepwise()
-    sender._emptied = Awaited(lambda: waits.append("once"))
+    waits, publisher = [], OneAtATimePublisher()
+    sender._emptied = NotifyingEvent(lambda: waits.append("once"))
     sender.send(publisher, "/t", b"12", b"a")
     assert publisher.reached.acquire(timeout=TIMEOUT_S)
     for _ in range(6):

@@ -29,7 +29,7 @@ class Request:
         self.dropped = True
 
 
-def spoilt(payload):
+def corrupt(payload):
     return payload[:-4] + b"\1\2\3\4"
 
 
@@ -37,7 +37,7 @@ def test_corrupted_request_is_not_served(notices):
     service = ServiceEndpoint(NodeId("n", "/"), NAME, TYPE, lambda: None, AddTwoInts)
     served = Served(SESSION, service, "key")
     sent = serialize_message(AddTwoInts.Request(a=1, b=2))
-    cut = Request(spoilt(sent), pack(1, 5, GID, sent))
+    cut = Request(corrupt(sent), pack(1, 5, GID, sent))
     served.asked(cut)
     assert cut.dropped and not service.queue
     assert notices == [f"a request to '/add' was dropped: {REPORTED}"]
@@ -50,7 +50,7 @@ def test_corrupted_response_is_not_accepted(notices):
     client = ClientEndpoint(NodeId("n", "/"), NAME, TYPE, lambda: None, AddTwoInts, gid=GID)
     asking = Asking(SESSION, client, "key")
     sent = serialize_message(AddTwoInts.Response(sum=3))
-    asking._replied(spoilt(sent), pack(1, 5, GID, sent))
+    asking._replied(corrupt(sent), pack(1, 5, GID, sent))
     assert not client.queue
     assert notices == [f"a response of '/add' was dropped: {REPORTED}"]
     asking._replied(sent, pack(1, 5, GID, sent))
@@ -77,7 +77,7 @@ class Links:
         return self.pids[zid]
 
 
-def asked_of(session, *servers):
+def ask_servers(session, *servers):
     client = ClientEndpoint(NodeId("n", "/"), NAME, TYPE, lambda: None, AddTwoInts, gid=GID)
     asking = Asking(session, client, "key/hash")
     for each in servers:
@@ -86,7 +86,7 @@ def asked_of(session, *servers):
 
 
 def test_server_withdrawn_over_a_working_link_has_ended():
-    asking, ended = asked_of(Links(), "a", "b")
+    asking, ended = ask_servers(Links(), "a", "b")
     assert asking.has_server and not ended()
     asking.saw(server("a"), False)
     assert not ended(), "the other one is there"
@@ -96,17 +96,17 @@ def test_server_withdrawn_over_a_working_link_has_ended():
 
 def test_lost_link_does_not_end_the_server_unless_its_process_ended():
     links = Links()
-    asking, ended = asked_of(links, "a")
+    asking, ended = ask_servers(links, "a")
     links.ids = set()
     asking.saw(server("a"), False)
     assert not ended(), "its process lives, and may link itself anew"
     gone = subprocess.Popen([sys.executable, "-c", ""])
     links.pids["a"] = gone.pid
-    asking, ended = asked_of(links, "a")
+    asking, ended = ask_servers(links, "a")
     gone.wait()
     asking.saw(server("a"), False)
     assert ended()
 
 
 def test_nothing_is_known_if_no_server_was_present():
-    assert not asked_of(Links())[1]()
+    assert not ask_servers(Links())[1]()

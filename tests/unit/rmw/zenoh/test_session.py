@@ -36,7 +36,7 @@ def tokens(session: Session, key: str) -> set[str]:
     return set(found)
 
 
-def shown(one: Session, two: Session, key: str) -> threading.Event:
+def wait_for_token(one: Session, two: Session, key: str) -> threading.Event:
     """Wait until `two` has a token of `one`, and so all earlier ones; return an event set when the token leaves."""
     came, went = threading.Event(), threading.Event()
     two.watch_tokens(key, lambda _, there: (came if there else went).set())
@@ -71,17 +71,17 @@ def test_late_subscriber_gets_cached_messages(pair):
 def test_query_is_answered_until_undeclared(pair):
     one, two = pair
     queryable = one.declare_queryable("s", lambda query: query.answer(query.payload * 2, b"answer"))
-    shown(one, two, "s/1")
+    wait_for_token(one, two, "s/1")
     assert ask(two, "s", b"x") == [(b"xx", b"answer")]
     queryable.undeclare()
     queryable.undeclare()
-    shown(one, two, "s/2")
+    wait_for_token(one, two, "s/2")
     assert ask(two, "s", b"x") == []
 
 
 def test_tokens_are_seen_until_their_session_ends(pair):
     one, two = pair
-    went = shown(one, two, "k/1")
+    went = wait_for_token(one, two, "k/1")
     assert tokens(two, "k/**") == {"k/1"}
     one.close()
     assert went.wait(TIMEOUT_S)
@@ -114,7 +114,7 @@ def test_session_reopens_although_zenoh_closes_too_slowly(pair) -> None:
 
 def test_tokens_of_others_are_collected(pair):
     one, two = pair
-    shown(one, two, "token/1")
+    wait_for_token(one, two, "token/1")
     assert two.collect_tokens("token/*", TIMEOUT_S) == (["token/1"], True)
     two.close()
     assert two.collect_tokens("token/*", TIMEOUT_S) == ([], False)

@@ -48,7 +48,7 @@ def test_thread_local_counter_persists_between_callbacks(calls):
     assert all(each == list(range(1, len(each) + 1)) for each in calls.values())
 
 
-def in_a_thread(call):
+def run_in_thread(call):
     done = []
     thread = threading.Thread(target=lambda: done.append(call()))
     thread.start()
@@ -66,9 +66,9 @@ def test_program_with_few_callbacks_imports_nothing_extra(monkeypatch):
     monkeypatch.delitem(sys.modules, "ctypes", raising=False)
     monkeypatch.setattr(thread_state_cache, "_calls", iter(range(1, 1000)))
     monkeypatch.setattr(thread_state_cache, "_cached", iter(range(1, 1000)))
-    assert not in_a_thread(lambda: cached_after(thread_state_cache.MIN_CALLBACKS - 1))
+    assert not run_in_thread(lambda: cached_after(thread_state_cache.MIN_CALLBACKS - 1))
     assert "ctypes" not in sys.modules
-    assert in_a_thread(lambda: cached_after(1))
+    assert run_in_thread(lambda: cached_after(1))
 
 
 def test_cached_threads_are_limited(monkeypatch):
@@ -76,4 +76,4 @@ def test_cached_threads_are_limited(monkeypatch):
         thread_state_cache, "_cached", iter(range(thread_state_cache.MAX_THREADS, thread_state_cache.MAX_THREADS + 10))
     )
     monkeypatch.setattr(thread_state_cache, "_calls", iter(range(thread_state_cache.MIN_CALLBACKS, 1000)))
-    assert [in_a_thread(lambda: cached_after(1)) for _ in range(3)] == [True, False, False]
+    assert [run_in_thread(lambda: cached_after(1)) for _ in range(3)] == [True, False, False]

@@ -12,7 +12,7 @@ from bot_console.tui.cli.main import main
 
 
 @pytest.fixture(autouse=True)
-def undecided(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def clear_distribution(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     for name in ("BOT_CONSOLE_DISTRO", "ROS_DISTRO"):
         monkeypatch.setenv(name, "")
     distribution.cache_clear()

@@ -21,7 +21,7 @@ def contents(place: Path) -> dict[str, bytes]:
     return {str(each.relative_to(place)): each.read_bytes() for each in place.rglob("*") if each.is_file()}
 
 
-def answering(monkeypatch: pytest.MonkeyPatch, answer: str) -> None:
+def answer_prompt(monkeypatch: pytest.MonkeyPatch, answer: str) -> None:
     monkeypatch.setattr(sys.stdin, "isatty", lambda: True, raising=False)
     monkeypatch.setattr(builtins, "input", lambda _: answer)
 
@@ -41,12 +41,12 @@ def test_export_asks_before_writing_into_existing_folder_and_deletes_nothing(
     with pytest.raises(SystemExit):
         run([str(tmp_path)])
     assert "exists already; give another folder" in capsys.readouterr().err
-    answering(monkeypatch, "")
+    answer_prompt(monkeypatch, "")
     with pytest.raises(SystemExit):
         run([str(tmp_path)])
     assert contents(place) == before
 
-    answering(monkeypatch, "y")
+    answer_prompt(monkeypatch, "y")
     assert run([str(tmp_path)]) == 0
     assert "kept with ~ appended to their names: setup.py" in capsys.readouterr().out
     assert contents(place) == fresh | {"notes.txt": b"mine", "setup.py~": b"# mine\n"}
@@ -93,13 +93,13 @@ def test_user_file_need_not_be_executable_on_real_ros(exported: Path, launch_fil
     (mine,) = [
         each
         for each in made
-        if isinstance(each, Node) and _performed(context, each.process_description.cmd[0]) == "my_node.py"
+        if isinstance(each, Node) and _perform(context, each.process_description.cmd[0]) == "my_node.py"
     ]
-    assert _performed(context, mine.process_description.prefix) == "python3"
-    assert _performed(context, mine.process_description.name) == "my_node.py"
+    assert _perform(context, mine.process_description.prefix) == "python3"
+    assert _perform(context, mine.process_description.name) == "my_node.py"
 
 
-def _performed(context: LaunchContext, text: Any) -> str:
+def _perform(context: LaunchContext, text: Any) -> str:
     return perform_substitutions(context, normalize_to_list_of_substitutions(text))
 
 

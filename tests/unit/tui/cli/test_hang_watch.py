@@ -25,7 +25,7 @@ class Clock:
 
 
 @pytest.fixture
-def kept(tmp_path: Path) -> Iterator[tuple[HangWatch, Clock, list[str], Path]]:
+def watch_rig(tmp_path: Path) -> Iterator[tuple[HangWatch, Clock, list[str], Path]]:
     clock, reported, path = Clock(), list[str](), tmp_path / FILE
     with path.open("ab") as file:
         watch = HangWatch(path, file.fileno(), reported.append, clock)
@@ -42,8 +42,8 @@ def test_signal_writes_stacks_and_state_of_the_screen(tmp_path: Path) -> None:
     assert signal.getsignal(signal.SIGUSR1) == before
 
 
-def test_hung_thread_is_written_once(kept: tuple[HangWatch, Clock, list[str], Path]) -> None:
-    watch, clock, _, path = kept
+def test_hung_thread_is_written_once(watch_rig: tuple[HangWatch, Clock, list[str], Path]) -> None:
+    watch, clock, _, path = watch_rig
     watch.heartbeat()
     clock.now += HANG_AFTER_S - 1
     watch.poll()
@@ -75,8 +75,8 @@ with hang_watch(Path({str(tmp_path)!r}), str, print):
     assert process.returncode == -signal.SIGABRT and "Fatal Python error" in text and 'File "<string>"' in text
 
 
-def test_end_of_a_hang_is_reported(kept: tuple[HangWatch, Clock, list[str], Path]) -> None:
-    watch, clock, reported, path = kept
+def test_end_of_a_hang_is_reported(watch_rig: tuple[HangWatch, Clock, list[str], Path]) -> None:
+    watch, clock, reported, path = watch_rig
     watch.heartbeat()
     clock.now += HANG_AFTER_S - 1
     watch.heartbeat()
@@ -88,8 +88,8 @@ def test_end_of_a_hang_is_reported(kept: tuple[HangWatch, Clock, list[str], Path
     assert "hung for 15 s" in path.read_text()
 
 
-def test_idle_console_is_not_a_hang(kept: tuple[HangWatch, Clock, list[str], Path]) -> None:
-    watch, clock, reported, _ = kept
+def test_idle_console_is_not_a_hang(watch_rig: tuple[HangWatch, Clock, list[str], Path]) -> None:
+    watch, clock, reported, _ = watch_rig
     watch.heartbeat()
     watch.rest()
     clock.now += 10 * HANG_AFTER_S
@@ -127,9 +127,9 @@ class App:
 
 @pytest.mark.parametrize("held", [False, True])
 def test_app_that_hangs_while_its_loop_runs_is_written_with_its_tasks(
-    kept: tuple[HangWatch, Clock, list[str], Path], held: bool
+    watch_rig: tuple[HangWatch, Clock, list[str], Path], held: bool
 ) -> None:
-    watch, _, reported, path = kept
+    watch, _, reported, path = watch_rig
     app = App()
 
     async def waits() -> None:

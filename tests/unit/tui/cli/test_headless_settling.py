@@ -10,7 +10,7 @@ from bot_console.tui.session.reached_console import POLL_S, settled
 
 
 @pytest.fixture
-def passed(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+def slept_seconds(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     """The seconds slept so far; nothing else makes time advance."""
     slept: list[float] = []
     clock = SimpleNamespace(monotonic=lambda: sum(slept), sleep=slept.append)
@@ -18,12 +18,12 @@ def passed(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     return slept
 
 
-def test_changing_value_is_awaited_until_it_is_stable(passed):
+def test_changing_value_is_awaited_until_it_is_stable(slept_seconds):
     polls = iter([0, 1, 2, 3])
     assert settled(lambda: next(polls, 3), bool, 0.5, 10.0) == 3
-    assert sum(passed) == pytest.approx(3 * POLL_S + 0.5)
+    assert sum(slept_seconds) == pytest.approx(3 * POLL_S + 0.5)
 
 
-def test_missing_value_is_awaited_for_the_whole_timeout(passed):
+def test_missing_value_is_awaited_for_the_whole_timeout(slept_seconds):
     assert settled(lambda: 0, bool, 0.5, 2.0) == 0
-    assert sum(passed) == pytest.approx(2.0, abs=POLL_S)
+    assert sum(slept_seconds) == pytest.approx(2.0, abs=POLL_S)

@@ -15,7 +15,7 @@ from rclpy.publisher import Publisher
 
 
 @pytest.fixture
-def word(monkeypatch: pytest.MonkeyPatch) -> Iterator[Publisher]:
+def lock_publisher(monkeypatch: pytest.MonkeyPatch) -> Iterator[Publisher]:
     """The publisher of a robot's emergency stop, which has published nothing yet."""
     number = unused_domain()
     monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
@@ -27,9 +27,9 @@ def word(monkeypatch: pytest.MonkeyPatch) -> Iterator[Publisher]:
     context.try_shutdown()
 
 
-def test_silent_lock_does_not_count_as_free(word: Publisher) -> None:
+def test_silent_lock_does_not_count_as_free(lock_publisher: Publisher) -> None:
     assert stop.holders(to_hear=0.0) is None
-    word.publish(DiagnosticStatus(values=[KeyValue(key="locked", value="false")]))
+    lock_publisher.publish(DiagnosticStatus(values=[KeyValue(key="locked", value="false")]))
     assert stop.holders() == []
 
 

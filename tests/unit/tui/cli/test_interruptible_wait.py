@@ -24,7 +24,7 @@ def elsewhere() -> Iterator[None]:
     signal.pthread_sigmask(signal.SIG_UNBLOCK, [signal.SIGUSR1])
 
 
-class Waited(threading.Event):
+class SignalledEvent(threading.Event):
     """An event during whose wait another thread receives a signal."""
 
     def wait(self, timeout: float | None = None) -> bool:
@@ -42,7 +42,7 @@ class Waited(threading.Event):
 
 
 def test_signal_received_by_another_thread_ends_the_wait(elsewhere: None) -> None:
-    over = Waited()
+    over = SignalledEvent()
     before = signal.signal(signal.SIGUSR1, lambda number, frame: over.set())
     try:
         assert wait_interruptibly(over, TIMEOUT_S)

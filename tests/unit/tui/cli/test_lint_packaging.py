@@ -40,7 +40,7 @@ def folder(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def found(folder: Path) -> list[str]:
+def obstacles_in(folder: Path) -> list[str]:
     return [str(each).replace(f"{folder}/", "") for each in obstacles(read_package(folder))]
 
 
@@ -51,18 +51,18 @@ def edit(folder: Path, old: str, new: str, file: str = "setup.py") -> None:
 
 
 def test_a_correct_package_has_no_obstacle(folder: Path) -> None:
-    assert found(folder) == []
+    assert obstacles_in(folder) == []
     edit(folder, "packages=[package_name]", "packages=find_packages(exclude=['test'])")
     edit(folder, "script_dir", "script-dir", "setup.cfg")
-    assert found(folder) == []
+    assert obstacles_in(folder) == []
 
 
 def test_a_missing_setup_cfg_is_named(folder: Path) -> None:
     (folder / "setup.cfg").unlink()
-    (only,) = found(folder)
+    (only,) = obstacles_in(folder)
     assert only.startswith("setup.cfg: is missing") and "script_dir=$base/lib/p" in only
     edit(folder, "'talk = p.talk:main'", "")
-    assert found(folder) == [], "there is nothing to be found by ros2 run"
+    assert obstacles_in(folder) == [], "there is nothing to be found by ros2 run"
 
 
 @pytest.mark.parametrize(
@@ -77,7 +77,7 @@ def test_a_missing_setup_cfg_is_named(folder: Path) -> None:
 )
 def test_a_foreign_folder_for_scripts_is_named(folder: Path, old: str, new: str, message: str) -> None:
     edit(folder, old, new, "setup.cfg")
-    (only,) = found(folder)
+    (only,) = obstacles_in(folder)
     assert only.startswith(message) and only.endswith("=$base/lib/p")
 
 
@@ -92,15 +92,15 @@ def test_a_foreign_folder_for_scripts_is_named(folder: Path, old: str, new: str,
 def test_a_package_inside_that_is_not_listed_is_named(folder: Path, file: str, message: str) -> None:
     (folder / file).parent.mkdir(parents=True)
     (folder / file).write_text("")
-    (only,) = found(folder)
+    (only,) = obstacles_in(folder)
     assert only.startswith("setup.py:6: ") and message in only
     edit(folder, "packages=[package_name]", "packages=['p', 'p.util', 'p.util.deep']")
-    assert found(folder) == []
+    assert obstacles_in(folder) == []
 
 
 def test_a_package_of_an_executable_that_is_not_listed_is_named(folder: Path) -> None:
     edit(folder, "packages=[package_name]", "packages=['q']")
-    (only,) = found(folder)
+    (only,) = obstacles_in(folder)
     assert "packages= does not list p, where talk is" in only
 
 
@@ -116,7 +116,7 @@ def test_a_package_of_an_executable_that_is_not_listed_is_named(folder: Path) ->
 )  # fmt: skip
 def test_data_files_that_install_nothing_are_named(folder: Path, old: str, new: str, message: str) -> None:
     edit(folder, old, new)
-    (only,) = found(folder)
+    (only,) = obstacles_in(folder)
     assert only.startswith(("setup.py:8: ", "setup.py:9: ")) and message in only
 
 
@@ -134,7 +134,7 @@ def test_file_that_data_files_forget_is_named(folder: Path, old: str, new: str, 
     (folder / "config").mkdir()
     (folder / "config/indoor.yaml").touch()
     edit(folder, old, new)
-    assert any(message in each for each in found(folder))
+    assert any(message in each for each in obstacles_in(folder))
 
 
 @pytest.mark.parametrize(
@@ -148,12 +148,12 @@ def test_file_that_data_files_forget_is_named(folder: Path, old: str, new: str, 
 )
 def test_no_file_is_called_forgotten_when_data_files_cannot_be_evaluated(folder: Path, old: str, new: str) -> None:
     edit(folder, old, new)
-    assert found(folder) == []
+    assert obstacles_in(folder) == []
 
 
 def test_another_name_in_setup_is_named(folder: Path) -> None:
     edit(folder, "name=package_name", "name='q'")
-    (only,) = found(folder)
+    (only,) = obstacles_in(folder)
     assert only.startswith("setup.py:5: setup() is called with the name 'q'") and only.endswith("write name='p'")
 
 
@@ -162,19 +162,19 @@ def test_programs_that_cannot_be_started_are_named(folder: Path) -> None:
     edit(folder, "    entry_points", "    scripts=['bin/run.py'],\n    entry_points")
     (folder / "bin").mkdir()
     (folder / "bin" / "run.py").write_text("print(1)\n")
-    lines = found(folder)
+    lines = obstacles_in(folder)
     assert len(lines) == 2 and "bin/run.py: the program may not be executed; chmod +x" in lines[0]
     assert lines[1].startswith("bin/run.py:1: the program has no first line")
     (folder / "bin" / "run.py").write_text("#!/usr/bin/env python3\n")
     (folder / "bin" / "run.py").chmod(0o755)
-    assert found(folder) == []
+    assert obstacles_in(folder) == []
 
 
 def test_programs_of_cmake_are_checked_too(folder: Path) -> None:
     (folder / "package.xml").write_text(XML.format("ament_cmake"))
     (folder / "setup.py").unlink()
     (folder / "CMakeLists.txt").write_text("project(p)\ninstall(PROGRAMS p/talk.py DESTINATION lib/${PROJECT_NAME})\n")
-    lines = found(folder)
+    lines = obstacles_in(folder)
     assert len(lines) == 2 and all(each.startswith("p/talk.py") for each in lines)
 
 
@@ -183,7 +183,7 @@ def test_files_that_shadow_imported_packages_are_named(folder: Path, name: str) 
     (folder / "p" / name).parent.mkdir(exist_ok=True)
     (folder / "p" / name).write_text("")
     edit(folder, "packages=[package_name]", "packages=['p', 'p.std_msgs']")
-    (only,) = found(folder)
+    (only,) = obstacles_in(folder)
     what = name.partition("/")[0]
     assert only.startswith("p/talk.py:") and f"{what} beside it is imported" in only and f"rename {what}" in only
 

@@ -10,7 +10,7 @@ from bot_console.tui.cli.headless.observer import PROBE_PERIOD_S, Observer
 PERIOD = round(PROBE_PERIOD_S * 1e9)
 
 
-def observed(late):
+def observer_with_lateness(late):
     """An observer whose timer was called late by these numbers of nanoseconds."""
     observer = Observer(1.0)
     moments = iter((number + 1) * PERIOD + each for number, each in enumerate(late))
@@ -20,14 +20,14 @@ def observed(late):
 
 
 def test_lateness_of_a_timer_is_reported():
-    observer = observed([0] * 98 + [1_234_567, 5_000_000])
+    observer = observer_with_lateness([0] * 98 + [1_234_567, 5_000_000])
     for _ in range(100):
         observer._probe()
     assert observer.report()["timer_lateness_ms"] == {"median": 0.0, "p99": 5.0, "max": 5.0}
 
 
 def test_long_run_uses_no_more_memory_than_a_short_one():
-    observer = observed([0] * 20_000)
+    observer = observer_with_lateness([0] * 20_000)
     observer._probe()
     tracemalloc.start()
     try:

@@ -21,7 +21,7 @@ def venv(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "venv"
 
 
-def in_venv(venv: Path, text: str, *options: str) -> subprocess.CompletedProcess[str]:
+def run_in_venv(venv: Path, text: str, *options: str) -> subprocess.CompletedProcess[str]:
     return python([*options, "-c", text], os.environ, venv / "bin" / "python3", venv)
 
 
@@ -33,10 +33,10 @@ def test_programs_of_environment_import_rclpy_until_it_is_removed(venv: Path, ca
     assert main(["setup", "venv", str(venv)]) == 0
     text = "import rclpy; rclpy.init(); rclpy.create_node('n'); print(rclpy.__file__)"
     for option in ([], ["-I"]):
-        done = in_venv(venv, text, *option)
+        done = run_in_venv(venv, text, *option)
         assert done.stdout.endswith("runtime/rclpy/__init__.py\n"), done.stderr
     assert main(["setup", "venv", str(venv), "--remove"]) == 0
-    assert "No module named 'rclpy'" in in_venv(venv, text).stderr
+    assert "No module named 'rclpy'" in run_in_venv(venv, text).stderr
     assert main(["setup", "venv", str(venv), "--remove"]) == 0
     assert "nothing to remove" in capsys.readouterr().out
 
@@ -47,7 +47,7 @@ def test_name_of_the_user_folder_may_contain_anything(
 ):
     monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path / name))
     assert main(["setup", "venv", str(venv)]) == 0
-    assert in_venv(venv, "import rclpy; print(rclpy.__file__)").stdout.endswith("runtime/rclpy/__init__.py\n")
+    assert run_in_venv(venv, "import rclpy; print(rclpy.__file__)").stdout.endswith("runtime/rclpy/__init__.py\n")
 
 
 def test_active_environment_is_the_default(venv: Path, monkeypatch: pytest.MonkeyPatch):
@@ -67,9 +67,9 @@ def test_real_rclpy_is_never_shadowed(venv: Path, capsys: pytest.CaptureFixture[
     (packages(venv) / "rclpy").rename(packages(venv) / "away")
     assert main(["setup", "venv", str(venv)]) == 0
     (packages(venv) / "away").rename(packages(venv) / "rclpy")  # installed later
-    found = in_venv(venv, "import std_msgs, rclpy; print(rclpy.__file__)")
+    found = run_in_venv(venv, "import std_msgs, rclpy; print(rclpy.__file__)")
     assert "No module named 'std_msgs'" in found.stderr
-    assert in_venv(venv, "import rclpy; print(rclpy.__file__)").stdout == f"{packages(venv)}/rclpy/__init__.py\n"
+    assert run_in_venv(venv, "import rclpy; print(rclpy.__file__)").stdout == f"{packages(venv)}/rclpy/__init__.py\n"
 
 
 def test_folder_that_is_no_environment_and_another_python_are_refused(venv: Path, capsys: pytest.CaptureFixture[str]):
@@ -93,16 +93,16 @@ def test_environment_is_silent_and_unchanged_once_the_installation_is_gone(venv:
         if each.is_symlink():
             each.unlink()
             each.symlink_to("/nowhere/shim.py")
-    done = in_venv(venv, "print(1)\nimport rclpy")
+    done = run_in_venv(venv, "print(1)\nimport rclpy")
     assert done.stdout == "1\n" and done.stderr.count("\n") in (3, 4)  # Python 3.13 shows the line
     shims.rename(shims.with_name("away"))
-    assert (in_venv(venv, "print(1)").stdout, in_venv(venv, "print(1)").stderr) == ("1\n", "")
+    assert (run_in_venv(venv, "print(1)").stdout, run_in_venv(venv, "print(1)").stderr) == ("1\n", "")
 
 
 def test_start_of_python_imports_two_small_files_more(venv: Path):
     loaded = "import sys; print(*sorted(sys.modules))"
-    before = {*in_venv(venv, loaded).stdout.split()}
+    before = {*run_in_venv(venv, loaded).stdout.split()}
     assert main(["setup", "venv", str(venv)]) == 0
-    more = {*in_venv(venv, loaded).stdout.split()} - before
+    more = {*run_in_venv(venv, loaded).stdout.split()} - before
     more.discard("encodings.utf_8_sig")  # by Python 3.13, for any .pth file
     assert more <= {"bot_console_shims", "sitecustomize"}

@@ -13,7 +13,7 @@ LAUNCH = ["launch", "my_package", "x.launch.py", "speed:=1"]
 
 
 @pytest.fixture
-def used(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+def used_folders(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """The folders that became the workspace."""
     folders: list[str] = []
     monkeypatch.setattr(workspace_option, "use_folders", folders.extend)
@@ -38,11 +38,11 @@ def used(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     ],
 )
 def test_option_is_taken_only_before_or_after_the_command_name(
-    used: list[str], typed: str, folders: list[str], left: list[str]
+    used_folders: list[str], typed: str, folders: list[str], left: list[str]
 ) -> None:
     commands = ("launch", "run", "pkg", "up")
     assert without_workspace(typed.split(), commands.__contains__) == left
-    assert used == folders
+    assert used_folders == folders
 
 
 def test_missing_folder_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

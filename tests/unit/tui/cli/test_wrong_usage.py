@@ -8,7 +8,7 @@ import pytest
 from bot_console.tui.cli.main import main
 
 
-def reported(words: list[str], capsys: pytest.CaptureFixture[str]) -> str:
+def usage_error(words: list[str], capsys: pytest.CaptureFixture[str]) -> str:
     """The last line of stderr of a command line that is refused as wrong usage."""
     with pytest.raises(SystemExit) as ended:
         main(words)
@@ -22,11 +22,11 @@ def reported(words: list[str], capsys: pytest.CaptureFixture[str]) -> str:
      ("outdor", "outdoor"), ("--headless outdor", "outdoor"), ("--profile indor", "indoor")],
 )  # fmt: skip
 def test_a_mistyped_word_gets_a_suggestion(words: str, similar: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert reported(words.split(), capsys).endswith(f"did you mean '{similar}'?")
+    assert usage_error(words.split(), capsys).endswith(f"did you mean '{similar}'?")
 
 
 def test_a_word_like_no_other_gets_the_profiles(capsys: pytest.CaptureFixture[str]) -> None:
-    line = reported(["xyzzy"], capsys)
+    line = usage_error(["xyzzy"], capsys)
     assert "did you mean" not in line and line.endswith("profiles: competition, indoor, outdoor, warehouse")
 
 
@@ -50,7 +50,7 @@ def test_a_word_like_no_other_gets_the_profiles(capsys: pytest.CaptureFixture[st
     ],
 )
 def test_impossible_numbers_and_files_are_named(words: str, message: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert reported(words.split(), capsys).endswith(message)
+    assert usage_error(words.split(), capsys).endswith(message)
 
 
 def test_help_of_up_explains_up(capsys: pytest.CaptureFixture[str]) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 from bot_console.tui.commanding.history import MAX_LINES, LineHistory
 
 
-def filled(path: Path, *lines: str) -> LineHistory:
+def history_with(path: Path, *lines: str) -> LineHistory:
     history = LineHistory(path)
     for each in lines:
         history.add(each)
@@ -15,12 +15,12 @@ def filled(path: Path, *lines: str) -> LineHistory:
 
 
 def test_history_is_stored_without_duplicates_newest_last(tmp_path: Path) -> None:
-    filled(tmp_path / "lines", "topic list", "set /a b 1", "topic list")
+    history_with(tmp_path / "lines", "topic list", "set /a b 1", "topic list")
     assert LineHistory(tmp_path / "lines").lines() == ["set /a b 1", "topic list"]
 
 
 def test_up_recalls_lines_with_the_typed_prefix_and_down_returns(tmp_path: Path) -> None:
-    history = filled(tmp_path / "lines", "topic list", "node list", "topic hz /odom")
+    history = history_with(tmp_path / "lines", "topic list", "node list", "topic hz /odom")
     typed, seen = "topic", []
     for step in (-1, -1, -1, 1, 1, 1):
         typed = history.step(typed, step)
@@ -39,10 +39,10 @@ def test_up_recalls_lines_with_the_typed_prefix_and_down_returns(tmp_path: Path)
 
 def test_unwritable_history_lasts_until_exit(tmp_path: Path) -> None:
     (tmp_path / "lines").mkdir()
-    assert filled(tmp_path / "lines", "a", "b").lines() == ["a", "b"]
+    assert history_with(tmp_path / "lines", "a", "b").lines() == ["a", "b"]
 
 
 def test_history_length_is_limited(tmp_path: Path) -> None:
     (tmp_path / "lines").write_text("".join(f"line {number}\n" for number in range(2 * MAX_LINES)))
-    history = filled(tmp_path / "lines", "new")
+    history = history_with(tmp_path / "lines", "new")
     assert len(history.lines()) == MAX_LINES and history.lines()[-1] == "new"

@@ -16,7 +16,7 @@ class Pane:
         self.scopes = (scope, "find", "list")
 
 
-def found(typed: str, scope: str = "parameters") -> list[str]:
+def found_actions(typed: str, scope: str = "parameters") -> list[str]:
     """The actions found while a pane is focused."""
     commands = all_commands(cast(Any, AppWithoutScreen()), cast(Any, Pane(scope)), lambda name: None)
     return [each.value for each in options_for(commands, lambda line: "", typed)]
@@ -57,7 +57,7 @@ def test_prefix_matches_precede_other_matches() -> None:
     ],
 )
 def test_actions_are_found_by_everyday_words_from_every_pane(scope: str, typed: str, wanted: str) -> None:
-    assert wanted in found(typed, scope)[:6]
+    assert wanted in found_actions(typed, scope)[:6]
 
 
 @pytest.mark.parametrize(
@@ -77,17 +77,17 @@ def test_actions_are_found_by_everyday_words_from_every_pane(scope: str, typed: 
     ],
 )
 def test_titles_and_whole_words_come_first(typed: str, first: str) -> None:
-    assert found(typed)[0] == first
+    assert found_actions(typed)[0] == first
 
 
 def test_scattered_characters_are_left_out_where_words_match() -> None:
-    assert "parameters.edit" not in found("load") and found("diagnstics")
+    assert "parameters.edit" not in found_actions("load") and found_actions("diagnstics")
 
 
 @pytest.mark.parametrize("scope", ["parameters", "steering", "world", "launch"])
 @pytest.mark.parametrize("typed", ["robot", "rob", "the", "again", "al", "is", "program", "o", "l"])
 def test_dangerous_actions_are_found_by_their_own_words_only(scope: str, typed: str) -> None:
-    assert not set(found(typed, scope)) & set(OWN_WORDS)
+    assert not set(found_actions(typed, scope)) & set(OWN_WORDS)
 
 
 def test_the_palette_knows_only_keys_of_the_table() -> None:

@@ -32,7 +32,7 @@ def settle(node):
         node.executor_of_test.spin_once(timeout_sec=0)
 
 
-def asked(node):
+def requested_qos(node):
     (info,) = node.get_subscriptions_info_by_topic("/t")
     return info.qos_profile.reliability, info.qos_profile.durability
 
@@ -65,7 +65,7 @@ def test_messages_of_a_weaker_publisher_and_of_others_are_received(node):
     settle(node)
     weak = node.create_publisher(String, "/t", WEAK)
     subscription.follow()
-    assert asked(node) == (BEST_EFFORT, VOLATILE)
+    assert requested_qos(node) == (BEST_EFFORT, VOLATILE)
     weak.publish(String(data="weak"))
     strong.publish(String(data="strong again"))
     settle(node)
@@ -82,11 +82,11 @@ def test_stronger_qos_is_requested_again_unless_that_would_duplicate_lines(node)
     node.destroy_publisher(weak)
     once.follow()
     settle(node)
-    assert heard == ["one"] and asked(node) == (BEST_EFFORT, VOLATILE)
+    assert heard == ["one"] and requested_qos(node) == (BEST_EFFORT, VOLATILE)
     once.destroy()
     again = OfferedSubscription(node, String, "/t", lambda message: None, BEST)
     again.follow()
-    assert asked(node) == (RELIABLE, LATCHED)
+    assert requested_qos(node) == (RELIABLE, LATCHED)
 
 
 def test_without_eager_nothing_is_requested_before_it_is_offered(node):

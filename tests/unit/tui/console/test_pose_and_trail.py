@@ -59,7 +59,7 @@ def test_a_silent_robot_has_no_actual_speed():
 EXTREMES = (math.nan, math.inf, -math.inf, 1.7e308, -1.7e308, 1e200, 5e-324, 0.0)
 
 
-def watched(*, grid: OccupancyGrid | None = None, odometry: Odometry, scan: LaserScan) -> WorldInfo:
+def world_after(*, grid: OccupancyGrid | None = None, odometry: Odometry, scan: LaserScan) -> WorldInfo:
     """The state of a console after these messages."""
     context = Context()
     context.init([], domain_id=unused_domain())
@@ -84,7 +84,7 @@ def test_any_numbers_in_messages_are_drawn_or_left_out(number):
     odometry.pose.pose.position.x = odometry.pose.pose.orientation.z = odometry.twist.twist.linear.x = number
     scan = LaserScan(ranges=[1.0, small, 2.0], angle_increment=small, angle_min=small, range_max=math.inf)
     grid = OccupancyGrid(info=MapMetaData(width=2, height=1, resolution=small), data=[0, 100])
-    info = watched(grid=grid, odometry=odometry, scan=scan)
+    info = world_after(grid=grid, odometry=odometry, scan=scan)
     for window in (fitting_window(info, 40, 12), following_window(info, 40, 12, 8.0)):
         assert len(WorldDrawing().rows(info, window, 40, 12)) == 12
         assert scale_text(window, 40)

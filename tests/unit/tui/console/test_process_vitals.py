@@ -9,7 +9,7 @@ from bot_console.tui.console.launch.vitals import FROZEN, HANGS, Usage
 from bot_console.tui.session.embedded.vitals import SystemVitals
 
 
-class Reported:
+class FakeVitals:
     """Vitals that are set by the test."""
 
     def __init__(self) -> None:
@@ -43,7 +43,7 @@ class Reported:
 
 
 def test_cpu_usage_is_measured_over_each_second() -> None:
-    reported = Reported()
+    reported = FakeVitals()
     usage = Usage(reported, 0.0)
     reported.seconds = 0.5
     usage.poll(0.9)
@@ -56,7 +56,7 @@ def test_cpu_usage_is_measured_over_each_second() -> None:
 
 
 def test_usage_stays_while_it_differs_by_one_percent_only() -> None:
-    reported = Reported()
+    reported = FakeVitals()
     usage, shown, used = Usage(reported, 0.0), [], 0.0
     for second, share in enumerate((0.03, 0.04, 0.02, 0.05, 0.04, 0.0), 1):
         used += share
@@ -67,7 +67,7 @@ def test_usage_stays_while_it_differs_by_one_percent_only() -> None:
 
 
 def test_all_processes_are_measured_at_the_same_moments() -> None:
-    usages = [Usage(Reported(), begun) for begun in (0.1, 0.4, 0.8)]
+    usages = [Usage(FakeVitals(), begun) for begun in (0.1, 0.4, 0.8)]
     for each in usages:
         each.poll(0.95)
     assert [each.share for each in usages] == [None, None, None]
@@ -80,7 +80,7 @@ def test_all_processes_are_measured_at_the_same_moments() -> None:
 
 
 def test_time_without_waiting_is_measured() -> None:
-    reported = Reported()
+    reported = FakeVitals()
     usage = Usage(reported, 0.0)
     for second, used in enumerate((0.95, 1.9, 2.0, 3.0), 1):
         reported.seconds = used
@@ -89,7 +89,7 @@ def test_time_without_waiting_is_measured() -> None:
 
 
 def test_a_process_waiting_for_a_busy_cpu_counts_as_not_waiting() -> None:
-    reported = Reported()
+    reported = FakeVitals()
     reported.wanted = 5.0
     usage = Usage(reported, 0.0)
     for second, wanted in enumerate((6.0, 7.0, 7.2, 8.2), 1):
@@ -99,7 +99,7 @@ def test_a_process_waiting_for_a_busy_cpu_counts_as_not_waiting() -> None:
 
 
 def test_a_frozen_process_is_noticed_within_half_a_second() -> None:
-    reported = Reported()
+    reported = FakeVitals()
     usage = Usage(reported, 0.0)
     reported.stopped = True
     usage.poll(0.4)
@@ -115,7 +115,7 @@ def test_a_frozen_process_is_noticed_within_half_a_second() -> None:
     ("line", "shown"), [("n.py:7, in tick", "stopped in debugger at n.py:7, in tick"), ("", "stopped in debugger")]
 )
 def test_a_process_at_a_breakpoint_is_shown_as_stopped_in_debugger(line: str, shown: str) -> None:
-    reported = Reported()
+    reported = FakeVitals()
     usage = Usage(reported, 0.0)
     reported.line = line
     usage.poll(0.5)
@@ -126,7 +126,7 @@ def test_a_process_at_a_breakpoint_is_shown_as_stopped_in_debugger(line: str, sh
 
 
 def test_a_held_interpreter_lock_is_reported_with_the_line() -> None:
-    reported = Reported()
+    reported = FakeVitals()
     usage = Usage(reported, 0.0)
     reported.held = "holds.py:12, in tick"
     usage.poll(0.5)
@@ -137,7 +137,7 @@ def test_a_held_interpreter_lock_is_reported_with_the_line() -> None:
 
 
 def test_unavailable_vitals_are_unknown() -> None:
-    reported = Reported()
+    reported = FakeVitals()
     usage = Usage(reported, 0.0)
     reported.seconds = reported.bytes = None
     usage.poll(1.0)

@@ -21,7 +21,7 @@ def drive_over(link: SimpleNamespace, network: Callable[[], LinkInfo] = LinkInfo
     )
 
 
-def sent_when_connected(*requests: tuple[bool, str]) -> list[tuple[bool, str]]:
+def stops_sent_on_connection(*requests: tuple[bool, str]) -> list[tuple[bool, str]]:
     sent: list[tuple[bool, str]] = []
     drive = drive_over(SimpleNamespace(stop=lambda hold, reason: sent.append((hold, reason))))
     for hold, reason in requests:
@@ -33,13 +33,13 @@ def sent_when_connected(*requests: tuple[bool, str]) -> list[tuple[bool, str]]:
 def test_automatic_stop_does_not_replace_a_persons_stop_that_is_waiting_for_the_link() -> None:
     """Only the person's stop outlives the robot's nodes."""
     person, own = (True, BY_PERSON), (True, REASON)
-    assert sent_when_connected(person, own, person) == [person, own]
-    assert sent_when_connected(own, person) == [own, person]
+    assert stops_sent_on_connection(person, own, person) == [person, own]
+    assert stops_sent_on_connection(own, person) == [own, person]
 
 
 def test_release_replaces_the_stops_that_wait_for_the_link() -> None:
-    assert sent_when_connected((True, BY_PERSON), (False, "")) == [(False, "")]
-    assert sent_when_connected((True, BY_PERSON), (False, ""), (True, REASON)) == [(True, REASON)]
+    assert stops_sent_on_connection((True, BY_PERSON), (False, "")) == [(False, "")]
+    assert stops_sent_on_connection((True, BY_PERSON), (False, ""), (True, REASON)) == [(True, REASON)]
 
 
 def test_robot_that_was_never_found_is_not_absent_while_the_link_is_silent() -> None:

@@ -14,38 +14,38 @@ from bot_console.tui.console.robot.stop_link import user
 
 
 @pytest.fixture(scope="module")
-def ended() -> int:
+def ended_pid() -> int:
     """The pid of a process that has ended."""
     process = subprocess.Popen([sys.executable, "-c", ""])
     process.wait()
     return process.pid
 
 
-def gone(holder: str, *, here: bool = False) -> bool:
+def is_gone(holder: str, *, here: bool = False) -> bool:
     return with_gone([RobotStop("key", holder, here=here)])[0].gone
 
 
 @pytest.mark.skipif(os.name == "nt", reason="a process cannot be asked there without ending it")
-def test_a_process_that_has_ended_is_marked_as_gone(ended: int) -> None:
-    assert gone(f"bot-console of {user()} (pid {ended})")
-    stop = with_gone([RobotStop("key", f"bot-console of {user()} (pid {ended})", "because")])[0]
+def test_a_process_that_has_ended_is_marked_as_gone(ended_pid: int) -> None:
+    assert is_gone(f"bot-console of {user()} (pid {ended_pid})")
+    stop = with_gone([RobotStop("key", f"bot-console of {user()} (pid {ended_pid})", "because")])[0]
     assert stop.who == f"bot-console of {user()} (gone)" and stop.reason == "because"
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux shows the states of processes as files")
 def test_a_process_whose_end_its_parent_has_not_noticed_is_marked_as_gone() -> None:
     with subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE) as process:
-        assert not gone(f"bot-console of {user()} (pid {process.pid})")
+        assert not is_gone(f"bot-console of {user()} (pid {process.pid})")
         process.kill()
         os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)  # it has ended, and stays a zombie
-        assert gone(f"bot-console of {user()} (pid {process.pid})")
+        assert is_gone(f"bot-console of {user()} (pid {process.pid})")
 
 
-def test_other_holders_are_not_marked(ended: int) -> None:
-    assert not gone(f"bot-console of {user()} (pid {os.getpid()})")
-    assert not gone(f"bot-console of {user()} (pid {ended})", here=True)
-    assert not gone(f"bot-console of ben@not-{platform.node()} (pid {ended})")
-    assert not gone(f"bot-console of {user()} (pid {ended}) and more")
-    assert not gone(f"bot-console stop of {user()}")
-    assert not gone("")
+def test_other_holders_are_not_marked(ended_pid: int) -> None:
+    assert not is_gone(f"bot-console of {user()} (pid {os.getpid()})")
+    assert not is_gone(f"bot-console of {user()} (pid {ended_pid})", here=True)
+    assert not is_gone(f"bot-console of ben@not-{platform.node()} (pid {ended_pid})")
+    assert not is_gone(f"bot-console of {user()} (pid {ended_pid}) and more")
+    assert not is_gone(f"bot-console stop of {user()}")
+    assert not is_gone("")
     assert RobotStop("key", "ben (pid 3)").who == "ben (pid 3)"

@@ -209,11 +209,11 @@ def test_own_stop_that_one_lock_has_released_is_no_longer_own(rig: Rig) -> None:
     rig.settle()
     id = rig.link.stop("the arm swings")
     rig.settle()
-    rig.link._on_state(*released_by("berta", id, rig))
+    rig.link._on_state(*release_report("berta", id, rig))
     assert rig.link.info.own == frozenset() and base.lock.held and arbiter.lock.held
 
 
-def released_by(who: str, id: str, rig: Rig) -> tuple[str, object, DiagnosticStatus]:
+def release_report(who: str, id: str, rig: Rig) -> tuple[str, object, DiagnosticStatus]:
     """The report of the base alone that somebody has released a stop, with the topic and the subscription."""
     topic = f"{FOLDER}{BASE.rpartition('/')[2]}"
     values = {"locked": "false", "challenge": "c", "released": json.dumps([[id, who]])}

@@ -21,7 +21,7 @@ LINES = [
 ]
 
 
-def printed(lines: list[str]) -> list[tuple[int, str]]:
+def log_records(lines: list[str]) -> list[tuple[int, str]]:
     got: list[tuple[int, str]] = []
     stream = Printed("node-1", lambda severity, label, text: got.append((severity, text)), stderr=True)
     for line in lines:
@@ -31,7 +31,7 @@ def printed(lines: list[str]) -> list[tuple[int, str]]:
 
 
 def test_the_exception_is_first_and_the_users_frames_follow() -> None:
-    assert printed(["before", *LINES, "after"]) == [
+    assert log_records(["before", *LINES, "after"]) == [
         (30, "before"),
         (40, "KeyError: 'speed'\n"
              '  File "/home/u/ws/robot/node.py", line 12, in on_scan\n'
@@ -64,7 +64,7 @@ def test_a_syntax_error_is_shown_with_its_place() -> None:
 
 def test_a_chained_exception_names_its_cause() -> None:
     link = "During handling of the above exception, another exception occurred:"
-    (_, first), (_, second) = printed([*LINES, link, TRACEBACK, *LINES[3:5], "ValueError: bad"])
+    (_, first), (_, second) = log_records([*LINES, link, TRACEBACK, *LINES[3:5], "ValueError: bad"])
     assert first.startswith("KeyError")
     assert second.splitlines()[:2] == ["ValueError: bad", "  while handling KeyError: 'speed'"]
 
@@ -79,11 +79,11 @@ def test_a_fault_is_the_last_thing_printed() -> None:
 
 
 def test_a_truncated_traceback_is_shown_as_far_as_it_came() -> None:
-    (severity, text), = printed(LINES[:5])  # fmt: skip
+    (severity, text), = log_records(LINES[:5])  # fmt: skip
     assert severity == 40
     assert "rclpy.spin(node)" in text
 
 
 def test_an_invalid_line_number_is_treated_as_text() -> None:
-    [(_, text)] = printed([TRACEBACK, f'  File "a.py", line {"9" * 5000}, in f', "ValueError: bad"])
+    [(_, text)] = log_records([TRACEBACK, f'  File "a.py", line {"9" * 5000}, in f', "ValueError: bad"])
     assert "ValueError: bad" in text

@@ -24,7 +24,7 @@ def resized(width: int) -> events.Resize:
     return events.Resize(Size(width, 24), Size(width, 24))
 
 
-def merged(*messages: Message) -> list[Message]:
+def merge_all(*messages: Message) -> list[Message]:
     waiting: deque[Message] = deque()
     for each in messages:
         merge(waiting, each)
@@ -72,19 +72,19 @@ class App:
 
 def test_moves_and_resizes_are_merged_and_keep_the_whole_distance() -> None:
     end, size = moved(9), resized(99)
-    assert merged(moved(1), resized(80), moved(2), resized(81), end, size) == [end, size]
+    assert merge_all(moved(1), resized(80), moved(2), resized(81), end, size) == [end, size]
     assert end.delta_x == 3
 
 
 @pytest.mark.parametrize("between", [events.Key("x", "x"), wheel(events.MouseDown), events.Paste("x")])
 def test_nothing_is_merged_across_keys_clicks_and_pastes(between: Message) -> None:
     first, last = moved(1), moved(2)
-    assert merged(first, between, last) == [first, between, last]
+    assert merge_all(first, between, last) == [first, between, last]
 
 
 def test_only_the_last_wheel_steps_are_kept() -> None:
     up = wheel(events.MouseScrollUp)
-    waiting = merged(*(wheel() for _ in range(100)), up)
+    waiting = merge_all(*(wheel() for _ in range(100)), up)
     assert len(waiting) == MAX_WHEEL_STEPS and waiting[-1] is up
 
 

@@ -33,7 +33,7 @@ PIECES = st.one_of(
 INPUT = st.lists(PIECES, max_size=12).map(b"".join)
 
 
-def fed(data: bytes, cuts: list[int] | None = None) -> list[Piece]:
+def feed_bytes(data: bytes, cuts: list[int] | None = None) -> list[Piece]:
     """The pieces of bytes that arrive in parts, followed by a long silence."""
     splitter = Splitter()
     ends = [0, *sorted(cuts or []), len(data)]
@@ -41,7 +41,7 @@ def fed(data: bytes, cuts: list[int] | None = None) -> list[Piece]:
     return [*pieces, *splitter.expire(LATER)]
 
 
-def joined(pieces: list[Piece]) -> list[tuple[Kind, str]]:
+def join_texts(pieces: list[Piece]) -> list[tuple[Kind, str]]:
     """Pieces with adjacent texts joined."""
     return [
         (kind, "".join(text for _, text in same) if kind is Kind.TEXT else each)
@@ -53,12 +53,12 @@ def joined(pieces: list[Piece]) -> list[tuple[Kind, str]]:
 @given(data=INPUT, draw=st.data())
 def test_parts_make_the_same_pieces_as_the_whole(data: bytes, draw: st.DataObject) -> None:
     cuts = draw.draw(st.lists(st.integers(0, len(data)), max_size=8))
-    assert joined(fed(data, cuts)) == joined(fed(data))
+    assert join_texts(feed_bytes(data, cuts)) == join_texts(feed_bytes(data))
 
 
 @pytest.mark.parametrize("sequence", SEQUENCES)
 def test_sequence_is_complete_with_its_last_byte_and_not_before(sequence: bytes) -> None:
-    assert [kind for kind, _ in fed(sequence + b"!")] == [Kind.SEQUENCE, Kind.TEXT]
+    assert [kind for kind, _ in feed_bytes(sequence + b"!")] == [Kind.SEQUENCE, Kind.TEXT]
     splitter = Splitter()
     assert splitter.feed(sequence[:-1], 0.0) == [] and splitter.due is not None
     assert [piece.kind for piece in splitter.feed(sequence[-1:], 0.0)] == [Kind.SEQUENCE] and splitter.due is None
@@ -67,7 +67,7 @@ def test_sequence_is_complete_with_its_last_byte_and_not_before(sequence: bytes)
 @pytest.mark.parametrize("body", [b"a!b", b"\x1b[31mred\x1b[m!", b"\x1b]52;c;!\x07", b"\x1b!", b"\x00!", b"\xff!", b""])
 def test_paste_is_one_piece_without_escapes(body: bytes) -> None:
     text = body.replace(b"\x1b", b"").replace(b"\0", b"").decode("utf-8", "replace")
-    assert fed(b"x" + PASTE_BEGIN + body + PASTE_END + b"!") == [
+    assert feed_bytes(b"x" + PASTE_BEGIN + body + PASTE_END + b"!") == [
         (Kind.TEXT, "x"), (Kind.PASTE, text), (Kind.TEXT, "!"),
     ]  # fmt: skip
 

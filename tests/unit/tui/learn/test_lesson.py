@@ -52,7 +52,7 @@ class Clock:
         return self.now
 
 
-def why(text: str, activity: Activity | None = None, folder: Path = Path("/nonexistent")) -> str:
+def missing_text(text: str, activity: Activity | None = None, folder: Path = Path("/nonexistent")) -> str:
     return missing(read_condition(text), activity or Activity(), WorkspaceFiles(folder), {})
 
 
@@ -146,7 +146,7 @@ SPEED = parameter("/robot", "speed", 1.0)
     ],
 )
 def test_missing_deed_is_named(condition: str, activity: Activity, text: str) -> None:
-    found = why(condition, activity)
+    found = missing_text(condition, activity)
     assert found.startswith(text) and bool(found) == bool(text), found
 
 
@@ -195,7 +195,7 @@ def package(tmp_path: Path) -> Path:
     ],
 )
 def test_missing_state_of_the_workspace_is_named(condition: str, text: str, package: Path) -> None:
-    found = why(condition, folder=package)
+    found = missing_text(condition, folder=package)
     assert text in found and bool(found) == bool(text), found
 
 
@@ -413,10 +413,10 @@ def test_each_deed_of_the_course_counts_and_is_asked_for_when_left_out(step: Ste
         for each in deeds_asked:
             assert each == left_out or is_done_by(each, activity)
         open_ones = [each for each in deeds_asked if missing(each, activity, WorkspaceFiles(tmp_path), {})]
-        assert open_ones == ([left_out] if left_out else []) or _same_deed(left_out, deeds_asked)
+        assert open_ones == ([left_out] if left_out else []) or _is_same_action(left_out, deeds_asked)
 
 
-def _same_deed(left_out: Condition | None, others: list[Condition]) -> bool:
+def _is_same_action(left_out: Condition | None, others: list[Condition]) -> bool:
     """Whether another condition of the step asks for the same action."""
     assert left_out is not None
     activity = Activity()

@@ -31,12 +31,12 @@ class Mistake(NamedTuple):
     facts: Mapping[str, Any] = {}
 
 
-def ran(line: str, code: int | None = 0) -> list[Command]:
+def command(line: str, code: int | None = 0) -> list[Command]:
     return [Command(tuple(line.split()), code)]
 
 
 def failed(line: str) -> list[Command]:
-    return ran(line, 1)
+    return command(line, 1)
 
 
 def package(*scripts: str, data_files: str = "") -> dict[str, str]:
@@ -59,17 +59,17 @@ def node(name: str, *names: str) -> list[ParameterInfo]:
     return [parameter(f"/{name}", each, 1.0) for each in names]
 
 
-LAUNCHED = ran("launch launch/a.launch.py", None)
+LAUNCHED = command("launch launch/a.launch.py", None)
 ACCEPTED = "4.0 was accepted: a callback refuses it by SetParametersResult(successful=False, ...)"
 
 MISTAKES: dict[str, Mistake] = {
     "a-node-with-a-parameter": Mistake("did you mean sped?", parameters=node("simple_robot", "sped")),
     "ask-for-its-value": Mistake("it ended with exit code 1", failed("ros2 param get /simple_robto speed")),
     "a-node-that-is-gone": Mistake(
-        "it did not fail: end the node first (Ctrl-C)", ran("ros2 param get /simple_robot speed")
+        "it did not fail: end the node first (Ctrl-C)", command("ros2 param get /simple_robot speed")
     ),
     "an-integer-is-not-a-double": Mistake(
-        "to see it fail: end the node that runs (Ctrl-C)", ran("run a.py --ros-args -p speed:=1.5")
+        "to see it fail: end the node that runs (Ctrl-C)", command("run a.py --ros-args -p speed:=1.5")
     ),
     "start-it-with-another-value": Mistake(
         "it is 1.0: speed:=2 is an integer: write 2.0", parameters=node("simple_robot", "speed")
@@ -98,9 +98,9 @@ MISTAKES: dict[str, Mistake] = {
         "speed to be set to 2.5; a value was refused: too fast", [refused("speed", "too fast")]
     ),
     "the-robot-refuses-too": Mistake(ACCEPTED, changes=[change("max_speed", 4.0)]),
-    "use-the-new-value-at-once": Mistake("it was set to 1.6", ran("ros2 param set /simple_robot speed 1.6")),
+    "use-the-new-value-at-once": Mistake("it was set to 1.6", command("ros2 param set /simple_robot speed 1.6")),
     "write-all-values-into-a-file": Mistake(
-        "there is no file saved.yaml", ran("ros2 param dump /simple_robot"), files={"save.yaml": values("speed")}
+        "there is no file saved.yaml", command("ros2 param dump /simple_robot"), files={"save.yaml": values("speed")}
     ),
     "watch-the-robot-change-its-mind": Mistake("it was set to 0.9", changes=[change("warning_distance", 0.9)]),
     "values-in-a-file": Mistake(
@@ -113,7 +113,7 @@ MISTAKES: dict[str, Mistake] = {
     "a-name-that-is-not-the-node-s": Mistake(
         "other.yaml has no simple_robot", files={"other.yaml": values("speed", node="another")}
     ),
-    "one-underscore": Mistake("it did not fail", ran("run a.py --ros-args --params-file wrong.yaml")),
+    "one-underscore": Mistake("it did not fail", command("run a.py --ros-args --params-file wrong.yaml")),
     "a-profile-of-the-robot": Mistake("profile warehouse to be applied: press 7", failed("up warehous")),
     "one-node-started-by-a-file": Mistake(
         "launch/a.launch.py had no simulator_node when it was launched",
@@ -142,13 +142,13 @@ MISTAKES: dict[str, Mistake] = {
     "six-nodes-from-one-file": Mistake(
         "launch/a.launch.py had no sensor_node when it was launched", LAUNCHED, files={"launch/a.launch.py": "sensor"}
     ),
-    "who-hears-the-laser": Mistake("waiting for: the command topic info /scan", ran("ros2 topic info /scann")),
+    "who-hears-the-laser": Mistake("waiting for: the command topic info /scan", command("ros2 topic info /scann")),
     "declare-an-argument": Mistake(
         "launch/a.launch.py has no DeclareLaunchArgument", files={"launch/a.launch.py": "LaunchArgument('max_speed')"}
     ),
     "pass-it": Mistake(
         "a launch of *.launch.py with max_speed:=…",
-        ran("launch launch/a.launch.py max_speed=0.7", None),
+        command("launch launch/a.launch.py max_speed=0.7", None),
         files={"launch/a.launch.py": ""},
     ),
     "indoor-and-outdoor": Mistake(
@@ -157,7 +157,7 @@ MISTAKES: dict[str, Mistake] = {
     ),
     "choose-at-launch": Mistake(
         "launch/a.launch.py had no config_file when it was launched",
-        ran("launch launch/a.launch.py config_file:=config/outdoor.yaml", None),
+        command("launch launch/a.launch.py config_file:=config/outdoor.yaml", None),
         files={"launch/a.launch.py": ""},
     ),
     "slide-a-value": Mistake(
@@ -200,7 +200,7 @@ MISTAKES: dict[str, Mistake] = {
     ),
     "one-file-for-the-system": Mistake(
         "robot_system.launch.py had no telemetry_node when it was launched",
-        ran("launch intelligent_robot robot_system.launch.py", None),
+        command("launch intelligent_robot robot_system.launch.py", None),
         files=package() | {f"{PACKAGE}/launch/robot_system.launch.py": "robot_node"},
     ),
     "with-an-environment": Mistake(
@@ -209,7 +209,7 @@ MISTAKES: dict[str, Mistake] = {
         files=package() | {f"{PACKAGE}/launch/robot_system.launch.py": ""},
     ),
     "valid-and-invalid": Mistake(
-        "200 was accepted: a callback refuses it", ran("ros2 param set /robot_navigator detection_threshold 200")
+        "200 was accepted: a callback refuses it", command("ros2 param set /robot_navigator detection_threshold 200")
     ),
     "would-it-build-on-ros-2": Mistake("the command lint; it ended with exit code 1", failed("lint src")),
     "grade-yourself": Mistake("it ended with exit code 1: all rows have to pass", failed("check . --course week6")),

@@ -166,12 +166,12 @@ def test_key_stops_in_its_turn_if_the_early_stop_fails() -> None:
 
 
 @pytest.fixture
-def with_own_key(monkeypatch: pytest.MonkeyPatch) -> None:
+def restored_key_table(monkeypatch: pytest.MonkeyPatch) -> None:
     for scope, keys in list(TABLE.items()):
         monkeypatch.setitem(TABLE, scope, keys)
 
 
-@pytest.mark.usefixtures("with_own_key")
+@pytest.mark.usefixtures("restored_key_table")
 def test_key_that_is_no_character_stops_in_a_text_field_too() -> None:
     remap({"app.stop": "f9"})
     rig = Rig()
@@ -179,7 +179,7 @@ def test_key_that_is_no_character_stops_in_a_text_field_too() -> None:
     assert rig.early.has_acted(rig.press("f9", None)) and "stop" in rig.asked
 
 
-@pytest.mark.usefixtures("with_own_key")
+@pytest.mark.usefixtures("restored_key_table")
 def test_escape_and_own_key_that_arrive_as_one_key_stop() -> None:
     remap({"app.stop": "Q", "topics.qos": "f12"})
     rig = Rig()
@@ -190,7 +190,7 @@ def test_escape_and_own_key_that_arrive_as_one_key_stop() -> None:
     assert [rig.early.has_acted(each) for each in parted] == [False, True]
 
 
-@pytest.mark.usefixtures("with_own_key")
+@pytest.mark.usefixtures("restored_key_table")
 def test_alt_with_own_key_that_means_something_else_is_withdrawn() -> None:
     remap({"app.stop": "Q", "topics.qos": "f12"})
     rig = Rig()

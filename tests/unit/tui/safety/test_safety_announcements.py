@@ -21,17 +21,17 @@ def console() -> FakeConsole:
 @pytest.fixture
 def news(console: FakeConsole) -> SafetyAnnouncements:
     made = SafetyAnnouncements(console.parameters)
-    assert reported(made, console) == []
+    assert announcements(made, console) == []
     return made
 
 
-def reported(news: SafetyAnnouncements, console: FakeConsole, calls: int = 1) -> Sequence[str]:
+def announcements(news: SafetyAnnouncements, console: FakeConsole, calls: int = 1) -> Sequence[str]:
     return [text for _ in range(calls) for text in news.announcements(console.snapshot())]
 
 
 def test_edit_is_announced_with_the_key_that_takes_it_back(news: SafetyAnnouncements, console: FakeConsole) -> None:
     console.set_parameters(NODE, {"safety_distance": 0.4})
-    (text,) = reported(news, console)
+    (text,) = announcements(news, console)
     assert text.endswith("lowers a safety margin. u in the Parameters pane undoes it.")
 
 
@@ -40,9 +40,9 @@ def test_value_that_a_refused_set_has_taken_back_is_not_announced(
 ) -> None:
     console.set_parameters(NODE, {"max_speed": 0.9})  # Undo would take this back.
     console.take(NODE, {"safety_distance": 0.4}, ChangeSource.EDIT, atomically=True)
-    assert reported(news, console) == []
+    assert announcements(news, console) == []
     console.take(NODE, {"safety_distance": 0.8}, ChangeSource.ROLLBACK, atomically=True)
-    assert reported(news, console, MAX_WAITING_CALLS + 1) == []
+    assert announcements(news, console, MAX_WAITING_CALLS + 1) == []
 
 
 def test_value_that_cannot_be_undone_is_announced_with_the_history(
@@ -50,6 +50,6 @@ def test_value_that_cannot_be_undone_is_announced_with_the_history(
 ) -> None:
     console.set_parameters(NODE, {"max_speed": 0.9})
     console.take(NODE, {"safety_distance": 0.4}, ChangeSource.EDIT, atomically=True)
-    assert reported(news, console, MAX_WAITING_CALLS) == []
-    (text,) = reported(news, console)
+    assert announcements(news, console, MAX_WAITING_CALLS) == []
+    (text,) = announcements(news, console)
     assert text.endswith("lowers a safety margin. b in the History pane undoes it.")

@@ -26,7 +26,7 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     use(before)
 
 
-def found(*words: str) -> tuple[str, str]:
+def resolve(*words: str) -> tuple[str, str]:
     options, problem = with_launch_file(parse(words))
     assert problem or not options.launch_file, "who launches it takes a path"
     return options.launch, problem
@@ -34,26 +34,26 @@ def found(*words: str) -> tuple[str, str]:
 
 def test_package_and_launch_file_resolve_to_a_path_and_arguments(package: Path, tmp_path: Path) -> None:
     words = ["--workspace", str(tmp_path / "ws"), "--launch", "mine", "x.launch.py", "a:=1"]
-    path, problem = found(*words)
+    path, problem = resolve(*words)
     assert problem == "" and Path(path).samefile(package / "launch" / "x.launch.py") and Path(path).is_absolute()
     assert parse(words).launch_arguments == {"a": "1"}
 
 
 def test_path_is_kept(package: Path) -> None:
     path = str(package / "launch" / "x.launch.py")
-    assert found("--launch", path, "a:=1") == (path, "")
-    assert found("indoor") == ("", "")
+    assert resolve("--launch", path, "a:=1") == (path, "")
+    assert resolve("indoor") == ("", "")
 
 
 @pytest.mark.parametrize("words", [["nopkg", "x.launch.py"], ["mine", "y.launch.py"], ["mine"], ["./no", "x"]])
 def test_missing_launch_file_is_reported_as_by_launch(
     package: Path, tmp_path: Path, words: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    problem = found("--workspace", str(tmp_path / "ws"), "--launch", *words)[1]
+    problem = resolve("--workspace", str(tmp_path / "ws"), "--launch", *words)[1]
     assert main(["launch", *words]) == 1
     assert problem and capsys.readouterr().err.strip() == problem
 
 
 def test_missing_path_is_not_taken_for_a_package() -> None:
     for path in ("nowhere.launch.py", "./nowhere"):
-        assert found("--launch", path)[1] == f"there is no launch file {path}"
+        assert resolve("--launch", path)[1] == f"there is no launch file {path}"

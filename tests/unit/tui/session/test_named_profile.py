@@ -30,14 +30,14 @@ def saved(folder: Path, name: str = "slow.yaml", text: str = VALUES) -> str:
     return str(folder / name)
 
 
-def chosen(*words: str) -> Options:
+def parse_words(*words: str) -> Options:
     return parse([*words])
 
 
 @pytest.mark.parametrize("words", [["--profiles", "mine", "--profile", "slow"], ["slow", "--profiles", "mine"]])
 def test_profile_of_a_given_folder_is_found_by_name(place: Path, words: list[str]) -> None:
     path = saved(place / "mine")
-    options = chosen("--headless", *words)
+    options = parse_words("--headless", *words)
     assert (options.profile, options.profile_file) == ("slow", path)
     assert options.profile_arguments == {"config_file": path}
 
@@ -49,13 +49,13 @@ def test_profile_is_found_by_path(place: Path, word: str, monkeypatch: pytest.Mo
     monkeypatch.setenv("HOME", str(place))
     path = saved(place)
     (place / "mine").mkdir()
-    assert Path(chosen(word).profile_file).resolve() == Path(path)
-    assert Path(chosen("rqt_plot", "/odom/x", word).profile_file).resolve() == Path(path)
+    assert Path(parse_words(word).profile_file).resolve() == Path(path)
+    assert Path(parse_words("rqt_plot", "/odom/x", word).profile_file).resolve() == Path(path)
 
 
 def test_profile_saved_in_the_console_is_found_by_name(place: Path) -> None:
     path = saved(place / "user" / "config" / "profiles")
-    assert chosen("slow").profile_file == path
+    assert parse_words("slow").profile_file == path
     assert "slow" in candidates(["bot-console", "--profile", ""][1:])
 
 
@@ -65,19 +65,19 @@ def test_profile_of_a_package_in_the_workspace_is_found_by_name(place: Path) -> 
     (package / "package.xml").write_text("<package><name>my_robot</name></package>")
     (package / "setup.py").write_text("from setuptools import setup\nsetup(name='my_robot')\n")
     choose([place])
-    assert chosen("narrow").profile_file == path
+    assert parse_words("narrow").profile_file == path
 
 
 def test_profile_of_the_robot_keeps_its_name(place: Path) -> None:
     saved(place / "mine", "indoor.yaml")
-    options = chosen("indoor", "--profiles", "mine")
+    options = parse_words("indoor", "--profiles", "mine")
     assert options.profile_file == "" and options.profile_arguments == {"profile": "indoor"}
 
 
 def test_launch_profile_runs_its_launch_file_and_given_arguments_win(place: Path) -> None:
     saved(place, "other.yaml", LAUNCHES)
     saved(place, "my.launch.py", "")
-    options = chosen("other.yaml", "careful:=false")
+    options = parse_words("other.yaml", "careful:=false")
     assert options.launch == str(place / "my.launch.py")
     assert options.launch_arguments == {"speed": "3", "careful": "false"}
 

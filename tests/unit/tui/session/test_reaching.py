@@ -33,7 +33,7 @@ def own_environment(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 
 
 @pytest.fixture
-def started(monkeypatch: pytest.MonkeyPatch) -> list[tuple[Any, ...]]:
+def started_sessions(monkeypatch: pytest.MonkeyPatch) -> list[tuple[Any, ...]]:
     """The arguments of the sessions that are started; none is shown."""
     sessions: list[tuple[Any, ...]] = []
 
@@ -62,27 +62,27 @@ class Closed:
         pass
 
 
-def test_programs_that_a_network_console_starts_reach_its_router(started: list[tuple[Any, ...]]) -> None:
+def test_programs_that_a_network_console_starts_reach_its_router(started_sessions: list[tuple[Any, ...]]) -> None:
     assert network.run_network(AttachOptions(Options(), Way((ROBOT,)))) == 0
-    assert len(started) == 1 and named_routers() == [ROBOT]
+    assert len(started_sessions) == 1 and named_routers() == [ROBOT]
 
 
 @pytest.mark.parametrize(
     "line", ["ros2 run package node", "run node.py --ros-args -p a:=1", "launch x.launch.py", "run --prefix nice a b"]
 )
 def test_network_console_starts_no_nodes_that_would_not_reach_its_robot(
-    started: list[tuple[Any, ...]], line: str
+    started_sessions: list[tuple[Any, ...]], line: str
 ) -> None:
     network.run_network(AttachOptions(Options(), Way((ROBOT,))))
     with pytest.raises(ValueError, match="launch on the robot itself"):
-        started[0][1].run(line).result(240.0)
+        started_sessions[0][1].run(line).result(240.0)
 
 
-def test_programs_that_a_console_in_the_domain_starts_stay_there(started: list[tuple[Any, ...]]) -> None:
+def test_programs_that_a_console_in_the_domain_starts_stay_there(started_sessions: list[tuple[Any, ...]]) -> None:
     os.environ[CONNECT_VARIABLE] = ROBOT
     assert open_console.run(Options(attach=True)) == 0
     assert named_routers() == []
-    assert any(ROBOT in each for each in started[0][1].args[1]), "the log of the console says so"
+    assert any(ROBOT in each for each in started_sessions[0][1].args[1]), "the log of the console says so"
 
 
 def test_children_inherit_several_endpoints_and_certificates_but_the_users_settings_take_precedence(

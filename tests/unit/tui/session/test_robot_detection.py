@@ -19,7 +19,7 @@ from sensor_msgs.msg import LaserScan
 
 
 @pytest.fixture
-def made(monkeypatch):
+def make_node(monkeypatch):
     """Makes nodes in a domain in which there seems to be another process."""
     number = unused_domain()
     monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
@@ -38,20 +38,20 @@ def made(monkeypatch):
     context.try_shutdown()
 
 
-def test_console_that_watches_velocities_is_not_a_robot(made):
-    made("_bot_console_drive").create_subscription(Twist, "/cmd_vel", lambda message: None, 10)
-    made("talker")
+def test_console_that_watches_velocities_is_not_a_robot(make_node):
+    make_node("_bot_console_drive").create_subscription(Twist, "/cmd_vel", lambda message: None, 10)
+    make_node("talker")
     assert domain.robot_there() == []
 
 
-def test_scan_publisher_and_velocity_subscriber_are_a_robot(made):
-    made("lidar").create_publisher(LaserScan, "/scan", 10)
-    made("base").create_subscription(Twist, "/cmd_vel", lambda message: None, 10)
+def test_scan_publisher_and_velocity_subscriber_are_a_robot(make_node):
+    make_node("lidar").create_publisher(LaserScan, "/scan", 10)
+    make_node("base").create_subscription(Twist, "/cmd_vel", lambda message: None, 10)
     assert domain.robot_there() == ["/base", "/lidar"]
 
 
-def test_nodes_with_our_names_are_found_whatever_their_topics(made):
-    made("robot_navigator"), made("sensor_handler"), made("chatter"), made("_safety_monitor")
+def test_nodes_with_our_names_are_found_whatever_their_topics(make_node):
+    make_node("robot_navigator"), make_node("sensor_handler"), make_node("chatter"), make_node("_safety_monitor")
     assert domain.nodes_there() == ["/chatter", "/robot_navigator", "/sensor_handler"]
     assert domain.same_names_there({}) == ["/robot_navigator", "/sensor_handler"]
     assert domain.same_names_there({"navigator": "mine.py"}) == ["/sensor_handler"]

@@ -29,34 +29,34 @@ def make():
     context.try_shutdown()
 
 
-def polled(beside, node):
+def poll_until_settled(beside, node):
     for _ in range(POLLS):
         beside._poll(node)
     return beside.started
 
 
 @pytest.fixture
-def beside():
+def make_starter():
     """Makes a starter for a launch of `processes` programs, beside nodes of other programs that were there before."""
     return lambda processes, others: RobotStarter(
         System(lambda: (processes, 0), lambda text: None, lambda arguments: None, others), {}
     )
 
 
-def test_node_of_another_program_does_not_stand_in_for_a_starting_process(make, beside):
+def test_node_of_another_program_does_not_stand_in_for_a_starting_process(make, make_starter):
     make("driver").create_publisher(Twist, "/cmd_vel", 10)
     looker = make("_looker")
-    launched = beside(1, 1)
-    assert not polled(launched, looker)
+    launched = make_starter(1, 1)
+    assert not poll_until_settled(launched, looker)
     make("blind")
-    assert polled(launched, looker)
+    assert poll_until_settled(launched, looker)
 
 
-def test_nothing_is_decided_before_the_first_process_runs(make, beside):
+def test_nothing_is_decided_before_the_first_process_runs(make, make_starter):
     make("driver").create_publisher(Twist, "/cmd_vel", 10)
-    assert not polled(beside(0, 1), make("_looker"))
+    assert not poll_until_settled(make_starter(0, 1), make("_looker"))
 
 
-def test_own_nodes_get_a_robot(make, beside):
+def test_own_nodes_get_a_robot(make, make_starter):
     make("driver").create_publisher(Twist, "/cmd_vel", 10)
-    assert polled(beside(1, 0), make("_looker"))
+    assert poll_until_settled(make_starter(1, 0), make("_looker"))

@@ -45,7 +45,7 @@ def test_wait_for_another_start_ends_at_its_timeout(tmp_path: Path) -> None:
 
 
 @pytest.fixture
-def started(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[object]:
+def started_processes(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[object]:
     """Replaces the process that `up` starts; records this process's id instead."""
     calls: list[object] = []
 
@@ -64,7 +64,7 @@ def started(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[object]:
 
 
 def test_system_that_started_during_the_search_is_not_doubled(
-    started: list[object], monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    started_processes: list[object], monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def begins_meanwhile() -> list[str]:
         text = json.dumps({"pid": 7, "words": ["outdoor"], "log": "its.log"})
@@ -73,11 +73,11 @@ def test_system_that_started_during_the_search_is_not_doubled(
 
     monkeypatch.setattr(background, "robot_there", begins_meanwhile)
     assert background.up([]) == 1
-    assert "process 7 (outdoor)" in capsys.readouterr().err and not started
+    assert "process 7 (outdoor)" in capsys.readouterr().err and not started_processes
 
 
 def test_signal_during_start_waits_until_system_is_recorded(
-    started: list[object], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+    started_processes: list[object], monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     save = background.save_file
     monkeypatch.setattr(module, "SIGNALS", [signal.SIGUSR1])  # Not SIGINT, which may be ignored where tests run.
@@ -90,15 +90,15 @@ def test_signal_during_start_waits_until_system_is_recorded(
     monkeypatch.setattr(background, "save_file", interrupted)
     with pytest.raises(KeyboardInterrupt):
         background.up([])
-    assert started and (tmp_path / "background.json").exists()
+    assert started_processes and (tmp_path / "background.json").exists()
     assert signal.signal(signal.SIGUSR1, before) is signal.default_int_handler
 
 
 def test_interrupt_during_start_reports_how_to_end_it(
-    started: list[object], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    started_processes: list[object], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def polls() -> list[str]:
-        if started:
+        if started_processes:
             raise KeyboardInterrupt
         return []
 
@@ -110,7 +110,7 @@ def test_interrupt_during_start_reports_how_to_end_it(
 
 @pytest.mark.parametrize(("words", "what"), [([], "no robot was found"), (["--launch", __file__], "nothing that it")])
 def test_system_that_does_not_come_up_in_time_is_not_reported_as_running(
-    started: list[object],
+    started_processes: list[object],
     monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
     words: list[str],
@@ -125,8 +125,8 @@ def test_system_that_does_not_come_up_in_time_is_not_reported_as_running(
 
 
 def test_unreachable_system_is_not_started(
-    started: list[object], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    started_processes: list[object], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF")
     assert background.up([]) == 1
-    assert "could not be seen or stopped" in capsys.readouterr().err and not started
+    assert "could not be seen or stopped" in capsys.readouterr().err and not started_processes

@@ -21,7 +21,7 @@ def table(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setitem(TABLE, scope, keys)
 
 
-def written(folder: Path, text: str) -> Path:
+def write_settings(folder: Path, text: str) -> Path:
     path = folder / "settings.yaml"
     path.write_text(text, encoding="utf-8")
     return path
@@ -29,20 +29,20 @@ def written(folder: Path, text: str) -> Path:
 
 def test_missing_file_and_generated_file_yield_the_defaults(tmp_path: Path) -> None:
     assert read_settings(tmp_path / "none.yaml") == Settings()
-    assert read_settings(written(tmp_path, TEMPLATE)) == Settings()
-    assert read_settings(written(tmp_path, "")) == Settings()
+    assert read_settings(write_settings(tmp_path, TEMPLATE)) == Settings()
+    assert read_settings(write_settings(tmp_path, "")) == Settings()
 
 
 def test_settings_are_read(tmp_path: Path) -> None:
     text = "theme: light\nglyphs: plain\nlayout: tuning\nkeys: {parameters.undo: 'U2,ctrl+u'}\n"
-    assert read_settings(written(tmp_path, text)) == Settings(
+    assert read_settings(write_settings(tmp_path, text)) == Settings(
         "light", "plain", "tuning", {"parameters.undo": "U2,ctrl+u"}
     )
 
 
 def test_what_the_graph_hides_can_be_chosen(tmp_path: Path) -> None:
-    assert read_settings(written(tmp_path, "graph_hides: [/tf, /camera/*]")).graph_hides == ("/tf", "/camera/*")
-    assert read_settings(written(tmp_path, "graph_hides: []")).graph_hides == ()
+    assert read_settings(write_settings(tmp_path, "graph_hides: [/tf, /camera/*]")).graph_hides == ("/tf", "/camera/*")
+    assert read_settings(write_settings(tmp_path, "graph_hides: []")).graph_hides == ()
 
 
 @pytest.mark.parametrize(
@@ -68,14 +68,14 @@ def test_what_the_graph_hides_can_be_chosen(tmp_path: Path) -> None:
     ],
 )
 def test_invalid_settings_are_named_and_the_others_used(tmp_path: Path, text: str, message_of: str) -> None:
-    found = read_settings(written(tmp_path, text))
+    found = read_settings(write_settings(tmp_path, text))
     assert len(found.problems) == 1 and message_of in found.problems[0], found.problems
     assert found.theme == "dark"
 
 
 def test_unreadable_or_too_large_file_is_reported(tmp_path: Path) -> None:
     assert "irectory" in read_settings(tmp_path).problems[0]
-    assert "larger than" in read_settings(written(tmp_path, "#" * 200_000)).problems[0]
+    assert "larger than" in read_settings(write_settings(tmp_path, "#" * 200_000)).problems[0]
 
 
 @given(st.binary(max_size=200))
@@ -108,6 +108,6 @@ def test_every_theme_of_the_settings_exists() -> None:
 
 def test_means_of_stopping_are_read_in_their_order_and_wrong_ones_named(tmp_path: Path) -> None:
     text = "stop_means:\n- set_bool: /hold\n- brake: /b\n- trigger: base/stop\n  release: /clear\n"
-    found = read_settings(written(tmp_path, text))
+    found = read_settings(write_settings(tmp_path, text))
     assert [each.name for each in found.stop_means] == ["set_bool /hold", "trigger /base/stop"]
     assert len(found.problems) == 1 and "stop_means: entry 2: names exactly one of lock" in found.problems[0]

@@ -49,7 +49,7 @@ def test_symbols_of_the_console_do_not_cause_the_rest_of_a_line_to_be_written_ag
     assert "2" in written and "indoor" not in written
 
 
-def rewritten(*texts: Text) -> str:
+def rewritten_output(*texts: Text) -> str:
     """The output for the last of several contents of a line."""
     screen = ShownScreen()
     screen.forget(80, 1)
@@ -60,22 +60,22 @@ def rewritten(*texts: Text) -> str:
 
 
 def test_change_before_a_character_of_uncertain_width_leaves_what_follows_it() -> None:
-    written = rewritten(*(Text(f"12:00:0{second} 🛡 SAFE ×9") for second in (1, 2)))
+    written = rewritten_output(*(Text(f"12:00:0{second} 🛡 SAFE ×9") for second in (1, 2)))
     assert "2" in written and "SAFE" not in written
 
 
 def test_change_after_a_character_of_uncertain_width_writes_all_that_follows() -> None:
-    written = rewritten(*(Text(f"12:00:01 🛡 SAFE{mark} and what follows") for mark in "!?"))
+    written = rewritten_output(*(Text(f"12:00:01 🛡 SAFE{mark} and what follows") for mark in "!?"))
     assert "? and what follows" in written and "12:00" not in written
 
 
 def test_text_after_a_character_of_uncertain_width_is_written_again_when_it_disappears() -> None:
-    assert "warning" in rewritten(Text("⚠ warning"), Text("- warning"))
+    assert "warning" in rewritten_output(Text("⚠ warning"), Text("- warning"))
 
 
 def test_blank_takes_the_colours_of_its_neighbours() -> None:
     coloured = Text.assemble(("one", "red"), (" ", "green"), ("two", "red"))
-    assert rewritten(Text("-------"), coloured).count("\x1b[") == 3  # to the line, red, and none
+    assert rewritten_output(Text("-------"), coloured).count("\x1b[") == 3  # to the line, red, and none
 
-    assert rewritten(Text.assemble((" " * 7, "red")), Text.assemble((" " * 7, "bold green"))) == ""
-    assert "\x1b[4m" in rewritten(Text("       "), Text.assemble((" " * 7, "underline"))).replace("0;", "")
+    assert rewritten_output(Text.assemble((" " * 7, "red")), Text.assemble((" " * 7, "bold green"))) == ""
+    assert "\x1b[4m" in rewritten_output(Text("       "), Text.assemble((" " * 7, "underline"))).replace("0;", "")

@@ -19,7 +19,7 @@ from textual.widgets import Static
 WIDTH, HEIGHT = 40, 12
 
 
-class Counted(Static):
+class CountingWidget(Static):
     """Counts the lines that are requested of it."""
 
     asked = 0
@@ -46,11 +46,11 @@ class Panes(App[None]):
 
     def compose(self) -> ComposeResult:
         with Horizontal():
-            yield Container(Counted("\n".join(f"left {each}" for each in range(8)), id="left"))
+            yield Container(CountingWidget("\n".join(f"left {each}" for each in range(8)), id="left"))
             with VerticalScroll():
-                yield Counted("\n".join(f"long {each} 漢字" for each in range(30)), id="long")
-        yield Counted("foot", id="foot")
-        yield Counted("over\nand\nover", id="over")
+                yield CountingWidget("\n".join(f"long {each} 漢字" for each in range(30)), id="long")
+        yield CountingWidget("foot", id="foot")
+        yield CountingWidget("over\nand\nover", id="over")
 
 
 def pieces(update: Any) -> dict[tuple[int, int], list[tuple[str, Any]]]:
@@ -101,7 +101,9 @@ def test_only_lines_that_are_drawn_are_rendered() -> None:
         app = Panes()
         async with app.run_test(size=(WIDTH, HEIGHT)) as pilot:
             await pilot.pause()
-            left, long, foot, over = (app.query_one(f"#{each}", Counted) for each in ("left", "long", "foot", "over"))
+            left, long, foot, over = (
+                app.query_one(f"#{each}", CountingWidget) for each in ("left", "long", "foot", "over")
+            )
             compositor: Any = app.screen._compositor
             left.asked = long.asked = foot.asked = over.asked = 0
             first, last = Region(1, 1, 4, 1), Region(0, HEIGHT - 1, WIDTH, 1)

@@ -22,7 +22,7 @@ from textual.widgets import Static
 SIZE = (40, 12)
 
 
-class Counted(Static):
+class RecordingWidget(Static):
     """Records the lines that are requested of it."""
 
     asked: list[int]
@@ -40,7 +40,7 @@ class Box(DimmedScreen):
         self._word = word
 
     def compose(self) -> ComposeResult:
-        yield Counted(self._word, classes="box")
+        yield RecordingWidget(self._word, classes="box")
 
 
 class Panes(App[None]):
@@ -61,11 +61,11 @@ class Panes(App[None]):
         text = Text("one 漢字\ntwo", style="bold yellow")
         text.append("\nthree", Style(color="red", meta={"a": 1}, link="file:///x"))
         with Horizontal():
-            yield Container(Counted(text, id="left"))
-            yield Container(Counted("\n".join(f"line {each}" for each in range(20)), id="right"))
+            yield Container(RecordingWidget(text, id="left"))
+            yield Container(RecordingWidget("\n".join(f"line {each}" for each in range(20)), id="right"))
 
 
-def drawn(update: Any) -> list[list[tuple[str, Style | None]]]:
+def drawn_cells(update: Any) -> list[list[tuple[str, Style | None]]]:
     """Each cell of each line of an update, with its style but without the random ids of links."""
     return [
         [(character, each.style and each.style.clear_meta_and_links()) for each in strip for character in each.text]
@@ -104,7 +104,7 @@ def test_screen_below_is_dimmed_as_in_textual(names: list[str], colours: bool, m
                     each._styles_cache.clear()
                     each._dirty_regions.add(each.size.region)
                 theirs = screen._compositor.render_update(full=True, screen_stack=app._background_screens)
-            assert drawn(ours) == drawn(theirs)
+            assert drawn_cells(ours) == drawn_cells(theirs)
             assert not links(ours)
 
     asyncio.run(main())
@@ -114,7 +114,7 @@ def test_only_lines_that_are_drawn_are_rendered() -> None:
     async def main() -> None:
         app = Panes()
         async with app.run_test(size=SIZE) as pilot:
-            left, right = (app.query_one(f"#{each}", Counted) for each in ("left", "right"))
+            left, right = (app.query_one(f"#{each}", RecordingWidget) for each in ("left", "right"))
             await app.push_screen(Box("box"))
             await pilot.pause()
             left.asked, right.asked = [], []

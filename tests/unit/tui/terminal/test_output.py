@@ -23,7 +23,7 @@ from textual.widgets import Static
 WIDTH, HEIGHT = 40, 8
 
 
-class HostListener(AnswerGate):
+class FakeGate(AnswerGate):
     """A gate that the test opens and closes."""
 
     closed = False
@@ -45,10 +45,10 @@ class Wire(HeadlessDriver):
             self.process_message(events.CursorPosition(0, 0))
 
 
-class Over(ModalScreen[None]):
+class OverlayScreen(ModalScreen[None]):
     """A screen over the panes."""
 
-    CSS = "Over { align: center middle; } Over Static { width: 12; height: 3; border: round white; }"
+    CSS = "OverlayScreen { align: center middle; } OverlayScreen Static { width: 12; height: 3; border: round white; }"
 
     def compose(self) -> ComposeResult:
         yield Static("over")
@@ -63,7 +63,7 @@ class Panes(SparingApp):
     def __init__(self) -> None:
         super().__init__()
         self.driver_class = Wire
-        self.gate: HostListener = HostListener()
+        self.gate: FakeGate = FakeGate()
         self.terminal = Emulator(WIDTH, HEIGHT)
         self.frames: list[str] = []
 
@@ -138,7 +138,7 @@ def test_only_the_requested_part_of_a_widget_need_be_sent() -> None:
 
 def test_a_screen_over_the_panes_comes_and_goes() -> None:
     async def script(app: Panes, pilot: Pilot[None]) -> None:
-        await app.push_screen(Over())
+        await app.push_screen(OverlayScreen())
         await pilot.pause()
         assert app.terminal.lines() == app.composed()
         assert "over" in "".join(app.terminal.lines())
@@ -154,7 +154,7 @@ def test_a_screen_over_the_panes_comes_and_goes() -> None:
 def test_panes_go_on_below_screens_that_lie_over_each_other(screens: int) -> None:
     async def script(app: Panes, pilot: Pilot[None]) -> None:
         for _ in range(screens):
-            await app.push_screen(Over())
+            await app.push_screen(OverlayScreen())
             await pilot.pause()
         for number in range(3):
             app.screen_stack[0].query_one("#left", Static).update(f"\nnumber {number}", layout=False)
@@ -216,7 +216,7 @@ def test_a_layout_while_the_terminal_is_busy_is_not_lost() -> None:
 def test_what_changes_just_before_a_held_frame_is_drawn_is_not_lost(over: bool) -> None:
     async def script(app: Panes, pilot: Pilot[None]) -> None:
         if over:
-            await app.push_screen(Over())
+            await app.push_screen(OverlayScreen())
             await pilot.pause()
         first, second = list(app.screen.query(Static))[:2]
         app.gate.closed = True
@@ -254,7 +254,7 @@ def test_random_changes_while_frames_are_held_end_in_the_drawn_screen(seed: int)
         elif what == "part":
             app.screen_stack[0].query_one(f"#{side}").refresh(Region(1, 1, 3, 1))
         elif what == "over":
-            await (app.pop_screen() if len(app.screen_stack) > 1 else app.push_screen(Over()))
+            await (app.pop_screen() if len(app.screen_stack) > 1 else app.push_screen(OverlayScreen()))
         else:
             app.redraw()
 

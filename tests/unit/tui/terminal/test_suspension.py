@@ -74,7 +74,7 @@ class Shell:
         self.done.append("redraw")
 
 
-def leaving(console: FakeConsole, *, holds: bool = True) -> tuple[TerminalHandover, Shell]:
+def make_leaving(console: FakeConsole, *, holds: bool = True) -> tuple[TerminalHandover, Shell]:
     shell: Any = Shell()
     return TerminalHandover(shell, console, shell.redraw, holds=holds), shell
 
@@ -82,7 +82,7 @@ def leaving(console: FakeConsole, *, holds: bool = True) -> tuple[TerminalHandov
 def test_the_robot_is_held_before_the_terminal_is_left() -> None:
     console = live()[0]
     console.change(drive=replace(console.current.drive, lockable=True, stop_confirmed=False))
-    away, shell = leaving(console)
+    away, shell = make_leaving(console)
     reasons: list[Any] = []
     console.drive.stop = lambda hold=True, reason="": reasons.append((hold, reason))  # type: ignore[method-assign]
     away.sleep()
@@ -98,7 +98,7 @@ def test_the_robot_is_held_before_the_terminal_is_left() -> None:
 def test_unacknowledged_stop_is_awaited_only_for_a_limited_time() -> None:
     console = live()[0]
     console.change(drive=replace(console.current.drive, lockable=True, stop_confirmed=False))
-    away, shell = leaving(console)
+    away, shell = make_leaving(console)
     console.drive.stop = lambda hold=True, reason="": None  # type: ignore[method-assign]
     away.sleep()
     for _ in range(round(STOP_TIMEOUT_S / STOP_POLL_S) + 1):
@@ -109,7 +109,7 @@ def test_unacknowledged_stop_is_awaited_only_for_a_limited_time() -> None:
 
 def test_console_that_may_not_release_does_not_hold_the_robot() -> None:
     console = live()[0]
-    away, shell = leaving(console, holds=False)
+    away, shell = make_leaving(console, holds=False)
     away.sleep()
     assert shell.done == ["asleep", "redraw"] and not [each for each in console.asked if each[0] == "all_stop"]
 

@@ -57,7 +57,7 @@ class Panes(App[None]):
 Play = Callable[[Panes, Pilot[None]], Awaitable[None]]
 
 
-def played(play: Play, kind: type[Screen[None]] = VisibleScreen) -> tuple[int, int, list[str]]:
+def run_play(play: Play, kind: type[Screen[None]] = VisibleScreen) -> tuple[int, int, list[str]]:
     """How often a play has the screen laid out and drawn, and the lines at its end."""
 
     async def main() -> tuple[int, int, list[str]]:
@@ -87,9 +87,9 @@ async def come(app: Panes, pilot: Pilot[None]) -> None:
 
 @pytest.mark.parametrize("change", [grow, come])
 def test_hidden_changes_are_neither_laid_out_nor_drawn(change: Play) -> None:
-    assert played(change)[:2] == (0, 0)
+    assert run_play(change)[:2] == (0, 0)
     if change is grow:
-        assert played(change, Screen)[0] > 0, "which Textual does"
+        assert run_play(change, Screen)[0] > 0, "which Textual does"
 
 
 async def grow_and_show(app: Panes, pilot: Pilot[None]) -> None:
@@ -134,4 +134,4 @@ async def come_and_show(app: Panes, pilot: Pilot[None]) -> None:
     [grow_and_show, hide_the_other, *slow_after(0, [show_and_hide, hide_all, grow_before_the_hidden, come_and_show])],
 )
 def test_final_screen_equals_that_of_textual(change: Play) -> None:
-    assert played(change)[2] == played(change, Screen)[2]
+    assert run_play(change)[2] == run_play(change, Screen)[2]

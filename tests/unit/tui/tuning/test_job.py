@@ -27,7 +27,7 @@ def report(trial: Trial) -> dict[str, Any]:
     return {"mean_speed": speed + 0.01 * trial.seed, "collisions": int(speed > 3)}
 
 
-class Instant:
+class InstantRunner:
     """A runner whose runs end at once; `fail` names the seeds whose runs fail."""
 
     def __init__(self, fail: tuple[int, ...] = ()) -> None:
@@ -45,7 +45,7 @@ class Instant:
 
 
 def tuned(
-    folder: Path, runner: Instant, specification: TuningSpecification = QUESTION, *, resume: bool = False
+    folder: Path, runner: InstantRunner, specification: TuningSpecification = QUESTION, *, resume: bool = False
 ) -> Progress:
     journal = TuningJournal(folder, specification, resume=resume)
     try:
@@ -55,7 +55,7 @@ def tuned(
 
 
 def test_the_best_setting_is_found_and_evaluated_on_seeds_that_it_was_not_chosen_by(tmp_path: Path) -> None:
-    runner = Instant()
+    runner = InstantRunner()
     progress = tuned(tmp_path, runner)
     best = progress.best
     assert best is not None
@@ -69,26 +69,26 @@ def test_the_best_setting_is_found_and_evaluated_on_seeds_that_it_was_not_chosen
 
 
 def test_setting_with_a_failed_run_has_failed_with_its_reason(tmp_path: Path) -> None:
-    progress = tuned(tmp_path, Instant(fail=(2,)))
+    progress = tuned(tmp_path, InstantRunner(fail=(2,)))
     assert progress.best is None
     assert progress.rows[0].problem == "seed 2: max_speed refused"
     assert progress.problem == "every setting failed: seed 2: max_speed refused"
 
 
 def test_best_setting_is_the_present_one_if_none_is_better(tmp_path: Path) -> None:
-    progress = tuned(tmp_path, Instant(), replace(QUESTION, tunables=(replace(SPEED, now=3.0),)))
+    progress = tuned(tmp_path, InstantRunner(), replace(QUESTION, tunables=(replace(SPEED, now=3.0),)))
     assert progress.held_out is not None
     assert progress.held_out[0] == progress.held_out[1]
 
 
 @pytest.mark.parametrize("left", [10, -1], ids=["within a line", "before its end of line"])
 def test_interrupted_tuning_resumes_with_the_same_result(tmp_path: Path, left: int) -> None:
-    whole = tuned(tmp_path / "whole", Instant())
-    tuned(tmp_path, Instant())
+    whole = tuned(tmp_path / "whole", InstantRunner())
+    tuned(tmp_path, InstantRunner())
     file = next(tmp_path.glob("*.jsonl"))
     lines = file.read_bytes().splitlines(keepends=True)
     file.write_bytes(b"".join(lines[:5]) + lines[5][:left])
-    runner = Instant()
+    runner = InstantRunner()
     again = tuned(tmp_path, runner, resume=True)
     assert len(runner.begun) == len(lines) - 5
     assert (again.rows, again.held_out, again.done) == (whole.rows, whole.held_out, whole.done)
@@ -97,8 +97,8 @@ def test_interrupted_tuning_resumes_with_the_same_result(tmp_path: Path, left: i
 
 
 def test_tuning_starts_again_without_resume(tmp_path: Path) -> None:
-    tuned(tmp_path, Instant())
-    runner = Instant()
+    tuned(tmp_path, InstantRunner())
+    runner = InstantRunner()
     tuned(tmp_path, runner)
     assert len(runner.begun) == 14
 
@@ -110,7 +110,7 @@ def test_other_specification_uses_another_journal(other: dict[str, Any]) -> None
 
 def test_stopping_keeps_what_was_found(tmp_path: Path) -> None:
     journal = TuningJournal(tmp_path, QUESTION, resume=False)
-    job = TuningJob(QUESTION, Instant(), journal)
+    job = TuningJob(QUESTION, InstantRunner(), journal)
     job.changed = lambda progress: job.stop() if progress.done else None
     progress = job.run()
     assert progress.problem == "stopped"

@@ -30,7 +30,7 @@ def text(*lines: str, style: str = "") -> Text:
     return message
 
 
-def drawn(widget: StaticText) -> list[int]:
+def drawn_rows(widget: StaticText) -> list[int]:
     """The rows that are drawn next."""
     return sorted({y for region in widget._repaint_regions for y in region.line_range})
 
@@ -43,24 +43,24 @@ def test_only_changed_lines_are_drawn() -> None:
             words.show_text(text("one", "two", "three"))
             await pilot.pause()
             words.show_text(text("one", "2", "three"))
-            assert drawn(words) == [1]
+            assert drawn_rows(words) == [1]
             await pilot.pause()
             words.show_text(text("one"))
-            assert drawn(words) == [1, 2, 3]
+            assert drawn_rows(words) == [1, 2, 3]
             await pilot.pause()
             assert app.lines() == ["one", "", "", "", "", ""]
             words.show_text(text("one", style="bold"))
-            assert drawn(words) == [0]
+            assert drawn_rows(words) == [0]
             await pilot.pause()
             words.show_text("a line")
-            assert drawn(words) == [*range(6)], "nothing is known of the lines of a plain text"
+            assert drawn_rows(words) == [*range(6)], "nothing is known of the lines of a plain text"
             await pilot.pause()
             words.add_class("wrapped")
             await pilot.pause()
             words.show_text(text("one", "two"))
             await pilot.pause()
             words.show_text(text("one", "a line that is wrapped"))
-            assert drawn(words) == [*range(6)], "a line may take more rows than one"
+            assert drawn_rows(words) == [*range(6)], "a line may take more rows than one"
 
     asyncio.run(main())
 

@@ -49,7 +49,7 @@ def robot(place):
     made.session.close()
 
 
-def watched(place, publishing=lambda: None):
+def observe(place, publishing=lambda: None):
     """What the doctor sees while `publishing` is called repeatedly."""
     import threading
 
@@ -76,7 +76,7 @@ def levels(wire, about):
 def test_correct_robot_has_no_findings_and_its_capture_matches_byte_by_byte(place, robot):
     token, publisher = robot.topic("/words", 1)
     attachment = pack(7, time.time_ns(), gid_of(token))
-    wire = watched(place, lambda: publisher.put(b"\x00\x01\x00\x00", pack(7, time.time_ns(), gid_of(token))))
+    wire = observe(place, lambda: publisher.put(b"\x00\x01\x00\x00", pack(7, time.time_ns(), gid_of(token))))
     assert {each.level for each in wire_findings(wire, 0.0)} == {Level.OK}
     read = json.loads(json.dumps(captured(wire, ["a test"])))
     assert [parse_token(each).kind for each in read["tokens"]] == ["MP", "NN"] or len(read["tokens"]) == 2
@@ -87,7 +87,7 @@ def test_correct_robot_has_no_findings_and_its_capture_matches_byte_by_byte(plac
 
 def test_attachment_of_an_old_release_is_recognised(place, robot):
     _, publisher = robot.topic("/words", 1)
-    wire = watched(place, lambda: publisher.put(b"\x00\x01\x00\x00", OLD))
+    wire = observe(place, lambda: publisher.put(b"\x00\x01\x00\x00", OLD))
     ((level, text),) = levels(wire, "messages")
     assert level is Level.FAIL and "/words" in text and "too old (before Jazzy 0.2.4" in text
 
@@ -98,13 +98,13 @@ def test_wrong_clock_is_reported_with_its_sign(place, robot):
     def late():
         publisher.put(b"\x00\x01\x00\x00", pack(1, time.time_ns() - round(LATE_S * 1e9), gid_of(token)))
 
-    ((level, text),) = levels(watched(place, late), "clock")
+    ((level, text),) = levels(observe(place, late), "clock")
     assert level is Level.WARN and "20.0 s behind this one" in text
 
 
 def test_invalid_tokens_are_counted_and_shown(place, robot):
     robot.session.declare_token("@ros2_lv/0/zid/1/2/XX/%/%/robot")
-    found = levels(watched(place), "graph")
+    found = levels(observe(place), "graph")
     assert any(level is Level.WARN and text.startswith("1 tokens do not follow the format") for level, text in found)
 
 
@@ -115,12 +115,12 @@ def test_tokens_that_arrive_while_listening_count(place, robot):
         if next(calls) == 50:
             robot.session.declare_token(node_token(0, TokenNode(robot.session.zid, 1, "", "/", "late")))
 
-    wire = watched(place, come)
+    wire = observe(place, come)
     assert sorted(each.node.name for each in wire.parsed()[0]) == ["late", "robot"]
 
 
 def test_empty_domain_says_what_to_check(place):
-    ((level, text),) = levels(watched(place), "graph")
+    ((level, text),) = levels(observe(place), "graph")
     assert level is Level.WARN and "no node is visible" in text
 
 

@@ -44,7 +44,7 @@ def node() -> Iterator[rclpy.node.Node]:
     rclpy.try_shutdown()
 
 
-def words(folder: Path, *texts: str) -> Path:
+def word_bag(folder: Path, *texts: str) -> Path:
     """A bag with one text message per second."""
     writer = BagWriter(folder)
     writer.topic("/words", String, [])
@@ -93,7 +93,7 @@ def test_a_definition_contains_all_types_it_uses() -> None:
 
 
 def test_a_bag_is_read_back_as_written(tmp_path: Path) -> None:
-    bag = Bag(words(tmp_path / "bag", "a", "b", "c"))
+    bag = Bag(word_bag(tmp_path / "bag", "a", "b", "c"))
     assert texts(bag) == ["a", "b", "c"] and not bag.repaired
     about = bag.metadata
     assert (about.begin, about.end, about.count) == (SECOND, 3 * SECOND, 3)
@@ -122,7 +122,7 @@ def test_a_truncated_file_is_repaired_and_keeps_its_complete_messages(tmp_path: 
 
 def test_a_file_damaged_before_its_end_is_kept_unchanged(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(damage, "MAX_CUT_BYTES", 4_000_000)
-    file = words(tmp_path / "bag", "first", *(["x" * 4_000_000] * 3)) / "bag_0.mcap"
+    file = word_bag(tmp_path / "bag", "first", *(["x" * 4_000_000] * 3)) / "bag_0.mcap"
     whole = file.read_bytes()
     begin = whole.index(b"x" * 100)
     broken = whole[: begin + 4_000_010] + b"\xff" * 100 + whole[begin + 4_000_110 : -100]
@@ -136,7 +136,7 @@ def test_a_file_damaged_before_its_end_is_kept_unchanged(tmp_path: Path, monkeyp
 def test_a_repair_that_fails_on_a_full_disk_leaves_the_file_unchanged(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    file = words(tmp_path / "bag", "mine") / "bag_0.mcap"
+    file = word_bag(tmp_path / "bag", "mine") / "bag_0.mcap"
     cut = file.read_bytes()[:-20]
     file.write_bytes(cut)
 
@@ -182,7 +182,7 @@ def test_files_that_are_not_bags_are_refused(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("step", [12, pytest.param(3, marks=pytest.mark.slow), pytest.param(1, marks=pytest.mark.soak)])
 def test_a_damaged_byte_anywhere_is_reported_or_harmless(tmp_path: Path, step: int) -> None:
-    file = words(tmp_path / "bag", "a", "b") / "bag_0.mcap"
+    file = word_bag(tmp_path / "bag", "a", "b") / "bag_0.mcap"
     whole, reported = file.read_bytes(), 0
     for place in range(0, len(whole), step):
         file.write_bytes(whole[:place] + b"\xff" + whole[place + 1 :])
@@ -209,7 +209,7 @@ def test_a_message_with_an_impossible_time_is_reported(tmp_path: Path, stamp: st
 
 
 def test_invalid_metadata_yaml_does_not_prevent_reading(tmp_path: Path) -> None:
-    folder = words(tmp_path / "bag", "mine")
+    folder = word_bag(tmp_path / "bag", "mine")
     for about in ("!!int", f"{{relative_file_paths: [{'long' * 100}.mcap]}}"):
         (folder / "metadata.yaml").write_text(f"rosbag2_bagfile_information: {about}")
         assert texts(Bag(folder)) == ["mine"]
@@ -230,15 +230,15 @@ def test_a_topic_of_an_impossible_type_is_reported(tmp_path: Path, type_name: st
 
 
 def test_metadata_cannot_refer_to_files_outside_the_bag(tmp_path: Path) -> None:
-    folder = words(tmp_path / "bag", "mine")
-    words(tmp_path / "other", "theirs")
+    folder = word_bag(tmp_path / "bag", "mine")
+    word_bag(tmp_path / "other", "theirs")
     about = folder / "metadata.yaml"
     about.write_text(about.read_text().replace("bag_0.mcap", "../other/other_0.mcap"))
     assert texts(Bag(folder)) == ["mine"]
 
 
 def test_an_existing_bag_is_never_overwritten(tmp_path: Path) -> None:
-    words(tmp_path / "bag", "a")
+    word_bag(tmp_path / "bag", "a")
     with pytest.raises(NotSaved, match="exists already"):
         BagWriter(tmp_path / "bag")
 
@@ -277,7 +277,7 @@ def test_messages_taken_at_once_are_ordered_by_sending_time_unless_clocks_differ
 
 
 def test_a_topic_of_an_unknown_type_is_reported(tmp_path: Path, node: rclpy.node.Node) -> None:
-    folder = words(tmp_path / "bag", "a")
+    folder = word_bag(tmp_path / "bag", "a")
     bag = Bag(folder)
     bag.metadata.topics["/words"].type = "nobody_msgs/msg/Such"
     player = Player(node, bag, PlaybackOptions(), get_message)
@@ -286,7 +286,7 @@ def test_a_topic_of_an_unknown_type_is_reported(tmp_path: Path, node: rclpy.node
 
 
 def test_a_topic_whose_name_is_not_valid_is_reported(tmp_path: Path, node: rclpy.node.Node) -> None:
-    bag = Bag(words(tmp_path / "bag", "a"))
+    bag = Bag(word_bag(tmp_path / "bag", "a"))
     bag.metadata.topics["/wo~ds"] = bag.metadata.topics.pop("/words")
     player = Player(node, bag, PlaybackOptions(), get_message)
     player.run(threading.Event())

@@ -40,7 +40,7 @@ def node() -> Iterator[rclpy.node.Node]:
 
 
 @pytest.fixture
-def recorded(tmp_path: Path) -> Bag:
+def recorded_bag(tmp_path: Path) -> Bag:
     """A bag that was recorded with --all while a stop of a namespaced robot was released."""
     writer = BagWriter(tmp_path / "bag")
     messages = {
@@ -58,7 +58,7 @@ def recorded(tmp_path: Path) -> Bag:
     return Bag(tmp_path / "bag")
 
 
-def played(node: rclpy.node.Node, bag: Bag, how: PlaybackOptions) -> tuple[set[str], list[str]]:
+def played_topics(node: rclpy.node.Node, bag: Bag, how: PlaybackOptions) -> tuple[set[str], list[str]]:
     """The topics on which a bag was played, and those that were left out."""
     player = Player(node, bag, how, get_message)
     published = {name for name, _ in node.get_publisher_names_and_types_by_node("player", "/")}
@@ -66,31 +66,31 @@ def played(node: rclpy.node.Node, bag: Bag, how: PlaybackOptions) -> tuple[set[s
     return published - {"/rosout", "/parameter_events"}, sorted(player.left_out)
 
 
-def test_recorded_commands_and_releases_are_not_played(node: rclpy.node.Node, recorded: Bag) -> None:
-    published, left_out = played(node, recorded, PlaybackOptions(rate=1e6))
+def test_recorded_commands_and_releases_are_not_played(node: rclpy.node.Node, recorded_bag: Bag) -> None:
+    published, left_out = played_topics(node, recorded_bag, PlaybackOptions(rate=1e6))
     assert published == {"/words", "/telemetry/stops"}
     assert left_out == ["/goal_pose", "/odd_name", "/robot2/emergency_stop/base", REQUEST]
 
 
-def test_named_topics_are_played(node: rclpy.node.Node, recorded: Bag) -> None:
-    published, left_out = played(node, recorded, PlaybackOptions(rate=1e6, topics=[REQUEST, "odd_name"]))
+def test_named_topics_are_played(node: rclpy.node.Node, recorded_bag: Bag) -> None:
+    published, left_out = played_topics(node, recorded_bag, PlaybackOptions(rate=1e6, topics=[REQUEST, "odd_name"]))
     assert (published, left_out) == ({REQUEST, "/odd_name"}, [])
 
 
-def test_a_topic_remapped_to_a_control_topic_is_left_out(node: rclpy.node.Node, recorded: Bag) -> None:
+def test_a_topic_remapped_to_a_control_topic_is_left_out(node: rclpy.node.Node, recorded_bag: Bag) -> None:
     remaps = {"/words": "/emergency_stop/request", REQUEST: "/then"}
-    published, left_out = played(node, recorded, PlaybackOptions(rate=1e6, remaps=remaps))
+    published, left_out = played_topics(node, recorded_bag, PlaybackOptions(rate=1e6, remaps=remaps))
     assert published == {"/telemetry/stops"}
     assert "/words" in left_out and REQUEST in left_out
 
 
 def test_the_warning_reports_what_is_left_out_and_how_to_include_it(
-    recorded: Bag, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    recorded_bag: Bag, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(common, "reach_system", lambda: "")
     monkeypatch.setattr(discovery, "MIN_S", 0.0)
     try:
-        assert verb.run(["play", str(recorded.path), "-r", "1e6"]) == 0
+        assert verb.run(["play", str(recorded_bag.path), "-r", "1e6"]) == 0
     finally:
         rclpy.try_shutdown()
     out, err = capsys.readouterr()

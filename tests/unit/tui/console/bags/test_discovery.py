@@ -9,7 +9,7 @@ import pytest
 from bot_console.tui.console.bags.playing.discovery import MIN_S, TIMEOUT_S, await_subscriptions
 
 
-class Waits(threading.Event):
+class WaitRecorder(threading.Event):
     """Adds up the waiting times, and does not wait."""
 
     waited = 0.0
@@ -24,7 +24,7 @@ class Publisher:
     """Is connected to one subscription after a time."""
 
     topic_name: str
-    waits: Waits
+    waits: WaitRecorder
     connected_s: float
 
     def get_subscription_count(self) -> int:
@@ -41,14 +41,14 @@ class Publisher:
     ],
 )
 def test_player_waits_until_known_subscriptions_are_connected(known: int, connected_s: float, waited: float) -> None:
-    waits = Waits()
+    waits = WaitRecorder()
     publishers = [Publisher("/quiet", waits, 0.0), Publisher("/heard", waits, connected_s)]
     await_subscriptions(publishers, lambda topic: known if topic == "/heard" else 0, waits)
     assert waits.waited == pytest.approx(waited, abs=0.1)
 
 
 def test_player_that_is_stopped_waits_no_longer() -> None:
-    waits = Waits()
+    waits = WaitRecorder()
     waits.set()
     await_subscriptions([Publisher("/heard", waits, 9.0)], lambda _: 1, waits)
     assert waits.waited < MIN_S

@@ -29,7 +29,7 @@ FAST = 1e9
 WAIT_S = 240
 
 
-class Published:
+class PublishingNode:
     """Replaces the publishing node: keeps what is published, in order."""
 
     def __init__(self) -> None:
@@ -63,9 +63,9 @@ def bag(tmp_path: Path) -> Bag:
 
 
 @contextmanager
-def playing(bag: Any, **how: Any) -> Iterator[tuple[Player, Published, Callable[[], None]]]:
+def playing(bag: Any, **how: Any) -> Iterator[tuple[Player, PublishingNode, Callable[[], None]]]:
     """A running player; the third value waits for its end."""
-    published, stopped = Published(), threading.Event()
+    published, stopped = PublishingNode(), threading.Event()
     player = Player(published, bag, PlaybackOptions(**how), class_of)  # type: ignore[arg-type] -- it only publishes
     thread = threading.Thread(target=player.run, args=[stopped], daemon=True)
     thread.start()
@@ -113,7 +113,7 @@ def test_seeking_continues_elsewhere_in_both_directions(bag: Bag) -> None:
 
 
 def test_a_player_that_was_moved_before_it_runs_begins_there_at_once(bag: Bag) -> None:
-    published, stopped = Published(), threading.Event()
+    published, stopped = PublishingNode(), threading.Event()
     player = Player(published, bag, PlaybackOptions(paused=True, rate=0.01), class_of)  # type: ignore[arg-type] -- it only publishes
     player.seek(BEGIN + 7 * SECOND)
     player.paused = False

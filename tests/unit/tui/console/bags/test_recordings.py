@@ -29,7 +29,7 @@ def texts(folder: Path, topic: str = "/words") -> list[str]:
     return [deserialize_message(each.data, String).data for each in Bag(folder).messages([topic])]
 
 
-def reported(future: Future[Answer]) -> Answer:
+def answer_of(future: Future[Answer]) -> Answer:
     return future.result(timeout=240)
 
 
@@ -56,22 +56,22 @@ def test_a_bag_is_recorded_from_start_to_stop(tmp_path: Path, node: rclpy.node.N
     latched.publish(String(data="office"))
     publisher = node.create_publisher(String, "/words", 10)
     node.create_publisher(Clock, "/clock", 10)
-    assert not reported(room.stop()).ok and not reported(room.keep("x")).ok and room.info.folder == ""
-    assert reported(room.start(str(tmp_path / "bag"))).ok
+    assert not answer_of(room.stop()).ok and not answer_of(room.keep("x")).ok and room.info.folder == ""
+    assert answer_of(room.start(str(tmp_path / "bag"))).ok
     assert room.info.folder == str(tmp_path / "bag") and room.info is room.info
-    assert "already" in reported(room.start("another")).text  # by then all topics are being received
+    assert "already" in answer_of(room.start("another")).text  # by then all topics are being received
     assert publisher.get_subscription_count() == 1
     for number in range(20):
         publisher.publish(String(data=str(number)))
-    answer = reported(room.stop())
+    answer = answer_of(room.stop())
     assert answer.ok and "messages of" in answer.text and room.info.folder == ""
-    again = reported(room.start(str(tmp_path / "bag")))
+    again = answer_of(room.start(str(tmp_path / "bag")))
     assert not again.ok and "exists already" in again.text
     assert texts(tmp_path / "bag") == [str(number) for number in range(20)]
     room.close()
     assert texts(tmp_path / "bag", "/map_name") == ["office"]
     assert "/clock" not in Bag(tmp_path / "bag").metadata.topics
-    assert reported(room.start(str(tmp_path / "late"))) == Answer(False, "the console has closed")
+    assert answer_of(room.start(str(tmp_path / "late"))) == Answer(False, "the console has closed")
 
 
 def test_bag_contains_what_is_published_between_the_last_turn_and_its_end(
@@ -87,9 +87,9 @@ def test_bag_contains_what_is_published_between_the_last_turn_and_its_end(
             ended.append(room.stop())
 
     monkeypatch.setattr(recorder.Recorder, "turn", turn_before_the_end)
-    assert reported(room.start(str(tmp_path / "bag"))).ok
+    assert answer_of(room.start(str(tmp_path / "bag"))).ok
     until(lambda: ended, "the end")
-    assert reported(ended[0]).ok
+    assert answer_of(ended[0]).ok
     assert texts(tmp_path / "bag") == ["last"]
 
 
@@ -106,17 +106,17 @@ def test_a_topic_of_an_unknown_type_is_named_until_its_type_is_known(
 
     monkeypatch.setattr(recordings, "get_message", find)
     monkeypatch.setattr(recorder, "TOPIC_POLL_S", 0.0)
-    assert reported(room.start(str(tmp_path / "one"))).ok
+    assert answer_of(room.start(str(tmp_path / "one"))).ok
     until(lambda: "/words" in room.info.missing, "the topic that is missing")
-    ended = reported(room.stop()).text
+    ended = answer_of(room.stop()).text
     assert "/words was not recorded: its type std_msgs/msg/String is not available here (No module named" in ended
-    assert reported(room.start(str(tmp_path / "two"))).ok
+    assert answer_of(room.start(str(tmp_path / "two"))).ok
     until(lambda: "/words" in room.info.missing, "the topic that is missing")
     known.append("now")
     until(publisher.get_subscription_count, "the subscription")
     until(lambda: room.info.missing == (), "nothing missing")
     publisher.publish(String(data="late"))
-    assert "not recorded" not in reported(room.stop()).text
+    assert "not recorded" not in answer_of(room.stop()).text
     assert texts(tmp_path / "two") == ["late"]
 
 
@@ -159,11 +159,11 @@ def test_an_error_ends_one_bag_and_the_next_can_be_recorded(
 
     with monkeypatch.context() as patch:
         patch.setattr("bot_console.tui.console.bags.recordings.Recorder", broken)
-        assert reported(room.start(str(tmp_path / "first"))).ok
+        assert answer_of(room.start(str(tmp_path / "first"))).ok
         thread = room._thread
         if thread is not None:
             thread.join(240)
     assert "a fault" in room.info.problem and not room.info.folder
-    assert "a fault" in reported(room.stop()).text
-    assert reported(room.start(str(tmp_path / "second"))).ok and not room.info.problem
-    assert reported(room.stop()).ok and Bag(tmp_path / "second").files
+    assert "a fault" in answer_of(room.stop()).text
+    assert answer_of(room.start(str(tmp_path / "second"))).ok and not room.info.problem
+    assert answer_of(room.stop()).ok and Bag(tmp_path / "second").files

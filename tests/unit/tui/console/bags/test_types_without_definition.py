@@ -88,12 +88,12 @@ class NotingWriter(BagWriter):
         self.last = data
 
 
-def sent(payloads: Iterable[bytes]) -> list[bytes]:
+def after_discovery(payloads: Iterable[bytes]) -> list[bytes]:
     """The payloads without the messages from before the subscription was known."""
     return [each for each in payloads if each != FIRST]
 
 
-def recorded(folder: Path, node: Any, talker: CapturedNode, storage: str = "mcap") -> tuple[Bag, Recorder]:
+def record(folder: Path, node: Any, talker: CapturedNode, storage: str = "mcap") -> tuple[Bag, Recorder]:
     """Record what a node sends."""
     writer = NotingWriter(folder, WritingOptions(storage))
     made = Recorder(
@@ -125,10 +125,10 @@ def recorded(folder: Path, node: Any, talker: CapturedNode, storage: str = "mcap
 def test_messages_of_a_type_without_a_definition_are_recorded_and_played_as_they_are(
     tmp_path: Path, node: Any, captured: Callable[..., CapturedNode], storage: str
 ) -> None:
-    bag, made = recorded(tmp_path / "bag", node, captured("MP"), storage)
+    bag, made = record(tmp_path / "bag", node, captured("MP"), storage)
     about = bag.topics[TOPIC]
     assert (about.type, about.type_hash, about.encoding) == (SUCH, HASH, "cdr")
-    assert sent(each.data for each in bag.messages()) == DATA
+    assert after_discovery(each.data for each in bag.messages()) == DATA
     assert made.unknown == {} and f"its type {SUCH} is not available here" in made.generic[TOPIC]
 
     listener = captured("MS")
@@ -137,13 +137,13 @@ def test_messages_of_a_type_without_a_definition_are_recorded_and_played_as_they
     until(player._publishers[TOPIC].get_subscription_count, "the listener")
     player.run(threading.Event())
     until(lambda: DATA[-1] in listener.payloads, "the messages")
-    assert sent(listener.payloads) == DATA
+    assert after_discovery(listener.payloads) == DATA
 
 
 def test_a_bag_has_no_definition_where_none_is_known(
     tmp_path: Path, node: Any, captured: Callable[..., CapturedNode], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    recorded(tmp_path / "bag", node, captured("MP"))
+    record(tmp_path / "bag", node, captured("MP"))
     with (tmp_path / "bag" / "bag_0.mcap").open("rb") as file:
         summary = make_reader(file).get_summary()
     assert summary is not None
@@ -155,8 +155,8 @@ def test_a_bag_has_no_definition_where_none_is_known(
 def test_a_type_that_is_defined_otherwise_here_is_recorded_without_a_definition(
     tmp_path: Path, node: Any, captured: Callable[..., CapturedNode]
 ) -> None:
-    bag, made = recorded(tmp_path / "bag", node, captured("MP", "std_msgs::msg::dds_::String_"))
-    assert sent(each.data for each in bag.messages()) == DATA and bag.topics[TOPIC].type_hash == HASH
+    bag, made = record(tmp_path / "bag", node, captured("MP", "std_msgs::msg::dds_::String_"))
+    assert after_discovery(each.data for each in bag.messages()) == DATA and bag.topics[TOPIC].type_hash == HASH
     assert f"it is defined otherwise than by {HASH}" in made.generic[TOPIC]
 
 

@@ -17,7 +17,7 @@ SECOND = 10**9
 COUNT = 20
 
 
-def written(folder: Path, **how: Any) -> Path:
+def write_bag(folder: Path, **how: Any) -> Path:
     """A bag with a number each second, and a word at its start."""
     writer = BagWriter(folder, WritingOptions(**how))
     writer.topic("/number", Int32, [])
@@ -44,7 +44,7 @@ def by_rosbags(folder: Path) -> list[int]:
 
 @pytest.mark.parametrize(("preset", "compressed"), [("zstd_fast", True), ("zstd_small", True), ("fastwrite", False)])
 def test_chunks_are_compressed_as_the_preset_says(tmp_path: Path, preset: str, compressed: bool) -> None:
-    (file,) = written(tmp_path / "bag", storage="mcap", preset=preset).glob("*.mcap")
+    (file,) = write_bag(tmp_path / "bag", storage="mcap", preset=preset).glob("*.mcap")
     assert (b"zstd" in file.read_bytes()) == compressed
 
 
@@ -63,7 +63,7 @@ def test_chunks_are_compressed_as_the_preset_says(tmp_path: Path, preset: str, c
     ids=str,
 )
 def test_what_is_written_is_read_here_and_by_another_library(tmp_path: Path, storage: str, how: dict[str, Any]) -> None:
-    folder = written(tmp_path / "bag", storage=storage, **how)
+    folder = write_bag(tmp_path / "bag", storage=storage, **how)
     bag = Bag(folder)
     assert numbers(bag) == by_rosbags(folder) == list(range(COUNT)) and bag.storage == storage
     assert bag.metadata.count == COUNT + 1 and bag.metadata.custom == how.get("custom", {})
@@ -73,7 +73,7 @@ def test_what_is_written_is_read_here_and_by_another_library(tmp_path: Path, sto
 
 
 def test_a_bag_is_reindexed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    folder = written(tmp_path / "bag", max_seconds=5, compression="message", custom={"a": "1"})
+    folder = write_bag(tmp_path / "bag", max_seconds=5, compression="message", custom={"a": "1"})
     metadata = folder / "metadata.yaml"
     before = metadata.read_text()
     metadata.write_text(before.replace("- bag_1.mcap", ""))
@@ -85,8 +85,8 @@ def test_a_bag_is_reindexed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
 
 
 def test_bags_are_converted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    written(tmp_path / "one")
-    written(tmp_path / "two", storage="sqlite3")
+    write_bag(tmp_path / "one")
+    write_bag(tmp_path / "two", storage="sqlite3")
     (tmp_path / "out.yaml").write_text(
         f"""
         output_bags:
@@ -125,7 +125,7 @@ def test_bags_are_converted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
 def test_wrong_output_options_are_explained(
     tmp_path: Path, text: str, message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    written(tmp_path / "one")
+    write_bag(tmp_path / "one")
     (tmp_path / "out.yaml").write_text(text)
     assert verb.run(["convert", "-i", str(tmp_path / "one"), "-o", str(tmp_path / "out.yaml")]) == 1
     err = capsys.readouterr().err

@@ -8,18 +8,23 @@ from bot_console.tui.console.model import Endpoint, GraphInfo, IncompatiblePair,
 TRIGGER = ("std_srvs/srv/Trigger",)
 
 
-def ends(*names: str, qos: str = "") -> tuple[Endpoint, ...]:
+def endpoints(*names: str, qos: str = "") -> tuple[Endpoint, ...]:
     return tuple(Endpoint(name, ("a/msg/B",), qos) for name in names)
 
 
 INFO = GraphInfo(
     (
-        NodeInfo("/lidar", ends("/scan", "/rosout", qos="best effort volatile 5")),
-        NodeInfo("/nav", ends("/cmd_vel"), ends("/scan", qos="reliable volatile 5"), (Endpoint("/nav/get", TRIGGER),)),
-        NodeInfo("/base", (), ends("/cmd_vel", "/goal"), (Endpoint("/reset", TRIGGER),)),
-        NodeInfo("/person", clients=(Endpoint("/reset", TRIGGER),), action_clients=ends("/drive")),
+        NodeInfo("/lidar", endpoints("/scan", "/rosout", qos="best effort volatile 5")),
+        NodeInfo(
+            "/nav",
+            endpoints("/cmd_vel"),
+            endpoints("/scan", qos="reliable volatile 5"),
+            (Endpoint("/nav/get", TRIGGER),),
+        ),
+        NodeInfo("/base", (), endpoints("/cmd_vel", "/goal"), (Endpoint("/reset", TRIGGER),)),
+        NodeInfo("/person", clients=(Endpoint("/reset", TRIGGER),), action_clients=endpoints("/drive")),
         NodeInfo("/idle"),
-        NodeInfo("/_hidden", ends("/cmd_vel")),
+        NodeInfo("/_hidden", endpoints("/cmd_vel")),
     ),
     silent=("/base",),
     incompatible={"/scan": (IncompatiblePair("/lidar", "/nav", "best effort publisher and reliable subscription"),)},

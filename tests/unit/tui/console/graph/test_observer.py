@@ -10,7 +10,7 @@ import pytest
 from bot_console.tui.console.graph.observer import DISCOVERY_POLLS, TOPIC, UNNAMED, UNNAMED_POLLS, Observer
 
 
-class Seen:
+class FakeNode:
     """A node that knows some nodes, and some endpoints that belong to none."""
 
     def __init__(self, *names: str, unnamed: int = 0) -> None:
@@ -30,32 +30,32 @@ class Seen:
 
 
 @pytest.fixture
-def made() -> list[Seen]:
+def made_nodes() -> list[FakeNode]:
     return []
 
 
 @pytest.fixture
-def observer(made: list[Seen]) -> Observer:
-    def make(like: Any) -> tuple[Seen, Callable[[], None]]:
-        made.append(Seen())
-        return made[-1], made[-1].end
+def observer(made_nodes: list[FakeNode]) -> Observer:
+    def make(like: Any) -> tuple[FakeNode, Callable[[], None]]:
+        made_nodes.append(FakeNode())
+        return made_nodes[-1], made_nodes[-1].end
 
-    return Observer(Seen("console", "arm"), make)  # type: ignore[arg-type]
+    return Observer(FakeNode("console", "arm"), make)  # type: ignore[arg-type]
 
 
-def test_endpoints_that_are_unnamed_for_a_moment_change_nothing(observer: Observer, made: list[Seen]) -> None:
+def test_endpoints_that_are_unnamed_for_a_moment_change_nothing(observer: Observer, made_nodes: list[FakeNode]) -> None:
     for unnamed in (1, 1, 0) * UNNAMED_POLLS:
         observer.node.unnamed = unnamed
         observer.poll()
-    assert made == []
+    assert made_nodes == []
 
 
-def test_another_node_is_used_once_it_knows_all_nodes(observer: Observer, made: list[Seen]) -> None:
+def test_another_node_is_used_once_it_knows_all_nodes(observer: Observer, made_nodes: list[FakeNode]) -> None:
     first = observer.node
     first.unnamed = 2
     for _ in range(UNNAMED_POLLS):
         observer.poll()
-    (other,) = made
+    (other,) = made_nodes
     observer.poll()
     assert observer.node is first, "it has found nothing yet"
     other.names = ["console", "arm", "base"]
@@ -64,18 +64,20 @@ def test_another_node_is_used_once_it_knows_all_nodes(observer: Observer, made: 
     other.unnamed = 1  # and again, if another node is lost
     for _ in range(UNNAMED_POLLS):
         observer.poll()
-    made[1].names = ["console", "arm", "base"]
+    made_nodes[1].names = ["console", "arm", "base"]
     observer.poll()
-    assert observer.node is made[1] and other.ended
+    assert observer.node is made_nodes[1] and other.ended
     observer.close()
-    assert made[1].ended
+    assert made_nodes[1].ended
 
 
-def test_endpoints_that_nobody_can_name_lead_to_one_other_node_only(observer: Observer, made: list[Seen]) -> None:
+def test_endpoints_that_nobody_can_name_lead_to_one_other_node_only(
+    observer: Observer, made_nodes: list[FakeNode]
+) -> None:
     observer.node.unnamed = 1
     for _ in range(UNNAMED_POLLS):
         observer.poll()
-    made[0].names, made[0].unnamed = ["console", "arm"], 1
+    made_nodes[0].names, made_nodes[0].unnamed = ["console", "arm"], 1
     for _ in range(DISCOVERY_POLLS + 5 * UNNAMED_POLLS):
         observer.poll()
-    assert observer.node is made[0] and len(made) == 1
+    assert observer.node is made_nodes[0] and len(made_nodes) == 1

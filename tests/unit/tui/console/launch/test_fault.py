@@ -18,7 +18,7 @@ ASKED = "/robot/asked.launch.py"
 LIBRARY = ast.__file__
 
 
-def reported(error: Exception, file: str, line: int | None, entity: object = None) -> Exception:
+def with_place(error: Exception, file: str, line: int | None, entity: object = None) -> Exception:
     setattr(error, ATTRIBUTE, LaunchPlace(file, line, entity))
     return error
 
@@ -39,20 +39,20 @@ def read_error(path: Path, text: str) -> BaseException:
 
 
 def test_place_recorded_by_launch_is_used():
-    assert fault_text(reported(ValueError("no"), "/a.launch.xml", 7), ASKED) == "/a.launch.xml, line 7: no"
-    assert fault_text(reported(ValueError("no"), "/a.launch.xml", None), ASKED) == "/a.launch.xml: no"
+    assert fault_text(with_place(ValueError("no"), "/a.launch.xml", 7), ASKED) == "/a.launch.xml, line 7: no"
+    assert fault_text(with_place(ValueError("no"), "/a.launch.xml", None), ASKED) == "/a.launch.xml: no"
     assert fault_text(ValueError("no"), ASKED) == f"{ASKED}: no"
 
 
 def test_an_error_in_a_library_is_reported_in_the_launch_file_that_uses_it():
     entity = object()
-    error = reported(ValueError("no"), LIBRARY, 7, entity)
+    error = with_place(ValueError("no"), LIBRARY, 7, entity)
     assert fault_text(error, ASKED, lambda asked: "/uses.launch.py" if asked is entity else "") == "/uses.launch.py: no"
     assert fault_text(error, ASKED) == f"{ASKED}: no"
 
 
 def test_an_unreadable_installed_launch_file_is_reported_itself():
-    assert fault_text(reported(ValueError("no"), LIBRARY, 7), ASKED) == f"{LIBRARY}, line 7: no"
+    assert fault_text(with_place(ValueError("no"), LIBRARY, 7), ASKED) == f"{LIBRARY}, line 7: no"
 
 
 def test_place_comes_from_the_traceback_if_launch_records_nothing(tmp_path):

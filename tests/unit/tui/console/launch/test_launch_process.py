@@ -91,7 +91,7 @@ def test_end_of_the_action_before_the_exit_leaves_the_process_running():
     assert process.info.state is ProcessState.EXITED
 
 
-class Life(RuleBasedStateMachine):
+class ProcessLife(RuleBasedStateMachine):
     """Any order of requests and events: each request is answered in the end, and the displayed state is correct."""
 
     def __init__(self):
@@ -138,7 +138,7 @@ class Life(RuleBasedStateMachine):
             assert not self.due
 
 
-TestLife = Life.TestCase
+TestLife = ProcessLife.TestCase
 TestLife.settings = settings(stateful_step_count=20, deadline=None)
 
 
@@ -174,7 +174,7 @@ def test_the_placeholder_of_a_node_without_a_process_of_its_own_is_no_process_id
     assert process.info.pid == 1 << 22
 
 
-def supervised(clock, *, attempts=3, delay=1.0, max_delay=3.0, program=None):
+def supervised_process(clock, *, attempts=3, delay=1.0, max_delay=3.0, program=None):
     """A running process that is restarted on failure."""
     policy = RestartPolicy(attempts, delay, max_delay)
     process = LaunchedProcess("key", "node-1", program=program, policy=policy, clock=clock)
@@ -192,7 +192,7 @@ def fail(process):
 
 def test_a_failed_process_is_restarted_after_growing_delays_until_the_attempts_are_used_up():
     clock = Clock()
-    process = supervised(clock)
+    process = supervised_process(clock)
     assert process.info.restart_policy == "on failure, up to 3 times, after 1 to 3 s"
     for number, delay in enumerate((1.0, 2.0, 3.0), 1):
         fail(process)
@@ -210,7 +210,7 @@ def test_a_failed_process_is_restarted_after_growing_delays_until_the_attempts_a
 
 def test_a_process_that_ran_long_enough_has_all_attempts_again():
     clock = Clock()
-    process = supervised(clock, attempts=1)
+    process = supervised_process(clock, attempts=1)
     fail(process)
     clock.now += 1
     assert process.due() is Order.START
@@ -224,7 +224,7 @@ def test_a_process_that_ran_long_enough_has_all_attempts_again():
 @pytest.mark.parametrize("code", [0, -2])
 def test_only_failures_are_followed_by_a_restart(code):
     clock = Clock()
-    process = supervised(clock)
+    process = supervised_process(clock)
     if code:
         process.want("stop")
     process.exited(code, respawns=False)
@@ -235,7 +235,7 @@ def test_only_failures_are_followed_by_a_restart(code):
 @pytest.mark.parametrize("verb", ["stop", "kill", "leave_ended"])
 def test_a_pending_restart_can_be_called_off(verb):
     clock = Clock()
-    process = supervised(clock)
+    process = supervised_process(clock)
     fail(process)
     order, answer = process.want(verb)
     assert order is Order.NOTHING and answer.result().ok
@@ -246,7 +246,7 @@ def test_a_pending_restart_can_be_called_off(verb):
 
 def test_a_start_by_hand_replaces_the_pending_one():
     clock = Clock()
-    process = supervised(clock)
+    process = supervised_process(clock)
     fail(process)
     assert process.want("start")[0] is Order.START
     clock.now += 100

@@ -118,7 +118,7 @@ def node(name: str, *services: Endpoint) -> NodeInfo:
     return NodeInfo(name, (Endpoint("/chatter", ("std_msgs/msg/String",)),), services=services)
 
 
-def launched(node: str, *command: str) -> LaunchInfo:
+def launch_with(node: str, *command: str) -> LaunchInfo:
     program = Program(command)
     return LaunchInfo(processes=(ProcessInfo("k", "p-1", ProcessState.RUNNING, nodes=(node,), program=program),))
 
@@ -127,7 +127,7 @@ def test_unknown_values_are_marked(tmp_path: Path) -> None:
     managed = Endpoint("/known/get_state", ("lifecycle_msgs/srv/GetState",))
     nodes = (node("/known", managed), node("/ns/ghost"), node("/_hidden"), node("/launch_ros_7"))
     found = write_launch(
-        tmp_path / "a", RunningSystem(GraphInfo(nodes), launched("/known", "/bin/x", "--ros-args", "-p", "a:=1"))
+        tmp_path / "a", RunningSystem(GraphInfo(nodes), launch_with("/known", "/bin/x", "--ros-args", "-p", "a:=1"))
     )
     text = (tmp_path / "a.launch.py").read_text()
     compile(text, "a.launch.py", "exec")
@@ -162,7 +162,7 @@ def test_the_nodes_of_a_program_are_known_by_its_process_and_those_of_a_containe
 def test_names_cannot_inject_code(tmp_path: Path) -> None:
     evil = 'x"\nimport os\n#'
     info = GraphInfo((node(f"/{evil}"), node("/known")))
-    write_launch(tmp_path / "a", RunningSystem(info, launched("/known", "/bin/x", f'"),\n{evil}')))
+    write_launch(tmp_path / "a", RunningSystem(info, launch_with("/known", "/bin/x", f'"),\n{evil}')))
     compiled = compile((tmp_path / "a.launch.py").read_text(), "a", "exec")
     assert "os" not in compiled.co_names
 
@@ -170,7 +170,7 @@ def test_names_cannot_inject_code(tmp_path: Path) -> None:
 def test_a_parameter_that_no_file_holds_is_named(tmp_path: Path) -> None:
     values = ParameterInfo("/known", "raw", Kind.BYTE_ARRAY, (b"x",)), ParameterInfo("/known", "a", Kind.INTEGER, 1)
     trees = {"/known": ParameterTree("/known", values)}
-    system = RunningSystem(GraphInfo((node("/known"),)), launched("/known", "/bin/x"), trees)
+    system = RunningSystem(GraphInfo((node("/known"),)), launch_with("/known", "/bin/x"), trees)
     assert "left out: /known raw" in write_launch(tmp_path / "a", system).text
     assert "a: 1" in (tmp_path / "a.yaml").read_text()
     assert write_launch(tmp_path / "a", system).started == 1, "a file that was written here is replaced"
@@ -179,7 +179,7 @@ def test_a_parameter_that_no_file_holds_is_named(tmp_path: Path) -> None:
 def test_no_file_of_the_user_is_replaced(tmp_path: Path) -> None:
     (tmp_path / "mine.yaml").write_text("mine")
     with pytest.raises(NotSaved, match="is there already"):
-        write_launch(tmp_path / "mine", RunningSystem(GraphInfo((node("/known"),)), launched("/known", "/bin/x")))
+        write_launch(tmp_path / "mine", RunningSystem(GraphInfo((node("/known"),)), launch_with("/known", "/bin/x")))
     assert (tmp_path / "mine.yaml").read_text() == "mine" and not (tmp_path / "mine.launch.py").exists()
     with pytest.raises(NotSaved, match="no nodes"):
         write_launch(tmp_path / "none", RunningSystem(GraphInfo()))

@@ -22,7 +22,7 @@ def bench(tmp_path, monkeypatch):
 
 
 @pytest.fixture
-def supervising(tmp_path, monkeypatch):
+def supervising_bench(tmp_path, monkeypatch):
     """A bench whose settings restart failed processes, twice and at once."""
     monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "log"))
@@ -32,7 +32,7 @@ def supervising(tmp_path, monkeypatch):
 
 
 @pytest.fixture
-def waiter(bench):
+def waiting_node(bench):
     """A launched node that waits."""
     path = bench.program(WAITS, "waits.py")
     assert bench.run(f"[Node(executable={path!r}, name='bob', namespace='ns')]").ok
@@ -40,39 +40,43 @@ def waiter(bench):
     return bench.process()
 
 
-def test_a_process_is_shown_with_label_and_nodes(bench, waiter):
-    assert (waiter.state, waiter.nodes, waiter.group) == (ProcessState.RUNNING, ("/ns/bob",), ("system.launch.py",))
-    assert waiter.pid is not None, "it has its own process"
-    assert waiter.started and waiter.restarts == 0 and waiter.exit_code is None
+def test_a_process_is_shown_with_label_and_nodes(bench, waiting_node):
+    assert (waiting_node.state, waiting_node.nodes, waiting_node.group) == (
+        ProcessState.RUNNING,
+        ("/ns/bob",),
+        ("system.launch.py",),
+    )
+    assert waiting_node.pid is not None, "it has its own process"
+    assert waiting_node.started and waiting_node.restarts == 0 and waiting_node.exit_code is None
     assert bench.info is bench.info
 
 
-def test_a_stopped_process_can_be_started_again(bench, waiter):
-    assert bench.do("stop", waiter).ok
+def test_a_stopped_process_can_be_started_again(bench, waiting_node):
+    assert bench.do("stop", waiting_node).ok
     ended = bench.process()
     assert (ended.state, ended.exit_code, ended.pid) == (ProcessState.EXITED, 0, None)
     assert bench.do("start", ended).ok
     again = bench.process()
-    assert (again.key, again.state, again.restarts) == (waiter.key, ProcessState.RUNNING, 1)
+    assert (again.key, again.state, again.restarts) == (waiting_node.key, ProcessState.RUNNING, 1)
     assert again.nodes == ("/ns/bob",)
     assert again.exit_code == 0, "the last exit stays visible"
 
 
-def test_restart_ends_and_starts_a_process(bench, waiter):
-    assert bench.do("restart", waiter).ok
+def test_restart_ends_and_starts_a_process(bench, waiting_node):
+    assert bench.do("restart", waiting_node).ok
     again = bench.process()
     assert (again.state, again.restarts) == (ProcessState.RUNNING, 1)
-    assert again.started > waiter.started
+    assert again.started > waiting_node.started
 
 
-def test_restart_of_an_ended_process_starts_it(bench, waiter):
-    bench.do("stop", waiter)
-    assert bench.do("restart", waiter).ok
+def test_restart_of_an_ended_process_starts_it(bench, waiting_node):
+    bench.do("stop", waiting_node)
+    assert bench.do("restart", waiting_node).ok
     assert bench.process().state is ProcessState.RUNNING
 
 
-def test_kill_ends_a_process_at_once(bench, waiter):
-    assert bench.do("kill", waiter).ok
+def test_kill_ends_a_process_at_once(bench, waiting_node):
+    assert bench.do("kill", waiting_node).ok
     killed = bench.process()
     assert (killed.state, killed.exit_code) == (ProcessState.CRASHED, -9)
     assert "killed" in killed.problem
@@ -83,10 +87,10 @@ def test_kill_ends_a_process_at_once(bench, waiter):
     ("before", "verb", "text"),
     [("", "start", "is already running"), ("stop", "stop", "is not running"), ("stop", "kill", "is not running")],
 )
-def test_verbs_that_do_not_apply_are_refused_with_the_reason(bench, waiter, before, verb, text):
+def test_verbs_that_do_not_apply_are_refused_with_the_reason(bench, waiting_node, before, verb, text):
     if before:
-        bench.do(before, waiter)
-    answer = bench.do(verb, waiter)
+        bench.do(before, waiting_node)
+    answer = bench.do(verb, waiting_node)
     assert not answer.ok
     assert text in answer.text
 
@@ -250,7 +254,7 @@ EXITS = "import sys\nsys.exit('no robot today')\n"
     ],
 )
 @pytest.mark.parametrize("included", [False, True])
-def test_a_failing_launch_file_gives_one_message_and_stops_nothing_else(bench, waiter, text, message, included):
+def test_a_failing_launch_file_gives_one_message_and_stops_nothing_else(bench, waiting_node, text, message, included):
     path = bench.folder / "broken.launch.py"
     path.write_text(text)
     asked = bench.file(f"[IncludeLaunchDescription({str(path)!r})]", "asked.launch.py") if included else str(path)
@@ -329,14 +333,14 @@ def test_a_launch_that_shuts_itself_down_ends_its_processes(bench):
     assert bench.do("start", bench.process("waits")).ok
 
 
-def test_cpu_usage_of_a_process_is_shown(bench, waiter, monkeypatch):
+def test_cpu_usage_of_a_process_is_shown(bench, waiting_node, monkeypatch):
     from bot_console.tui.console.launch import vitals as process_vitals
 
     monkeypatch.setattr(process_vitals, "CPU_POLL_S", 0.01)
     bench.until(lambda: bench.process().cpu is not None, "its processor share")
 
 
-def test_process_that_computes_without_pause_is_reported_once(bench, waiter, monkeypatch):
+def test_process_that_computes_without_pause_is_reported_once(bench, waiting_node, monkeypatch):
     from bot_console.tui.console.launch import launcher
     from bot_console.tui.console.launch import vitals as process_vitals
 
@@ -379,11 +383,11 @@ def test_node_of_ours_that_survives_being_killed_is_reported(bench, monkeypatch)
         stop.set()
 
 
-def test_closing_ends_all_processes(bench, waiter):
+def test_closing_ends_all_processes(bench, waiting_node):
     bench.launcher.close()
     bench.launcher.close()
     assert bench.process().state is ProcessState.EXITED
-    for answer in (bench.launcher.start(waiter.key), bench.launcher.launch("x", {})):
+    for answer in (bench.launcher.start(waiting_node.key), bench.launcher.launch("x", {})):
         assert answer.result(TIMEOUT_S).text == "the console is closing"
 
 
@@ -417,19 +421,19 @@ def test_a_missing_package_ends_the_launch_by_default(bench):
     assert not outcome.ok and "nowhere_cpp" in outcome.text
 
 
-def test_a_process_that_fails_is_restarted_as_the_settings_say_until_that_is_given_up(supervising):
-    path = supervising.program(FAILS)
-    supervising.run(f"[Node(executable={path!r})]")
-    supervising.until(lambda: "given up" in supervising.process().problem, "the end of the attempts")
-    assert supervising.process().restarts == 2 and supervising.process().state is ProcessState.CRASHED
-    assert "the fault" in supervising.process().problem
+def test_a_process_that_fails_is_restarted_as_the_settings_say_until_that_is_given_up(supervising_bench):
+    path = supervising_bench.program(FAILS)
+    supervising_bench.run(f"[Node(executable={path!r})]")
+    supervising_bench.until(lambda: "given up" in supervising_bench.process().problem, "the end of the attempts")
+    assert supervising_bench.process().restarts == 2 and supervising_bench.process().state is ProcessState.CRASHED
+    assert "the fault" in supervising_bench.process().problem
 
 
-def test_a_process_whose_failure_ends_its_launch_is_not_restarted(supervising):
-    path = supervising.program(FAILS)
-    supervising.run(f"[Node(executable={path!r}, on_exit=Shutdown(reason='over'))]")
-    supervising.until(lambda: any("has ended" in each for each in supervising.texts()), "the end")
-    assert supervising.process().restarts == 0 and "restarts" not in supervising.process().problem
+def test_a_process_whose_failure_ends_its_launch_is_not_restarted(supervising_bench):
+    path = supervising_bench.program(FAILS)
+    supervising_bench.run(f"[Node(executable={path!r}, on_exit=Shutdown(reason='over'))]")
+    supervising_bench.until(lambda: any("has ended" in each for each in supervising_bench.texts()), "the end")
+    assert supervising_bench.process().restarts == 0 and "restarts" not in supervising_bench.process().problem
 
 
 def test_a_person_decides_for_one_process(bench):

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 
-def filled(capacity: int = 100) -> LogStore:
+def filled_store(capacity: int = 100) -> LogStore:
     store = LogStore(capacity)
     store.add(1, 20, "robot_navigator", "Max Speed: 1.0 m/s", ("robot_node.py", "__init__", 12))
     store.add(2, 30, "safety_monitor", "Obstacle at 0.31m\nsecond line")
@@ -18,13 +18,13 @@ def filled(capacity: int = 100) -> LogStore:
 
 
 def test_a_record_is_read_back_as_it_was_added() -> None:
-    record = filled().record(0)
+    record = filled_store().record(0)
     assert record is not None
     assert (record.seq, record.stamp, record.severity, record.node) == (0, 1, Severity.INFO, "robot_navigator")
     assert (record.text, record.file, record.function, record.line) == (
         "Max Speed: 1.0 m/s", "robot_node.py", "__init__", 12)  # fmt: skip
-    assert filled().record(1).text == "Obstacle at 0.31m\nsecond line"  # type: ignore[union-attr]
-    assert filled().record(4) is None
+    assert filled_store().record(1).text == "Obstacle at 0.31m\nsecond line"  # type: ignore[union-attr]
+    assert filled_store().record(4) is None
 
 
 @pytest.mark.parametrize(
@@ -53,11 +53,11 @@ def test_a_record_is_read_back_as_it_was_added() -> None:
     ],
 )
 def test_filters_select_the_matching_records(which: LogFilter, found: list[int]) -> None:
-    assert matching(filled(), which) == found
+    assert matching(filled_store(), which) == found
 
 
 def test_filtering_resumes_where_it_stopped() -> None:
-    store = filled()
+    store = filled_store()
     assert matching(store, LogFilter(words="speed"), after=1) == [2]
     assert matching(store, LogFilter(), limit=2) == [2, 3]
 
@@ -65,7 +65,7 @@ def test_filtering_resumes_where_it_stopped() -> None:
 @pytest.mark.parametrize("words", ["re:(", "sev:loud", "!re:*", "time:25:00", "time:noon", "time:14:00..2026-11-22"])
 def test_an_invalid_filter_is_refused_with_the_reason(words: str) -> None:
     with pytest.raises(ValueError, match=r"regular expression|severity|time"):
-        matching(filled(), LogFilter(words=words))
+        matching(filled_store(), LogFilter(words=words))
 
 
 def test_the_oldest_half_is_dropped_and_counted() -> None:
@@ -78,7 +78,7 @@ def test_the_oldest_half_is_dropped_and_counted() -> None:
 
 
 def test_clear_discards_records_but_numbering_continues() -> None:
-    store = filled()
+    store = filled_store()
     store.clear()
     assert (store.state.first, store.state.end) == (4, 4)
     store.add(9, 20, "n", "again")
@@ -86,7 +86,7 @@ def test_clear_discards_records_but_numbering_continues() -> None:
 
 
 def test_the_state_is_one_object_until_something_changes() -> None:
-    store = filled()
+    store = filled_store()
     before = store.state
     assert store.state is before
     assert before.counts == {Severity.INFO: 1, Severity.WARN: 1, Severity.ERROR: 1, Severity.DEBUG: 1}

@@ -39,7 +39,7 @@ def test_a_time_beyond_the_limit_becomes_the_latest_possible_one() -> None:
     assert records("[INFO] [9999999999.9] [n]: x")[0][0] == 2**63 - 1
 
 
-def grown(tail: Tail) -> str:
+def new_text(tail: Tail) -> str:
     return "".join(tail.more())
 
 
@@ -47,25 +47,25 @@ def test_a_file_is_followed_through_rotation_and_truncation(tmp_path: Path) -> N
     path = tmp_path / "log"
     path.write_text("a\nb")
     tail = Tail(path)
-    assert grown(tail) == "a\n"
+    assert new_text(tail) == "a\n"
     with path.open("a") as file:
         file.write("b\nc\n")
-    assert grown(tail) == "bb\nc\n" and grown(tail) == ""
+    assert new_text(tail) == "bb\nc\n" and new_text(tail) == ""
     with path.open("a") as file:
         file.write("last words")
     os.rename(path, tmp_path / "log.1")
-    assert grown(tail) == "", "a line without an end may go on"
+    assert new_text(tail) == "", "a line without an end may go on"
     path.write_text("d\n")
-    assert grown(tail) == "last words\nd\n"
+    assert new_text(tail) == "last words\nd\n"
     path.write_text("")
     with path.open("a") as file:
         file.write("e\n")
-    assert grown(tail) == ""  # as long as before, so the replacement cannot be noticed yet
+    assert new_text(tail) == ""  # as long as before, so the replacement cannot be noticed yet
     path.write_text("")
-    assert grown(tail) == ""
+    assert new_text(tail) == ""
     with path.open("a") as file:
         file.write("f\n")
-    assert grown(tail) == "f\n"
+    assert new_text(tail) == "f\n"
     tail.close()
 
 
@@ -84,7 +84,7 @@ def test_lines_written_just_before_a_rotation_are_read(tmp_path: Path, monkeypat
         return poll(*which, **how)
 
     monkeypatch.setattr(os, "stat", rotated)
-    assert grown(tail) == "a\nb\nc\n"
+    assert new_text(tail) == "a\nb\nc\n"
     tail.close()
 
 

@@ -8,7 +8,7 @@ from bot_console.tui.console.logs.view import SearchedView
 from bot_console.tui.console.model import LogFilter
 
 
-class Polled:
+class PolledView:
     """A view that counts how often its polls have woken the searching thread."""
 
     def __init__(self, store: LogStore, folded: bool) -> None:
@@ -33,7 +33,7 @@ class Polled:
 def test_polling_a_quiet_log_wakes_nobody(folded: bool) -> None:
     store = LogStore()
     store.add(1, 20, "n", "first")
-    polled = Polled(store, folded)
+    polled = PolledView(store, folded)
     assert polled.poll(), "the record that is there has not been searched yet"
     polled.search()
     assert not polled.poll()

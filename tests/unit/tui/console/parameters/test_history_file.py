@@ -25,7 +25,7 @@ def change(at: int, new: Value = 1.0, source: ChangeSource = ChangeSource.EDIT, 
     return Change(at, at * SECOND, "/robot", "speed", 0.5, new, source, **more)  # type: ignore[arg-type]
 
 
-def kept(file: Path, run: int = 99) -> list[Change]:
+def earlier_changes(file: Path, run: int = 99) -> list[Change]:
     history = History(file, run)
     found = list(history.earlier(100))
     history.close()
@@ -59,7 +59,7 @@ def test_no_answer_still_differs_from_refusal_in_next_run(tmp_path: Path) -> Non
     expected = [(False, True), (False, False), (True, True)]
     assert [(each.accepted, each.answered) for each in journal.after(0)] == expected
     journal.close()
-    assert [(each.accepted, each.answered) for each in kept(file)] == expected
+    assert [(each.accepted, each.answered) for each in earlier_changes(file)] == expected
 
 
 VALUES: list[Value] = [
@@ -73,7 +73,7 @@ def test_every_value_is_restored_exactly(tmp_path: Path, value: Value) -> None:
     history = History(tmp_path / "h", 1)
     history.add(change(1, value))
     history.close()
-    (found,) = kept(tmp_path / "h")
+    (found,) = earlier_changes(tmp_path / "h")
     assert same(found.new, value)
 
 
@@ -82,7 +82,7 @@ def test_the_number_of_rows_is_limited(tmp_path: Path) -> None:
     for number in range(ROWS_PER_TRIM + 10):
         history.add(change(number, number))
     history.close()
-    found = kept(tmp_path / "h")
+    found = earlier_changes(tmp_path / "h")
     assert len(found) <= 60 and found[-1].new == ROWS_PER_TRIM + 9
 
 
@@ -91,7 +91,7 @@ def test_a_change_recorded_by_two_consoles_appears_once_as_that_of_its_maker(tmp
     ours.add(change(10))
     theirs.add(change(10, source=ChangeSource.OTHER))
     theirs.add(change(20, source=ChangeSource.OTHER))
-    found = kept(tmp_path / "h")
+    found = earlier_changes(tmp_path / "h")
     assert [(each.stamp // SECOND, each.source.value) for each in found] == [(10, "edit"), (20, "elsewhere")]
     for each in (ours, theirs):
         each.close()
@@ -106,7 +106,7 @@ def test_a_file_that_is_not_a_database_is_moved_aside_and_reported(tmp_path: Pat
     assert aside.read_bytes().startswith(b"not a database")
     history.add(change(1))
     history.close()
-    assert len(kept(file)) == 1
+    assert len(earlier_changes(file)) == 1
 
 
 BAD_ROWS = {
@@ -151,7 +151,7 @@ def test_a_change_that_cannot_be_stored_does_not_affect_later_ones(tmp_path: Pat
     history.add(change(2))
     assert history.problem == ""
     history.close()
-    assert kept(tmp_path / "h")[-1].stamp == 2 * SECOND
+    assert earlier_changes(tmp_path / "h")[-1].stamp == 2 * SECOND
 
 
 def test_the_readable_part_of_a_damaged_file_is_used(tmp_path: Path) -> None:
@@ -200,7 +200,7 @@ def test_only_one_of_two_consoles_moves_a_broken_file_aside(tmp_path: Path, monk
     assert (late.problem, "starts afresh" in others[0].problem) == ("", False)
     for each in (*others, late):
         each.close()
-    assert [each.stamp // SECOND for each in kept(file)] == [1, 2]
+    assert [each.stamp // SECOND for each in earlier_changes(file)] == [1, 2]
 
 
 def test_a_broken_file_is_left_to_the_console_that_is_repairing_it(

@@ -24,7 +24,7 @@ class StubNode:
         self.poll_again = callback
 
 
-class Asked:
+class FakeCalls:
     """Responds for all nodes; those in `silent` never do, the others once `open` is set."""
 
     def __init__(self):
@@ -80,7 +80,7 @@ async def finished(asked):
 
 def test_all_nodes_are_read_a_few_at_a_time(names):
     async def scenario():
-        asked = Asked()
+        asked = FakeCalls()
         mirror = ParameterMirror(StubNode(), asked, lambda *change: None)
         mirror.follow(graph_of(names))
         await asyncio.sleep(0)
@@ -96,7 +96,7 @@ def test_all_nodes_are_read_a_few_at_a_time(names):
 
 def test_nodes_are_listed_in_natural_order():
     async def scenario():
-        asked = Asked()
+        asked = FakeCalls()
         asked.open.set()
         mirror = ParameterMirror(StubNode(), asked, lambda *change: None)
         mirror.follow(graph_of(["/robot10", "/robot2", "/robot1"]))
@@ -108,7 +108,7 @@ def test_nodes_are_listed_in_natural_order():
 
 def test_a_silent_node_does_not_affect_values_of_others(names):
     async def scenario():
-        asked = Asked()
+        asked = FakeCalls()
         asked.silent = set(names[::5])
         node = StubNode()
         mirror = ParameterMirror(node, asked, lambda *change: None)
@@ -129,7 +129,7 @@ def test_a_silent_node_does_not_affect_values_of_others(names):
 
 def test_nodes_are_not_relisted_while_others_wait_to_be_read(names):
     async def scenario():
-        asked, node = Asked(), StubNode()
+        asked, node = FakeCalls(), StubNode()
         mirror = ParameterMirror(node, asked, lambda *change: None)
         mirror.follow(graph_of(names))
         node.poll_again()
@@ -142,7 +142,7 @@ def test_nodes_are_not_relisted_while_others_wait_to_be_read(names):
 
 def test_a_node_that_leaves_while_waiting_is_not_queried(names):
     async def scenario():
-        asked = Asked()
+        asked = FakeCalls()
         mirror = ParameterMirror(StubNode(), asked, lambda *change: None)
         mirror.follow(graph_of(names))
         mirror.follow(graph_of(names[: 2 * MAX_CONCURRENT_QUERIES]))
@@ -156,7 +156,7 @@ def test_a_node_that_leaves_while_waiting_is_not_queried(names):
 @pytest.mark.parametrize("seen", ["gone", "by its event", "by its value alone"])
 def test_the_value_after_a_restart_is_the_start_value_set_by_nobody(seen):
     async def scenario():
-        asked, node, changed, on_restart = Asked(), StubNode(), [], []
+        asked, node, changed, on_restart = FakeCalls(), StubNode(), [], []
         asked.open.set()
 
         def set_by(*change):
@@ -186,7 +186,7 @@ def test_the_value_after_a_restart_is_the_start_value_set_by_nobody(seen):
 
 def test_a_value_that_is_read_before_its_event_arrives_was_changed_by_the_event():
     async def scenario():
-        asked, node, changed = Asked(), StubNode(), []
+        asked, node, changed = FakeCalls(), StubNode(), []
         asked.open.set()
         mirror = ParameterMirror(node, asked, lambda *change: changed.append(change) or ChangeSource.OTHER)
         mirror.follow(graph_of(["/n"]))
@@ -205,7 +205,7 @@ def test_a_value_that_is_read_before_its_event_arrives_was_changed_by_the_event(
 
 def test_a_node_that_returns_unchanged_has_not_restarted():
     async def scenario():
-        asked, on_restart = Asked(), []
+        asked, on_restart = FakeCalls(), []
         asked.open.set()
         mirror = ParameterMirror(
             StubNode(), asked, lambda *change: None, None, lambda *change: on_restart.append(change)
@@ -220,7 +220,7 @@ def test_a_node_that_returns_unchanged_has_not_restarted():
 
 def test_when_one_of_two_nodes_with_the_same_name_leaves_the_other_is_read():
     async def scenario():
-        asked, node, on_restart = Asked(), StubNode(), []
+        asked, node, on_restart = FakeCalls(), StubNode(), []
         asked.open.set()
         mirror = ParameterMirror(node, asked, lambda *change: None, None, lambda *change: on_restart.append(change))
         one = graph_of(["/n"])

@@ -30,7 +30,7 @@ def tree(node: str, values: Mapping[str, Value], **more: object) -> ParameterTre
     return ParameterTree(node, tuple(found))
 
 
-def declaring(path: Path) -> dict[str, ParameterTree]:
+def declare_all(path: Path) -> dict[str, ParameterTree]:
     """Nodes with the parameters of a file; a wildcard becomes one node."""
     values: dict[str, dict[str, Value]] = {}
     for section in sections(path.read_text()):
@@ -39,11 +39,11 @@ def declaring(path: Path) -> dict[str, ParameterTree]:
     return {node: tree(node, found) for node, found in values.items()}
 
 
-def changed(value: Value) -> Value:
+def change_value(value: Value) -> Value:
     if isinstance(value, bool):
         return not value
     if isinstance(value, tuple):
-        return (*value[:-1], changed(value[-1]))  # type: ignore[return-value]
+        return (*value[:-1], change_value(value[-1]))  # type: ignore[return-value]
     return f"{value}_2" if isinstance(value, str) else value + 1  # type: ignore[operator]
 
 
@@ -56,13 +56,13 @@ def with_value(trees: dict[str, ParameterTree], node: str, name: str, value: Val
 def test_a_file_of_a_public_package_previews_applies_and_saves_with_only_the_changed_line_different(
     path: Path, tmp_path: Path
 ) -> None:
-    trees, profile = declaring(path), load(path)
+    trees, profile = declare_all(path), load(path)
     assert not profile.problem and not differences(profile, trees)
     assert all("*" in key for key in unmatched(profile, {})) is False
     original = path.read_text()
     for node, found in trees.items():
         for each in found.parameters:
-            new = changed(each.value)
+            new = change_value(each.value)
             other = with_value(trees, node, each.name, new)
             (seen,) = differences(profile, other)
             assert (seen.node, seen.name, seen.now, seen.refusal, seen.unknown) == (node, each.name, new, "", False)
@@ -81,7 +81,7 @@ def test_a_file_of_a_public_package_previews_applies_and_saves_with_only_the_cha
 def test_a_node_started_with_such_a_file_gets_the_values_previewed(path: Path) -> None:
     table = ParameterTable()
     table.add_file(str(path))
-    for node, found in declaring(path).items():
+    for node, found in declare_all(path).items():
         given = table.for_node(node)
         for each in found.parameters:
             value = given[each.name]
@@ -120,7 +120,7 @@ EVERYTHING = """\
 def test_dump_load_dump_is_byte_identical_for_a_comprehensive_file(tmp_path: Path) -> None:
     path = tmp_path / "all.yaml"
     path.write_bytes(EVERYTHING.encode())
-    trees = {each: found for each, found in declaring(path).items() if each == "/robot"}
+    trees = {each: found for each, found in declare_all(path).items() if each == "/robot"}
     save(path, trees)
     assert path.read_bytes() == EVERYTHING.encode()
     table = ParameterTable()
@@ -132,7 +132,7 @@ def test_dump_load_dump_is_byte_identical_for_a_comprehensive_file(tmp_path: Pat
             assert same(tuple(value) if isinstance(value, list) else value, each.value)
     text = new_text({"/robot": {each.name: each.value for each in trees["/robot"].parameters if each.value != ()}})
     (tmp_path / "dump.yaml").write_text(text)
-    again = declaring(tmp_path / "dump.yaml")["/robot"]
+    again = declare_all(tmp_path / "dump.yaml")["/robot"]
     assert new_text({"/robot": {each.name: each.value for each in again.parameters}}) == text
 
 

@@ -14,7 +14,7 @@ def first_snapshot(value: Value = 2.0) -> ParameterInfo:
     return ParameterInfo("/n", "speed", Kind.DOUBLE, value, default=value, origin=START)
 
 
-def reported(override: str, given: str = "", value: Value = 2.0) -> ParameterInfo:
+def origin_of(override: str, given: str = "", value: Value = 2.0) -> ParameterInfo:
     provenance = Provenance(lambda path: PROFILES.get(path, ""))
     if given:
         assert provenance.learn("given", {"node": "/n", "parameters": {"speed": given}}) == "/n"
@@ -40,7 +40,7 @@ def reported(override: str, given: str = "", value: Value = 2.0) -> ParameterInf
 def test_the_override_that_takes_effect_is_named_as_origin(
     override: str, given: str, value: Value, origin: str
 ) -> None:
-    found = reported(override, given, value)
+    found = origin_of(override, given, value)
     assert found.origin == origin
     assert (found.default, found.declared_at) == (1.0, "/ws/src/n.py:12")
     assert found.changed is (value != 1.0), "a mark says what differs from what was declared"

@@ -12,13 +12,13 @@ from hypothesis import strategies as st
 NOW = 101.0
 
 
-def shown(found: list[Row]) -> list[tuple[str, int, Level]]:
+def row_facts(found: list[Row]) -> list[tuple[str, int, Level]]:
     return [(each.title, each.depth, each.level) for each in found]
 
 
 def test_slashes_make_levels_and_the_worst_is_propagated() -> None:
     found = rows([status("arm/left/motor", Level.WARN), status("/arm/right", Level.ERROR), status("base")], NOW)
-    assert shown(found) == [
+    assert row_facts(found) == [
         ("arm", 0, Level.ERROR),
         ("left", 1, Level.WARN),
         ("motor", 2, Level.WARN),
@@ -30,9 +30,9 @@ def test_slashes_make_levels_and_the_worst_is_propagated() -> None:
 
 def test_silent_status_is_stale_after_five_seconds_unless_an_error() -> None:
     old = status("a/old", heard=NOW - 5.1)
-    assert shown(rows([old, status("a/warm", Level.WARN)], NOW))[0] == ("a", 0, Level.STALE)
-    assert shown(rows([status("a/edge", heard=NOW - 5.0)], NOW))[0] == ("a", 0, Level.OK)
-    assert shown(rows([old, status("a/bad", Level.ERROR)], NOW))[0] == ("a", 0, Level.ERROR)
+    assert row_facts(rows([old, status("a/warm", Level.WARN)], NOW))[0] == ("a", 0, Level.STALE)
+    assert row_facts(rows([status("a/edge", heard=NOW - 5.0)], NOW))[0] == ("a", 0, Level.OK)
+    assert row_facts(rows([old, status("a/bad", Level.ERROR)], NOW))[0] == ("a", 0, Level.ERROR)
 
 
 def test_status_may_have_others_below_it() -> None:
@@ -43,8 +43,8 @@ def test_status_may_have_others_below_it() -> None:
 
 def test_folded_rows_hide_their_descendants() -> None:
     statuses = [status("a/b/c", Level.WARN), status("d")]
-    assert shown(rows(statuses, NOW, {"/a"})) == [("a", 0, Level.WARN), ("d", 0, Level.OK)]
-    assert shown(rows(statuses, NOW, {"/a/b"})) == [("a", 0, Level.WARN), ("b", 1, Level.WARN), ("d", 0, Level.OK)]
+    assert row_facts(rows(statuses, NOW, {"/a"})) == [("a", 0, Level.WARN), ("d", 0, Level.OK)]
+    assert row_facts(rows(statuses, NOW, {"/a/b"})) == [("a", 0, Level.WARN), ("b", 1, Level.WARN), ("d", 0, Level.OK)]
 
 
 def test_bad_only_hides_what_is_ok() -> None:

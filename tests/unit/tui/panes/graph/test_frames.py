@@ -21,18 +21,18 @@ TREE = Frames(
 )
 
 
-def shown(words: str = "") -> list[str]:
+def shown_rows(words: str = "") -> list[str]:
     return [f"{'.' * each.depth}{each.name}" for each in rows(TREE, 0.5, parse(words))]
 
 
 def test_frames_are_listed_below_their_parents_including_loops() -> None:
-    assert shown() == ["map", ".odom", "..base", "...laser", "one", ".other"]
+    assert shown_rows() == ["map", ".odom", "..base", "...laser", "one", ".other"]
 
 
 def test_matching_frames_are_listed_with_their_ancestors() -> None:
-    assert shown("las") == ["map", ".odom", "..base", "...laser"]
-    assert shown("other") == ["one", ".other"]
-    assert shown("nothing") == []
+    assert shown_rows("las") == ["map", ".odom", "..base", "...laser"]
+    assert shown_rows("other") == ["one", ".other"]
+    assert shown_rows("nothing") == []
 
 
 def test_facts_claim_no_more_than_is_known() -> None:

@@ -10,7 +10,7 @@ ZOO = ProcessInfo("1", "zoo.py-1", ProcessState.RUNNING, nodes=("/arm/left/zoo",
 EAR = ProcessInfo("2", "ear", ProcessState.RUNNING, nodes=("/arm",))
 
 
-def followed(*lines: tuple[str, Severity]) -> Follower:
+def follower_with(*lines: tuple[str, Severity]) -> Follower:
     follower = Follower()
     follower.update_processes((ZOO, EAR))
     read(follower, *lines)
@@ -34,7 +34,7 @@ def test_equal_lines_one_after_another_are_one_with_their_count() -> None:
 
 
 def test_lines_belong_to_the_process_of_their_logger_or_of_what_printed_them() -> None:
-    found = followed(
+    found = follower_with(
         ("arm.left.zoo", Severity.WARN), ("zoo.py-1", Severity.ERROR), ("arm.left.zoo.eyes", Severity.FATAL)
     )
     zoo, ear = found.of("1"), found.of("2")
@@ -56,14 +56,14 @@ def test_flood_is_read_in_pieces_and_only_the_newest_lines_are_kept() -> None:
 
 
 def test_dropped_records_and_another_log_are_no_obstacle() -> None:
-    follower = followed(("arm", Severity.WARN), ("arm", Severity.WARN))
+    follower = follower_with(("arm", Severity.WARN), ("arm", Severity.WARN))
     assert not follower.read(LogState(0, 1), lambda _: None)
     assert follower.read(LogState(5, 6), lambda at: LogRecord(at, 0, Severity.ERROR, "arm", ""))
     assert (follower.of("2").warnings, follower.of("2").errors) == (2, 1)
 
 
 def test_cpu_usage_is_sampled_at_a_rate_and_drawn_as_bars() -> None:
-    follower = followed()
+    follower = follower_with()
     assert follower.sample((ZOO, EAR), 10.0) and not follower.sample((ZOO, EAR), 10.0 + CPU_SAMPLE_S / 2)
     for at in range(20):
         follower.sample((ZOO, EAR), 20.0 + at * CPU_SAMPLE_S)
@@ -73,6 +73,6 @@ def test_cpu_usage_is_sampled_at_a_rate_and_drawn_as_bars() -> None:
 
 
 def test_process_that_is_gone_is_forgotten_and_one_that_stays_is_not() -> None:
-    follower = followed(("arm", Severity.WARN), ("zoo.py-1", Severity.WARN))
+    follower = follower_with(("arm", Severity.WARN), ("zoo.py-1", Severity.WARN))
     follower.update_processes((EAR,))
     assert follower.of("2").warnings == 1 and follower.of("1").warnings == 0

@@ -10,7 +10,7 @@ def process(key: str, *group: str, state: ProcessState = ProcessState.RUNNING) -
     return ProcessInfo(key, key, state, group=group)
 
 
-def shape(info: LaunchInfo, folded: tuple[tuple[str, ...], ...] = ()) -> list[str]:
+def row_texts(info: LaunchInfo, folded: tuple[tuple[str, ...], ...] = ()) -> list[str]:
     return ["  " * row.depth + (row.process.key if row.process else row.group[-1]) for row in rows(info, folded)]
 
 
@@ -20,12 +20,12 @@ INFO = LaunchInfo(
 
 
 def test_groups_follow_the_processes_beside_them() -> None:
-    assert shape(INFO) == ["f", "  a", "  d", "  g", "    b", "    e", "h", "  c"]
+    assert row_texts(INFO) == ["f", "  a", "  d", "  g", "    b", "    e", "h", "  c"]
 
 
 def test_folded_group_hides_its_processes() -> None:
-    assert shape(INFO, (("f", "g"),)) == ["f", "  a", "  d", "  g", "h", "  c"]
-    assert shape(INFO, (("f",),)) == ["f", "h", "  c"]
+    assert row_texts(INFO, (("f", "g"),)) == ["f", "  a", "  d", "  g", "h", "  c"]
+    assert row_texts(INFO, (("f",),)) == ["f", "h", "  c"]
 
 
 def test_group_counts_its_running_processes() -> None:
@@ -35,7 +35,7 @@ def test_group_counts_its_running_processes() -> None:
 
 
 def test_processes_without_a_group_are_not_indented() -> None:
-    assert shape(LaunchInfo(processes=(process("a"), process("b", "f")))) == ["a", "f", "  b"]
+    assert row_texts(LaunchInfo(processes=(process("a"), process("b", "f")))) == ["a", "f", "  b"]
 
 
 def test_nodes_of_one_namespace_are_named_without_it() -> None:

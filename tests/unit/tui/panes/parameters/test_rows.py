@@ -19,7 +19,7 @@ def trees(*found: ParameterTree) -> dict[str, ParameterTree]:
     return {each.node: each for each in sorted(found, key=lambda one: one.node)}
 
 
-def drawn(found: dict[str, ParameterTree], view: View | None = None) -> list[str]:
+def row_texts(found: dict[str, ParameterTree], view: View | None = None) -> list[str]:
     return [f"{'  ' * row.depth}{row.name or row.title or row.node}" for row in rows(found, view or View())]
 
 
@@ -29,7 +29,7 @@ GROUPED = trees(
 
 
 def test_names_with_common_levels_are_grouped() -> None:
-    assert drawn(GROUPED) == [
+    assert row_texts(GROUPED) == [
         "/n",
         "  gain",
         "  lidar/front/",
@@ -46,22 +46,22 @@ def test_names_with_common_levels_are_grouped() -> None:
 
 def test_parameters_are_listed_in_natural_order() -> None:
     numbered = trees(tree("/n", "joint10", "joint2", "axis10.gain", "axis2.gain"))
-    assert drawn(numbered) == ["/n", "  joint2", "  joint10", "  axis2.gain", "  axis10.gain"]
+    assert row_texts(numbered) == ["/n", "  joint2", "  joint10", "  axis2.gain", "  axis10.gain"]
 
 
 def test_each_group_folds_by_itself() -> None:
-    assert drawn(GROUPED, View(folded=frozenset({"/n:pid.x."})))[6:] == ["  pid.", "    x.", "    y.kp"]
+    assert row_texts(GROUPED, View(folded=frozenset({"/n:pid.x."})))[6:] == ["  pid.", "    x.", "    y.kp"]
     found = rows(GROUPED, View(folded=frozenset({"/n:pid."})))
     assert (found[-1].name, found[-1].folded, found[-1].count) == ("pid.", True, 3)
 
 
 def test_matches_are_visible_in_a_folded_tree() -> None:
     closed = View(query=parse("kp"), folded=frozenset({"/n", "/n:pid."}))
-    assert drawn(GROUPED, closed) == ["/n", "  pid.", "    x.kp", "    y.kp"]
-    assert drawn(GROUPED, replace(closed, folded_matches=frozenset({"/n:pid."}))) == ["/n", "  pid."]
+    assert row_texts(GROUPED, closed) == ["/n", "  pid.", "    x.kp", "    y.kp"]
+    assert row_texts(GROUPED, replace(closed, folded_matches=frozenset({"/n:pid."}))) == ["/n", "  pid."]
     changed = trees(ParameterTree("/n", (ParameterInfo("/n", "a", Kind.DOUBLE, 2.0, default=1.0),)), tree("/m", "b"))
-    assert drawn(changed, View(only_changed=True, folded=frozenset({"/n"}))) == ["/n", "  a"]
-    assert drawn(changed, replace(closed, query=parse(""))) == ["/m", "  b", "/n"]
+    assert row_texts(changed, View(only_changed=True, folded=frozenset({"/n"}))) == ["/n", "  a"]
+    assert row_texts(changed, replace(closed, query=parse(""))) == ["/m", "  b", "/n"]
 
 
 def test_showing_a_parameter_unfolds_only_its_ancestors() -> None:
@@ -105,7 +105,7 @@ FLEET = trees(
 
 
 def test_namespaces_with_several_nodes_have_a_foldable_row() -> None:
-    assert drawn(FLEET) == [
+    assert row_texts(FLEET) == [
         "/a/",
         "  b/",
         "    one",
@@ -125,7 +125,7 @@ def test_namespaces_with_several_nodes_have_a_foldable_row() -> None:
         ("b/", 2),
         ("three", 1),
     ]
-    assert drawn(FLEET, View(folded=frozenset({"/a/"})))[:3] == ["/a/", "/alone/four", "  p"]
+    assert row_texts(FLEET, View(folded=frozenset({"/a/"})))[:3] == ["/a/", "/alone/four", "  p"]
 
 
 def test_filter_words_match_node_and_parameter_names() -> None:
@@ -146,7 +146,7 @@ def test_fast_filter_finds_the_same_as_query_matches(words: str) -> None:
     assert shown == {(each.node, each.name) for each in every if matches(each, parse(words))}
 
 
-def many() -> dict[str, ParameterTree]:
+def many_trees() -> dict[str, ParameterTree]:
     names = [f"group{at // 5}.parameter_{at}" for at in range(24)]
     found = [tree(f"/space{at // 20}/node{at:03}", *names, "max_speed" if at == 117 else "other") for at in range(200)]
     return trees(*found)
@@ -154,7 +154,7 @@ def many() -> dict[str, ParameterTree]:
 
 def test_five_thousand_parameters_cost_a_bounded_time_and_one_change_only_its_node() -> None:
     """In CPU time: the first tree is compared with the limit, later ones with the first tree of the same run."""
-    found, made = many(), TreeRows()
+    found, made = many_trees(), TreeRows()
     assert sum(len(each.parameters) for each in found.values()) == 5_000
     begin = time.process_time()
     before = made.rows(found, View())
@@ -196,5 +196,9 @@ def test_large_tree_starts_folded_with_its_namespaces_and_a_small_one_open() -> 
 
 def test_short_list_names_the_node_where_several_have_a_parameter_of_that_name() -> None:
     found = trees(tree("/robot1/base", "max_speed"), tree("/robot2/base", "max_speed", "safety_distance"))
-    assert drawn(found, View(essential=True)) == ["max_speed robot1/base", "max_speed robot2/base", "safety_distance"]
-    assert drawn(trees(tree("/base", "max_speed")), View(essential=True)) == ["max_speed"]
+    assert row_texts(found, View(essential=True)) == [
+        "max_speed robot1/base",
+        "max_speed robot2/base",
+        "safety_distance",
+    ]
+    assert row_texts(trees(tree("/base", "max_speed")), View(essential=True)) == ["max_speed"]

@@ -7,14 +7,14 @@ from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree
 from bot_console.tui.panes.steering.state import DEFAULT_LIMITS, Steering, limits_from_parameters
 
 
-def armed(greatest: tuple[float, float] = (1.0, 3.0)) -> Steering:
+def armed_state(greatest: tuple[float, float] = (1.0, 3.0)) -> Steering:
     state = Steering(greatest=greatest)
     state.arm(0.0)
     return state
 
 
 def test_command_stays_within_limits_and_stops_at_zero() -> None:
-    state = armed()
+    state = armed_state()
     state.steer(1, 0, 100, 0.0)
     assert state.linear == 1.0
     state.steer(-1, 0, 30, 0.0)
@@ -24,7 +24,7 @@ def test_command_stays_within_limits_and_stops_at_zero() -> None:
 
 
 def test_twenty_steps_reach_the_limit_exactly() -> None:
-    state = armed((0.7, 0.9))
+    state = armed_state((0.7, 0.9))
     for _ in range(20):
         state.steer(1, -1, 1, 0.0)
     assert (state.linear, state.angular) == (0.7, -0.9)
@@ -34,14 +34,14 @@ def test_twenty_steps_reach_the_limit_exactly() -> None:
 
 
 def test_new_limits_apply_at_once() -> None:
-    state = armed()
+    state = armed_state()
     state.steer(1, 1, 20, 0.0)
     state.limit((0.2, 0.3))
     assert (state.linear, state.angular) == (0.2, 0.3)
 
 
 def test_velocities_are_repeated_and_zero_is_sent_once() -> None:
-    state = armed()
+    state = armed_state()
     assert state.command(0.0) is None
     state.steer(1, 0, 1, 0.0)
     assert state.command(0.1) == state.command(0.2) == (0.05, 0.0, 0.0)
@@ -51,7 +51,7 @@ def test_velocities_are_repeated_and_zero_is_sent_once() -> None:
 
 
 def test_the_deadman_time_is_exact() -> None:
-    state = armed()
+    state = armed_state()
     state.steer(1, 0, 1, 10.0)
     assert state.left(11.0) == 0.5 and state.left(99.0) == 0.0
     assert state.command(11.999) == (0.05, 0.0, 0.0) and not state.expired
@@ -59,7 +59,7 @@ def test_the_deadman_time_is_exact() -> None:
 
 
 def test_zero_is_sent_while_disarmed_even_if_sent_before() -> None:
-    state = armed()
+    state = armed_state()
     state.disarm()
     assert state.command(0.0) == (0.0, 0.0, 0.0)
 

@@ -24,26 +24,26 @@ def place(drawn: list[str], mark: str) -> tuple[int, int]:
     return next((text.index(mark), y) for y, text in enumerate(drawn) if mark in text)
 
 
-def planed(asked: tuple[float, float] | None, robot: tuple[float, float] | None) -> list[str]:
+def plane_lines(asked: tuple[float, float] | None, robot: tuple[float, float] | None) -> list[str]:
     drawn = plane(asked, robot, (1.0, 2.0), (27, 11), moving=True)
     return ["".join(text for text, _ in line) for line in drawn]
 
 
 @pytest.mark.parametrize("velocity", [(1.0, 2.0), (-1.0, -2.0), (0.0, 0.0), (0.4, -2.0)])
 def test_mark_is_where_the_mouse_would_request_its_velocity(velocity: tuple[float, float]) -> None:
-    drawn = planed(velocity, None)
+    drawn = plane_lines(velocity, None)
     assert velocity_at(drawn, *place(drawn, ASKED), (1.0, 2.0)) == pytest.approx(velocity)
 
 
 def test_robot_beyond_the_limits_is_at_the_edge_and_beside_the_plane_is_no_velocity() -> None:
-    drawn = planed(None, (9.0, -9.0))
+    drawn = plane_lines(None, (9.0, -9.0))
     assert place(drawn, ROBOT) == (28, 1)
-    assert place(planed(None, (float("nan"), 0.0)), ROBOT) == place(planed(None, (0.0, 0.0)), ROBOT)
+    assert place(plane_lines(None, (float("nan"), 0.0)), ROBOT) == place(plane_lines(None, (0.0, 0.0)), ROBOT)
     assert velocity_at(drawn, 0, 3, (1.0, 2.0)) is None and velocity_at(drawn[1:], 9, 3, (1.0, 2.0)) is None
 
 
 def test_robot_at_the_requested_velocity_is_one_mark() -> None:
-    drawn = "\n".join(planed((0.5, 0.0), (0.5, 0.0)))
+    drawn = "\n".join(plane_lines((0.5, 0.0), (0.5, 0.0)))
     assert BOTH in drawn and ASKED not in drawn and ROBOT not in drawn
 
 

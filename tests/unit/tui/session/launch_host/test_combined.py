@@ -42,7 +42,7 @@ class Host:
         self.closed.set()
 
 
-class Own(Host):
+class OwnHost(Host):
     """A host that starts when the test lets it."""
 
     def __init__(self) -> None:
@@ -57,11 +57,11 @@ class Own(Host):
         return "own", cast(HostedLauncher, self)
 
 
-def combined(own: Own) -> CombinedLauncher:
+def combined(own: OwnHost) -> CombinedLauncher:
     return CombinedLauncher(own.started, tuple)
 
 
-def beside(work: Any) -> Any:
+def run_in_thread(work: Any) -> Any:
     """The result of work in another thread, which must not wait for the host."""
     found: list[Any] = []
     thread = threading.Thread(target=lambda: found.append(work()), daemon=True)
@@ -72,10 +72,10 @@ def beside(work: Any) -> Any:
 
 
 def test_nothing_waits_for_a_host_that_is_being_started() -> None:
-    own = Own()
+    own = OwnHost()
     launcher = combined(own)
-    answer = beside(lambda: launcher.launch("one", {}))
-    assert beside(launcher.info).processes == ()
+    answer = run_in_thread(lambda: launcher.launch("one", {}))
+    assert run_in_thread(launcher.info).processes == ()
     assert not answer.done()
     own.may_start.set()
     assert answer.result(TIMEOUT_S) == Answer(True, "one")
@@ -85,16 +85,16 @@ def test_nothing_waits_for_a_host_that_is_being_started() -> None:
 
 
 def test_a_host_that_starts_after_closing_is_ended_at_once() -> None:
-    own = Own()
+    own = OwnHost()
     launcher = combined(own)
     launcher.launch("one", {})
-    beside(lambda: launcher.close() or True)
+    run_in_thread(lambda: launcher.close() or True)
     own.may_start.set()
     assert own.closed.wait(TIMEOUT_S)
 
 
 def test_a_host_that_cannot_be_started_is_reported_in_the_answer() -> None:
-    own = Own()
+    own = OwnHost()
     own.problem = "no room"
     own.may_start.set()
     assert combined(own).launch("one", {}).result(TIMEOUT_S) == Answer(
@@ -108,7 +108,7 @@ def labels(launcher: CombinedLauncher) -> list[str]:
 
 def test_own_host_found_by_its_address_before_it_is_known_is_shown_once(monkeypatch: MonkeyPatch) -> None:
     monkeypatch.setattr(combining, "HOSTS_POLL_S", 0.001)
-    own, entered, searched = Own(), Host(), threading.Semaphore(0)
+    own, entered, searched = OwnHost(), Host(), threading.Semaphore(0)
 
     def addresses() -> list[str]:
         searched.release()

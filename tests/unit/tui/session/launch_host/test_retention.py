@@ -14,7 +14,7 @@ from bot_console.tui.session.launch_host.host import LaunchHost
 from bot_console.tui.session.launch_host.proxy import HostedLauncher
 
 
-class Kept:
+class FakeBuffer:
     kept_s = 120.0
 
     def keep(self, folder: str) -> Future[Answer]:
@@ -23,8 +23,10 @@ class Kept:
         return outcome
 
 
-@pytest.mark.parametrize(("past", "ok", "text"), [(Kept(), True, "in /there"), (None, False, "does not know 'keep'")])
-def test_a_host_saves_the_last_minutes_it_keeps(past: Kept | None, ok: bool, text: str) -> None:
+@pytest.mark.parametrize(
+    ("past", "ok", "text"), [(FakeBuffer(), True, "in /there"), (None, False, "does not know 'keep'")]
+)
+def test_a_host_saves_the_last_minutes_it_keeps(past: FakeBuffer | None, ok: bool, text: str) -> None:
     ours, theirs = socket.socketpair()
     service: Any = SimpleNamespace(info=LaunchInfo, close=lambda: None)
     host = LaunchHost(lambda record, printed: service, buffer=past)
