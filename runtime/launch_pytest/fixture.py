@@ -26,7 +26,7 @@ def fixture(
 ) -> Any:
     """Make a fixture from a function that returns a launch description, or a sequence starting with one.
 
-    Without `auto_shutdown` the launch has to end by itself, and tests after the shutdown wait for that.
+    Without `auto_shutdown` the launch must end by itself, and tests after the shutdown wait for its end.
     """
     if decorated is None:
         more = {"shutdown_when_idle": shutdown_when_idle, "auto_shutdown": auto_shutdown}
@@ -56,7 +56,7 @@ def fixture(
 
 
 def options_of(made: object) -> tuple[str, str]:
-    """Return name and scope of such a fixture; raises `TypeError` for anything else."""
+    """Return name and scope of a fixture made by `fixture`; raises `TypeError` for anything else."""
     if not hasattr(made, _OPTIONS):
         raise TypeError("pytest.mark.launch takes fixture=..., which has to be made with @launch_pytest.fixture")
     name, scope = getattr(made, _OPTIONS)

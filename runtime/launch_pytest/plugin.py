@@ -1,7 +1,7 @@
-"""A pytest plugin: a function marked `launch(fixture=...)` runs beside the launch of its fixture, or after it.
+"""A pytest plugin: a function marked `launch(fixture=...)` runs during the launch of its fixture, or after it.
 
-`shutdown=True` means after it. A generator runs up to its `yield` beside the launch and continues after it; if other
-tests use the fixture, too, the part after the `yield` is a separate test, which comes last.
+`shutdown=True` means after it. A generator runs up to its `yield` during the launch and continues after it; if other
+tests use the fixture, too, the part after the `yield` is a separate test that comes last.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ AFTER_ALONE = "generator or async generator based launch test items cannot be ma
 
 
 class LaunchTestWarning(pytest.PytestWarning):
-    """A mark lacks an argument."""
+    """A mark lacks a required argument."""
 
 
 def _is_generator(function: object) -> bool:
@@ -142,19 +142,19 @@ def _part(request: pytest.FixtureRequest) -> Any:
 
 @pytest.fixture
 def launch_service(request: pytest.FixtureRequest) -> LaunchService:
-    """The launch service of the running launch."""
+    """Return the launch service of the running launch."""
     return _part(request).service
 
 
 @pytest.fixture
 def launch_context(launch_service: LaunchService) -> LaunchContext:
-    """Its context."""
+    """Return the context of the running launch."""
     return launch_service.context
 
 
 @pytest.fixture
 def event_loop(request: pytest.FixtureRequest) -> Any:
-    """The loop of the running launch."""
+    """Return the event loop of the running launch."""
     return _part(request).loop
 
 

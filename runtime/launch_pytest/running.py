@@ -15,7 +15,7 @@ from launch_testing.test_run import entities_of
 from launch import LaunchDescription, LaunchService
 
 END_TIMEOUT_S = 30.0
-"""Seconds within which a launch has to end."""
+"""Time (s) within which a launch has to end."""
 
 
 class Running:
@@ -54,13 +54,13 @@ class Running:
         return self._submit(work).result()
 
     def shutdown(self) -> None:
-        """End the launch, unless it ends by itself, and wait for that; the loop continues."""
+        """End the launch, unless it is to end by itself, and wait for its end; the loop keeps running."""
         if not self._ends_itself:
             self.service.shutdown()
         self._ended.result(END_TIMEOUT_S)
 
     def close(self) -> None:
-        """End everything."""
+        """End the launch, the loop and the thread."""
         try:
             self.shutdown()
         finally:

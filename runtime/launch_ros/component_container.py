@@ -1,4 +1,4 @@
-"""A container for nodes that are Python classes, as `rclcpp_components` is for C++ classes."""
+"""A container for nodes that are Python classes, like `rclcpp_components` for C++ classes."""
 
 from __future__ import annotations
 
@@ -38,10 +38,10 @@ def main(*, threads: int | None = 1) -> None:
 
 
 class ComponentContainer:
-    """The services of a container, and the nodes it has loaded."""
+    """The services of a container, and the nodes that it has loaded."""
 
     def __init__(self, node: Node, executor: Executor) -> None:
-        # The rclpy of PyPI comes without these interfaces, and launch_ros loads this module for every launch file.
+        # The rclpy of PyPI lacks these interfaces, and launch_ros loads this module for every launch file.
         from composition_interfaces.srv import ListNodes, LoadNode, UnloadNode
 
         self._node = node
@@ -64,7 +64,7 @@ class ComponentContainer:
     def _load(self, request: LoadNode.Request, response: LoadNode.Response) -> LoadNode.Response:
         try:
             made = make_component(request)
-        except Exception as error:  # the component is the user's code
+        except Exception as error:  # the component is user code
             response.success = False
             response.error_message = str(error)
             self._node.get_logger().error(f"{request.plugin_name}: {error}")
@@ -94,7 +94,7 @@ class ComponentContainer:
 
 
 def make_component(request: Any) -> Node:
-    """Create the requested node; raises `LookupError` for a class that is not Python, and whatever the class raises."""
+    """Create the requested node; raises `LookupError` if the class is not Python, and whatever the class raises."""
     arguments = ["--ros-args"]
     if request.node_name:
         arguments += ["-r", f"__node:={request.node_name}"]
@@ -109,7 +109,7 @@ def make_component(request: Any) -> Node:
 
 
 def _with_options(component: type[Any], options: dict[str, Any]) -> type[Any]:
-    """Return a subclass whose nodes get options that the component itself does not handle."""
+    """Return a subclass whose nodes get options that the component itself does not pass on."""
     base: Any = next((each for each in component.__mro__ if each.__module__.split(".")[0] == "rclpy"), object)
 
     class Configured(base):
@@ -121,7 +121,7 @@ def _with_options(component: type[Any], options: dict[str, Any]) -> type[Any]:
 
 def find_component(package: str, plugin: str) -> type[Any]:
     """Find a component's class: an entry point, `package::Class` or `package.module::Class`; raises `LookupError`."""
-    # takes 20 ms, and most launches have no container
+    # imported here, as it takes 20 ms and most launches have no container
     from bot_console.runtime.programs.installed_entry_points import installed_entry_points
 
     for each in installed_entry_points(ENTRY_POINTS):

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
 
 ALLOWED = "allow_missing"
-"""The local, or launch configuration, that determines whether a launch goes on without them."""
+"""The local, or launch configuration, that determines whether a launch continues without them."""
 
 
 def allow_missing(service: Any) -> None:
@@ -33,7 +33,7 @@ def _allowed(context: LaunchContext) -> bool:
 
 
 def may_start(context: LaunchContext, action: Any, package: str | None) -> bool:
-    """Whether a node's executable exists; if not, return False if it may be skipped, else raise the look-up's error."""
+    """Return whether a node's executable exists; if not, False if it may be skipped, else raise the look-up's error."""
     logger = launch.logging.get_logger("launch")
     try:
         perform_substitutions(context, action.process_description.cmd[0])

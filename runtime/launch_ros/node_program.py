@@ -49,13 +49,13 @@ def _program(kind: Callable[..., Program], is_ours: bool, *arguments: object) ->
 
 
 def container(workspace_folders: Sequence[str], threads: int | None) -> Program:
-    """The program of a component container."""
+    """Return the program of a component container."""
     find_packages_in(workspace_folders)
     return partial(component_container.main, threads=threads)
 
 
 def is_this_python(words: Sequence[str]) -> bool:
-    """Whether the words before a program only ask for the Python that runs here."""
+    """Whether the words before a program are only the name of the Python that is running here."""
     return len(words) == 1 and words[0] in ("python3", "python", sys.executable)
 
 
@@ -64,7 +64,7 @@ def _is_interpreter(word: str) -> bool:
 
 
 def container_path(package: str, executable: str) -> str | None:
-    """Return the path that represents our own container if none is installed; None for other executables."""
+    """Return the path that stands for our own container if no other is installed; None for other executables."""
     place = os.path.join(os.path.dirname(os.path.abspath(__file__)), "lib", package, executable)
     return place if _is_container(package, place) else None
 
@@ -75,10 +75,10 @@ def _is_container(package: str | None, path: str) -> bool:
 
 
 def os_command(package: str | None, command: list[str], at: int) -> list[str]:
-    """Return the command with a Python executable `command[at]` as a script; others are unchanged.
+    """Return the command, in which a Python executable at `command[at]` is replaced by a script.
 
-    A file given to Python itself, as in `python3 -m pdb FILE`, is left: its process finds the runtime by its
-    environment.
+    A file that is an argument of Python itself, as in `python3 -m pdb FILE`, is left unchanged: its process finds the
+    runtime through the environment.
     """
     executable = _known(package, command[at])
     if executable is not None and executable.entry_point is not None:
@@ -100,7 +100,7 @@ def _known(package: str | None, path: str) -> Executable | None:
 
 
 def _above_packages(path: str) -> list[str]:
-    """Return the folder from which a file's Python package is imported, so that the file finds its own modules."""
+    """Return the folder from which a file's Python package is imported, so that the file can import its own modules."""
     folder = Path(path).resolve().parent
     inside = folder
     while (folder / "__init__.py").is_file():

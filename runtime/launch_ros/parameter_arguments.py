@@ -40,7 +40,7 @@ def global_parameter_arguments(global_params: Iterable[Any]) -> list[ParameterAr
 def own_parameter_arguments(
     context: LaunchContext, parameters: Sequence[Any], node_name: str | None, logger: Any, origin: str = ""
 ) -> list[ParameterArgument]:
-    """Return a node's own parameters; a dict becomes a file for the node's full name, or for any node if None."""
+    """Return a node's own parameters; a dict becomes a file for the node's full name, or, without one, for any node."""
     found: list[ParameterArgument] = []
     for each in parameters:
         if isinstance(each, Mapping):
@@ -67,7 +67,7 @@ def _rule(name: str, value: object) -> str:
 
 
 def write_parameters(parameters: Mapping[str, object], node_name: str | None, origin: str = "") -> str:
-    """Write a new parameter file and return its path. Lists get a tag that parameter parsers ignore, as upstream.
+    """Write a new parameter file and return its path. As upstream, lists get a tag that parameter parsers ignore.
 
     Where a person reads hints, it begins with a comment that names the `origin` of the values in a launch file.
     """

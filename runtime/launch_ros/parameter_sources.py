@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def report_given(context: LaunchContext, node: str, parameters: Sequence[Any], origin: str) -> None:
-    """Report which parameters a launch file gives a node; files report their own. `origin` is the action's line."""
+    """Report the parameters that a launch file gives a node; files report theirs. `origin` is the action's line."""
     given = {
         name: source
         for entry in parameters
@@ -36,7 +36,7 @@ def _sources(context: LaunchContext, entry: Any, origin: str) -> Iterator[tuple[
 
 
 def _arguments(context: LaunchContext, value: object) -> Iterator[str]:
-    """Return the launch configurations that a value is composed of, at any depth."""
+    """Yield the launch configurations of which a value is composed, at any depth."""
     if isinstance(value, LaunchConfiguration):
         yield perform_substitutions(context, value.variable_name)
     elif isinstance(value, ParameterValue):

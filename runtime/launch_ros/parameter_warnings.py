@@ -1,4 +1,4 @@
-"""Warnings about parameters whose values differ from what a launch file seems to say; the outcome is ROS 2's."""
+"""Warnings about parameters whose values differ from what a launch file seems to say; the result is that of ROS 2."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def changes_in_yaml(text: str, found: object) -> bool:
 
 
 def changes_in_file(text: str) -> bool:
-    """Whether a string written without quotes in YAML is no string to rcl."""
+    """Whether YAML writes a string without quotes that rcl reads as another type."""
     return not isinstance(scalar_value(text), str) and yaml.dump(text).splitlines()[0] == text
 
 

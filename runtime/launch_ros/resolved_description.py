@@ -1,7 +1,6 @@
-"""A launch file fully evaluated, with nothing started: the output of `--print --resolved`."""
+"""A launch file that is fully evaluated, with nothing started: the output of `--print --resolved`."""
 
-# pyright: reportPrivateUsage=false
-# Discovery is internal to launch and not for its users: underscores as upstream.
+# Discovery is internal to launch and not for its users, so as upstream it has underscores.
 
 from __future__ import annotations
 
@@ -32,7 +31,7 @@ STEP = "  "
 
 
 def resolve_description(path: str, arguments: Mapping[str, str]) -> Iterator[str]:
-    """Return the lines of a launch file's tree with these arguments; raises what would end the launch."""
+    """Yield the lines of a launch file's tree with these arguments; raises any error that would end the launch."""
     context = LaunchContext(noninteractive=True)
     context.resolving = True
     loop = asyncio.new_event_loop()
@@ -50,7 +49,7 @@ def resolve_description(path: str, arguments: Mapping[str, str]) -> Iterator[str
 
 
 def _problems_only() -> logging.Handler:
-    """Send only warnings and errors to stderr; what the launch file logs is in the tree."""
+    """Send only warnings and errors to stderr, as the tree shows what the launch file logs."""
     handler = logging.StreamHandler(sys.stderr)
     handler.setLevel(logging.WARNING)
     return handler
@@ -62,7 +61,7 @@ class _Resolver:
         self._given = given
 
     def lines(self, entity: Any, depth: int) -> Iterator[str]:
-        """Return an entity's own lines, then those of the entities it leads to."""
+        """Yield an entity's own lines, then those of the entities below it."""
         if isinstance(entity, LaunchDescription):
             yield from self._below(entity.visit(self._context), depth)
             return

@@ -42,7 +42,7 @@ def resolve_parameters(arguments: Iterable[ParameterArgument], node_name: str) -
 
 
 def problem_of(arguments: Iterable[ParameterArgument], node_name: str) -> str:
-    """Say why the node would refuse its parameters; empty if it would not."""
+    """Say why the node would refuse its parameters; empty if it would accept them."""
     try:
         resolve_parameters(arguments, node_name)
     except ParameterYamlError as error:
@@ -65,7 +65,7 @@ def _source(argument: str, is_file: bool) -> str:
 
 
 def _source_of(given: list[tuple[str, Any]], value: object) -> str:
-    """Return the last source of the effective value."""
+    """Return the last source that gives the effective value."""
     return next((source for source, each in reversed(given) if each == value), given[-1][0])
 
 

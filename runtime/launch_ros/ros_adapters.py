@@ -20,7 +20,7 @@ KEY = "ros_adapter"
 
 
 class ROSAdapter:
-    """A node in its own context, spun in a separate thread while the launch runs."""
+    """A node with a context of its own, spun in a separate thread while the launch runs."""
 
     def __init__(self, *, argv: list[str] | None = None) -> None:
         self._context = rclpy.Context()
@@ -56,12 +56,12 @@ class ROSAdapter:
 
     @property
     def ros_context(self) -> Context:
-        """Its context."""
+        """The context of the node."""
         return self._context
 
     @property
     def ros_executor(self) -> Executor:
-        """Its executor."""
+        """The executor that spins the node."""
         return self._executor
 
 

@@ -25,7 +25,7 @@ def post_shutdown_test() -> Callable[[type[Any]], type[Any]]:
 
 
 def ready_to_test_action_timeout(timeout: float) -> Callable[[_Description], _Description]:
-    """Give the `ReadyToTest` of a test description this many seconds instead of 15."""
+    """Give the `ReadyToTest` of a test description this time-out (s) instead of 15."""
 
     def mark(description: _Description) -> _Description:
         setattr(description, READY_TIMEOUT, timeout)
@@ -35,7 +35,7 @@ def ready_to_test_action_timeout(timeout: float) -> Callable[[_Description], _De
 
 
 def parametrize(argnames: str | Iterable[str], argvalues: Iterable[Any]) -> Callable[[Any], Any]:
-    """Create and test a test description once for each row of values: a tuple, or a single value."""
+    """Create and test a test description once for each set of values: a tuple, or a single value."""
     names = [each.strip() for each in argnames.split(",")] if isinstance(argnames, str) else list(argnames)
 
     def rows() -> Iterator[dict[str, Any]]:
@@ -48,7 +48,7 @@ def parametrize(argnames: str | Iterable[str], argvalues: Iterable[Any]) -> Call
             return function(*args, **kwargs)
 
         def made_with(row: dict[str, Any]) -> Any:
-            return functools.update_wrapper(functools.partial(function, **row), function)  # keeps its marks
+            return functools.update_wrapper(functools.partial(function, **row), function)  # keeps the function's marks
 
         setattr(described, PARAMETERS, lambda: [(made_with(row), row) for row in rows()])
         return described

@@ -22,7 +22,7 @@ class IoHandler:
         self._by_name: dict[str, list[ProcessIO]] = {}
 
     def track(self, process_name: str) -> None:
-        """Register a process without output."""
+        """Register a process, which has no output yet."""
         self._by_name.setdefault(process_name, [])
 
     def append(self, process_io: ProcessIO) -> None:
@@ -48,7 +48,7 @@ class IoHandler:
 
 
 class ActiveIoHandler(IoHandler):
-    """The same while processes run; tests may wait for output."""
+    """An `IoHandler` for running processes; tests may wait for output."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -56,16 +56,16 @@ class ActiveIoHandler(IoHandler):
 
     @property
     def io_event(self) -> threading.Condition:
-        """Notified of each new chunk."""
+        """The condition that is notified of each new chunk."""
         return self._changed
 
     def track(self, process_name: str) -> None:
-        """Register a process without output."""
+        """Register a process, which has no output yet."""
         with self._changed:
             super().track(process_name)
 
     def append(self, process_io: ProcessIO) -> None:
-        """Add a chunk, and notify those who wait."""
+        """Add a chunk, and notify the waiting threads."""
         with self._changed:
             super().append(process_io)
             self._changed.notify_all()
@@ -105,7 +105,7 @@ class ActiveIoHandler(IoHandler):
         return so
 
     def assertWaitFor(self, expected_output: object, *args: object, timeout: float = 10, **kwargs: object) -> None:
-        """Assert `waitFor`."""
+        """Assert that `waitFor` succeeds."""
         assert self.waitFor(expected_output, *args, timeout=timeout, **kwargs), (
             f"Waiting for output timed out: {expected_output!r} was not found within {timeout} s"
         )

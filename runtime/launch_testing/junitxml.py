@@ -17,18 +17,18 @@ class TimedResult(unittest.TextTestResult):
         self._begin = 0.0
 
     def startTest(self, test: unittest.TestCase) -> None:
-        """Note the start of a test."""
+        """Record the start of a test."""
         self._begin = time.monotonic()
         super().startTest(test)
 
     def stopTest(self, test: unittest.TestCase) -> None:
-        """Note the end of a test."""
+        """Record the end of a test."""
         self.seconds[test] = time.monotonic() - self._begin
         super().stopTest(test)
 
 
 def write_report(path: str, name: str, result: TimedResult) -> None:
-    """Write the outcomes of a result's tests, including those that never began, as when the launch died."""
+    """Write the outcomes of a result's tests, including those that never began, for example because the launch died."""
     reported = [("failure", result.failures), ("error", result.errors), ("skipped", result.skipped)]
     tests = list(dict.fromkeys([*result.seconds, *(test for _, pairs in reported for test, _ in pairs)]))
     numbers = {

@@ -36,7 +36,7 @@ def main(words: Sequence[str] | None = None) -> int:
                 print(line)
             return 0
         return _run(runs, dict(parse_launch_arguments(given.launch_arguments)), given)
-    except Exception as error:  # a test file is a program: its exceptions are reported as command-line errors
+    except Exception as error:  # a test file is a program, so its exceptions are reported as command-line errors
         parser.error(str(error))
 
 

@@ -11,7 +11,7 @@ KEEP_ALIVE = "__launch_testing_keep_alive"
 
 
 def keep_alive(test_description: object) -> Any:
-    """Mark a description without `ReadyToTest` or processes: the tests begin at once, and the launch keeps running."""
+    """Mark a description without `ReadyToTest` or processes: tests begin at once, and the launch keeps running."""
     setattr(test_description, KEEP_ALIVE, True)
     return test_description
 
@@ -19,7 +19,7 @@ def keep_alive(test_description: object) -> Any:
 def retry_on_failure(
     *, times: int | None = None, timeout: float | None = None, delay: float = 0.0
 ) -> Callable[..., Any]:
-    """Repeat a failing test at most this many times or this long (s), with `delay` s in between."""
+    """Repeat a failing test up to `times` times or for `timeout` seconds, with `delay` seconds in between."""
     if times is None and timeout is None:
         raise ValueError("either times or timeout has to be given")
 

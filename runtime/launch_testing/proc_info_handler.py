@@ -28,7 +28,7 @@ class ProcInfoHandler:
         return list(self._events)
 
     def process_names(self) -> list[str]:
-        """Their names."""
+        """The names of the known processes."""
         return [each.process_details["name"] for each in list(self._events)]
 
     def __getitem__(self, process: object) -> Any:
@@ -42,7 +42,7 @@ class ProcInfoHandler:
 
 
 class ActiveProcInfoHandler(ProcInfoHandler):
-    """The same while processes run; tests may wait for starts and exits."""
+    """A `ProcInfoHandler` for running processes; tests may wait for starts and exits."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -50,11 +50,11 @@ class ActiveProcInfoHandler(ProcInfoHandler):
 
     @property
     def proc_event(self) -> threading.Condition:
-        """Notified of each start and exit."""
+        """The condition that is notified of each start and exit."""
         return self._changed
 
     def append(self, process_info: object) -> None:
-        """Add a start or exit, and notify those who wait."""
+        """Add a start or exit, and notify the waiting threads."""
         with self._changed:
             super().append(process_info)
             self._changed.notify_all()

@@ -23,12 +23,12 @@ if TYPE_CHECKING:
     from types import ModuleType
 
 START_TIMEOUT_S = 15.0
-"""Seconds within which the processes under test have to be ready, as upstream."""
+"""Time (s) within which the processes under test must be ready, as upstream."""
 DESCRIPTION = "generate_test_description"
 
 
 class TestRun:
-    """Starts a launch description, runs its tests beside it, ends it, and runs the tests for afterwards."""
+    """Starts a launch description, runs its tests beside it, ends it, and runs the post-shutdown tests."""
 
     __test__ = False
 
@@ -50,7 +50,7 @@ class TestRun:
         return description, marks, context
 
     def run(self, arguments: Mapping[str, str], result: unittest.TestResult) -> None:
-        """Run all tests into a result; a launch that ends before the tests counts as an error."""
+        """Run all tests and record them in `result`; a launch that ends before the tests counts as an error."""
         try:
             description, marks, context = self.describe()
         except unittest.SkipTest as skipped:
@@ -78,16 +78,18 @@ class TestRun:
         after.run(result)
 
     def _suite(self, afterwards: bool, known: Mapping[str, Any]) -> unittest.TestSuite:
-        """Return the test cases for beside or for afterwards, with the arguments that their methods name."""
+        """Return the test cases to run beside the launch, or `afterwards`, with the arguments that their methods
+        name.
+        """
         suite = unittest.TestSuite()
-        named = (getattr(self._module, name) for name in dir(self._module))  # by name, as unittest finds them
+        named = (getattr(self._module, name) for name in dir(self._module))  # in order of name, as in unittest
         for case in (each for each in named if isinstance(each, type) and issubclass(each, unittest.TestCase)):
             if bool(getattr(case, POST_SHUTDOWN, False)) == afterwards:
                 suite.addTests(self._tests_of(case, known))
         return suite
 
     def _tests_of(self, case: type[unittest.TestCase], known: Mapping[str, Any]) -> Iterator[unittest.TestCase]:
-        """Yield the tests of a class, in a subclass of this run: others must not see the attributes set on it."""
+        """Yield the tests of a class, from a subclass for this run: others must not see the attributes set on it."""
         own = type(case.__name__, (case,), {"__module__": case.__module__, "__qualname__": case.__qualname__})
         for name in ("proc_info", "proc_output", "launch_service", "test_args"):
             if name in known:
@@ -119,7 +121,7 @@ class TestRun:
 
 
 class _Named(unittest.TestCase):
-    """Represents a whole run in a result."""
+    """Stands for a whole run in a result."""
 
     def __init__(self, name: str) -> None:
         super().__init__("runTest")
@@ -132,7 +134,7 @@ class _Named(unittest.TestCase):
         return self._name
 
     def id(self) -> str:
-        """Its name."""
+        """Return the name of the run."""
         return self._name
 
 
@@ -170,7 +172,7 @@ def entities_of(entity: Any) -> list[Any]:
 
 
 def _given(method: Any, known: Mapping[str, Any]) -> Any:
-    """Bind those arguments of a method that are known by name."""
+    """Return those arguments of a method that are known by name."""
     wanted = [each for each in inspect.signature(method).parameters if each in known]
     return functools.partial(method, **{each: known[each] for each in wanted}) if wanted else method
 

@@ -1,4 +1,4 @@
-"""Searches for expected texts and lines; a match is the pair of its start and end."""
+"""Searches for expected texts and lines; a match is a pair of start and end."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ def remove_ansi_escape_sequences(text: str) -> str:
 
 
 def normalize_lineseps(lines: str) -> str:
-    """Return a text whose lines all end in one newline, including those converted by a terminal."""
+    """Return a text in which each line ends in a single newline, including those that a terminal has converted."""
     return lines.replace(os.linesep, "\n").replace("\r\n", "\n")
 
 
 def build_line_match(expected_lines: Any, *, strict: bool = False) -> TextMatch:
-    """Return a function that finds lines among lines, starting at a given one.
+    """Return a function that finds expected lines among lines, starting at a given one.
 
     A text is searched for within a line, a regular expression at its beginning. Each of several is searched for after
     the previous one; if strict, they begin with the first line and follow each other, and a single one matches whole
@@ -47,7 +47,7 @@ def build_line_match(expected_lines: Any, *, strict: bool = False) -> TextMatch:
 
 
 def build_text_match(expected_text: Any, *, strict: bool = False) -> TextMatch:
-    """Return a function that finds a text in a text, starting at a given position.
+    """Return a function that finds an expected text in a text, starting at a given position.
 
     The expectation is a text, a regular expression, or several of these, each searched for after the previous one; if
     strict, a text must equal the whole rest, and an expression must match at that position. Raises `ValueError` for
@@ -84,7 +84,7 @@ def _within(expected: str) -> TextMatch:
 
 
 def _in_order(matches: list[TextMatch], strict: bool) -> TextMatch:
-    """Match one after the other; if strict, with nothing before the first and between them."""
+    """Combine matches one after the other; if strict, with nothing before the first and between them."""
     if not matches:
         raise ValueError("nothing is expected: give at least one text")
 

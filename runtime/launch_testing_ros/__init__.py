@@ -1,4 +1,4 @@
-"""Helpers that wait in tests of ROS systems, as upstream's `launch_testing_ros`."""
+"""Helpers for waiting in tests of ROS systems, as upstream's `launch_testing_ros`."""
 
 from launch_testing_ros import tools
 from launch_testing_ros.data_republisher import DataRepublisher

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class DataRepublisher:
-    """Receives messages of one topic, and publishes the result of a function for each on another; None drops it."""
+    """Receives messages of one topic and publishes a function's result for each on another topic; None drops it."""
 
     def __init__(
         self,
@@ -36,7 +36,7 @@ class DataRepublisher:
             self.__publisher.publish(changed)
 
     def shutdown(self) -> None:
-        """Stop."""
+        """Stop republishing."""
         self.__node.destroy_subscription(self.__subscription)
         self.__node.destroy_publisher(self.__publisher)
 
@@ -49,5 +49,5 @@ class DataRepublisher:
         return len(self.__republished)
 
     def get_republished(self) -> list[Any]:
-        """Return the republished messages, as received."""
+        """Return the messages that were republished, as they were received."""
         return self.__republished

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class MessagePump:
-    """Spins a node in a separate thread, between `start` and `stop`; also as a context manager."""
+    """Spins a node in a separate thread between `start` and `stop`; also a context manager."""
 
     def __init__(self, node: Node, context: Context | None = None) -> None:
         self._node = node
@@ -28,7 +28,7 @@ class MessagePump:
         self._thread.start()
 
     def stop(self) -> None:
-        """Stop, and wait up to 5 s for that; raises `Exception` if a callback takes longer."""
+        """Stop spinning, and wait up to 5 s for that; raises `Exception` if a callback takes longer."""
         self._running = False
         if self._thread is not None:
             self._thread.join(timeout=5.0)

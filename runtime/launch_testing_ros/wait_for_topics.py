@@ -17,7 +17,7 @@ from rclpy.node import Node
 
 
 class WaitForTopics:
-    """Waits for topics, pairs of name and type; as a context manager, or with `wait` and `shutdown`."""
+    """Waits for messages on topics, pairs of name and type, as a context manager or with `wait` and `shutdown`."""
 
     def __init__(
         self,
@@ -60,7 +60,7 @@ class WaitForTopics:
             self._all_there.set()
 
     def wait(self) -> bool:
-        """Return whether messages arrived on all topics in time; the callback is called first, the first time."""
+        """Return whether messages arrived on all topics in time; the first call runs the callback first."""
         callback, self._callback = self._callback, None
         if callback is not None:
             callback()
@@ -82,7 +82,7 @@ class WaitForTopics:
         return {name for name, _ in self.topic_tuples} - set(self._messages)
 
     def received_messages(self, topic_name: str) -> list[Any]:
-        """Return the newest messages of a topic; raises `KeyError` for a topic not waited for."""
+        """Return the newest messages of a topic; raises `KeyError` for a topic that is not waited for."""
         if topic_name not in {name for name, _ in self.topic_tuples}:
             raise KeyError(f"No topic '{topic_name}' is waited for")
         return list(self._messages.get(topic_name, []))

@@ -12,7 +12,7 @@ from launch.utilities.type_utils import get_typed_value
 
 
 class Entity(BaseEntity):
-    """An element; it remembers what of it was read."""
+    """An element that tracks which of its attributes and children were read."""
 
     def __init__(
         self, element: Element, *, parent: Entity | None = None, lines: Mapping[Element, int] | None = None
@@ -25,22 +25,22 @@ class Entity(BaseEntity):
 
     @property
     def type_name(self) -> str:
-        """Its tag."""
+        """The element's tag."""
         return self.__element.tag
 
     @property
     def line(self) -> int:
-        """The line on which it begins; 0 if unknown."""
+        """The line on which the element begins; 0 if unknown."""
         return self.__lines.get(self.__element, 0)
 
     @property
     def parent(self) -> Entity | None:
-        """The element that it is in."""
+        """The enclosing element."""
         return self.__parent
 
     @property
     def children(self) -> list[BaseEntity]:
-        """The elements in it."""
+        """The nested elements."""
         self.__read_children = {each.tag for each in self.__element}
         return [Entity(each, parent=self, lines=self.__lines) for each in self.__element]
 
@@ -54,7 +54,7 @@ class Entity(BaseEntity):
             raise ValueError(f"Unexpected nested tag(s) found in `{self.type_name}`: {children}")
 
     def get_attr(self, name: str, *, data_type: object = str, optional: bool = False, can_be_str: bool = True) -> Any:
-        """An attribute of a type, or the elements of a tag; raises `AttributeError` and `TypeError`."""
+        """Return an attribute as the given type, or the elements of a tag; raises `AttributeError` and `TypeError`."""
         if wants_entities(data_type):
             found = [Entity(each, parent=self, lines=self.__lines) for each in self.__element if each.tag == name]
             self.__read_children.add(name)

@@ -17,7 +17,7 @@ class Parser(BaseParser):
 
     @classmethod
     def load(cls, file: str | TextIO) -> tuple[Entity, Parser]:
-        """The root element, with this parser; raises `ElementTree.ParseError`."""
+        """Return the root element and this parser; raises `ElementTree.ParseError`."""
         cls.load_launch_extensions()
         if isinstance(file, str):
             with open(file, encoding="utf-8") as stream:
@@ -29,12 +29,12 @@ class Parser(BaseParser):
 
     @classmethod
     def get_file_extensions(cls) -> set[str]:
-        """Endings of its files."""
+        """Return the file extensions that the parser reads."""
         return {"launch.xml", "xml", "launch"}
 
 
 def _read(text: str) -> tuple[ElementTree.Element, Lines]:
-    """The root element and the line on which each element begins; raises `ElementTree.ParseError`."""
+    """Return the root element and the line on which each element begins; raises `ElementTree.ParseError`."""
     builder = ElementTree.TreeBuilder()
     parser: Any = expat.ParserCreate()
     lines: Lines = {}

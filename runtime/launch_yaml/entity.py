@@ -10,7 +10,7 @@ from launch.utilities.type_utils import is_instance_of
 
 
 class Entity(BaseEntity):
-    """A map or list with the name of its kind; it remembers what of it was read."""
+    """A map or list with the name of its kind; it tracks which of its keys were read."""
 
     def __init__(self, element: object, type_name: str | None = None, *, parent: Entity | None = None) -> None:
         self.__element: Any = element
@@ -21,17 +21,17 @@ class Entity(BaseEntity):
 
     @property
     def type_name(self) -> str:
-        """Its kind."""
+        """The kind of the element."""
         return self.__type_name
 
     @property
     def line(self) -> int:
-        """The line on which it begins; 0 if unknown."""
+        """The line on which the element begins; 0 if unknown."""
         return getattr(self.__element, "line", 0) or getattr(self.__parent, "line", 0)
 
     @property
     def parent(self) -> Entity | None:
-        """The element that it is in."""
+        """The enclosing element."""
         return self.__parent
 
     @property
@@ -68,7 +68,7 @@ class Entity(BaseEntity):
             raise ValueError(f"Unexpected key(s) found in `{self.type_name}`: {unread}")
 
     def get_attr(self, name: str, *, data_type: object = str, optional: bool = False, can_be_str: bool = True) -> Any:
-        """A value of a type, or the elements of a key; raises `AttributeError` and `TypeError`."""
+        """Return a value as the given type, or the elements of a key; raises `AttributeError` and `TypeError`."""
         element = self.__element
         if not _is_map(self.__element) or name not in element:
             if optional:

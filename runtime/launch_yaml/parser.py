@@ -14,7 +14,9 @@ class Parser(BaseParser):
 
     @classmethod
     def load(cls, file: str | TextIO) -> tuple[Entity, Parser]:
-        """The root element, with this parser; raises `yaml.YAMLError`, and `RuntimeError` unless there is one root."""
+        """Return the root element and this parser; raises `yaml.YAMLError`, or `RuntimeError` for other than one
+        root.
+        """
         cls.load_launch_extensions()
         if isinstance(file, str):
             with open(file, encoding="utf-8") as stream:
@@ -28,18 +30,18 @@ class Parser(BaseParser):
 
     @classmethod
     def get_file_extensions(cls) -> set[str]:
-        """Endings of its files."""
+        """Return the file extensions that the parser reads."""
         return {"launch.yaml", "launch.yml", "yaml", "yml", "launch"}
 
 
 class LineMap(dict[Any, Any]):
-    """A map of a YAML file, and the line on which it begins."""
+    """A map in a YAML file, with the line on which it begins."""
 
     line = 0
 
 
 def _read(text: str) -> Any:
-    """The tree of a YAML text, its maps as `LineMap`; raises `yaml.YAMLError`."""
+    """Return the tree of a YAML text, in which maps are `LineMap`s; raises `yaml.YAMLError`."""
 
     class Loader(yaml.SafeLoader):
         pass

@@ -1,4 +1,4 @@
-"""A cache of the last messages, ordered by time."""
+"""A cache of the newest messages, ordered by time."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from rclpy.time import Time
 
 
 class Cache(SimpleFilter):
-    """Keeps the last `cache_size` messages of a filter in the order of their times, and passes them on."""
+    """Keeps the last `cache_size` messages of a filter in order of time, and passes messages on."""
 
     def __init__(self, f: object = None, cache_size: int = 1, allow_headerless: bool = False) -> None:
         super().__init__()
@@ -39,17 +39,17 @@ class Cache(SimpleFilter):
         self.signalMessage(msg)
 
     def getInterval(self, from_stamp: Time, to_stamp: Time) -> list[Any]:
-        """Return the messages from one time to another, both included."""
+        """Return the messages from one time to another, both inclusive."""
         assert from_stamp <= to_stamp
         return self.cache_msgs[bisect_left(self.cache_times, from_stamp) : bisect_right(self.cache_times, to_stamp)]
 
     def getElemAfterTime(self, stamp: Time) -> Any:
-        """Return the first message at or after a time, None if there is none."""
+        """Return the first message at or after a time; None if there is none."""
         place = bisect_left(self.cache_times, stamp)
         return self.cache_msgs[place] if place < len(self.cache_msgs) else None
 
     def getElemBeforeTime(self, stamp: Time) -> Any:
-        """Return the last message at or before a time, None if there is none."""
+        """Return the last message at or before a time; None if there is none."""
         place = bisect_right(self.cache_times, stamp)
         return self.cache_msgs[place - 1] if place else None
 
@@ -64,5 +64,5 @@ class Cache(SimpleFilter):
         return self.cache_times[0] if self.cache_times else None
 
     def getLast(self) -> Any:
-        """Return the newest message, None if there is none."""
+        """Return the newest message; None if there is none."""
         return self.cache_msgs[-1] if self.cache_msgs else None

@@ -1,4 +1,4 @@
-"""Filters: they receive messages, and pass results on to callbacks."""
+"""Filters: they receive messages and pass their results on to callbacks."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class SimpleFilter:
         return number
 
     def signalMessage(self, *msg: object) -> None:
-        """Pass an output on."""
+        """Pass an output on to the callbacks."""
         for callback, args in list(self.callbacks.values()):
             callback(*msg, *args)
 
@@ -32,7 +32,7 @@ class SimpleFilter:
 class Subscriber(SimpleFilter):
     """Passes on the messages of a topic: `Subscriber(node, type, topic, **options of create_subscription)`.
 
-    As upstream's, it raises `TypeError` for a quality of service that is not given by its name, `qos_profile`.
+    As upstream, it raises `TypeError` if the quality of service is not given by the keyword `qos_profile`.
     """
 
     def __init__(self, node: Node, msg_type: type[Message], topic: str, *args: Any, **kwargs: Any) -> None:
@@ -83,7 +83,7 @@ class Chain(SimpleFilter):
         message_filter.registerCallback(lambda *msg: self._out(place, *msg))
 
     def _out(self, place: int, *msg: object) -> None:
-        """Pass on the output of the filter that is now the last one."""
+        """Pass on the output of a filter that is now the last one."""
         if place == len(self._filters):
             self.signalMessage(*msg)
 
@@ -94,7 +94,7 @@ class Chain(SimpleFilter):
         return self._filters[index]
 
     def add(self, msg: object) -> None:
-        """Add a message; without filters it is passed on."""
+        """Add a message; a chain without filters passes it on."""
         if self._filters:
             self._filters[0].add(msg)
         else:

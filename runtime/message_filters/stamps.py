@@ -13,19 +13,17 @@ HEADERLESS = (
     "auto assign ROSTIME to headerless messages once enabling constructor option of 'allow_headerless'."
 )
 WORDS = {"approx": HEADERLESS.format("for "), "cache": HEADERLESS.format("")}
-"""Warnings about a message without a stamp, by the kind of filter that cannot use it."""
+"""Warnings about messages without a stamp, by the kind of filter that cannot use them."""
 
 
 def header_stamp(message: Any) -> Time:
-    """Return the time of a message's header; raises `AttributeError` without a header."""
+    """Return the time in a message's header; raises `AttributeError` if it has no header."""
     stamp = message.header.stamp
     return stamp if isinstance(stamp, Time) else Time.from_msg(stamp)
 
 
 def stamp_of(message: object, allow_headerless: bool, kind: str) -> Time | None:
-    """Return the time of a message's header; without a header, the present time if allowed, else None with a
-    warning.
-    """
+    """Return the time in a message's header; without one, the current time if allowed, else None with a warning."""
     header = getattr(message, "header", None)
     if header is not None and hasattr(header, "stamp"):
         return header_stamp(message)

@@ -1,4 +1,4 @@
-"""Combines messages of several filters with the same or similar times."""
+"""Combines messages of several filters that have the same or similar times."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class TimeSynchronizer(SimpleFilter):
             del queue[min(queue)]
 
     def add(self, msg: object, my_queue: Queue, my_queue_index: int | None = None) -> None:
-        """Add a message of one filter; raises `AttributeError` for one without a header."""
+        """Add a message of one filter; raises `AttributeError` if it has no header."""
         stamp = header_stamp(msg).nanoseconds
         with self.lock:
             self._keep(stamp, msg, my_queue)
@@ -77,12 +77,12 @@ class ApproximateTimeSynchronizer(TimeSynchronizer):
             return
         with self.lock:
             self._keep(stamp.nanoseconds, msg, my_queue)
-            if stamp.nanoseconds in my_queue:  # unless it was the oldest one of a full queue
+            if stamp.nanoseconds in my_queue:  # unless it was the oldest one in a full queue
                 mine = next(index for index, queue in enumerate(self.queues) if queue is my_queue)
                 self._pass_on(stamp.nanoseconds, mine)
 
     def _pass_on(self, stamp: int, mine: int) -> None:
-        """Pass on the set of messages around a new one whose times are closest, if there is one."""
+        """Pass on the set of messages with a new one whose times are closest, if there is such a set."""
         slop = self.slop.nanoseconds
         near: list[list[int]] = []
         for index, queue in enumerate(self.queues):

@@ -8,7 +8,7 @@ import numpy as np
 
 
 class PyCostmap2D:
-    """Costs from 0 (free) to 254 (an obstacle), 255 if unknown; mx, my are cells, wx, wy metres."""
+    """Costs from 0 (free) to 254 (an obstacle), 255 if unknown; mx and my are cells, wx and wy metres."""
 
     def __init__(self, occupancy_map: Any) -> None:
         """Create it from an `OccupancyGrid` or a `nav2_msgs/msg/Costmap`."""
@@ -78,7 +78,7 @@ class PyCostmap2D:
         return self.origin_x + (mx + 0.5) * self.resolution, self.origin_y + (my + 0.5) * self.resolution
 
     def worldToMapValidated(self, wx: float, wy: float) -> tuple[int | None, int | None]:
-        """Return the cell at a position, (None, None) outside the map."""
+        """Return the cell at a position; (None, None) outside the map."""
         if wx < self.origin_x or wy < self.origin_y:
             return None, None
         mx, my = int((wx - self.origin_x) // self.resolution), int((wy - self.origin_y) // self.resolution)

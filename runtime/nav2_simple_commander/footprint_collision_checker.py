@@ -13,7 +13,7 @@ NO_INFORMATION, LETHAL_OBSTACLE, INSCRIBED_INFLATED_OBSTACLE, MAX_NON_OBSTACLE, 
 
 
 class FootprintCollisionChecker:
-    """Computes costs on a costmap set by `setCostmap`; before that, all methods raise `ValueError`."""
+    """Computes costs on a costmap; before `setCostmap` was called, all methods raise `ValueError`."""
 
     def __init__(self) -> None:
         self.costmap_: PyCostmap2D | None = None
@@ -28,7 +28,7 @@ class FootprintCollisionChecker:
         return self.costmap_
 
     def footprintCost(self, footprint: Polygon) -> float:
-        """Return the highest cost on the outline; that of an obstacle if a corner is outside the map."""
+        """Return the highest cost on the outline; an obstacle's cost if a corner is outside the map."""
         points: Any = footprint.points
         corners: list[tuple[int, int]] = []
         for each in points:
@@ -54,7 +54,7 @@ class FootprintCollisionChecker:
         return cost
 
     def worldToMapValidated(self, wx: float, wy: float) -> tuple[int | None, int | None]:
-        """Return the cell at a position (m), (None, None) outside the map."""
+        """Return the cell at a position (m); (None, None) outside the map."""
         return self._costmap().worldToMapValidated(wx, wy)
 
     def pointCost(self, x: int, y: int) -> float:
@@ -62,7 +62,7 @@ class FootprintCollisionChecker:
         return float(self._costmap().getCostXY(x, y))
 
     def footprintCostAtPose(self, x: float, y: float, theta: float, footprint: Polygon) -> float:
-        """Return the cost of an outline moved to a pose (m, rad)."""
+        """Return the cost of a footprint moved to a pose (m, rad)."""
         cos, sin = math.cos(theta), math.sin(theta)
         points: Any = footprint.points
         moved = [Point32(x=x + p.x * cos - p.y * sin, y=y + p.x * sin + p.y * cos, z=p.z) for p in points]

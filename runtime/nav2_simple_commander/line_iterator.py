@@ -1,4 +1,4 @@
-"""The points of a line, a step apart along its longer axis. Contract: upstream's module of this name."""
+"""The points of a line at equal steps along its longer axis. Contract: upstream's module of this name."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import math
 
 
 class LineIterator:
-    """Starts at the first end, and is valid up to and including the last one, which no step passes over."""
+    """Starts at the first end and is valid up to and including the last end, where it always stops."""
 
     def __init__(self, x0: float, y0: float, x1: float, y1: float, step_size: float = 1.0) -> None:
         """Raises `TypeError` for anything but numbers, `ValueError` for a non-positive step or zero length."""
@@ -25,11 +25,11 @@ class LineIterator:
         self._valid = True
 
     def isValid(self) -> bool:
-        """Return whether the present point is on the line."""
+        """Return whether the current point is on the line."""
         return self._valid
 
     def advance(self) -> None:
-        """Advance by a step, or past the last point."""
+        """Advance by one step, or past the last point."""
         if (self.x_, self.y_) == (self.x1_, self.y1_):
             self._valid = False
             return
@@ -43,11 +43,11 @@ class LineIterator:
         self.y_ = self.y0_ + (self.y1_ - self.y0_) * share
 
     def getX(self) -> float:
-        """Return x of the present point."""
+        """Return x of the current point."""
         return self.x_
 
     def getY(self) -> float:
-        """Return y of the present point."""
+        """Return y of the current point."""
         return self.y_
 
     def getX0(self) -> float:

@@ -59,7 +59,7 @@ class BasicNavigator(Node):
         self.initial_pose_pub = self.create_publisher(PoseWithCovarianceStamped, "initialpose", 10)
 
     def destroyNode(self) -> None:
-        """The same as `destroy_node`."""
+        """Leave the graph, as `destroy_node` does."""
         self.destroy_node()
 
     def destroy_node(self) -> None:
@@ -102,42 +102,42 @@ class BasicNavigator(Node):
     # Tasks that take some time.
 
     def goToPose(self, pose: PoseStamped, behavior_tree: str = "") -> bool:
-        """Drive to a pose; returns False if that is rejected."""
+        """Drive to a pose; returns False if the goal is rejected."""
         place = pose.pose.position
         self.info(f"Navigating to goal: {place.x} {place.y}...")
         refusal = f"Goal to {place.x} {place.y} was rejected!"
         return self._start("navigate_to_pose", refusal, pose=pose, behavior_tree=behavior_tree)
 
     def goThroughPoses(self, poses: list[PoseStamped], behavior_tree: str = "") -> bool:
-        """Drive via poses; returns False if that is rejected."""
+        """Drive via poses; returns False if the goal is rejected."""
         self.info(f"Navigating with {len(poses)} goals....")
         refusal = f"Goal with {len(poses)} poses was rejected!"
         return self._start("navigate_through_poses", refusal, poses=poses, behavior_tree=behavior_tree)
 
     def followWaypoints(self, poses: list[PoseStamped]) -> bool:
-        """Drive to poses one after the other; returns False if that is rejected."""
+        """Drive to poses one after the other; returns False if the goal is rejected."""
         self.info(f"Following {len(poses)} goals....")
         return self._start("follow_waypoints", f"Following {len(poses)} waypoints request was rejected!", poses=poses)
 
     def followGpsWaypoints(self, gps_poses: list[Any]) -> bool:
-        """Drive to GPS positions one after the other; returns False if that is rejected."""
+        """Drive to GPS positions one after the other; returns False if the goal is rejected."""
         self.info(f"Following {len(gps_poses)} gps goals....")
         refusal = f"Following {len(gps_poses)} gps waypoints request was rejected!"
         return self._start("follow_gps_waypoints", refusal, gps_poses=gps_poses)
 
     def spin(self, spin_dist: float = 1.57, time_allowance: int = 10) -> bool:
-        """Turn by an angle (rad); returns False if that is rejected."""
+        """Turn by an angle (rad); returns False if the goal is rejected."""
         self.info(f"Spinning to angle {spin_dist}....")
         allowance = Duration(sec=time_allowance)
         return self._start("spin", "Spin request was rejected!", target_yaw=spin_dist, time_allowance=allowance)
 
     def backup(self, backup_dist: float = 0.15, backup_speed: float = 0.025, time_allowance: int = 10) -> bool:
-        """Drive backwards (m, m/s); returns False if that is rejected."""
+        """Drive backwards (m, m/s); returns False if the goal is rejected."""
         self.info(f"Backing up {backup_dist} m at {backup_speed} m/s....")
         return self._straight("backup", "Backup request was rejected!", backup_dist, backup_speed, time_allowance)
 
     def driveOnHeading(self, dist: float = 0.15, speed: float = 0.025, time_allowance: int = 10) -> bool:
-        """Drive straight ahead (m, m/s); returns False if that is rejected."""
+        """Drive straight ahead (m, m/s); returns False if the goal is rejected."""
         self.info(f"Drive {dist} m on heading at {speed} m/s....")
         refusal = "Drive On Heading request was rejected!"
         return self._straight("drive_on_heading", refusal, dist, speed, time_allowance)
@@ -147,19 +147,19 @@ class BasicNavigator(Node):
         return self._start(name, refusal, target=target, speed=speed, time_allowance=Duration(sec=allowance))
 
     def assistedTeleop(self, time_allowance: int = 30) -> bool:
-        """Let a person drive with assistance; returns False if that is rejected."""
+        """Let a person drive with assistance; returns False if the goal is rejected."""
         self.info("Running 'assisted_teleop'....")
         refusal = "Assisted Teleop request was rejected!"
         return self._start("assisted_teleop", refusal, time_allowance=Duration(sec=time_allowance))
 
     def followPath(self, path: object, controller_id: str = "", goal_checker_id: str = "") -> bool:
-        """Follow a path; returns False if that is rejected."""
+        """Follow a path; returns False if the goal is rejected."""
         self.info("Executing path...")
         fields = {"path": path, "controller_id": controller_id, "goal_checker_id": goal_checker_id}
         return self._start("follow_path", "Follow path was rejected!", **fields)
 
     def dockRobotByPose(self, dock_pose: PoseStamped, dock_type: str, nav_to_dock: bool = True) -> bool:
-        """Dock at a pose; returns False if that is rejected."""
+        """Dock at a pose; returns False if the goal is rejected."""
         self.info(f"Docking at pose: {dock_pose}...")
         return self._start(
             "dock_robot", "Docking request was rejected!", use_dock_id=False, dock_pose=dock_pose,
@@ -167,13 +167,13 @@ class BasicNavigator(Node):
         )  # fmt: skip
 
     def dockRobotByID(self, dock_id: str, nav_to_dock: bool = True) -> bool:
-        """Dock at a dock of the server's database; returns False if that is rejected."""
+        """Dock at a dock in the server's database; returns False if the goal is rejected."""
         self.info(f"Docking at dock ID: {dock_id}...")
         fields = {"use_dock_id": True, "dock_id": dock_id, "navigate_to_staging_pose": nav_to_dock}
         return self._start("dock_robot", "Docking request was rejected!", **fields)
 
     def undockRobot(self, dock_type: str = "") -> bool:
-        """Leave the dock; returns False if that is rejected."""
+        """Leave the dock; returns False if the goal is rejected."""
         self.info(f"Undocking from dock of type: {dock_type}...")
         return self._start("undock_robot", "Undocking request was rejected!", dock_type=dock_type)
 
@@ -212,7 +212,7 @@ class BasicNavigator(Node):
         return answer.result.path
 
     def _start(self, action: str, refusal: str, **fields: object) -> bool:
-        """Send a goal and wait until it is accepted."""
+        """Send a goal and wait until it is accepted or rejected; returns whether it was accepted."""
         kind = ACTIONS[action]()
         client = self._clients_of_actions.get(action)
         if client is None:
@@ -238,7 +238,7 @@ class BasicNavigator(Node):
         self._setInitialPose()
 
     def waitUntilNav2Active(self, navigator: str = "bt_navigator", localizer: str = "amcl") -> None:
-        """Wait until localizer and navigator report that they are active."""
+        """Wait until the localizer and the navigator report that they are active."""
         if localizer != "robot_localization":
             self._waitForNodeToActivate(localizer)
         if localizer == "amcl":
@@ -313,7 +313,7 @@ class BasicNavigator(Node):
         self.info("Nav2 is ready for use!")
 
     def lifecycleShutdown(self) -> None:
-        """Make all lifecycle managers shut their nodes down."""
+        """Make all lifecycle managers shut down their nodes."""
         self._manage("Shutting down", 4)
 
     def _manage(self, what: str, command: int) -> None:

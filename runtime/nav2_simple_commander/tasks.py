@@ -1,4 +1,4 @@
-"""The actions and services of Nav2 by the names of their servers; each client is created on first use."""
+"""The actions and services of Nav2 by their servers' names; each client is created on first use."""
 
 from __future__ import annotations
 

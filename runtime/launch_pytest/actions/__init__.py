@@ -1,4 +1,4 @@
-"""`ReadyToTest`, the one of launch_testing."""
+"""`ReadyToTest`, re-exported from launch_testing."""
 
 from launch_testing.actions.ready import ReadyToTest
 

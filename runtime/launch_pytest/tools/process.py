@@ -1,7 +1,7 @@
 """Waits until a process of the launch starts, ends or writes something.
 
-A check of output may return a bool or assert. The functions ending in `_sync` are for plain tests; the others are for
-coroutines, in the loop of the launch.
+A check of output may return a bool or make assertions. The functions ending in `_sync` are for plain tests; the others
+are for coroutines in the loop of the launch.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 _Check = Callable[[str], Any]
 _POLL_S = 0.02
-"""Seconds between two polls."""
+"""Time (s) between two polls."""
 
 
 def _started(action: ExecuteProcess) -> bool:
@@ -95,14 +95,14 @@ async def wait_for_output(
 def wait_for_stderr_sync(
     context: LaunchContext, action: ExecuteProcess, validate: _Check, timeout: float | None = None
 ) -> bool:
-    """Return the same for the standard error."""
+    """Return whether the standard error passes the check in time, as `wait_for_output_sync` does for the output."""
     return _wait_sync(lambda: _fits(validate, action.get_stderr), timeout) or _accepts(validate, action.get_stderr())
 
 
 async def wait_for_stderr(
     context: LaunchContext, action: ExecuteProcess, validate: _Check, timeout: float | None = None
 ) -> bool:
-    """Return the same for the standard error."""
+    """Return whether the standard error passes the check in time, as `wait_for_output` does for the output."""
     fits = await _wait(lambda: _fits(validate, action.get_stderr), timeout)
     return fits or _accepts(validate, action.get_stderr())
 
@@ -110,26 +110,26 @@ async def wait_for_stderr(
 def assert_output_sync(
     context: LaunchContext, action: ExecuteProcess, validate: _Check, timeout: float | None = None
 ) -> None:
-    """Assert `wait_for_output_sync`."""
+    """Assert that `wait_for_output_sync` succeeds."""
     assert wait_for_output_sync(context, action, validate, timeout), "waiting for output timed out"
 
 
 async def assert_output(
     context: LaunchContext, action: ExecuteProcess, validate: _Check, timeout: float | None = None
 ) -> None:
-    """Assert `wait_for_output`."""
+    """Assert that `wait_for_output` succeeds."""
     assert await wait_for_output(context, action, validate, timeout), "waiting for output timed out"
 
 
 def assert_stderr_sync(
     context: LaunchContext, action: ExecuteProcess, validate: _Check, timeout: float | None = None
 ) -> None:
-    """Assert `wait_for_stderr_sync`."""
+    """Assert that `wait_for_stderr_sync` succeeds."""
     assert wait_for_stderr_sync(context, action, validate, timeout), "waiting for stderr timed out"
 
 
 async def assert_stderr(
     context: LaunchContext, action: ExecuteProcess, validate: _Check, timeout: float | None = None
 ) -> None:
-    """Assert `wait_for_stderr`."""
+    """Assert that `wait_for_stderr` succeeds."""
     assert await wait_for_stderr(context, action, validate, timeout), "waiting for stderr timed out"

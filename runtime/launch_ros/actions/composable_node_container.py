@@ -1,4 +1,4 @@
-"""Running a container of nodes."""
+"""Running a container for composable nodes."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @expose_action("node_container")
 class ComposableNodeContainer(Node):
-    """Runs a container and has it load nodes."""
+    """Runs a container and loads nodes into it."""
 
     def __init__(
         self,

@@ -46,7 +46,7 @@ class LifecycleNode(Node):
 
     @property
     def node_autostart(self) -> Any:
-        """Whether the node is activated as soon as it runs."""
+        """Whether the node is activated as soon as it is running."""
         return self.__autostart
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
@@ -61,6 +61,6 @@ class LifecycleNode(Node):
 
 
 def make_active(node_name: str) -> LifecycleTransition:
-    """Configures a lifecycle node, then activates it."""
+    """Return an action that configures a lifecycle node, then activates it."""
     transitions = [Transition.TRANSITION_CONFIGURE, Transition.TRANSITION_ACTIVATE]
     return LifecycleTransition(lifecycle_node_names=[node_name], transition_ids=transitions)

@@ -24,7 +24,7 @@ GOALS = {1: "inactive", 2: "unconfigured", 3: "active", 4: "inactive", 5: "final
 
 
 class LifecycleTransition(Action):
-    """Drives each of several lifecycle nodes through a sequence of transitions; raises `ValueError` without any."""
+    """Drives each of several lifecycle nodes through a sequence of transitions; raises `ValueError` without nodes."""
 
     def __init__(
         self,
@@ -42,7 +42,7 @@ class LifecycleTransition(Action):
             raise ValueError("transition_ids must provide at least one lifecycle node transition id")
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
-        """Request the first transition of each node, and each further one when the previous has finished."""
+        """Request the first transition of each node, and each further one when the previous one has finished."""
         numbers = [_number(context, each) for each in self.__transitions]
         entities: list[LaunchDescriptionEntity] = []
         for subs in self.__names:

@@ -45,7 +45,7 @@ SERVICE_POLL_S = 1.0
 
 @expose_action("load_composable_node")
 class LoadComposableNodes(Action):
-    """Has a running container load nodes, one after the other."""
+    """Loads nodes into a running container, one after the other."""
 
     def __init__(self, *, composable_node_descriptions: Any, target_container: Any, **kwargs: Condition | None) -> None:
         ensure_argument_type(
@@ -66,12 +66,12 @@ class LoadComposableNodes(Action):
         return cls, kwargs
 
     def get_asyncio_future(self) -> asyncio.Future[None] | None:
-        """Return a future that is done when all nodes were loaded, or cannot be."""
+        """Return a future that is done when all nodes were loaded or have failed."""
         return self.__done
 
     def execute(self, context: LaunchContext) -> list[Any] | None:
-        """Request from the container each node whose condition holds."""
-        # The rclpy of PyPI comes without these interfaces, and launch files without composable nodes need none.
+        """Ask the container to load each node whose condition holds."""
+        # The rclpy of PyPI lacks these interfaces, and launch files without composable nodes do not need them.
         from composition_interfaces.srv import LoadNode
 
         target = self._container_name(context)
@@ -87,7 +87,7 @@ class LoadComposableNodes(Action):
         return [each for each in started if each is not None] or None
 
     def _autostart(self, description: Any, request: Any, context: LaunchContext) -> Action | None:
-        """Return the action that activates a loaded lifecycle node; None if it is not to be activated."""
+        """Return the action that activates a loaded lifecycle node; None if the node is not to be activated."""
         if not isinstance(description, ComposableLifecycleNode):
             return None
         namespace = request.node_namespace.strip("/")

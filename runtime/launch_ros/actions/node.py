@@ -109,7 +109,7 @@ class Node(ExecuteProcess):
 
     @staticmethod
     def parse_nested_parameters(params: list[Entity], parser: Parser) -> list[Any]:
-        """Parse `param` elements as a node's `parameters`, for third-party subclasses that need it."""
+        """Parse `param` elements as a node's `parameters`; for third-party subclasses that need it."""
         from launch_ros.actions.parse_parameters import parse_nested_parameters
 
         return parse_nested_parameters(params, parser)
@@ -187,7 +187,7 @@ class Node(ExecuteProcess):
 
     def _perform_substitutions(self, context: LaunchContext) -> None:
         if self.__substitutions_performed:
-            return  # a second run of the same action fails shortly, with its own message
+            return  # a second run of the same action fails shortly afterwards, with a message of its own
         self.__substitutions_performed = True
         if self.__package is not None:
             package = normalize_to_list_of_substitutions(self.__package)
@@ -236,7 +236,7 @@ class Node(ExecuteProcess):
             self._add_words("--params-file" if is_file else "-p", argument)
 
     def _likely_name(self) -> str:
-        """Return the full name, assuming the root namespace if none is known: few programs choose another."""
+        """Return the full name, assuming the root namespace if none is known, as few programs choose another."""
         return self.node_name.replace(self.UNSPECIFIED_NODE_NAMESPACE, "")
 
     def _expand_remappings(self, context: LaunchContext) -> None:
@@ -251,7 +251,7 @@ class Node(ExecuteProcess):
         self.process_description.cmd.extend([TextSubstitution(text=each)] for each in words)
 
     def python_program(self, command: list[str]) -> PythonProgram | None:
-        """Return the node's program if it is a Python program and its prefix, if any, is only Python itself."""
+        """Return the node's program if it is a Python program whose prefix is empty or only Python itself."""
         prefix = self.process_description.words_of_prefix
         if self.shell or (prefix and not is_this_python(prefix)):
             return None

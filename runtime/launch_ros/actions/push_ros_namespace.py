@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 @expose_action("push_ros_namespace")
 @expose_action("push-ros-namespace")
 class PushROSNamespace(Action):
-    """Prepends a namespace to those of all subsequent nodes, until the end of the group."""
+    """Prepends a namespace to the namespaces of all subsequent nodes, until the end of the group."""
 
     def __init__(self, namespace: SomeSubstitutionsType, **kwargs: Condition | None) -> None:
         super().__init__(**kwargs)

@@ -32,7 +32,7 @@ class SetParameter(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetParameter], dict[str, object]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["name"] = parser.parse_substitution(entity.get_attr("name"))
         kwargs["value"] = parser.parse_substitution(entity.get_attr("value"))
@@ -67,7 +67,7 @@ class SetParametersFromFile(Action):
 
     @classmethod
     def parse(cls, entity: Entity, parser: Parser) -> tuple[type[SetParametersFromFile], dict[str, object]]:
-        """From XML or YAML."""
+        """Parse the element in XML or YAML."""
         _, kwargs = super().parse(entity, parser)
         kwargs["filename"] = parser.parse_substitution(entity.get_attr("filename"))
         return cls, kwargs

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @expose_action("set_ros_log_dir")
 class SetROSLogDir(Action):
-    """Makes subsequent nodes log to another folder; a relative one is below their current log folder."""
+    """Makes subsequent nodes log to another folder; a relative path is below their current log folder."""
 
     def __init__(self, new_log_dir: SomeSubstitutionsType, **kwargs: Condition | None) -> None:
         super().__init__(**kwargs)

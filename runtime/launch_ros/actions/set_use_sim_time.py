@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @expose_action("set_use_sim_time")
 class SetUseSimTime(Action):
-    """Makes the launch's own node follow `/clock`, as needed by `ROSTimer`; started nodes are not affected."""
+    """Makes the launch's own node follow `/clock`, as `ROSTimer` needs; nodes that it starts are not affected."""
 
     def __init__(self, value: Any, **kwargs: Condition | None) -> None:
         super().__init__(**kwargs)

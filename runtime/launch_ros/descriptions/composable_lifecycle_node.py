@@ -1,4 +1,4 @@
-"""A lifecycle node loaded by a container: newer than Jazzy's first release, but used in public launch files."""
+"""A lifecycle node that a container loads: newer than Jazzy's first release, but used in public launch files."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ class ComposableLifecycleNode(ComposableNode):
 
     @property
     def node_name(self) -> Any:
-        """The node's name; the full name once the launch knows it."""
+        """The node's name; its full name once the launch knows it."""
         return super().node_name if self.__full_name is None else self.__full_name
 
     def init_lifecycle_event_manager(self, context: LaunchContext, full_name: str) -> None:
-        """Observe and control the node of this full name."""
+        """Observe and control the node with this full name."""
         self.__full_name = full_name
         LifecycleEventManager(self).setup_lifecycle_manager(context)

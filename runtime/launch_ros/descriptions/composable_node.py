@@ -1,4 +1,4 @@
-"""A node loaded by a container."""
+"""A node that a container loads."""
 
 from __future__ import annotations
 
@@ -77,12 +77,12 @@ class ComposableNode:
 
     @property
     def package(self) -> list[Substitution]:
-        """The package of the class."""
+        """The package that contains the class."""
         return self.__package
 
     @property
     def node_plugin(self) -> list[Substitution]:
-        """The class."""
+        """The class of the node."""
         return self.__plugin
 
     @property

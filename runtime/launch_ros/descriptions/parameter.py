@@ -23,12 +23,12 @@ class Parameter:
 
     @property
     def name(self) -> list[Substitution] | str:
-        """The name; evaluated once the launch runs."""
+        """The name; evaluated when the launch runs."""
         return self.__name if self.__evaluated_name is None else self.__evaluated_name
 
     @property
     def value(self) -> Any:
-        """The value; evaluated once the launch runs."""
+        """The value; evaluated when the launch runs."""
         return self.__value.value
 
     @property

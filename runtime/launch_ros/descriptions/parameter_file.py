@@ -31,23 +31,23 @@ class ParameterFile:
 
     @property
     def param_file(self) -> Any:
-        """The path; evaluated once the launch runs."""
+        """The path; evaluated when the launch runs."""
         return self.__param_file if self.__evaluated is None else self.__evaluated
 
     @property
     def allow_substs(self) -> Any:
-        """Whether substitutions in its text are evaluated."""
+        """Whether substitutions in the file's text are evaluated."""
         return self.__allow_substs
 
     def __str__(self) -> str:
         return f"launch_ros.description.ParameterFile(param_file={self.param_file}, allow_substs={self.allow_substs})"
 
     def evaluate(self, context: LaunchContext) -> Path:
-        """Return the path, or that of a copy with its substitutions evaluated. The first result is kept.
+        """Return the path, or the path of a copy in which the substitutions are evaluated. The first result is kept.
 
-        For a file on a server, it is the path of the fetched copy. Raises `OSError` for a file that cannot be fetched
-        from its server or, with substitutions, cannot be read; `SubstitutionFailure` for one that is not valid YAML
-        after substitution.
+        For a file on a server, it is the path of the downloaded copy. Raises `OSError` for a file that cannot be
+        fetched from its server or, with substitutions, cannot be read; `SubstitutionFailure` for one that is not valid
+        YAML after substitution.
         """
         if self.__evaluated is None:
             place = perform_substitutions(context, self.__param_file)
@@ -64,7 +64,9 @@ class ParameterFile:
 
 
 _copies: WeakKeyDictionary[LaunchContext, dict[str, Path]] = WeakKeyDictionary()
-"""Files fetched by each launch: all its nodes start with the same text, and a silent server is waited for only once."""
+"""Files downloaded for each launch: all its nodes start with the same text, and it waits for a silent server only
+once.
+"""
 
 
 def _fetched(context: LaunchContext, address: str) -> Path:

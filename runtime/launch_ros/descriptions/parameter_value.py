@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 class ParameterValue:
-    """A parameter's value, or substitutions whose text is converted to the type; None: by YAML's rules."""
+    """A parameter's value, or substitutions whose text is converted to a type, or if that is None, by YAML's rules."""
 
     def __init__(self, value: object, *, value_type: object = None) -> None:
         self.__value = normalize_typed_substitution(value, value_type)
@@ -20,12 +20,12 @@ class ParameterValue:
 
     @property
     def value(self) -> Any:
-        """The value; evaluated once the launch runs."""
+        """The value; evaluated when the launch runs."""
         return self.__value if self.__evaluated is None else self.__evaluated
 
     @property
     def given(self) -> Any:
-        """The given value, normalized (not upstream)."""
+        """The value as it was given, normalized (not upstream)."""
         return self.__value
 
     @property
@@ -37,6 +37,6 @@ class ParameterValue:
         return f"launch_ros.description.ParameterValue(value={self.value}, value_type={self.value_type})"
 
     def evaluate(self, context: LaunchContext) -> Any:
-        """Return the value, evaluated on the first call; raises `ValueError` for a text not of the type."""
+        """Return the value, evaluated on the first call; raises `ValueError` if a text does not have the type."""
         self.__evaluated = perform_typed_substitution(context, self.value, self.__value_type)
         return self.__evaluated

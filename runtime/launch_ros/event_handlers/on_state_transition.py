@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class OnStateTransition(EventHandler):
-    """Visits entities on a transition of a lifecycle node; names that are not given match any."""
+    """Visits entities on a transition of a lifecycle node; names that are not given match any name."""
 
     kind_of_events = StateTransition
 

@@ -10,6 +10,6 @@ if TYPE_CHECKING:
 
 
 def matches_node_name(node_name: str) -> Callable[[Action], bool]:
-    """Return a predicate: whether an action's node has this full name."""
+    """Return a predicate that tells whether an action's node has this full name."""
     name = node_name if node_name.startswith("/") else f"/{node_name}"
     return lambda action: getattr(action, "node_name", None) == name

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 @expose_substitution("exec-in-package")
 @expose_substitution("exec-in-pkg")
 class ExecutableInPackage(Substitution):
-    """The path of a package's executable; if it was never built, where its build would install it."""
+    """The path of a package's executable; if it was never built, the path where its build would install it."""
 
     def __init__(self, executable: SomeSubstitutionsType, package: SomeSubstitutionsType) -> None:
         super().__init__()
@@ -33,7 +33,7 @@ class ExecutableInPackage(Substitution):
 
     @classmethod
     def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[ExecutableInPackage], dict[str, object]]:
-        """From `$(exec-in-pkg executable package)`."""
+        """Parse `$(exec-in-pkg executable package)`."""
         if len(data) != 2:
             raise AttributeError("exec-in-package substitution expects 2 arguments")
         return cls, {"executable": data[0], "package": data[1]}
@@ -49,11 +49,11 @@ class ExecutableInPackage(Substitution):
         return self.__package
 
     def describe(self) -> str:
-        """As `ExecInPkg(pkg='p', exec='e')`."""
+        """Return a description such as `ExecInPkg(pkg='p', exec='e')`."""
         return f"ExecInPkg(pkg={described(self.__package)}, exec={described(self.__executable)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """The path; raises `PackageNotFoundError`, or `SubstitutionFailure` for a package without the executable."""
+        """Return the path; raises `PackageNotFoundError`, or `SubstitutionFailure` if the package has no such file."""
         executable = perform_substitutions(context, self.__executable)
         package = perform_substitutions(context, self.__package)
         try:

@@ -27,7 +27,7 @@ class FindPackage(Substitution):
 
     @classmethod
     def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[FindPackage], dict[str, object]]:
-        """From `$(find-pkg-share name)`."""
+        """Parse `$(find-pkg-share name)`."""
         if len(data) != 1:
             raise AttributeError("find package substitutions expect 1 argument")
         return cls, {"package": data[0]}
@@ -38,11 +38,11 @@ class FindPackage(Substitution):
         return self.__package
 
     def __truediv__(self, additional_path: SomeSubstitutionsType) -> PathJoinSubstitution:
-        """Return a path below."""
+        """Return a path below this one."""
         return PathJoinSubstitution([self, additional_path])
 
     def describe(self) -> str:
-        """As `FindPackageShare(pkg='p')`."""
+        """Return a description such as `FindPackageShare(pkg='p')`."""
         return f"{type(self).__name__}(pkg={described(self.__package)})"
 
     def find(self, package_name: str) -> str:

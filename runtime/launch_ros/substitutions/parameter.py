@@ -27,7 +27,7 @@ class Parameter(Substitution):
 
     @classmethod
     def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[Parameter], dict[str, object]]:
-        """From `$(param name)` or `$(param name default)`."""
+        """Parse `$(param name)` or `$(param name default)`."""
         if len(data) not in (1, 2):
             raise AttributeError("param substitutions expect 1 or 2 arguments")
         return cls, {"name": data[0], "default": data[1] if len(data) == 2 else None}
@@ -38,7 +38,7 @@ class Parameter(Substitution):
         return self.__name
 
     def describe(self) -> str:
-        """As `Parameter('x')`."""
+        """Return a description such as `Parameter('x')`."""
         return f"Parameter({described(self.__name)})"
 
     def perform(self, context: LaunchContext) -> str:

@@ -70,7 +70,7 @@ def yaml_value(name: str, text: str) -> Any:
 
 
 def check_value(name: str, value: object) -> Any:
-    """Return the value, lists as tuples; raises `TypeError` if no ROS parameter can have it."""
+    """Return the value, with lists as tuples; raises `TypeError` if no ROS parameter can have it."""
     if isinstance(value, SCALARS):
         return value
     if isinstance(value, Sequence):

@@ -20,7 +20,7 @@ SERVICE_POLL_S = 1.0
 
 
 class LifecycleEventManager:
-    """Converts a node's transitions to events, and `ChangeState` events that select it to service calls."""
+    """Converts a node's transitions to events, and `ChangeState` events that select the node to service calls."""
 
     def __init__(self, lifecycle_node: Any) -> None:
         self._node = lifecycle_node
@@ -34,7 +34,7 @@ class LifecycleEventManager:
         return self._node.node_name
 
     def setup_lifecycle_manager(self, context: LaunchContext) -> None:
-        """Set up the connection, before the node starts."""
+        """Set up the connection before the node starts."""
         from lifecycle_msgs.msg import TransitionEvent
         from lifecycle_msgs.srv import ChangeState as ChangeStateService
 

@@ -38,7 +38,7 @@ def _entry(entry: Any) -> Any:
 
 
 def normalize_parameter_dict(parameters: Mapping[Any, Any], *, _prefix: Any = None) -> dict[Key, Any]:
-    """Names as substitutions, those of nested dicts with dots between; values as `normalize_value` gives them."""
+    """Return names as substitutions, with dots between those of nested dicts, and values as from `normalize_value`."""
     if not isinstance(parameters, Mapping):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's argument
         raise TypeError("expected dict")
     found: dict[Key, Any] = {}
@@ -58,7 +58,9 @@ def _key(name: SomeSubstitutionsType, prefix: Key | None) -> Key:
 
 
 def normalize_value(value: object) -> Any:
-    """A scalar or tuple of scalars as it is; substitutions as a list; a tuple of lists of them; a `ParameterValue`."""
+    """Return scalars, tuples of them and `ParameterValue`s unchanged; substitutions as a list, lists of them as a
+    tuple.
+    """
     if isinstance(value, (ParameterValue, *SCALARS)):
         return value
     if isinstance(value, Substitution):
@@ -70,7 +72,7 @@ def normalize_value(value: object) -> Any:
 
 
 def _normalize_sequence(values: Sequence[Any]) -> Any:
-    """Numbers as they are, floats where there is one; text and substitutions as one text; else item by item."""
+    """Return numbers unchanged, as floats if any is one; text and substitutions as one text; otherwise item by item."""
     for each in values:
         ensure_argument_type(each, (float, int, str, bool, *SomeSubstitutionsType_types_tuple), "subvalue")
     kinds = {_kind(each) for each in values}

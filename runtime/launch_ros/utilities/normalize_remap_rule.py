@@ -12,7 +12,7 @@ Rule = tuple[tuple[Substitution, ...], tuple[Substitution, ...]]
 
 
 def normalize_remap_rule(remap_rule: Any) -> Rule:
-    """Return both sides as substitutions; raises `TypeError` for anything but a tuple of two."""
+    """Return both sides as substitutions; raises `TypeError` for anything but a pair."""
     ensure_argument_type(remap_rule, (tuple,), "remap_rule")
     if len(remap_rule) != 2:
         raise TypeError(f"remap_rule must be a tuple of length 2, got length {len(remap_rule)}")

@@ -22,7 +22,7 @@ PARAMETERS_KEY = "ros__parameters"
 def to_parameters_list(
     context: LaunchContext, node_name: str, namespace: str | None, evaluated_parameters: Any
 ) -> list[Any]:
-    """Return a node's `rclpy` parameters from the result of `evaluate_parameters`; of files, those for the node.
+    """Return a node's `rclpy` parameters from the result of `evaluate_parameters`; from files, only those for the node.
 
     Issues a `UserWarning` for a file without parameters for the node. Raises `OSError`, `yaml.YAMLError`,
     `RuntimeError` for a file whose keys cannot be matched, and `TypeError` for invalid parameter values.
@@ -57,7 +57,7 @@ def _full_name(node_name: str, namespace: str | None) -> str:
 
 
 def _values_of_file(context: LaunchContext, path: Path, full_name: str) -> dict[str, Any]:
-    """Return the values under matching keys, later ones over earlier ones; a file without node keys is all values."""
+    """Return the values under matching keys, of which later ones win; a file without node keys consists of values."""
     content = yaml.safe_load(path.read_text(encoding="utf-8"))
     if not isinstance(content, Mapping):
         raise RuntimeError(f"invalid yaml file {path}, error: it has no keys")
@@ -80,7 +80,7 @@ def _values_of_file(context: LaunchContext, path: Path, full_name: str) -> dict[
 
 
 def _sections(content: Mapping[Any, Any], above: list[str]) -> Iterator[tuple[str, Any]]:
-    """Yield node keys, nested namespaces joined, each with its parameters."""
+    """Yield node keys, in which nested namespaces are joined, each with its parameters."""
     for key, value in content.items():
         if key == PARAMETERS_KEY:
             yield "/".join(above), value
@@ -91,7 +91,7 @@ def _sections(content: Mapping[Any, Any], above: list[str]) -> Iterator[tuple[st
 
 
 def _means(key: str, full_name: str, path: Path) -> bool:
-    """Whether a key matches the node: `*` is one part of a name, `**` any number of parts."""
+    """Whether a key matches the node: `*` stands for one part of a name, `**` for any number of parts."""
     pattern = (key if key.startswith("/") else f"/{key}").replace("/*", r"(/\w+)")
     try:
         return re.fullmatch(pattern, full_name) is not None

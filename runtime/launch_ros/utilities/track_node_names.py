@@ -1,4 +1,4 @@
-"""The node names that a launch has started, and how often each."""
+"""The node names that a launch has started, and how often it has started each."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def get_node_name_count(context: LaunchContext, node_name: str) -> int:
 
 
 def warn_of_same_name(context: LaunchContext, node_name: str, origin: str) -> None:
-    """Warn if a node will most likely have the same name as another, though its namespace is not given."""
+    """Warn if a node will most likely have the same name as another, even if its namespace is not given."""
     names = context.names_without_namespace
     if node_name in names:
         launch.logging.get_logger("launch").warning(

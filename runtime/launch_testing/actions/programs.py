@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 class Test(ExecuteProcess):
     """A process that is killed if it has not ended after `timeout` seconds."""
 
-    __test__ = False  # not to be collected by pytest
+    __test__ = False  # pytest must not collect this class
 
     def __init__(self, *, timeout: float | SomeSubstitutionsType | None = None, **kwargs: Any) -> None:
         super().__init__(**kwargs)
@@ -27,7 +27,7 @@ class Test(ExecuteProcess):
 
     @property
     def timeout(self) -> float | SomeSubstitutionsType | None:
-        """Seconds, None for no limit."""
+        """The timeout in seconds; None for no limit."""
         return self.__timeout
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
@@ -48,7 +48,7 @@ class GTest(Test):
 
     @property
     def path(self) -> Any:
-        """Its path."""
+        """The path of the program."""
         return self.__path
 
 
@@ -61,5 +61,5 @@ class PyTest(Test):
 
     @property
     def path(self) -> Any:
-        """Its path."""
+        """The path of the file."""
         return self.__path

@@ -1,4 +1,4 @@
-"""`ReadyToTest`: from now on the tests run."""
+"""`ReadyToTest`: the tests begin when it is visited."""
 
 from __future__ import annotations
 
@@ -18,6 +18,6 @@ class ReadyToTest(Action):
         self.__callbacks.append(callback)
 
     def execute(self, context: object) -> None:
-        """Notify those who wait."""
+        """Notify the waiting threads."""
         for callback in self.__callbacks:
             callback()

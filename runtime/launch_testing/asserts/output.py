@@ -23,7 +23,7 @@ def assertInStream(
     strip_ansi_escape_sequences: bool = True,
     stream: str = "stderr",
 ) -> None:
-    """Assert that a process, or any for None, has written something, by the rules of `build_text_match`.
+    """Assert that a process, or for None any process, has written something, by the rules of `build_text_match`.
 
     Raises `ValueError` for a stream not in `STREAMS`, and for a filter that is not callable.
     """
@@ -71,7 +71,7 @@ def assertInStderr(
 
 
 class SequentialTextChecker:
-    """Asserts texts one after the other: each is searched for after the previous one."""
+    """Asserts texts one after the other: the search for each begins after the previous one."""
 
     def __init__(self, output: list[str]) -> None:
         self._text = "".join(output)
@@ -88,7 +88,7 @@ class SequentialTextChecker:
         self._at = found + len(msg)
 
     def assertInStdout(self, msg: str) -> None:
-        """The same, under the name that tests use."""
+        """Do the same under the name that tests use."""
         self.assertInText(msg)
 
     def get_nearby_lines(self) -> str:

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class StdoutReadyListener(OnProcessIO):
-    """Runs actions whenever a process, or any for None, prints a chunk containing a text to its standard output."""
+    """Runs actions whenever a process, or for None any process, prints a chunk containing a text to standard output."""
 
     def __init__(
         self, *, target_action: Action | None = None, ready_txt: str, actions: list[LaunchDescriptionEntity]

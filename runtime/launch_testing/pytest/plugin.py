@@ -16,18 +16,18 @@ if TYPE_CHECKING:
 
 
 class LaunchTestFailure(Exception):
-    """Some test cases of a module have failed; the message is theirs."""
+    """Some test cases of a module have failed; their messages form this one."""
 
 
 class LaunchTestItem(pytest.Item):
-    """All runs of a module."""
+    """A test item for all runs of a module."""
 
     def __init__(self, *, module: ModuleType, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self._module = module
 
     def runtest(self) -> None:
-        """Run them; raises `LaunchTestFailure`."""
+        """Execute the runs; raises `LaunchTestFailure`."""
         words = [each for some in self.config.getoption("--launch-args") or () for each in some]
         result = unittest.TestResult()
         for run in test_runs(self._module):
@@ -39,13 +39,13 @@ class LaunchTestItem(pytest.Item):
             raise LaunchTestFailure(f"{self.name} has no tests")
 
     def repr_failure(self, excinfo: Any, style: Any = None) -> Any:
-        """The tests' own tracebacks, without ours."""
+        """Return the tests' own tracebacks, without ours."""
         return (
             str(excinfo.value) if isinstance(excinfo.value, LaunchTestFailure) else super().repr_failure(excinfo, style)
         )
 
     def reportinfo(self) -> tuple[Path, int, str]:
-        """Its location."""
+        """Return the location of the item."""
         return self.path, 0, f"launch tests: {self.name}"
 
 
@@ -53,12 +53,12 @@ class LaunchTestModule(pytest.Module):
     """A module with a test description."""
 
     def collect(self) -> Iterator[Any]:
-        """One item."""
+        """Yield a single item."""
         yield LaunchTestItem.from_parent(self, name=self.path.stem, module=self.obj)
 
 
 def pytest_pycollect_makemodule(module_path: Path, parent: object) -> Any:
-    """Take modules with a marked description; leave all others to pytest."""
+    """Collect modules with a marked description; leave all others to pytest."""
     if DESCRIPTION not in module_path.read_text(encoding="utf-8", errors="replace"):
         return None
     module = LaunchTestModule.from_parent(parent, path=module_path)
@@ -67,12 +67,12 @@ def pytest_pycollect_makemodule(module_path: Path, parent: object) -> Any:
 
 
 def pytest_addoption(parser: Any) -> None:
-    """`--launch-args`."""
+    """Add the option `--launch-args`."""
     parser.addoption("--launch-args", action="append", nargs="*", default=[], help="One or more Launch test arguments")
 
 
 def pytest_configure(config: Any) -> None:
-    """The marker."""
+    """Register the marker."""
     text = "mark a generate_test_description function as a launch test entrypoint"
     config.addinivalue_line("markers", f"launch_test: {text}")
     config.addinivalue_line("markers", f"rostest: {text}")

@@ -23,7 +23,7 @@ def get_default_filtered_patterns() -> list[str]:
 def basic_output_filter(
     filtered_prefixes: Sequence[str] | None = None, filtered_patterns: Sequence[str] | None = None
 ) -> Callable[[str], str]:
-    """Return a function that removes lines with these prefixes or patterns from a text."""
+    """Return a function that removes the lines with these prefixes or patterns from a text."""
     prefixes = tuple(get_default_filtered_prefixes() if filtered_prefixes is None else filtered_prefixes)
     some = get_default_filtered_patterns() if filtered_patterns is None else filtered_patterns
     patterns = [re.compile(each) for each in some]
@@ -55,7 +55,7 @@ def expect_output(
 ) -> bool:
     """Return whether a text, or lines, match, by the rules of `build_text_match` and `build_line_match`.
 
-    Raises `ValueError` unless exactly one of text and lines, and one of the two expectations, is given.
+    Raises `ValueError` unless exactly one of text and lines, and exactly one of the two expectations, is given.
     """
     if (text is None) == (lines is None):
         raise ValueError("Either lines or text, but not both, must be specified")

@@ -1,4 +1,4 @@
-"""A process that a test starts beside the others, and its state as seen by the test."""
+"""A process that a test starts beside the others, and its state as the test sees it."""
 
 from __future__ import annotations
 
@@ -41,12 +41,12 @@ class ProcessProxy:
         self._filter = output_filter
 
     def wait_for_shutdown(self, timeout: float | None = None) -> bool:
-        """Return whether it ends within this many seconds; None waits without a limit."""
+        """Return whether the process ends within `timeout` seconds; None waits without a limit."""
         with self._proc_info.proc_event:
             return self._proc_info.proc_event.wait_for(lambda: self.terminated, timeout)
 
     def wait_for_output(self, condition: Callable[[str], Any] | None = None, timeout: float | None = None) -> Answer:
-        """Return whether its output, while it runs, meets a condition within this many seconds; any output for None."""
+        """Return whether the running process's output meets a condition within `timeout` seconds; None accepts any."""
         if condition is not None and not callable(condition):
             raise TypeError(f"Expected 'condition' to be callable but got '{condition!r}'")
         answer = Answer()
@@ -63,22 +63,22 @@ class ProcessProxy:
 
     @property
     def target_process_action(self) -> ExecuteProcess:
-        """The action."""
+        """The action that runs the process."""
         return self._action
 
     @property
     def stderr(self) -> str:
-        """Its standard error output."""
+        """The process's standard error."""
         return self._text(lambda event: event.from_stderr)
 
     @property
     def stdout(self) -> str:
-        """Its standard output."""
+        """The process's standard output."""
         return self._text(lambda event: event.from_stdout)
 
     @property
     def output(self) -> str:
-        """All its output, in order."""
+        """All output of the process, in order."""
         return self._text(lambda event: True)
 
     def _text(self, counts: Callable[[Any], bool]) -> str:
@@ -88,17 +88,17 @@ class ProcessProxy:
 
     @property
     def running(self) -> bool:
-        """Whether it has started and not ended."""
+        """Whether the process has started and not ended."""
         return isinstance(self._last_event(), ProcessStarted)
 
     @property
     def terminated(self) -> bool:
-        """Whether it has ended."""
+        """Whether the process has ended."""
         return isinstance(self._last_event(), ProcessExited)
 
     @property
     def exit_code(self) -> int:
-        """Its exit code."""
+        """The process's exit code."""
         return int(self._proc_info[self._action].returncode)
 
     def _last_event(self) -> Any:
@@ -106,7 +106,7 @@ class ProcessProxy:
 
 
 class Answer:
-    """True or false, and shows the examined text in a failed assertion."""
+    """A truth value that shows the examined text in a failed assertion."""
 
     so = False
     text: str | None = None

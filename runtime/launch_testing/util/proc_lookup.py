@@ -1,4 +1,4 @@
-"""Selects processes: by the action, or by a part of the name and arguments of the command."""
+"""Selects processes: by their action, or by a part of their command's name and arguments."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from launch.actions import ExecuteLocal
 from launch.substitutions import TextSubstitution
 
 NO_CMD_ARGS = object()
-"""Represents a command without arguments."""
+"""Stands for a command without arguments."""
 
 
 class NoMatchingProcessException(Exception):
@@ -18,7 +18,7 @@ class NoMatchingProcessException(Exception):
 def resolveProcesses(
     info_obj: Any, *, process: Any = None, cmd_args: Any = None, strict_proc_matching: bool = True
 ) -> list[Any]:
-    """Return the matching actions known to a handler; all for None.
+    """Return the matching actions that a handler knows; None matches all.
 
     Raises `NoMatchingProcessException` for none, `Exception` for several if one is required, `TypeError` for anything
     but an action or a text.
@@ -43,20 +43,20 @@ def resolveProcesses(
             f"Did not find any processes matching name '{process}' and args '{cmd_args}'. Procs: {names}"
         )
     if strict_proc_matching and len(found) > 1:
-        raise Exception(  # the class is upstream's: code that waits for a missing process does not catch it
+        raise Exception(  # upstream's class, which code that waits for a missing process does not catch
             f"Found multiple processes matching name '{process}' and cmd_args '{cmd_args}'. Procs: {names}"
         )
     return found
 
 
 def name_of(action: Any) -> str:
-    """Return the name of a process as assigned by launch; empty before it was prepared."""
+    """Return the name that launch gave a process; empty before it was prepared."""
     details = action.process_details
     return str(details["name"]) if details else ""
 
 
 def described(action: Any) -> str:
-    """Return name and arguments of a process; before its launch the command, if that is plain text."""
+    """Return the name and arguments of a process; before its launch, the command if it is plain text."""
     details = action.process_details
     if details:
         return " ".join([details["name"], *details["cmd"][1:]])

@@ -6,7 +6,7 @@ from launch.action import Action
 
 
 class EnableRmwIsolation(Action):
-    """Does nothing here: a test's launch runs in the domain of its process, which is isolated by default."""
+    """Does nothing here, as a test's launch runs in the domain of its process, which is isolated by default."""
 
     def execute(self, context: object) -> None:
         """Do nothing."""

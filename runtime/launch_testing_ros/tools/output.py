@@ -9,7 +9,7 @@ from launch_testing.tools import output
 
 
 def get_rmw_output_filter(rmw_implementation: str, filter_type: str) -> list[str]:
-    """Return a middleware's list of its own lines, "prefixes" or "patterns"; raises `TypeError` for another type."""
+    """Return a middleware's own lines, "prefixes" or "patterns"; raises `TypeError` for another filter type."""
     supported = ["prefixes", "patterns"]
     if filter_type not in supported:
         raise TypeError(f'Unsupported filter_type "{filter_type}". Supported types: {supported}')
@@ -22,7 +22,7 @@ def basic_output_filter(
     filtered_patterns: Sequence[str] | None = None,
     filtered_rmw_implementation: str | None = None,
 ) -> Callable[[str], str]:
-    """Return the filter of `launch_testing`, which also removes the lines of a middleware."""
+    """Return the filter of `launch_testing`, extended to remove a middleware's lines."""
     prefixes = output.get_default_filtered_prefixes() if filtered_prefixes is None else list(filtered_prefixes)
     patterns = output.get_default_filtered_patterns() if filtered_patterns is None else list(filtered_patterns)
     if filtered_rmw_implementation:

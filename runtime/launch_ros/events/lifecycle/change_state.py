@@ -36,7 +36,7 @@ class ChangeState(Event):
 
     name = "launch_ros.events.lifecycle.ChangeState"
     valid_transitions: ClassVar[dict[int, str]] = {getattr(Transition, name): name for name in TRANSITIONS}
-    """Names of the requestable transitions, by number."""
+    """Names of the transitions that can be requested, by number."""
     valid_states: ClassVar[dict[int, str]] = {getattr(State, name): name for name in STATES}
     """Names of states, by number."""
 
@@ -55,5 +55,5 @@ class ChangeState(Event):
 
     @property
     def transition_id(self) -> int:
-        """The transition, as in `lifecycle_msgs/msg/Transition`."""
+        """The transition's number in `lifecycle_msgs/msg/Transition`."""
         return self.__transition_id

@@ -28,7 +28,7 @@ class StateTransition(Event):
 
     @property
     def msg(self) -> TransitionEvent:
-        """The message that reports it."""
+        """The message that reports the transition."""
         return self.__msg
 
     @property
