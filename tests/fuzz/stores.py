@@ -178,9 +178,9 @@ def preset_of_curves(text: str) -> None:
 
 
 def background(text: str) -> None:
-    from bot_console.tui.cli.verbs.background import _written
+    from bot_console.tui.cli.verbs.background import _read
 
-    known = _written(Path(file(text, "background.json")))
+    known = _read(Path(file(text, "background.json")))
     if known is not None:
         known.runs()
-        known.reported().encode("utf-8", "surrogatepass")
+        known.describe().encode("utf-8", "surrogatepass")

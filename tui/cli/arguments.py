@@ -109,7 +109,7 @@ def parse_attach(words: Sequence[str], parser: argparse.ArgumentParser) -> tuple
     """Parse the words after `attach`; ends the program with exit code 2 for wrong usage."""
     opening, words = parse_rqt_command(words) if is_rqt(words) else (None, words)
     given = parser.parse_args(words)
-    _check_pane(parser, given.pane)
+    _require_pane(parser, given.pane)
     opening = _with_perspective(opening or Opening(given.pane), given)
     options = Options(
         opening=opening,
@@ -154,8 +154,8 @@ def parse(words: Sequence[str], commands: Collection[str] = ()) -> Options:
     parser = option_parser()
     opening, words = parse_rqt_command(words) if is_rqt(words) else (None, words)
     given = parser.parse_args(words)
-    _check_pane(parser, given.pane)
-    profile, name, pairs = _words(parser, given, commands)
+    _require_pane(parser, given.pane)
+    profile, name, pairs = _parse_words(parser, given, commands)
     if profile.launch:
         given.launch, pairs = profile.launch, {**profile.arguments, **pairs}
     if given.simulator is not None and not given.launch:
@@ -188,13 +188,13 @@ def parse(words: Sequence[str], commands: Collection[str] = ()) -> Options:
     )
 
 
-def _check_pane(parser: argparse.ArgumentParser, pane: str) -> None:
+def _require_pane(parser: argparse.ArgumentParser, pane: str) -> None:
     named = {each.id for each in PANES} | {"overview"}
     if pane not in named:
         parser.error(f"there is no pane '{pane}'; panes: {', '.join(sorted(named))}")
 
 
-def _words(
+def _parse_words(
     parser: argparse.ArgumentParser, given: argparse.Namespace, commands: Collection[str]
 ) -> tuple[NamedProfile, str, dict[str, str]]:
     """The profile, the name of a package's launch file, and the arguments NAME:=VALUE."""
@@ -279,7 +279,7 @@ def option_parser() -> argparse.ArgumentParser:
     return parser
 
 
-def background_help(parser: argparse.ArgumentParser) -> None:
+def add_background_options(parser: argparse.ArgumentParser) -> None:
     """Add the options that describe a system, for the help of a command that starts it without a screen."""
     _add_system(parser)
     parser.add_argument("--duration", type=positive, metavar="S", help="seconds to run (default: until `down`)")

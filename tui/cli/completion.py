@@ -19,19 +19,19 @@ from bot_console.tui.session.embedded.domain import others_take_part, take_part
 from bot_console.tui.session.embedded.named_profile import profile_names
 
 
-class Names(Protocol):
+class NameSource(Protocol):
     """The source of names."""
 
-    def asked(self, *words: str) -> list[str]:
+    def lines_of(self, *words: str) -> list[str]:
         """The lines that a `ros2` verb prints; none if it fails."""
         ...
 
-    def live(self, *words: str) -> list[str]:
+    def live_lines_of(self, *words: str) -> list[str]:
         """The same for verbs that query the running system."""
         ...
 
 
-Source = Callable[[Names, Sequence[str]], Iterable[str]]
+Source = Callable[[NameSource, Sequence[str]], Iterable[str]]
 """Returns the candidates for a place, given the words before it."""
 
 
@@ -42,16 +42,16 @@ def run(words: Sequence[str]) -> int:
     return 0
 
 
-def candidates(words: Sequence[str], names: Names | None = None) -> list[str]:
+def candidates(words: Sequence[str], names: NameSource | None = None) -> list[str]:
     """The candidates for the last word; the words before it are complete."""
     *before, begun = words or [""]
     if before and before[0] == "ros2":
         before = before[1:]
-    found = {each for each in _offered(names or ShellNames(), before, begun) if each.startswith(begun)}
+    found = {each for each in _candidates(names or ShellNames(), before, begun) if each.startswith(begun)}
     return sorted(each for each in found if each != begun or not each.endswith(":="))  # the value comes after `:=`
 
 
-def _offered(names: Names, before: list[str], begun: str) -> Iterable[str]:
+def _candidates(names: NameSource, before: list[str], begun: str) -> Iterable[str]:
     install()
     from ros2cli.command_line import COMMANDS, load
 
@@ -82,7 +82,7 @@ def _options(arguments: Callable[[argparse.ArgumentParser], None]) -> list[str]:
 class ShellNames:
     """The names for a shell; they come from verbs run in this process, whose output is captured."""
 
-    def asked(self, *words: str) -> list[str]:
+    def lines_of(self, *words: str) -> list[str]:
         """The lines that a verb prints; none if it fails."""
         from ros2cli.command_line import main
 
@@ -91,17 +91,17 @@ class ShellNames:
             failed = main(words)
         return [] if failed else [line.strip() for line in printed.getvalue().splitlines()]
 
-    def live(self, *words: str) -> list[str]:
+    def live_lines_of(self, *words: str) -> list[str]:
         """The same for verbs that query the running system; returns nothing, at once, if the domain is empty."""
-        return self.asked(*words) if others_take_part() and not take_part() else []
+        return self.lines_of(*words) if others_take_part() and not take_part() else []
 
 
 def _names(*words: str) -> Source:
-    return lambda names, given: names.asked(*words)
+    return lambda names, given: names.lines_of(*words)
 
 
 def _running(*words: str) -> Source:
-    return lambda names, given: names.live(*words)
+    return lambda names, given: names.live_lines_of(*words)
 
 
 def _profiles(before: Sequence[str]) -> Iterable[str]:
@@ -110,23 +110,23 @@ def _profiles(before: Sequence[str]) -> Iterable[str]:
     return profile_names([expanded_path(folder) for option, folder in given if option == "--profiles"])
 
 
-def _parameters(names: Names, given: Sequence[str]) -> Iterable[str]:
-    return names.live("param", "list", given[0])
+def _parameters(names: NameSource, given: Sequence[str]) -> Iterable[str]:
+    return names.live_lines_of("param", "list", given[0])
 
 
-def _executables(names: Names, given: Sequence[str]) -> Iterable[str]:
-    return (line.partition(" ")[2] for line in names.asked("pkg", "executables", given[0]))
+def _executables(names: NameSource, given: Sequence[str]) -> Iterable[str]:
+    return (line.partition(" ")[2] for line in names.lines_of("pkg", "executables", given[0]))
 
 
-def _files(names: Names, given: Sequence[str]) -> Iterable[str]:
+def _files(names: NameSource, given: Sequence[str]) -> Iterable[str]:
     return (name for name in os.listdir(".") if name.endswith((".py", ".xml", ".yaml", ".yml")))
 
 
-def _packages_and_files(names: Names, given: Sequence[str]) -> Iterable[str]:
-    return [*names.asked("pkg", "list"), *_files(names, given)]
+def _packages_and_files(names: NameSource, given: Sequence[str]) -> Iterable[str]:
+    return [*names.lines_of("pkg", "list"), *_files(names, given)]
 
 
-def _launch_files(names: Names, given: Sequence[str]) -> Iterable[str]:
+def _launch_files(names: NameSource, given: Sequence[str]) -> Iterable[str]:
     from ament_index_python.packages import PackageNotFoundError, get_package_share_directory
 
     try:
@@ -139,12 +139,12 @@ def _launch_files(names: Names, given: Sequence[str]) -> Iterable[str]:
 
 def _type_of(command: str) -> Source:
     """The types of the topic, service or action named before; all interface types if none was named."""
-    return lambda names, given: names.live(command, "type", given[0]) or names.asked("interface", "list")
+    return lambda names, given: names.live_lines_of(command, "type", given[0]) or names.lines_of("interface", "list")
 
 
-def _launch_arguments(names: Names, given: Sequence[str]) -> Iterable[str]:
+def _launch_arguments(names: NameSource, given: Sequence[str]) -> Iterable[str]:
     """The arguments of a package's launch file, up to `:=`."""
-    reported = names.asked("launch", given[0], given[1], "--show-args")
+    reported = names.lines_of("launch", given[0], given[1], "--show-args")
     return [f"{line[1:-2]}:=" for line in reported if line.startswith("'") and line.endswith("':")]
 
 

@@ -13,7 +13,7 @@ SWITCH_INTERVAL_S = 0.0005
 
 @contextlib.contextmanager
 def without_collector() -> Generator[None]:
-    """Switch the garbage collector off until `collect_from_now_on` is called or the block ends.
+    """Switch the garbage collector off until `resume_collection` is called or the block ends.
 
     The modules and objects of the screen stay alive, and traversing them repeatedly would delay the first frame and the
     first keys by tens of milliseconds each time.
@@ -22,10 +22,10 @@ def without_collector() -> Generator[None]:
     try:
         yield
     finally:
-        collect_from_now_on()  # otherwise the shutdown would first traverse everything made so far
+        resume_collection()  # otherwise the shutdown would first traverse everything made so far
 
 
-def collect_from_now_on() -> None:
+def resume_collection() -> None:
     """Switch the garbage collector on again, ignoring everything that exists by now."""
     gc.freeze()
     gc.enable()

@@ -10,7 +10,7 @@ from typing import NoReturn
 
 from bot_console.runtime.programs.exit_messages import help_is_english, report_help_errors, run_and_report
 from bot_console.tui import __version__
-from bot_console.tui.cli.undecodable import undecodable
+from bot_console.tui.cli.encoding_check import encoding_problem
 from bot_console.tui.cli.verbs import ros2
 from bot_console.tui.learn.command_log import record_command
 from bot_console.tui.session.embedded.domain import begin_program, end_program, others_take_part
@@ -48,7 +48,7 @@ _COMMANDS = {
 }
 """The module (below this package) and the function of each command, which takes the words; imported when needed."""
 
-_REACHING = ("bag", "check", "graph", "lint", "release", "reset", "status", "stop")
+_CONNECTING = ("bag", "check", "graph", "lint", "release", "reset", "status", "stop")
 """Commands that, like the verbs of `ros2`, connect to the robot named by the environment."""
 
 _ROS2 = {
@@ -71,28 +71,28 @@ def main(argv: Sequence[str] | None = None) -> int:
     help_is_english()
     report_help_errors()
     try:
-        words = _in_workspace(_of_distro(words))
+        words = _without_workspace(_without_distro(words))
     except ValueError as error:
         print(f"bot-console: {error}", file=sys.stderr)
         return 2
     sent = not words or words[0] in ("launch", "run", *ros2.VERBS) or words[0] not in _COMMANDS
-    if sent and (problem := undecodable(words)):
+    if sent and (problem := encoding_problem(words)):
         print(f"bot-console: {problem}", file=sys.stderr)
         return 2
     verb = next(iter(words[1:] if words[:1] == ["ros2"] else words), "")
-    reaches = verb in (*ros2.VERBS, *_REACHING) or verb.startswith("--connect")
+    reaches = verb in (*ros2.VERBS, *_CONNECTING) or verb.startswith("--connect")
     if reaches and (problem := without_connect(words)):
         print(f"bot-console: {problem}", file=sys.stderr)
         return 2
     if words and words[0] in ros2.VERBS:  # first, to answer these fastest
-        return ros2.taking_part(words)
+        return ros2.run_in_domain(words)
     from bot_console.tui.arrangement.opening import is_rqt, names_system
 
     if is_rqt(words):
         if others_take_part() or not names_system(words):
             return _attach(words)
     elif words and words[0] in _COMMANDS:
-        return _imported(_COMMANDS[words[0]])(words[1:])
+        return _load(_COMMANDS[words[0]])(words[1:])
     from bot_console.tui.cli.arguments import parse
 
     os.getcwd()  # Raises if the folder was deleted, in which nodes could not start; reported on one line.
@@ -112,7 +112,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return show(options)
 
 
-def _of_distro(words: Words) -> Words:
+def _without_distro(words: Words) -> Words:
     """Handle the option `--distro`, and return the other words; raises `ValueError` for an unknown distribution."""
     if not os.environ.get("BOT_CONSOLE_DISTRO") and not any(each.startswith("--distro") for each in words):
         return words
@@ -126,7 +126,7 @@ def is_command(word: str) -> bool:
     return word in _COMMANDS or word in ros2.VERBS
 
 
-def _in_workspace(words: Words) -> Words:
+def _without_workspace(words: Words) -> Words:
     """Handle a command's option `--workspace`, and return the other words; raises `ValueError` for a missing folder."""
     if not any(each.partition("=")[0] == "--workspace" for each in words):
         return words
@@ -177,7 +177,7 @@ def _attach(words: Words) -> int:
         return run(words)
 
 
-def _imported(place: str) -> Callable[[Words], int]:
+def _load(place: str) -> Callable[[Words], int]:
     from importlib import import_module  # late, since `--version` does not need it
 
     module, _, function = place.partition(":")
@@ -186,9 +186,9 @@ def _imported(place: str) -> Callable[[Words], int]:
 
 def ros2_command(words: Words) -> int:
     """Run `bot-console ros2 WORDS`, like `bot-console WORDS` except for commands of that name that ROS 2 has too."""
-    if problem := undecodable(words):
+    if problem := encoding_problem(words):
         print(f"ros2: {problem}", file=sys.stderr)
         return 2
     if words and words[0] in _ROS2:
-        return _imported(_ROS2[words[0]])(words[1:])
-    return ros2.taking_part(words) if words and words[0] in ros2.VERBS else ros2.main(words)
+        return _load(_ROS2[words[0]])(words[1:])
+    return ros2.run_in_domain(words) if words and words[0] in ros2.VERBS else ros2.main(words)

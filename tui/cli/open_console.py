@@ -62,7 +62,7 @@ def run(options: Options) -> int:
             hosts.callback(claim.release)
             if others_take_part() or not claim.held:
                 _prepare(options)
-                robot = claim.seen(robot_there, report_of_other_start)
+                robot = claim.wait_for_robot(robot_there, report_of_other_start)
                 there = robot or same_names_there(options.launch_arguments)
                 if there and not wants_to_attach(there, robot=bool(robot)):
                     return 1

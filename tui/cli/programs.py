@@ -14,7 +14,7 @@ from bot_console.runtime.workspace.choices import all_executable_names, package_
 from bot_console.runtime.workspace.not_found import no_executable, no_package
 
 
-def program(words: list[str], hint: Callable[[str], None]) -> tuple[dict[str, str], str]:
+def program_arguments(words: list[str], hint: Callable[[str], None]) -> tuple[dict[str, str], str]:
     """The arguments for `program.launch.py`, and why the program cannot run, if so; `words` are those after `run`.
 
     `hint` is called with warnings about a file that can run nevertheless.

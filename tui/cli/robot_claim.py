@@ -28,10 +28,10 @@ class RobotClaim:
     def __init__(self, folder: Path) -> None:
         self._path = folder / NAME
         self._handle = -1
-        self.held = self._take()
+        self.held = self._lock()
         """Whether this program holds the claim, so that no other one has a robot or is starting one."""
 
-    def _take(self) -> bool:
+    def _lock(self) -> bool:
         """Lock the file; also true if the folder or the file system supports no locks."""
         while True:
             try:
@@ -55,7 +55,7 @@ class RobotClaim:
         """Descriptors that let a child process hold the claim too, for as long as it runs; empty on Windows."""
         return (self._handle,) if self._handle >= 0 and sys.platform != "win32" else ()
 
-    def seen(self, poll: Callable[[], list[str]], report: Callable[[], None]) -> list[str]:
+    def wait_for_robot(self, poll: Callable[[], list[str]], report: Callable[[], None]) -> list[str]:
         """Return the robot that `poll` finds; if another program holds the claim, wait for its robot or its release.
 
         `report` is called once before waiting.
@@ -66,7 +66,7 @@ class RobotClaim:
                 report()
             reported = True
             time.sleep(CLAIM_POLL_S)
-            self.held = self._take()
+            self.held = self._lock()
         return found
 
     def hand_over(self) -> None:

@@ -35,7 +35,7 @@ class ShellPython:
     def __str__(self) -> str:
         return f"python3 ({self.path}, Python {self.version[0]}.{self.version[1]})"
 
-    def described(self) -> str:
+    def description(self) -> str:
         """Describe on one line which rclpy it imports."""
         if self.real:
             return f"{self} imports the real rclpy ({os.path.dirname(self.real)}); `bot-console run` the embedded one"

@@ -23,13 +23,13 @@ def without_workspace(words: Sequence[str], is_command: Callable[[str], object])
 
     For a command that parses the option itself, it is only moved behind the command. Raises `NoWorkspaceError`.
     """
-    before, rest = _leading(words)
+    before, rest = _leading_folders(words)
     if not rest or not is_command(rest[0]):
         return [*words]
     command, words = rest[0], rest[1:]
-    after, rest = _leading(words)
+    after, rest = _leading_folders(words)
     if command in ANYWHERE:
-        after, rest = _all(words)
+        after, rest = _all_folders(words)
     folders = [*before, *after]
     if command in THEIR_OWN:
         return [command, *(word for each in folders for word in (OPTION, each)), *rest]
@@ -46,31 +46,31 @@ def use_folders(folders: Collection[str]) -> None:
     choose([Path(each) for each in folders])
 
 
-def _leading(words: Sequence[str]) -> tuple[list[str], list[str]]:
+def _leading_folders(words: Sequence[str]) -> tuple[list[str], list[str]]:
     """The folders of the options at the beginning, and the remaining words."""
     folders: list[str] = []
     rest = [*words]
     while rest and (rest[0] == OPTION or rest[0].startswith(f"{OPTION}=")):
-        folder, taken = _folder(rest)
+        folder, taken = _option_folder(rest)
         folders.append(folder)
         del rest[:taken]
     return folders, rest
 
 
-def _all(words: Sequence[str]) -> tuple[list[str], list[str]]:
+def _all_folders(words: Sequence[str]) -> tuple[list[str], list[str]]:
     """The folders of all options, and the other words."""
     folders: list[str] = []
     others: list[str] = []
     rest = [*words]
     while rest:
-        found, rest = _leading(rest)
+        found, rest = _leading_folders(rest)
         folders += found
         others += rest[:1]
         rest = rest[1:]
     return folders, others
 
 
-def _folder(words: Sequence[str]) -> tuple[str, int]:
+def _option_folder(words: Sequence[str]) -> tuple[str, int]:
     """The folder of the option that begins with the first word, and the number of words that it takes."""
     if words[0] == OPTION:
         return (words[1], 2) if len(words) > 1 else ("", 1)

@@ -9,7 +9,7 @@ from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.cli.appearance import appearance_of
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.foreground.foreground import Foreground
-from bot_console.tui.cli.interpreter import collect_from_now_on
+from bot_console.tui.cli.interpreter import resume_collection
 from bot_console.tui.console.command_line import CommandLine
 from bot_console.tui.console.model import Severity
 from bot_console.tui.console.ros_console import RosConsole
@@ -60,7 +60,7 @@ class AttachedSession:
     def _on_first_frame(self) -> None:
         self._foreground.begin()
         self._first_frame()
-        collect_from_now_on()
+        resume_collection()
         self._console.start()
         threading.Thread(target=self._report, name="start", daemon=True).start()
 

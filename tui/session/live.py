@@ -12,7 +12,7 @@ from bot_console.tui.arrangement.startup import System
 from bot_console.tui.cli.appearance import appearance_of
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.foreground.foreground import Foreground
-from bot_console.tui.cli.interpreter import collect_from_now_on
+from bot_console.tui.cli.interpreter import resume_collection
 from bot_console.tui.cli.slow_exit import report_slow_exit
 from bot_console.tui.pane_table import PaneEntry
 
@@ -34,7 +34,7 @@ class Session:
         self.app = BotConsoleApp(
             reach=self._reach,
             opening=options.opening._replace(notes=(*options.opening.notes, *appearance.notes)),
-            on_first_frame=collect_from_now_on,
+            on_first_frame=resume_collection,
             appearance=appearance,
             plugins=self._plugins,
         )

@@ -26,7 +26,7 @@ PLUGINS: Mapping[str, tuple[str, ...]] = {
     "decompression": ("rosbag2_compression_zstd::ZstdDecompressor",),
 }
 """The plug-ins of rosbag2, by type, whose work can be done here too."""
-DONE_HERE = frozenset(
+SUPPORTED_KEYS = frozenset(
     ["uri", "storage_id", "max_bagfile_size", "max_bagfile_duration", "storage_preset_profile", "topics", "services",
      "topic_types", "all", "all_topics", "all_services", "regex", "exclude_regex", "exclude_topics",
      "exclude_topic_types", "exclude_services", "exclude", "compression_mode", "compression_format", "custom_data",
@@ -70,7 +70,7 @@ def _outputs(path: Path) -> list[dict[str, Any]]:
 
 
 def _write(bags: list[Any], output: Mapping[str, Any]) -> None:
-    unknown = sorted(map(str, output.keys() - DONE_HERE))
+    unknown = sorted(map(str, output.keys() - SUPPORTED_KEYS))
     if unknown:
         print(
             sanitize(f"{output['uri']}: ignored, since nothing here depends on it: {', '.join(unknown)}"),
@@ -82,8 +82,8 @@ def _write(bags: list[Any], output: Mapping[str, Any]) -> None:
         Path(str(output["uri"])),
         WritingOptions(
             str(output.get("storage_id") or "mcap"), str(output.get("storage_preset_profile") or "none"),
-            str(output.get("compression_mode") or "none").lower(), _read(output, "max_bagfile_size", int, 0),
-            _read(output, "max_bagfile_duration", float, 0.0), _read(output, "custom_data", dict, {}),
+            str(output.get("compression_mode") or "none").lower(), _value(output, "max_bagfile_size", int, 0),
+            _value(output, "max_bagfile_duration", float, 0.0), _value(output, "custom_data", dict, {}),
         ),
     )  # fmt: skip
     for name, topic in bag.topics.items():
@@ -101,13 +101,13 @@ def _write(bags: list[Any], output: Mapping[str, Any]) -> None:
     print(sanitize(f"{writer.metadata.count} messages of {len(writer.metadata.topics)} topics in {writer.folder}"))
 
 
-def _listed(value: Any) -> list[Any]:
+def _as_list(value: Any) -> list[Any]:
     if not isinstance(value, list):
         raise TypeError
     return cast("list[Any]", value)
 
 
-def _read(output: Mapping[str, Any], name: str, kind: Callable[[Any], _V], default: _V) -> _V:
+def _value(output: Mapping[str, Any], name: str, kind: Callable[[Any], _V], default: _V) -> _V:
     """The value of a key, or `default` if it is missing; raises `ValueError` if it cannot be converted by `kind`."""
     value = output.get(name)
     try:
@@ -118,7 +118,7 @@ def _read(output: Mapping[str, Any], name: str, kind: Callable[[Any], _V], defau
 
 def _filters(output: Mapping[str, Any]) -> argparse.Namespace:
     def several(name: str) -> list[str]:
-        return [str(each) for each in _read(output, name, _listed, [])]
+        return [str(each) for each in _value(output, name, _as_list, [])]
 
     patterns = {
         name: re.compile(str(output[name])) if output.get(name) else None for name in ("regex", "exclude_regex")

@@ -20,7 +20,7 @@ POLL_S = 0.2
 
 
 @contextmanager
-def keys_read(pressed: Callable[[str], None]) -> Generator[bool]:
+def read_keys(pressed: Callable[[str], None]) -> Generator[bool]:
     """Call `pressed` from a thread for every key while the block runs; yields whether there is a terminal to read.
 
     A program in the background does not touch the terminal: reading from it would stop the program.

@@ -10,8 +10,8 @@ from contextlib import nullcontext
 from typing import TYPE_CHECKING, Any
 
 from bot_console.tui.cli.bags.common import generic_types, make_node, report_unused, service_types, spin
-from bot_console.tui.cli.bags.keyboard import keys_read
-from bot_console.tui.cli.bags.play_arguments import NOT_NEEDED, bag_paths, chosen_topics, end_of, wrong_play
+from bot_console.tui.cli.bags.keyboard import read_keys
+from bot_console.tui.cli.bags.play_arguments import NOT_NEEDED, bag_paths, chosen_topics, end_time, play_problem
 from bot_console.tui.console.bags.damage import NoBag
 from bot_console.tui.console.bags.definitions import class_of
 from bot_console.tui.console.bags.playing.control_topics import left_out_warning
@@ -38,7 +38,7 @@ def play(given: argparse.Namespace) -> int:
     _offer_services(node, player)
     stopped = threading.Event()
     shown = not given.disable_keyboard_controls and sys.stderr.isatty()
-    keys = nullcontext(False) if given.disable_keyboard_controls else keys_read(lambda key: press(player, key, stopped))
+    keys = nullcontext(False) if given.disable_keyboard_controls else read_keys(lambda key: press(player, key, stopped))
 
     def run() -> None:
         player.await_subscriptions(stopped)
@@ -108,7 +108,7 @@ def _prepare(given: argparse.Namespace) -> tuple[Node, Player] | int:
     from bot_console.tui.console.bags.reader import Bag
     from rclpy.logging import LoggingSeverity
 
-    if wrong := wrong_play(given):
+    if wrong := play_problem(given):
         print(sanitize(wrong), file=sys.stderr)
         return 2
     report_unused(given, NOT_NEEDED)
@@ -130,7 +130,7 @@ def _prepare(given: argparse.Namespace) -> tuple[Node, Player] | int:
     how = PlaybackOptions(
         rate=given.rate,
         offset=given.start_offset,
-        end=end_of(given, bag.span[0]),
+        end=end_time(given, bag.span[0]),
         loop=given.loop,
         paused=given.start_paused,
         topics=named,

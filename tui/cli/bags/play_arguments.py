@@ -80,7 +80,7 @@ def _add_reading(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--log-level", choices=levels, default="info")
 
 
-def wrong_play(given: argparse.Namespace) -> str:
+def play_problem(given: argparse.Namespace) -> str:
     """What is wrong with the combination of options; empty if nothing is."""
     if given.bag is None and not given.input:
         return "Name a bag, or several with --input"
@@ -116,7 +116,7 @@ def chosen_topics(given: argparse.Namespace) -> tuple[list[str] | None, Callable
     return named or None, chosen
 
 
-def end_of(given: argparse.Namespace, begin: int) -> int | None:
+def end_time(given: argparse.Namespace, begin: int) -> int | None:
     """The time (ns since the epoch) at which to stop: the latest one given by an option; None if none is."""
     ends: list[int] = []
     if given.playback_duration >= 0:

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bot_console.tui.cli.bags.common import make_node, new_folder, report_unused, service_types, spin
-from bot_console.tui.cli.bags.keyboard import keys_read
-from bot_console.tui.cli.bags.record_arguments import NOT_NEEDED, wanted_topics, wrong_record
+from bot_console.tui.cli.bags.keyboard import read_keys
+from bot_console.tui.cli.bags.record_arguments import NOT_NEEDED, record_problem, wanted_topics
 from bot_console.tui.console.bags.definitions import class_of
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.text.sanitize import sanitize
@@ -31,7 +31,7 @@ REPORT_S = 0.5
 
 def record(given: argparse.Namespace) -> int:
     """Record; 0 done, 1 failed, 2 wrong options."""
-    if wrong := wrong_record(given):
+    if wrong := record_problem(given):
         print(wrong, file=sys.stderr)
         return 2
     unused = dict(NOT_NEEDED)
@@ -84,12 +84,14 @@ def _recorder(given: argparse.Namespace, node: Node, sink: Any) -> Recorder:
         given, lambda topic: node.count_publishers(topic) > 0, lambda topic: node.count_subscribers(topic) > 0
     )
     poll_s = float("inf") if given.no_discovery else given.polling_interval / 1000
-    made = Recorder(node, sink, wanted, _Types(), poll_s=poll_s, sim_time=given.use_sim_time, generic=DomainTypes())
+    made = Recorder(
+        node, sink, wanted, _TypeFinder(), poll_s=poll_s, sim_time=given.use_sim_time, generic=DomainTypes()
+    )
     made.paused = given.start_paused
     return made
 
 
-class _Types:
+class _TypeFinder:
     """Finds the class of a message type; the definition of an unknown one is requested once from nodes that use it.
 
     Calling it raises `ImportError`, `AttributeError` or `ValueError` if there is no class.
@@ -148,7 +150,7 @@ def _serve(given: argparse.Namespace, node: Node, recorder: Recorder, bag: BagWr
         logger.info(f"Recording to {bag.folder}")
     if recorder.paused:
         logger.info("Waiting for recording: space or the service resume begins it")
-    with keys_read(lambda key: None if given.disable_keyboard_controls else toggle(key)):
+    with read_keys(lambda key: None if given.disable_keyboard_controls else toggle(key)):
         spin(control, given.duration)
 
 

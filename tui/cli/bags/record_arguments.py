@@ -84,7 +84,7 @@ def _add_discovery(record: argparse.ArgumentParser) -> None:
     record.add_argument("--qos-profile-overrides-path", type=existing_file, metavar="FILE", help="not used")
 
 
-def wrong_record(given: argparse.Namespace) -> str:
+def record_problem(given: argparse.Namespace) -> str:
     """What is wrong with the combination of options, in rosbag2's words if it checks that; empty if nothing is."""
     everything = given.all or given.all_topics or given.topic_types or given.regex
     named = given.topics or given.topics_positional or given.services

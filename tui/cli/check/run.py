@@ -81,7 +81,7 @@ def run(words: list[str]) -> int:
         reason = error.strerror if isinstance(error, OSError) and error.strerror else error
         print(f"{given.script} cannot be used: {sanitize(str(reason))}", file=sys.stderr)
         return 2
-    outcomes = _stepped(steps, given) if given.start else _on_what_runs(steps, given)
+    outcomes = _run_stepped(steps, given) if given.start else _run_live(steps, given)
     if outcomes is None:
         return 1
     if given.json:
@@ -91,7 +91,7 @@ def run(words: list[str]) -> int:
     return 0 if len(outcomes) == len(steps) and not any(each.why for each in outcomes) else 1
 
 
-def _on_what_runs(steps: Sequence[Step], given: argparse.Namespace) -> list[Outcome] | None:
+def _run_live(steps: Sequence[Step], given: argparse.Namespace) -> list[Outcome] | None:
     """Carry out the steps on the system in this domain; if there is none, print why and return None."""
     with reached_console() as console:
         if console is None:
@@ -99,10 +99,10 @@ def _on_what_runs(steps: Sequence[Step], given: argparse.Namespace) -> list[Outc
         if not known(console, given.wait):
             print("no node runs in this domain; `bot-console up` starts the robot", file=sys.stderr)
             return None
-        return _done(Runner(console), steps, print_progress=not given.json, stop=given.stop)
+        return _run_steps(Runner(console), steps, print_progress=not given.json, stop=given.stop)
 
 
-def _stepped(steps: Sequence[Step], given: argparse.Namespace) -> list[Outcome] | None:
+def _run_stepped(steps: Sequence[Step], given: argparse.Namespace) -> list[Outcome] | None:
     """Carry out the steps on what `--start` starts; if that fails, print why and return None."""
     install()
     choose([])
@@ -127,7 +127,7 @@ def _text(script: str) -> str:
     return content.decode("utf-8")
 
 
-def _done(runner: Runner, steps: Sequence[Step], *, print_progress: bool, stop: bool) -> list[Outcome]:
+def _run_steps(runner: Runner, steps: Sequence[Step], *, print_progress: bool, stop: bool) -> list[Outcome]:
     outcomes: list[Outcome] = []
     for step in steps:
         outcome = runner.run(step)

@@ -84,7 +84,7 @@ class Runner:
         found = None if why else self._console.snapshot().parameters[node].get(name)
         return found or why
 
-    def _try(self, node: str, name: str, text: str) -> SetOutcome | str:
+    def _set_parameter(self, node: str, name: str, text: str) -> SetOutcome | str:
         """Set a parameter; returns the outcome, or the reason why the node could not be asked."""
         parameter = self._parameter(node, name)
         if isinstance(parameter, str):
@@ -97,7 +97,7 @@ class Runner:
         return outcomes[0] if outcomes else f"{node} does not answer"
 
     def _set(self, step: Step) -> str:
-        outcome = self._try(*step.words)
+        outcome = self._set_parameter(*step.words)
         if isinstance(outcome, str):
             return outcome
         if outcome.accepted:
@@ -107,7 +107,7 @@ class Runner:
 
     def _expect_refused(self, step: Step) -> str:
         node, name, text, reason = step.words
-        outcome = self._try(node, name, text)
+        outcome = self._set_parameter(node, name, text)
         if isinstance(outcome, str):
             return outcome
         if outcome.accepted:

@@ -75,11 +75,11 @@ def _step(number: int, text: str) -> Step:
     return Step(number, text, verb, words, seconds if own is None else own)
 
 
-Read = tuple[tuple[str, ...], "float | None"]
+ParsedStep = tuple[tuple[str, ...], "float | None"]
 
 
-def _parameter(usage: str) -> Callable[[str], Read]:
-    def reading(rest: str) -> Read:
+def _parameter(usage: str) -> Callable[[str], ParsedStep]:
+    def reading(rest: str) -> ParsedStep:
         parts = rest.split(maxsplit=2)
         if len(parts) < 3 or not parts[0].startswith("/"):
             raise ValueError(f"write {usage}")
@@ -88,7 +88,7 @@ def _parameter(usage: str) -> Callable[[str], Read]:
     return reading
 
 
-def _refused(rest: str) -> Read:
+def _refused(rest: str) -> ParsedStep:
     try:
         words = shlex.split(rest)
     except ValueError as error:
@@ -98,7 +98,7 @@ def _refused(rest: str) -> Read:
     return (*words[:3], " ".join(words[3:])), None
 
 
-def _rate(rest: str) -> Read:
+def _rate(rest: str) -> ParsedStep:
     found = RATE.fullmatch(rest)
     try:
         if found is None:
@@ -109,7 +109,7 @@ def _rate(rest: str) -> Read:
     return (found[1], found[2], found[3]), None
 
 
-def _expect(rest: str) -> Read:
+def _expect(rest: str) -> ParsedStep:
     quoted = QUOTED.fullmatch(rest)
     if quoted and quoted[3] not in ("true", "false"):
         return (quoted[1], quoted[2], quoted[3]), None
@@ -117,12 +117,12 @@ def _expect(rest: str) -> Read:
     return (rest,), None
 
 
-def _wait(rest: str) -> Read:
+def _wait(rest: str) -> ParsedStep:
     return (), seconds_of(rest)
 
 
-def _words(least: int, maximum: int, usage: str) -> Callable[[str], Read]:
-    def reading(rest: str) -> Read:
+def _words(least: int, maximum: int, usage: str) -> Callable[[str], ParsedStep]:
+    def reading(rest: str) -> ParsedStep:
         words = rest.split()
         if not least <= len(words) <= maximum:
             raise ValueError(f"write {usage}")
@@ -131,13 +131,13 @@ def _words(least: int, maximum: int, usage: str) -> Callable[[str], Read]:
     return reading
 
 
-def _log(rest: str) -> Read:
+def _log(rest: str) -> ParsedStep:
     if not rest:
         raise ValueError("write expect-log and a filter as in the log, such as sev:>=warn obstacle")
     return (rest,), None
 
 
-VERBS: Mapping[str, Callable[[str], Read]] = {
+VERBS: Mapping[str, Callable[[str], ParsedStep]] = {
     "set": _parameter("set /node parameter value"),
     "expect-refused": _refused,
     "expect": _expect,

@@ -74,7 +74,7 @@ def read_start(line: str) -> Start:
     return Start(launch_file=found.launch, arguments=tuple(words[2:]))
 
 
-class Checker:
+class StepRunner:
     """Carries out the steps within a stepped run; it takes the place of the `Observer` that asks for the report."""
 
     def __init__(self, steps: Sequence[Step], wait_s: float, *, stop: bool) -> None:
@@ -106,7 +106,7 @@ class Checker:
             console.close()
             self.done.set()
 
-    def ask(self) -> None:
+    def finish_early(self) -> None:
         """Do nothing: the steps end by themselves."""
 
     def report(self) -> dict[str, Any]:
@@ -118,16 +118,16 @@ def run_stepped(
     steps: Sequence[Step], starts: Sequence[Start], seed: int, wait_s: float, *, stop: bool
 ) -> list[Outcome]:
     """Start the programs, carry out the steps, and end everything; `install` must have been called before."""
-    from bot_console.tui.cli.headless.run import simulated
+    from bot_console.tui.cli.headless.run import run_simulation
 
-    checker = Checker(steps, wait_s, stop=stop)
+    checker = StepRunner(steps, wait_s, stop=stop)
     with tempfile.TemporaryDirectory(prefix="bc-check-") as folder:
         file = Path(folder) / "check.launch.py"
         actions = "".join(f"        {each.action()},\n" for each in starts)
         file.write_text(f"{HEAD}{actions}    ])\n", encoding="utf-8")
         seconds = wait_s + LINK_TIMEOUT_S + sum(each.seconds for each in steps)
         options = Options(launch=os.fspath(file), fast=True, seed=seed, duration=2 * seconds, simulator=False)
-        _, _, launches = simulated(options, checker)
+        _, _, launches = run_simulation(options, checker)
     if checker.complete:
         return checker.outcomes
     why = f"{NOT_REACHED}{launches.died or 'all nodes have ended'}"

@@ -22,7 +22,7 @@ def clock_findings(samples: Samples, delay: float) -> list[DoctorFinding]:
         (arrived - reported[1]) / 1e9 - delay / 2
         for received in samples.values()
         for attachment, _, arrived in received
-        if (reported := _unpacked(attachment)) is not None
+        if (reported := _unpack_or_none(attachment)) is not None
     ]
     if not offsets:
         return [DoctorFinding(Level.NOTE, "clock", "no message was received, so the clocks were not compared")]
@@ -34,7 +34,7 @@ def clock_findings(samples: Samples, delay: float) -> list[DoctorFinding]:
     return [DoctorFinding(Level.WARN, "clock", f"the robot's is {abs(offset):.1f} s {side} this one", hint)]
 
 
-def _unpacked(attachment: bytes | None):
+def _unpack_or_none(attachment: bytes | None):
     try:
         return unpack(attachment)
     except FormatError:

@@ -6,7 +6,7 @@ import re
 from typing import Any
 
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
-from bot_console.tui.cli.doctor.locks import ask_locks, find_locks, lock_finding
+from bot_console.tui.cli.doctor.locks import find_locks, lock_finding, query_locks
 from bot_console.tui.cli.doctor.spinning import spin_for
 from bot_console.tui.console.graph.full_name import node_name_of
 from rcl_interfaces.srv import GetParameters, ListParameters
@@ -38,8 +38,8 @@ def base_finding(node: Node) -> DoctorFinding:
     if not bases:
         return DoctorFinding(Level.NOTE, "time-out", "no node subscribes to velocity commands")
     if locks := find_locks(node):
-        return lock_finding(ask_locks(node, locks, spin_for))
-    named = [(base, name, value) for base in sorted(bases) for name, value in time_outs(node, base).items()]
+        return lock_finding(query_locks(node, locks, spin_for))
+    named = [(base, name, value) for base in sorted(bases) for name, value in timeout_parameters(node, base).items()]
     if not named:
         return DoctorFinding(Level.WARN, "time-out", f"none was found in {', '.join(sorted(bases))}", HOW)
     listed = ", ".join(f"{base} {name} {value:g}" for base, name, value in named[:3])
@@ -48,7 +48,7 @@ def base_finding(node: Node) -> DoctorFinding:
     return DoctorFinding(Level.OK, "time-out", f"{listed}: make sure that it is short (0.5 s)")
 
 
-def time_outs(node: Node, base: str) -> dict[str, float]:
+def timeout_parameters(node: Node, base: str) -> dict[str, float]:
     """The numeric parameters of a node whose names suggest command time-outs, with their values."""
     listed = _answer(node, ListParameters, f"{base}/list_parameters", ListParameters.Request())
     names = [each for each in listed.result.names if TIMEOUT_PARAMETER.search(each)] if listed else []

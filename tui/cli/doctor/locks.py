@@ -28,7 +28,7 @@ REMEDY = (
 
 
 @dataclass
-class AskedLock:
+class LockQuery:
     """A lock that was queried: its topic, the nodes that publish it, and the answer."""
 
     topic: str
@@ -40,21 +40,21 @@ class AskedLock:
     answered: bool = False
 
 
-def find_locks(node: Node) -> list[AskedLock]:
+def find_locks(node: Node) -> list[LockQuery]:
     """The locks in the graph; a topic that has only subscriptions is not one."""
-    found: list[AskedLock] = []
+    found: list[LockQuery] = []
     for topic, types in sorted(node.get_topic_names_and_types()):
         if STATUS in types and is_lock(topic):
             nodes = sorted({node_name_of(each) for each in node.get_publishers_info_by_topic(topic)})
-            found += [AskedLock(topic, nodes)] if nodes else []
+            found += [LockQuery(topic, nodes)] if nodes else []
     return found
 
 
-def ask_locks(node: Node, locks: Sequence[AskedLock], spin: Spin) -> Sequence[AskedLock]:
+def query_locks(node: Node, locks: Sequence[LockQuery], spin: Spin) -> Sequence[LockQuery]:
     """Query the state of every lock; an older one, which quotes no requests, via its node's parameter services."""
     question = uuid.uuid4().hex
 
-    def heard(lock: AskedLock, message: DiagnosticStatus) -> None:
+    def heard(lock: LockQuery, message: DiagnosticStatus) -> None:
         values = {each.key: each.value for each in message.values}
         lock.reported |= "locked" in values
         lock.older = "challenge" not in values
@@ -107,7 +107,7 @@ def _serves(node: Node, name: str, spin: Spin) -> bool:
         node.destroy_client(client)
 
 
-def lock_finding(locks: Sequence[AskedLock]) -> DoctorFinding:
+def lock_finding(locks: Sequence[LockQuery]) -> DoctorFinding:
     """Whether all locks have answered."""
     silent = [each for each in locks if not each.answered]
     if not silent:
@@ -115,6 +115,6 @@ def lock_finding(locks: Sequence[AskedLock]) -> DoctorFinding:
     return DoctorFinding(Level.FAIL, "time-out", f"the emergency stop does not answer ({_listed(silent)})", REMEDY)
 
 
-def _listed(locks: Sequence[AskedLock]) -> str:
+def _listed(locks: Sequence[LockQuery]) -> str:
     names = [f"{each.topic} of {', '.join(each.nodes)}" for each in locks]
     return ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")

@@ -60,7 +60,7 @@ def rclpy_finding(python: ShellPython | None) -> DoctorFinding:
     """Which rclpy the programs of this shell import."""
     if python is None:
         return DoctorFinding(Level.NOTE, "rclpy", "no python3 on PATH answers; `bot-console run` needs none")
-    text = python.described()
+    text = python.description()
     if python.real or (python.set_up and python.fits):
         return DoctorFinding(Level.OK, "rclpy", text)
     if python.set_up:

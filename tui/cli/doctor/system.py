@@ -12,7 +12,7 @@ from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_sessi
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
 from bot_console.tui.cli.doctor.graph_checks import node_findings
-from bot_console.tui.cli.doctor.wire import captured, watch_wire, wire_findings
+from bot_console.tui.cli.doctor.wire import to_capture, watch_wire, wire_findings
 from bot_console.tui.session.embedded.connecting import connect
 from bot_console.tui.session.embedded.domain import domain, take_part
 from bot_console.tui.session.embedded.hooks import DomainTypes
@@ -33,7 +33,7 @@ def examine(way: Way | None, seconds: float, capture: Path | None, made_with: st
     findings = [] if way is None else [link_finding(str(way), delay)]
     findings += wire_findings(wire, delay or 0.0)
     if capture is not None:
-        capture.write_text(json.dumps(captured(wire, [made_with]), indent=1) + "\n", encoding="utf-8")
+        capture.write_text(json.dumps(to_capture(wire, [made_with]), indent=1) + "\n", encoding="utf-8")
         text = f"{len(wire.tokens)} tokens and {sum(map(len, wire.samples.values()))} attachments are in {capture}"
         findings.append(DoctorFinding(Level.OK, "capture", text))
     if way is None:

@@ -31,7 +31,7 @@ def terminal_findings(environment: Mapping[str, str]) -> list[DoctorFinding]:
         return [DoctorFinding(Level.NOTE, ABOUT, "there is none here: size, colours and delay were not checked")]
     found = [size_finding(*shutil.get_terminal_size()), characters_finding(), colours_finding(environment)]
     if os.name != "nt":
-        found.append(terminal_link_finding(*_measured()))
+        found.append(terminal_link_finding(*_measure()))
     return found
 
 
@@ -88,7 +88,7 @@ def terminal_link_finding(delay: float | None, bytes_per_s: float | None) -> Doc
     return DoctorFinding(Level.OK, ABOUT, text)
 
 
-def _measured() -> tuple[float | None, float | None]:
+def _measure() -> tuple[float | None, float | None]:
     with _raw():
         delay = _answer_to(ASK)
         if delay is None:

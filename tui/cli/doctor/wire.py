@@ -36,7 +36,7 @@ class Wire:
     """The observed traffic: tokens as text, and (attachment, size in bytes, arrival time in ns) by key."""
 
     domain: int
-    elsewhere: str = ""
+    domains_with_nodes: str = ""
     """The domains that have nodes, if this one has none."""
     tokens: list[str] = field(default_factory=list[str])
     samples: dict[str, list[tuple[bytes | None, int, int]]] = field(
@@ -66,7 +66,7 @@ def watch_wire(session: Session, seconds: float) -> Wire:
         each.undeclare()
     # Again, since not all tokens of a system that has just started or is busy had reached the router before.
     wire.tokens = sorted({*wire.tokens, *_tokens(session)})
-    wire.elsewhere = other_domains(session)
+    wire.domains_with_nodes = other_domains(session)
     return wire
 
 
@@ -103,9 +103,9 @@ def wire_findings(wire: Wire, delay: float) -> list[DoctorFinding]:
     findings = [
         DoctorFinding(Level.OK if nodes else Level.WARN, "graph", f"{nodes} nodes, {len(good) - nodes} endpoints")
     ]
-    if wire.elsewhere:
+    if wire.domains_with_nodes:
         hint = "consoles and other tools do not count"
-        findings = [DoctorFinding(Level.WARN, "graph", wire.elsewhere, hint)]
+        findings = [DoctorFinding(Level.WARN, "graph", wire.domains_with_nodes, hint)]
     elif not nodes:
         hint = "does it use the same ROS_DOMAIN_ID, and RMW_IMPLEMENTATION=rmw_zenoh_cpp?"
         findings = [DoctorFinding(Level.WARN, "graph", f"no node is visible in ROS domain {wire.domain}", hint)]
@@ -132,7 +132,7 @@ def _attachment_findings(wire: Wire) -> list[DoctorFinding]:
     ]
 
 
-def captured(wire: Wire, made_with: Sequence[str]) -> dict[str, object]:
+def to_capture(wire: Wire, made_with: Sequence[str]) -> dict[str, object]:
     """Everything observed, in the format of the tests."""
     return {
         "format": 1,

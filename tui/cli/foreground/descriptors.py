@@ -35,14 +35,14 @@ def captured_descriptors(printed: Printed) -> Generator[None]:
     the duplicates.
     """
     with contextlib.ExitStack() as stack:
-        stack.enter_context(_withheld())
+        stack.enter_context(_private_stdin())
         for number, name in ((1, "__stdout__"), (2, "__stderr__")):
-            stack.enter_context(_captured(number, name, printed))
+            stack.enter_context(_captured_output(number, name, printed))
         yield
 
 
 @contextlib.contextmanager
-def _withheld() -> Generator[None]:
+def _private_stdin() -> Generator[None]:
     before: IO[str] | None = sys.__stdin__
     keys = os.fdopen(private_duplicate(0), encoding="utf-8", errors="replace")
     nowhere = os.open(os.devnull, os.O_RDONLY)
@@ -58,7 +58,7 @@ def _withheld() -> Generator[None]:
 
 
 @contextlib.contextmanager
-def _captured(number: int, name: str, printed: Printed) -> Generator[None]:
+def _captured_output(number: int, name: str, printed: Printed) -> Generator[None]:
     before: IO[str] | None = getattr(sys, name)
     if before is not None:
         before.flush()

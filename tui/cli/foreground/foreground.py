@@ -33,7 +33,7 @@ class Foreground:
     def begin(self) -> None:
         """Start watching for hangs, since the app has drawn its first frame."""
         if self._hang_watch is not None:
-            self._hang_watch.accompany(self._app)
+            self._hang_watch.watch_app(self._app)
 
     def run(self, close: Callable[[], None]) -> int:
         """Show the app until it ends, then call `close` to end the system; returns the app's exit code."""
@@ -49,7 +49,7 @@ class Foreground:
                 self._app.run()
             finally:
                 if self._hang_watch is not None:
-                    self._hang_watch.rest()
+                    self._hang_watch.pause()
                 self._app.stage.arrangement.remember()
                 close()
         return self._app.return_code or 0

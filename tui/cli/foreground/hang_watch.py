@@ -74,27 +74,27 @@ class HangWatch:
             self._report(f"the screen hung for {stood:.0f} s; what its threads did meanwhile is in {self._path}")
         self._heard, self._written = now, False
 
-    def rest(self) -> None:
+    def pause(self) -> None:
         """Expect no heartbeats for a while, since nothing is drawn."""
         self._heard = None
 
     def end(self) -> None:
         """Stop checking."""
         self._over.set()
-        self.rest()
+        self.pause()
 
-    def follow(self) -> None:
+    def send_heartbeats(self) -> None:
         """Send heartbeats from the running event loop from now on."""
         self.heartbeat()
-        asyncio.get_running_loop().call_later(HEARTBEAT_S, self.follow)
+        asyncio.get_running_loop().call_later(HEARTBEAT_S, self.send_heartbeats)
 
-    def accompany(self, app: Any) -> None:
+    def watch_app(self, app: Any) -> None:
         """Watch a Textual app, whose event loop is the running one, from now on."""
-        self.follow()
+        self.send_heartbeats()
         asyncio.get_running_loop().call_soon(self._listen, app)
 
         def left(_: object) -> None:  # an editor or the shell has the terminal
-            self.rest()
+            self.pause()
 
         def back(_: object) -> None:
             self.heartbeat()
@@ -103,10 +103,10 @@ class HangWatch:
         app.app_resume_signal.subscribe(app, back, immediate=True)
 
     def _listen(self, app: Any) -> None:
-        self.observe(app)
+        self.ping(app)
         asyncio.get_running_loop().call_later(HEARTBEAT_S, self._listen, app)
 
-    def observe(self, app: Any) -> None:
+    def ping(self, app: Any) -> None:
         """Send the app a message, unless one is pending; write what its tasks wait for if it stays unanswered."""
         if self._unanswered == 0:
             app.call_later(self._answer, app)

@@ -76,7 +76,7 @@ class Observer:
             node.destroy_node()
             rclpy.try_shutdown()
 
-    def ask(self) -> None:
+    def finish_early(self) -> None:
         """Request the report now, and wait at most `ANSWER_TIMEOUT_S` for it; may be called from any thread."""
         if self._node is not None:
             self._now.trigger()

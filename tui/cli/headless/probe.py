@@ -11,7 +11,7 @@ from rclpy.parameter import parameter_value_to_python
 from rclpy.parameter_client import AsyncParameterClient
 
 
-class Probe(Observer):
+class ParameterProbe(Observer):
     """Reports the parameters of all nodes, by node and name, in place of the simulator's figures."""
 
     def _ask(self) -> None:

@@ -66,13 +66,13 @@ def run(options: Options) -> int:
     install()
     choose(options.workspace)
     if not options.fast:
-        _meet_others(options)
-    report, observer, launches = simulated(options)
+        _join_domain(options)
+    report, observer, launches = run_simulation(options)
     print(json.dumps(report, indent=2))
     return 0 if observer.complete else _no_report(launches)
 
 
-class Watcher(Protocol):
+class RunTask(Protocol):
     """A task that runs alongside the nodes of a run, in a node process of its own."""
 
     done: threading.Event
@@ -84,7 +84,7 @@ class Watcher(Protocol):
         """The main function of the node process."""
         ...
 
-    def ask(self) -> None:
+    def finish_early(self) -> None:
         """Finish early, since the nodes are about to end; may be called from any thread."""
         ...
 
@@ -93,21 +93,21 @@ class Watcher(Protocol):
         ...
 
 
-def simulated(options: Options, observer: Watcher | None = None) -> tuple[dict[str, Any], Watcher, Launches]:
+def run_simulation(options: Options, observer: RunTask | None = None) -> tuple[dict[str, Any], RunTask, Launches]:
     """Run the system for a while; returns the observer's report, the observer, and the launches.
 
     `install` must have been called before.
     """
     duration = DEFAULT_DURATION_S if options.duration is None else options.duration
     began = time.perf_counter()
-    with _orderly_end(), _time(options) as clock, _notices():
+    with _interrupted_by_signals(), _run_clock(options) as clock, _notices():
         from bot_console.tui.cli.headless.launches import Launches
         from bot_console.tui.cli.headless.observer import Observer
 
         observer = observer or Observer(duration)
         watching = NodeProcess("observer", clock)
         watching.start(observer.run, argv=["observer"])
-        launches = Launches(options, clock, observer.ask)
+        launches = Launches(options, clock, observer.finish_early)
         launches.begin()
         with contextlib.suppress(KeyboardInterrupt):
             _wait_for(observer, launches, duration, threading.Event.wait if options.fast else wait_interruptibly)
@@ -122,7 +122,7 @@ def simulated(options: Options, observer: Watcher | None = None) -> tuple[dict[s
     return report, observer, launches
 
 
-def _meet_others(options: Options) -> None:
+def _join_domain(options: Options) -> None:
     """Join the domain, unless another robot is in it, since both would obey each other's commands.
 
     A program that cannot join it still discovers the nodes that it launches.
@@ -133,7 +133,7 @@ def _meet_others(options: Options) -> None:
     elif not options.launch and is_in_range():
         claim = robot_claim()
         atexit.register(claim.release)
-        if why := why_no_robot(claim.seen(robot_there, report_of_other_start), options.launch_arguments):
+        if why := why_no_robot(claim.wait_for_robot(robot_there, report_of_other_start), options.launch_arguments):
             claim.release()
             isolate_from_domain()
             problem = f"{why}; so this one runs in isolation"
@@ -157,7 +157,7 @@ def _no_report(launches: Launches) -> int:
 
 
 @contextlib.contextmanager
-def _time(options: Options) -> Generator[Any]:
+def _run_clock(options: Options) -> Generator[Any]:
     """The clock of the run."""
     if not options.fast:
         yield MAIN.clock
@@ -184,7 +184,7 @@ def _notices() -> Generator[None]:
         forget()
 
 
-def _wait_for(observer: Watcher, launches: Launches, duration: float, wait: Wait) -> None:
+def _wait_for(observer: RunTask, launches: Launches, duration: float, wait: Wait) -> None:
     """Wait for the report, the end of all launches, or the time limit; an interrupt requests the report at once."""
     launches.on_end(observer.done.set)
     try:
@@ -195,11 +195,11 @@ def _wait_for(observer: Watcher, launches: Launches, duration: float, wait: Wait
         if not wait(observer.done, duration + LAST_QUERY_TIMEOUT_S - NODES_UP_AFTER_S) and launches.has_robot:
             wait(observer.done, START_TIMEOUT_S)
     except KeyboardInterrupt:
-        observer.ask()
+        observer.finish_early()
 
 
 @contextlib.contextmanager
-def _orderly_end() -> Generator[None]:
+def _interrupted_by_signals() -> Generator[None]:
     """Raise `KeyboardInterrupt` for SIGTERM and SIGHUP too, unless they are ignored (`nohup`)."""
 
     def interrupt(_signum: int, _frame: object) -> None:

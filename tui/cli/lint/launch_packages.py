@@ -14,8 +14,10 @@ from bot_console.runtime.workspace.executables import executables
 from bot_console.tui.cli.lint.finding import LintFinding
 from bot_console.tui.cli.lint.launch_file import MANIFEST, folder_of_package, package_name
 
-FINDING = frozenset({"FindPackageShare", "FindPackagePrefix", "get_package_share_directory", "get_package_share_path",
-                     "get_package_prefix"})  # fmt: skip
+PACKAGE_LOOKUPS = frozenset((
+    "FindPackageShare", "FindPackagePrefix", "get_package_share_directory", "get_package_share_path",
+    "get_package_prefix",
+))  # fmt: skip
 """Functions and substitutions whose first argument is the name of a package."""
 NODES = frozenset({"Node", "LifecycleNode", "ComposableNode", "ComposableNodeContainer"})
 
@@ -25,7 +27,7 @@ def unknown_packages(path: Path) -> Iterator[LintFinding]:
     named = _in_python(path) if path.suffix == ".py" else _in_xml(path)
     neighbours = _neighbours(path)
     for name, line in dict.fromkeys(named):
-        if name not in neighbours and not _is_there(name):
+        if name not in neighbours and not _exists(name):
             yield LintFinding(str(path), line, "no such package", name, known=_hint(name))
 
 
@@ -43,8 +45,8 @@ def _in_python(path: Path) -> Iterator[tuple[str, int]]:
             continue
         called = call.func.attr if isinstance(call.func, ast.Attribute) else getattr(call.func, "id", "")
         given = {each.arg: each.value for each in call.keywords}
-        name = given.get("package") if called in NODES or called in FINDING else None
-        if called in FINDING:
+        name = given.get("package") if called in NODES or called in PACKAGE_LOOKUPS else None
+        if called in PACKAGE_LOOKUPS:
             name = name or given.get("package_name") or (call.args[0] if call.args else None)
         if isinstance(name, ast.Constant) and isinstance(name.value, str):
             yield name.value, name.lineno
@@ -63,7 +65,7 @@ def _in_xml(path: Path) -> Iterator[tuple[str, int]]:
             yield name, line
 
 
-def _is_there(package: str) -> bool:
+def _exists(package: str) -> bool:
     install()
     from ament_index_python.packages import get_package_prefix
     from bot_console.runtime.launch_ros.node_program import container_path

@@ -47,11 +47,11 @@ def obstacles(package: Package) -> list[Obstacle]:
     found += _programs(package)
     for folder in {*package.modules.values(), *(each.parent for each in package.scripts.values())}:
         for path in sorted(folder.glob("*.py")) if folder.is_dir() else ():
-            found += shadowed(path)
+            found += shadowing_files(path)
     return sorted(found)
 
 
-def shadowed(path: Path) -> Iterator[Obstacle]:
+def shadowing_files(path: Path) -> Iterator[Obstacle]:
     """Files beside a Python file that Python would import instead of a ROS package or a standard module."""
     try:
         tree = ast.parse(path.read_text(encoding="utf-8"))

@@ -16,7 +16,7 @@ _UNIT = re.compile(r"(\([^()]*[A-Za-z°%][^()]*\)|\[[^\[\]]*[A-Za-z°%][^\[\]]*\
 
 
 @dataclass
-class Declared:
+class DeclaredNames:
     """The names of a file's nodes, and the parameters they declare."""
 
     nodes: set[str] = field(default_factory=set[str])
@@ -25,18 +25,18 @@ class Declared:
     """Whether all parameter names are known; one that is computed at run time is not."""
 
 
-def lint(path: Path) -> tuple[list[LintFinding], Declared]:
+def lint(path: Path) -> tuple[list[LintFinding], DeclaredNames]:
     """The faults of a file, and the names that it declares; raises `SyntaxError` if it is not valid Python."""
     tree = ast.parse(path.read_text(encoding="utf-8"), str(path))
     found: list[LintFinding] = []
-    declared = Declared()
+    declared = DeclaredNames()
     for each in ast.walk(tree):
         if isinstance(each, ast.ClassDef):
-            found += _of_class(each, str(path))
+            found += _class_findings(each, str(path))
         if isinstance(each, ast.Call):
-            _learn(each, declared)
+            _collect_names(each, declared)
             if _called(each) == "declare_parameter":
-                found += _of_declaration(each, str(path), tree)
+                found += _declaration_findings(each, str(path), tree)
     return found, declared
 
 
@@ -50,7 +50,7 @@ def _last_name(of: ast.expr) -> str:
     return of.id if isinstance(of, ast.Name) else ""
 
 
-def _learn(call: ast.Call, declared: Declared) -> None:
+def _collect_names(call: ast.Call, declared: DeclaredNames) -> None:
     """Collect the names of parameters and of nodes: `super().__init__("it")`, `create_node("it")`, `name="it"`."""
     name = _called(call)
     first = call.args[0] if call.args else None
@@ -68,7 +68,7 @@ def _learn(call: ast.Call, declared: Declared) -> None:
             declared.nodes.add(each.value.value)
 
 
-def _of_declaration(call: ast.Call, path: str, tree: ast.AST) -> Iterator[LintFinding]:
+def _declaration_findings(call: ast.Call, path: str, tree: ast.AST) -> Iterator[LintFinding]:
     if not call.args or not isinstance(call.args[0], ast.Constant) or not isinstance(call.args[0].value, str):
         return
     name = call.args[0].value
@@ -76,7 +76,7 @@ def _of_declaration(call: ast.Call, path: str, tree: ast.AST) -> Iterator[LintFi
     default = call.args[1] if len(call.args) > 1 else given.get("value")
     descriptor = call.args[2] if len(call.args) > 2 else given.get("descriptor")
     number = _number(default)
-    texts, ranges, known = _described(descriptor, tree)
+    texts, ranges, known = _read_descriptor(descriptor, tree)
     if known and not texts:
         yield LintFinding(path, call.lineno, "no description", name)
     if known and number is not None and not ranges:
@@ -94,7 +94,7 @@ def _number(default: ast.expr | None) -> float | int | None:
     return None
 
 
-def _described(descriptor: ast.expr | None, tree: ast.AST) -> tuple[list[str], set[str], bool]:
+def _read_descriptor(descriptor: ast.expr | None, tree: ast.AST) -> tuple[list[str], set[str], bool]:
     """The descriptions in a descriptor, its kinds of ranges, and whether both could be determined."""
     if descriptor is None:
         return [], set(), True
@@ -119,7 +119,7 @@ def _described(descriptor: ast.expr | None, tree: ast.AST) -> tuple[list[str], s
     return texts, ranges, True
 
 
-def _of_class(node: ast.ClassDef, path: str) -> Iterator[LintFinding]:
+def _class_findings(node: ast.ClassDef, path: str) -> Iterator[LintFinding]:
     """The faults of a node class: it does not validate parameters, or its validation accepts everything."""
     calls = [each for each in ast.walk(node) if isinstance(each, ast.Call)]
     names = {_called(each) for each in calls}

@@ -10,7 +10,7 @@ from pathlib import Path
 from bot_console.runtime.rmw.parameter_file import read_parameter_file
 from bot_console.runtime.rmw.parameter_overrides import ParameterOverrides, ParameterYamlError
 from bot_console.tui.cli.lint.finding import LintFinding
-from bot_console.tui.cli.lint.parameter_declarations import Declared
+from bot_console.tui.cli.lint.parameter_declarations import DeclaredNames
 from bot_console.tui.console.parameters.file.node_keys import is_wildcard
 from bot_console.tui.console.parameters.file.text import KEYWORD, sections
 
@@ -19,7 +19,7 @@ _NO_KEYWORD = "Cannot have a value before"
 _LINE = re.compile(r",?(?: Error)?(?: at| near)? line(?:_num)? (\d+)")
 
 
-def is_meant(path: Path) -> bool:
+def looks_like_parameter_file(path: Path) -> bool:
     """Whether a YAML file is meant as a parameter file, even if it is malformed."""
     try:
         return _MEANT.search(path.read_text(encoding="utf-8-sig", errors="replace")) is not None
@@ -27,7 +27,7 @@ def is_meant(path: Path) -> bool:
         return True  # reading it later reports why
 
 
-def refused(path: Path) -> Iterator[LintFinding]:
+def rejections(path: Path) -> Iterator[LintFinding]:
     """The finding that says why a node would not start with this file, if it would not."""
     try:
         read_parameter_file(str(path), ParameterOverrides())
@@ -41,7 +41,7 @@ def refused(path: Path) -> Iterator[LintFinding]:
         yield LintFinding(str(path), line, "refused", _LINE.sub("", message).rstrip("."), hint)
 
 
-def dead_values(path: Path, declared: Declared) -> Iterator[LintFinding]:
+def dead_values(path: Path, declared: DeclaredNames) -> Iterator[LintFinding]:
     """Keys that match no node, and parameters that no node declares."""
     try:
         text = path.read_text(encoding="utf-8-sig")

@@ -17,9 +17,9 @@ from bot_console.tui.cli.lint.finding import LintFinding
 from bot_console.tui.cli.lint.launch_file import dead_parameters, folder_of_package
 from bot_console.tui.cli.lint.launch_packages import unknown_packages
 from bot_console.tui.cli.lint.packaging import obstacles
-from bot_console.tui.cli.lint.parameter_declarations import Declared
+from bot_console.tui.cli.lint.parameter_declarations import DeclaredNames
 from bot_console.tui.cli.lint.parameter_declarations import lint as lint_python
-from bot_console.tui.cli.lint.parameter_file import dead_values, is_meant, refused
+from bot_console.tui.cli.lint.parameter_file import dead_values, looks_like_parameter_file, rejections
 from bot_console.tui.console.parameters.descriptor_faults import faults
 from bot_console.tui.session.embedded.reaching import reach_system
 
@@ -52,7 +52,7 @@ def run(words: list[str]) -> int:
     given = parser.parse_args(words)
     if (Path(given.what) / INDEX).is_file():
         return _course(Path(given.what))
-    problem, found = _running() if given.what == "running" else _of_files(given.what)
+    problem, found = _running() if given.what == "running" else _file_findings(given.what)
     if problem:
         print(problem, file=sys.stderr)
         return 2
@@ -81,12 +81,12 @@ def _course(folder: Path) -> int:
     return 0
 
 
-def _of_files(what: str) -> tuple[str, list[LintFinding]]:
+def _file_findings(what: str) -> tuple[str, list[LintFinding]]:
     files = files_of(what)
     if not files and not Path(what, "package.xml").is_file():
         return f"there is no file, folder or package '{what}' with Python or YAML files in it", []
     if files != [Path(what)]:
-        return "", sorted([*lint_files(files), *_of_packages(files, Path(what))])
+        return "", sorted([*lint_files(files), *_package_findings(files, Path(what))])
     # The parameters that a single file gives to nodes are compared with those that its package declares.
     package = folder_of_package(files[0])
     beside = [each for each in files_of(str(package)) if each.resolve() != files[0].resolve()] if package else []
@@ -94,7 +94,7 @@ def _of_files(what: str) -> tuple[str, list[LintFinding]]:
     return "", [each for each in found if each.place == str(files[0])]
 
 
-def _of_packages(files: Iterable[Path], where: Path) -> Iterator[LintFinding]:
+def _package_findings(files: Iterable[Path], where: Path) -> Iterator[LintFinding]:
     """The problems that keep the packages of these files from working on ROS 2."""
     install()
     folders = {folder for each in files if (folder := folder_of_package(each)) is not None}
@@ -133,7 +133,7 @@ def lint_files(files: Iterable[Path], named: Path | None = None) -> list[LintFin
     `named` is a file that the user has named; it counts as a parameter file, whatever its content.
     """
     found: list[LintFinding] = []
-    declared = Declared()
+    declared = DeclaredNames()
     parameters: list[Path] = []
     launches: list[Path] = []
     for path in files:
@@ -141,7 +141,7 @@ def lint_files(files: Iterable[Path], named: Path | None = None) -> list[LintFin
             found += unknown_packages(path)
             continue
         if path.suffix != ".py":
-            parameters += [path] if is_meant(path) or path == named else []
+            parameters += [path] if looks_like_parameter_file(path) or path == named else []
             continue
         try:
             own, names = lint_python(path)
@@ -157,7 +157,7 @@ def lint_files(files: Iterable[Path], named: Path | None = None) -> list[LintFin
         declared.parameters |= names.parameters
         declared.whole = declared.whole and names.whole
     for path in parameters:
-        problems = [*refused(path)]
+        problems = [*rejections(path)]
         found += problems
         if declared.nodes and not problems:
             found += dead_values(path, declared)

@@ -13,7 +13,7 @@ from bot_console.tui.cli.attach_options import parse as parse_attach
 from bot_console.tui.cli.main import is_command
 from bot_console.tui.cli.numbers import integer, port
 
-EXPECTED = ("attach",)
+SERVABLE = ("attach",)
 """Commands whose console can be served; without a command, it is the console with its own robot."""
 MAX_SESSIONS = 100
 """Maximum number of addresses that a server prints."""
@@ -31,7 +31,7 @@ MISSING = (
     "bot-console serve needs an extra that is not installed ({}): "
     "pip install 'bot-console[serve]' (in a clone: pip install '.[serve]')"
 )
-IN_THE_OPEN = (
+EXPOSED_WARNING = (
     "WARNING: {} is reachable from other machines, without encryption: whoever reads along in the network gets in. "
     "A tunnel is safer: ssh -L {}:localhost:{} HOST"
 )
@@ -50,7 +50,7 @@ def run(words: Sequence[str]) -> int:
         return 1
     server = Server(console, host, sessions=given.sessions)
     if not ipaddress.ip_address(host).is_loopback:
-        print(IN_THE_OPEN.format(host, given.port, given.port), file=sys.stderr)
+        print(EXPOSED_WARNING.format(host, given.port, given.port), file=sys.stderr)
     try:
         return serve(server, given.port)
     except OSError as error:
@@ -99,8 +99,8 @@ def _address(parser: argparse.ArgumentParser, text: str) -> str:
 
 def _console(parser: argparse.ArgumentParser, words: Sequence[str], *, control: bool) -> list[str]:
     """The command that opens a console with these arguments; exits with code 2 if they open none."""
-    if words and is_command(words[0]) and words[0] not in EXPECTED:
-        parser.error(f"'{words[0]}' opens no console; a command to serve: {', '.join(EXPECTED)}")
+    if words and is_command(words[0]) and words[0] not in SERVABLE:
+        parser.error(f"'{words[0]}' opens no console; a command to serve: {', '.join(SERVABLE)}")
     opened = [*words] if control else [*words, "--read-only"]
     if words[:1] == ["attach"]:
         parse_attach(opened[1:])

@@ -33,8 +33,10 @@ HEADERS = {
         "connect-src 'self' {socket}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
     ),
 }
-USED = "This address has been used in another browser. `bot-console serve` prints a new one when it is started again."
-STRANGER = "Open the address that `bot-console serve` printed."
+TOKEN_USED = (
+    "This address has been used in another browser. `bot-console serve` prints a new one when it is started again."
+)
+NOT_ADMITTED = "Open the address that `bot-console serve` printed."
 OPEN_ELSEWHERE = "The console is open in another tab."
 MAX_MESSAGE_BYTES = 1_000_000
 
@@ -110,18 +112,18 @@ class Server:
     async def _page(self, request: web.Request) -> web.StreamResponse:
         admission = self._admission(request)
         if "token" in request.query:
-            return self._let_in(request.query["token"], admission)
+            return self._admit(request.query["token"], admission)
         if admission is None:
-            raise web.HTTPForbidden(text=STRANGER)
+            raise web.HTTPForbidden(text=NOT_ADMITTED)
         text = (PAGE / "page.html").read_text("utf-8")
         socket = f"ws://{request.headers['Host']}/ws"
         return web.Response(text=text.format(socket=socket, font_size=FONT_SIZE_PX), content_type="text/html")
 
-    def _let_in(self, token: str, admission: Admission | None) -> web.StreamResponse:
+    def _admit(self, token: str, admission: Admission | None) -> web.StreamResponse:
         """Exchange a token for a cookie, once, and redirect to the address without the token."""
         meant = next((each for each in self._admissions if each.token and _is_same(each.token, token)), None)
         if meant is None and admission is None:
-            raise web.HTTPForbidden(text=USED)
+            raise web.HTTPForbidden(text=TOKEN_USED)
         response = web.Response(status=303, headers={"Location": "/"})
         if meant is not None:
             meant.token = ""
@@ -130,7 +132,7 @@ class Server:
 
     async def _file(self, request: web.Request) -> web.StreamResponse:
         if self._admission(request) is None:
-            raise web.HTTPForbidden(text=STRANGER)
+            raise web.HTTPForbidden(text=NOT_ADMITTED)
         path = _static_files().get(request.match_info["name"])
         if path is None:
             raise web.HTTPNotFound
@@ -139,7 +141,7 @@ class Server:
     async def _socket(self, request: web.Request) -> web.StreamResponse:
         admission = self._admission(request)
         if admission is None:
-            raise web.HTTPForbidden(text=STRANGER)
+            raise web.HTTPForbidden(text=NOT_ADMITTED)
         if admission.terminal is not None:
             raise web.HTTPConflict(text=OPEN_ELSEWHERE)
         size = _number(request, "width", 80), _number(request, "height", 24)

@@ -23,7 +23,7 @@ MAX_UNREAD_BYTES = 1_000_000
 END_TIMEOUT_S = 10.0
 """Seconds that a console may take to stop its robot and end."""
 MAX_CELLS = 1000
-OF_ANOTHER_TERMINAL = ("COLUMNS", "LINES", "STY", "TERM_PROGRAM", "TERM_PROGRAM_VERSION", "TMUX", "TMUX_PANE")
+TERMINAL_VARIABLES = ("COLUMNS", "LINES", "STY", "TERM_PROGRAM", "TERM_PROGRAM_VERSION", "TMUX", "TMUX_PANE")
 """Environment variables that describe the terminal in which the server was started."""
 
 
@@ -36,7 +36,7 @@ class Terminal:
         self._set_size(*size)
         alive, self._alive = os.pipe()
         os.set_blocking(self._alive, False)
-        kept = {name: value for name, value in os.environ.items() if name not in OF_ANOTHER_TERMINAL}
+        kept = {name: value for name, value in os.environ.items() if name not in TERMINAL_VARIABLES}
         environment = {**kept, "TERM": "xterm-256color", "COLORTERM": "truecolor", VARIABLE: str(alive)}
         try:
             self._process = subprocess.Popen(

@@ -12,8 +12,8 @@ from typing import Any
 from bot_console.runtime.importer import install
 from bot_console.tui.cli.arguments import add_profile_folders
 from bot_console.tui.cli.numbers import integer, positive, seed
-from bot_console.tui.cli.tune.describing import result_line, result_of, tunables_of
 from bot_console.tui.cli.tune.pool import Pool
+from bot_console.tui.cli.tune.results import result_data, result_line, tunables_of
 from bot_console.tui.cli.tune.saving import save_profile
 from bot_console.tui.files.folders import state_folder
 from bot_console.tui.files.save_file import NotSaved
@@ -71,7 +71,7 @@ def run(words: Sequence[str]) -> int:
             print(f"the system does not start: {problem}", file=sys.stderr)
             return 1
         specification = TuningSpecification(
-            _found(parser, named, systems[0]),
+            _parse_tunables(parser, named, systems[0]),
             score,
             profile=profile.path or profile.name,
             worlds=worlds,
@@ -85,20 +85,20 @@ def run(words: Sequence[str]) -> int:
         )
         if problem := specification.problem():
             parser.error(problem)
-        progress = _tuned(specification, pool, given)
+        progress = _run_job(specification, pool, given)
     finally:
         pool.close()
-    return _reported(specification, progress, given)
+    return _print_result(specification, progress, given)
 
 
-def _found(parser: argparse.ArgumentParser, named: list[str], system: Mapping[str, Any]) -> Any:
+def _parse_tunables(parser: argparse.ArgumentParser, named: list[str], system: Mapping[str, Any]) -> Any:
     try:
         return find_tunables(named, tunables_of(system))
     except ValueError as error:
         parser.error(str(error))
 
 
-def _tuned(specification: TuningSpecification, pool: Pool, given: argparse.Namespace) -> Progress:
+def _run_job(specification: TuningSpecification, pool: Pool, given: argparse.Namespace) -> Progress:
     """Run the tuning job until it ends or until Ctrl-C; results stay in the journal."""
     journal = TuningJournal(state_folder() / "tune", specification, resume=given.resume)
     if given.resume:
@@ -132,10 +132,10 @@ def _event_reporter(specification: TuningSpecification) -> Callable[[Progress], 
     return report
 
 
-def _reported(specification: TuningSpecification, progress: Progress, given: argparse.Namespace) -> int:
+def _print_result(specification: TuningSpecification, progress: Progress, given: argparse.Namespace) -> int:
     """Print the result and save it; returns the exit code."""
     best = progress.best
-    result = result_of(specification, progress)
+    result = result_data(specification, progress)
     if given.json:
         print(json.dumps(result, indent=2))
     elif best is not None:

@@ -87,8 +87,8 @@ def _run(
     from bot_console.runtime.importer import install
     from bot_console.tui.cli.arguments import Options
     from bot_console.tui.cli.headless.observer import Observer
-    from bot_console.tui.cli.headless.probe import Probe
-    from bot_console.tui.cli.headless.run import simulated
+    from bot_console.tui.cli.headless.probe import ParameterProbe
+    from bot_console.tui.cli.headless.run import run_simulation
 
     install()
     gc.disable()  # until the nodes are up, since the objects that they make stay alive
@@ -101,8 +101,8 @@ def _run(
         seed=seed,
         world=world,
     )
-    observer = (Probe if kind == "probe" else Observer)(duration, paths)
-    report, _, launches = simulated(options, observer)
+    observer = (ParameterProbe if kind == "probe" else Observer)(duration, paths)
+    report, _, launches = run_simulation(options, observer)
     if not observer.complete or launches.died:
         return {"problem": launches.died or "the system ended before its time"}
     return report

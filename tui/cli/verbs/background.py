@@ -20,10 +20,10 @@ from bot_console.runtime.rmw.zenoh.domain.discovery_range import RANGE_VARIABLE
 from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
 from bot_console.runtime.stop_file_path import stop_file
 from bot_console.tui.child_command import child_command
-from bot_console.tui.cli.arguments import background_help, parse
+from bot_console.tui.cli.arguments import add_background_options, parse
 from bot_console.tui.cli.machine_limits import no_robot_here
 from bot_console.tui.cli.verbs import stop
-from bot_console.tui.cli.verbs.router import add_serving_options, serving_of, warning_of
+from bot_console.tui.cli.verbs.router import add_serving_options, exposure_warning, parse_serving
 from bot_console.tui.cli.verbs.stop import holders
 from bot_console.tui.files.folders import OVERRIDE, state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
@@ -72,7 +72,7 @@ class Background:
         if self.way_in and _is_program(self.way_in, b"router"):
             os.kill(self.way_in, signal.SIGTERM)
 
-    def reported(self) -> str:
+    def describe(self) -> str:
         """Describe the system on one line."""
         return f"process {self.pid} ({' '.join(self.words) or 'indoor'}), log {self.log}"
 
@@ -81,7 +81,7 @@ def up(words: Sequence[str]) -> int:
     """Start a system in the background and wait until its robot is ready."""
     if "-h" in words or "--help" in words:
         return _print_help()
-    serving, words = _serving(words)
+    serving, words = _split_serving(words)
     options = parse(["--headless", *words])
     if options.fast:
         print("a system in the background runs in real time: leave --fast out", file=sys.stderr)
@@ -96,13 +96,15 @@ def up(words: Sequence[str]) -> int:
         print(problem, file=sys.stderr)
         return 1
     with contextlib.ExitStack() as until_started:
-        claim = None if options.launch or _known() else robot_claim()
+        claim = None if options.launch or _running_system() else robot_claim()
         if claim is not None:
             until_started.callback(claim.release)
-            problem = why_no_robot(claim.seen(_robot_or_system, report_of_other_start), options.launch_arguments)
+            problem = why_no_robot(
+                claim.wait_for_robot(_robot_or_system, report_of_other_start), options.launch_arguments
+            )
         got = until_started.enter_context(start_lock(_file().with_name("background.lock"), START_TIMEOUT_S))
-        if there := _known():
-            problem = why_no_robot([there.reported()], {})
+        if there := _running_system():
+            problem = why_no_robot([there.describe()], {})
         elif not got:
             problem = why_no_robot(["another one that is being started"], {})
         if problem:
@@ -126,30 +128,32 @@ def up(words: Sequence[str]) -> int:
         # write to the old file.
         router_log = log.with_name(f"{log.name}.router")
         started = Background(process.pid, tuple(words), str(log), _open_way_in(serving, router_log) if serving else 0)
-        if problem := _kept(started):
+        if problem := _save(started):
             end_session(process.pid)
             started.close_way_in()
             print(f"not started: {problem}", file=sys.stderr)
             return 1
-    return _await(process, started, launched=bool(options.launch), router_log=router_log if serving else None)
+    return _wait_until_up(process, started, launched=bool(options.launch), router_log=router_log if serving else None)
 
 
 def _robot_or_system() -> list[str]:
-    """The robot in the domain, or the background system that is starting one; for `RobotClaim.seen`."""
-    there = _known()
-    return [there.reported()] if there else robot_there()
+    """The robot in the domain, or the background system that is starting one; for `RobotClaim.wait_for_robot`."""
+    there = _running_system()
+    return [there.describe()] if there else robot_there()
 
 
-def _await(process: subprocess.Popen[bytes], started: Background, *, launched: bool, router_log: Path | None) -> int:
+def _wait_until_up(
+    process: subprocess.Popen[bytes], started: Background, *, launched: bool, router_log: Path | None
+) -> int:
     """Wait until the robot of a started system, or what it launches, is visible; print how to continue."""
     deadline = time.monotonic() + START_TIMEOUT_S
-    is_up = partial(_runs, process.pid) if launched else robot_there
+    is_up = partial(_accepts_consoles, process.pid) if launched else robot_there
     seen: object = False
     try:
         while process.poll() is None and not (seen := is_up()) and time.monotonic() < deadline:
             time.sleep(0.1)
     except KeyboardInterrupt:
-        print(f"it is still starting: {started.reported()}; bot-console down ends it", file=sys.stderr)
+        print(f"it is still starting: {started.describe()}; bot-console down ends it", file=sys.stderr)
         raise
     if process.poll() is not None:
         _forget()
@@ -159,11 +163,11 @@ def _await(process: subprocess.Popen[bytes], started: Background, *, launched: b
     if not seen:
         what = "nothing that it launches runs" if launched else "no robot was found"
         print(
-            f"{what} after {START_TIMEOUT_S:g} s: the log of {started.reported()} says why; bot-console down ends it",
+            f"{what} after {START_TIMEOUT_S:g} s: the log of {started.describe()} says why; bot-console down ends it",
             file=sys.stderr,
         )
         return 1
-    print(f"running in ROS domain {domain()}: {started.reported()}")
+    print(f"running in ROS domain {domain()}: {started.describe()}")
     print("bot-console attach shows it, bot-console down ends it")
     if not launched and stop_file().exists():
         _print_holders()  # of stops that nobody has released since an earlier start
@@ -178,14 +182,14 @@ def _unreachable() -> str:
     return "" if is_in_range() else f"{RANGE_VARIABLE} is OFF: a system in the background could not be seen or stopped"
 
 
-def _serving(words: Sequence[str]) -> tuple[list[str], list[str]]:
+def _split_serving(words: Sequence[str]) -> tuple[list[str], list[str]]:
     """Split off the arguments for `bot-console router` (empty if other machines may not connect) from the others."""
     parser = argparse.ArgumentParser("bot-console up", add_help=False)
     _add_serving(parser)
     given, rest = parser.parse_known_args(words)
     if not given.serve:
         return [], list(words)
-    warning = warning_of(serving_of(parser, given.serve, given))
+    warning = exposure_warning(parse_serving(parser, given.serve, given))
     if warning:
         print(warning, file=sys.stderr)
     routed = [word for each in given.serve for word in ("--listen", each)]
@@ -213,7 +217,7 @@ def _print_help() -> int:
         description="Start a robot, or a launch file, in the background, and wait until it is ready.",
         epilog="`bot-console attach` shows it, `bot-console status` describes it, `bot-console down` ends it.",
     )
-    background_help(parser)
+    add_background_options(parser)
     _add_serving(parser)
     parser.print_help()
     return 0
@@ -246,12 +250,12 @@ def down(words: Sequence[str]) -> int:
     if alone:
         print(alone, file=sys.stderr)
         return 1
-    there = _known()
+    there = _running_system()
     if there is None:
         print(f"nothing runs in the background of ROS domain {domain()}", file=sys.stderr)
         return 1
     if robot_there():
-        _bring_to_rest()
+        _stop_robot()
     for number in (signal.SIGTERM, getattr(signal, "SIGKILL", signal.SIGTERM)):
         with contextlib.suppress(ProcessLookupError):
             # SIGCONT first: a frozen process does not handle SIGTERM, and would later deliver it to any of its threads.
@@ -265,11 +269,11 @@ def down(words: Sequence[str]) -> int:
     end_session(there.pid)  # for launched programs, which have outlived it only if it was killed
     there.close_way_in()
     _forget()
-    print(f"ended: {there.reported()}")
+    print(f"ended: {there.describe()}")
     return 0
 
 
-def _bring_to_rest() -> None:
+def _stop_robot() -> None:
     """Hold the robot until its system has ended; one without an emergency stop ends with its nodes."""
     stop.ask("stop", "its system is being ended", kept=False, answers_s=stop.HOLDER_TIMEOUT_S)
 
@@ -285,9 +289,9 @@ def status(words: Sequence[str]) -> int:
         return 1
     routers = named_routers()
     where = f"ROS domain {domain()}" + (f" at {', '.join(routers)}" if routers else "")
-    there, robot = None if routers else _known(), robot_there()
+    there, robot = None if routers else _running_system(), robot_there()
     if there:
-        print(f"running in {where}: {there.reported()}")
+        print(f"running in {where}: {there.describe()}")
     if robot:
         print(f"robot in {where}: {', '.join(robot)}")
     # Robots in namespaces are not among those found above.
@@ -321,7 +325,7 @@ def _file() -> Path:
     return Path(domain_folder(domain())) / "background.json"
 
 
-def _runs(pid: int) -> bool:
+def _accepts_consoles(pid: int) -> bool:
     """Whether a system accepts consoles, which it does once its first launched process runs."""
     return (_file().parent / f"{pid}{ADDRESS_SUFFIX}").exists()
 
@@ -333,7 +337,7 @@ def _files() -> tuple[Path, Path]:
     return _file(), state_folder() / "systems" / f"domain-{domain()}.json"
 
 
-def _kept(started: Background) -> str:
+def _save(started: Background) -> str:
     """Record a system, so that `down` can end it; returns why that failed, or an empty text."""
     problems: list[str] = []
     for each in _files():
@@ -350,12 +354,12 @@ def _forget() -> None:
             each.unlink(missing_ok=True)
 
 
-def _known() -> Background | None:
+def _running_system() -> Background | None:
     """The system in the background, if it is still running."""
-    return next((known for each in _files() if (known := _written(each)) is not None and known.runs()), None)
+    return next((known for each in _files() if (known := _read(each)) is not None and known.runs()), None)
 
 
-def _written(file: Path) -> Background | None:
+def _read(file: Path) -> Background | None:
     try:
         found = json.loads(file.read_text(encoding="utf-8"))
         words = tuple(str(each) for each in found["words"])

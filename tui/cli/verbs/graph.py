@@ -50,15 +50,15 @@ def run(words: list[str]) -> int:
             print(f"{given.check} cannot be used: {sanitize(str(error))}", file=sys.stderr)
             return 2
     with reached_console(learning=given.launch is not None) as console:
-        return 1 if console is None else _judge(console, expected, given)
+        return 1 if console is None else _run(console, expected, given)
 
 
-def _judge(console: RosConsole, expected: ExpectedGraph | None, given: argparse.Namespace) -> int:
+def _run(console: RosConsole, expected: ExpectedGraph | None, given: argparse.Namespace) -> int:
     if expected is not None:
         return _compare(console, expected, given)
     if given.launch is not None:
         return _write_launch(console, given)
-    info = _known(console, given.wait)
+    info = _settled_graph(console, given.wait)
     if given.findings:
         found = findings(info)
         for each in found:
@@ -126,7 +126,7 @@ def _compare(console: RosConsole, expected: ExpectedGraph, given: argparse.Names
     return 1 if found else 0
 
 
-def _known(console: RosConsole, wait: float) -> GraphInfo:
+def _settled_graph(console: RosConsole, wait: float) -> GraphInfo:
     """The graph, once it has nodes and stops changing; at the latest after `wait` seconds."""
 
     def has_nodes(info: GraphInfo) -> bool:

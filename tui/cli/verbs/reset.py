@@ -50,8 +50,8 @@ def _reset(console: RosConsole, *, dry: bool) -> int:
         _report(moved, snapshot)
         return 0
     good = _lock()
-    good = _put_back(console, moved, snapshot) and good
-    for service in resets(snapshot):
+    good = _restore(console, moved, snapshot) and good
+    for service in reset_services(snapshot):
         answer = _wait(console.topics.call_service(service, TRIGGER, {}))
         message = answer.text if answer else "no answer"
         print(f"{service}: {sanitize(message)}")
@@ -75,7 +75,7 @@ def _lock() -> bool:
     return held
 
 
-def _put_back(console: RosConsole, moved: Values, snapshot: ConsoleSnapshot) -> bool:
+def _restore(console: RosConsole, moved: Values, snapshot: ConsoleSnapshot) -> bool:
     outcomes = _wait(console.parameters.set_all(moved, by="reset")) if moved else ()
     refused = [each for each in outcomes or () if not each.accepted]
     if outcomes is None or refused:
@@ -113,7 +113,7 @@ def differing(snapshot: ConsoleSnapshot, starts: Mapping[tuple[str, str], Value]
     return moved, untold
 
 
-def resets(snapshot: ConsoleSnapshot) -> list[str]:
+def reset_services(snapshot: ConsoleSnapshot) -> list[str]:
     """The services that reset a simulator: those next to a service that pauses it."""
     names = {each.name: each.types for each in snapshot.graph.services}
     return [

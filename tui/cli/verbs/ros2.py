@@ -31,7 +31,7 @@ def main(words: Sequence[str]) -> int:
     return run(words)
 
 
-def taking_part(words: Sequence[str]) -> int:
+def run_in_domain(words: Sequence[str]) -> int:
     """Run a command line in the domain that the environment names; verbs that only read files do not join it."""
     problem = ""
     if words[0] in ALONE:

@@ -29,8 +29,8 @@ def run(words: Sequence[str]) -> int:
     """Route messages until Ctrl-C, SIGTERM or SIGHUP; returns 1 if it cannot listen."""
     parser = _parser()
     given = parser.parse_args(words)
-    serving = serving_of(parser, given.listen or [HERE], given)
-    warning = warning_of(serving)
+    serving = parse_serving(parser, given.listen or [HERE], given)
+    warning = exposure_warning(serving)
     if warning:
         print(warning, file=sys.stderr, flush=True)
     try:
@@ -54,14 +54,14 @@ def run(words: Sequence[str]) -> int:
 
 
 def add_serving_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options for serving over TLS; see `serving_of`."""
+    """Add the options for serving over TLS; see `parse_serving`."""
     add = parser.add_argument
     add("--tls-certificate", default="", metavar="FILE", help="certificate to present")
     add("--tls-key", default="", metavar="FILE", help="its private key")
     add("--tls-ca", default="", metavar="FILE", help="accept only clients with a certificate of this authority")
 
 
-def serving_of(parser: argparse.ArgumentParser, endpoints: Sequence[str], given: argparse.Namespace) -> Serving:
+def parse_serving(parser: argparse.ArgumentParser, endpoints: Sequence[str], given: argparse.Namespace) -> Serving:
     """The endpoints to listen on, with TLS; exits with code 2 if they are invalid."""
     tls = Tls(given.tls_ca, given.tls_certificate, given.tls_key)
     if problem := tls.problem():
@@ -76,7 +76,7 @@ def serving_of(parser: argparse.ArgumentParser, endpoints: Sequence[str], given:
     return Serving(tuple(endpoints), tls.as_listener())
 
 
-def warning_of(serving: Serving) -> str:
+def exposure_warning(serving: Serving) -> str:
     """A warning about the risk of listening there; empty if only this machine can connect."""
     outside = [each for each in serving.endpoints if not place_of(each)[1].startswith(LOOPBACK)]
     if not outside:

@@ -8,7 +8,7 @@ import sys
 from bot_console.tui.cli.arguments import SIMULATOR_HELP, Options
 from bot_console.tui.cli.machine_limits import no_node_here
 from bot_console.tui.cli.numbers import positive, seed
-from bot_console.tui.cli.programs import program
+from bot_console.tui.cli.programs import program_arguments
 from bot_console.tui.cli.verbs import ros2
 from bot_console.tui.session.embedded.domain import take_part
 from bot_console.tui.session.embedded.reaching import named_routers, reach_system, report_left_router
@@ -37,7 +37,7 @@ def run(words: list[str]) -> int:
         return main(rest)
     if not rest:
         parser.error("name a file or a package: bot-console run --watch FILE.py, or PACKAGE EXECUTABLE")
-    arguments, problem = program(rest, _hint)
+    arguments, problem = program_arguments(rest, _hint)
     if problem:
         print(problem, file=sys.stderr)
         return 1
@@ -66,10 +66,10 @@ def _hint(text: str) -> None:
     print(f"[WARN] [bot-console]: {text}", file=sys.stderr)
 
 
-def _options(given: argparse.Namespace, program: dict[str, str]) -> Options:
+def _options(given: argparse.Namespace, program_arguments: dict[str, str]) -> Options:
     return Options(
         launch=str(PROGRAM_LAUNCH),
-        launch_arguments=program,
+        launch_arguments=program_arguments,
         simulator=given.simulator,
         world=given.world or "",
         headless=given.headless,

@@ -44,7 +44,7 @@ def run(words: Sequence[str]) -> int:
         print(f"bot-console setup: cannot write {error.filename}: {error.strerror}", file=sys.stderr)
         return 1
     if given.undo:
-        _print(_filled(*_UNDO[given.shell]))
+        _print(_fill(*_UNDO[given.shell]))
         return 0
     _print(code(given.shell))
     shown = sys.stdout.isatty()
@@ -64,7 +64,7 @@ def _print(text: str) -> None:
 def code(shell: str) -> str:
     """Return the code that a shell evaluates."""
     completion = (_SHELL_FOLDER / _COMPLETION[shell]).read_text(encoding="utf-8")
-    return _filled(*_PATHS[shell]) + completion + _filled(f"ros2-completion.{shell}")
+    return _fill(*_PATHS[shell]) + completion + _fill(f"ros2-completion.{shell}")
 
 
 def evaluation(shell: str) -> str:
@@ -74,7 +74,7 @@ def evaluation(shell: str) -> str:
     return f"{program} setup fish | source" if shell == "fish" else f'eval "$({program} setup {shell})"'
 
 
-def _filled(*names: str) -> str:
+def _fill(*names: str) -> str:
     text = "".join((_SHELL_FOLDER / name).read_text(encoding="utf-8") for name in names)
     places = {
         "COMMAND": command(),
@@ -95,7 +95,7 @@ def _report_python(*, always: bool) -> None:
     path = os.pathsep.join(filter(None, (os.environ.get("PYTHONPATH", ""), str(kept_shim_folder()))))
     python = python_of_shell({**os.environ, "PYTHONPATH": path})
     if python is not None and (always or python.real or not python.fits):
-        print(f"[INFO] [bot-console]: {python.described()}{python.advice()}", file=sys.stderr)
+        print(f"[INFO] [bot-console]: {python.description()}{python.advice()}", file=sys.stderr)
 
 
 def _parser() -> argparse.ArgumentParser:

@@ -105,10 +105,10 @@ def holders(to_find: float = 1.0, to_hear: float = HOLDER_TIMEOUT_S) -> list[str
                 break
             reached.follow()
             reached.hear()
-    return _last_message(link.info) if link.heard else None
+    return _holder_lines(link.info) if link.heard else None
 
 
-def _last_message(info: StopInfo) -> list[str]:
+def _holder_lines(info: StopInfo) -> list[str]:
     """Who holds the robot and why, each reason once, with all its holders."""
     holders: dict[str, list[str]] = {}
     for each in with_gone(info.stops):
@@ -123,7 +123,7 @@ def _to_release(info: StopInfo, everybody: bool) -> list[RobotStop]:
 
 def _report(verb: str, done: bool, info: StopInfo) -> int:
     if done and verb == "release" and info.stopped:
-        others = "; ".join(_last_message(info))
+        others = "; ".join(_holder_lines(info))
         print(f"still held by {sanitize(others)} (`bot-console release --all` also releases this)", file=sys.stderr)
         return 1
     if done:
@@ -131,7 +131,7 @@ def _report(verb: str, done: bool, info: StopInfo) -> int:
         return 0
     why = "it did not answer" if info.locks else "no robot with an emergency stop was found (see docs/safety.md)"
     if verb == "release" and any(each.by_node for each in info.stops):
-        why = f"still held by {sanitize('; '.join(_last_message(info)))}"
+        why = f"still held by {sanitize('; '.join(_holder_lines(info)))}"
     sent = "stop sent, not confirmed" if verb == "stop" else "not released"
     print(f"{sent}: {why}", file=sys.stderr)
     return 1

@@ -11,7 +11,7 @@ from concurrent.futures import Future
 
 from bot_console.runtime.process import NodeProcess
 from bot_console.tui.cli.completion import candidates
-from bot_console.tui.cli.started_lines import launched_by
+from bot_console.tui.cli.launch_lines import parse_launch_line
 from bot_console.tui.cli.verbs.colcon import answers
 from bot_console.tui.commanding.completion import live_names
 from bot_console.tui.console.command_line import Stream
@@ -78,7 +78,7 @@ class Ros2CommandLine:
             return "\n".join(answers(words[1:])), 0
         if self._no_launch and starts_nodes(words):
             raise ValueError(self._no_launch)
-        wanted = launched_by(words) if self._launcher is not None else None
+        wanted = parse_launch_line(words) if self._launcher is not None else None
         if wanted is None or self._launcher is None:
             return _printed_by(words)
         if wanted.problem:
@@ -96,13 +96,13 @@ class _Names:
         self._snapshot = snapshot
         self._known = known
 
-    def asked(self, *words: str) -> list[str]:
+    def lines_of(self, *words: str) -> list[str]:
         """The lines that a verb prints, which are cached."""
         if words not in self._known:
             self._known[words] = [each.strip() for each in _printed_by(words)[0].splitlines()]
         return self._known[words]
 
-    def live(self, *words: str) -> list[str]:
+    def live_lines_of(self, *words: str) -> list[str]:
         """The same for verbs that query running things; not cached."""
         found = live_names(self._snapshot, words)
         return found if found is not None else [each.strip() for each in _printed_by(words)[0].splitlines()]

@@ -32,7 +32,7 @@ def test_down_ends_system_whose_domain_folder_was_deleted(
     with subprocess.Popen(SLEEPER, stdout=subprocess.PIPE, start_new_session=True) as process:
         assert process.stdout is not None and process.stdout.readline()
         monkeypatch.setattr(Background, "runs", lambda self: process.poll() is None)
-        assert background._kept(Background(process.pid, ("outdoor",), "the log")) == ""
+        assert background._save(Background(process.pid, ("outdoor",), "the log")) == ""
         shutil.rmtree(folder)
         try:
             assert background.down([]) == 0
@@ -46,14 +46,14 @@ def test_down_ends_system_whose_domain_folder_was_deleted(
 def test_system_recorded_in_one_of_two_places_is_known(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Background, "runs", lambda self: True)
     folder.write_text("in the way")
-    assert background._kept(Background(7, (), "the log")) == ""
-    known = background._known()
+    assert background._save(Background(7, (), "the log")) == ""
+    known = background._running_system()
     assert known is not None and known.pid == 7
     background._forget()
-    assert background._known() is None
+    assert background._running_system() is None
 
 
 def test_failure_to_record_a_system_names_the_file(folder: Path) -> None:
     for each in (folder, folder.with_name("user")):
         each.write_text("in the way")
-    assert str(folder) in background._kept(Background(7, (), "the log"))
+    assert str(folder) in background._save(Background(7, (), "the log"))

@@ -21,7 +21,7 @@ def test_router_does_not_write_to_a_rotating_log(
         return SimpleNamespace(pid=1, poll=lambda: None)
 
     monkeypatch.setattr(background, "take_part", lambda: "")
-    monkeypatch.setattr(background, "_known", lambda: None)
+    monkeypatch.setattr(background, "_running_system", lambda: None)
     monkeypatch.setattr(background, "robot_there", lambda: next(there))
     monkeypatch.setattr(background, "_is_program", lambda pid, word: False)
     monkeypatch.setattr(background.subprocess, "Popen", start)

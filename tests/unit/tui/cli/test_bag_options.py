@@ -13,8 +13,8 @@ import pytest
 import rclpy
 from bot_console.tui.cli.bags import common
 from bot_console.tui.cli.bags.keyboard import split_keys
-from bot_console.tui.cli.bags.play_arguments import bag_paths, chosen_topics, end_of, wrong_play
-from bot_console.tui.cli.bags.record_arguments import wanted_topics, wrong_record
+from bot_console.tui.cli.bags.play_arguments import bag_paths, chosen_topics, end_time, play_problem
+from bot_console.tui.cli.bags.record_arguments import record_problem, wanted_topics
 from bot_console.tui.cli.verbs.bag import parser, run
 from bot_console.tui.commanding.command_handler import CommandHandler
 from bot_console.tui.console.model import ConsoleSnapshot
@@ -51,7 +51,7 @@ def parsed(line: str) -> argparse.Namespace:
     ],
 )
 def test_options_of_record_are_accepted(line: str) -> None:
-    assert wrong_record(parsed(line)) == ""
+    assert record_problem(parsed(line)) == ""
 
 
 @pytest.mark.parametrize(
@@ -77,7 +77,7 @@ def test_options_of_record_are_accepted(line: str) -> None:
     ],
 )
 def test_options_of_play_are_accepted(line: str) -> None:
-    assert wrong_play(parsed(line)) == ""
+    assert play_problem(parsed(line)) == ""
 
 
 @pytest.mark.parametrize(
@@ -154,7 +154,7 @@ GRAPH = {
 )
 def test_topics_are_recorded_by_name_type_and_pattern(line: str, recorded: str) -> None:
     given = parsed(f"record {line}")
-    assert wrong_record(given) == ""
+    assert record_problem(given) == ""
     wanted = wanted_topics(given, "/only_subscribed".__ne__, "/leaf".__ne__)
     assert {name for name, types in GRAPH.items() if wanted(name, types)} == set(recorded.split())
 
@@ -177,10 +177,10 @@ def test_topics_are_played_by_name_and_pattern(line: str, named: Sequence[str] |
 
 
 def test_play_ends_at_the_later_of_two_ends() -> None:
-    assert end_of(parsed("play b"), 100) is None
-    assert end_of(parsed("play b --playback-duration 2 --start-offset 1"), 100) == 3 * 10**9 + 100
-    assert end_of(parsed("play b --playback-duration 1 --playback-until-nsec 5000000000"), 100) == 5 * 10**9
-    assert end_of(parsed("play b --playback-until-sec 1.5"), 0) == 1_500_000_000
+    assert end_time(parsed("play b"), 100) is None
+    assert end_time(parsed("play b --playback-duration 2 --start-offset 1"), 100) == 3 * 10**9 + 100
+    assert end_time(parsed("play b --playback-duration 1 --playback-until-nsec 5000000000"), 100) == 5 * 10**9
+    assert end_time(parsed("play b --playback-until-sec 1.5"), 0) == 1_500_000_000
     assert bag_paths(parsed("play a -i b -i c mcap")) == [Path("a"), Path("b"), Path("c")]
 
 

@@ -9,7 +9,7 @@ from bot_console.tui.cli import open_console
 
 @pytest.mark.parametrize("place", sorted({*program._COMMANDS.values(), *program._ROS2.values()}))
 def test_every_command_has_its_function(place: str) -> None:
-    assert callable(program._imported(place))
+    assert callable(program._load(place))
 
 
 @pytest.mark.parametrize(

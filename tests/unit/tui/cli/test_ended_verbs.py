@@ -58,7 +58,7 @@ def test_interrupted_status_prints_nothing(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], end: Callable[[], None], code: int
 ) -> None:
     monkeypatch.setattr(background, "take_part", lambda: "")
-    monkeypatch.setattr(background, "_known", lambda: None)
+    monkeypatch.setattr(background, "_running_system", lambda: None)
     monkeypatch.setattr(background, "robot_there", lambda: ["/simulator"])
     monkeypatch.setattr(reached_stop.ReachedStop, "follow", end)
     assert run_and_report(lambda: main(["status"])) == code

@@ -30,7 +30,7 @@ def watch_rig(tmp_path: Path) -> Iterator[tuple[HangWatch, Clock, list[str], Pat
     with path.open("ab") as file:
         watch = HangWatch(path, file.fileno(), reported.append, clock)
         yield watch, clock, reported, path
-        watch.rest()
+        watch.pause()
 
 
 def test_signal_writes_stacks_and_state_of_the_screen(tmp_path: Path) -> None:
@@ -91,7 +91,7 @@ def test_end_of_a_hang_is_reported(watch_rig: tuple[HangWatch, Clock, list[str],
 def test_idle_console_is_not_a_hang(watch_rig: tuple[HangWatch, Clock, list[str], Path]) -> None:
     watch, clock, reported, _ = watch_rig
     watch.heartbeat()
-    watch.rest()
+    watch.pause()
     clock.now += 10 * HANG_AFTER_S
     watch.heartbeat()
     assert reported == []
@@ -139,12 +139,12 @@ def test_app_that_hangs_while_its_loop_runs_is_written_with_its_tasks(
         waiting = asyncio.create_task(waits(), name="message pump App()")
         await asyncio.sleep(0)
         for _ in range(3 * MAX_MISSED_HEARTBEATS):
-            watch.observe(app)
+            watch.ping(app)
             app.deal()
         assert (path.read_text(), reported) == ("", []), "one that answers"
         app.holds_frames = held
         for _ in range(2 * MAX_MISSED_HEARTBEATS):
-            watch.observe(app)
+            watch.ping(app)
             if held:
                 app.deal()
         waiting.cancel()

@@ -9,8 +9,8 @@ import pytest
 from bot_console.tui.cli import main, open_console
 from bot_console.tui.cli.interpreter import (
     SWITCH_INTERVAL_S,
-    collect_from_now_on,
     eager_switching,
+    resume_collection,
     without_collector,
 )
 
@@ -23,7 +23,7 @@ def test_garbage_is_not_collected_until_start_is_complete() -> None:
         with without_collector():
             assert not gc.isenabled()
             there = There()
-            collect_from_now_on()
+            resume_collection()
             assert gc.isenabled()
             assert not any(each is there for each in gc.get_objects()), "it is looked through no more"
     finally:

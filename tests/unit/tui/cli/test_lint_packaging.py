@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.workspace.package import read_package
-from bot_console.tui.cli.lint.packaging import obstacles, shadowed
+from bot_console.tui.cli.lint.packaging import obstacles, shadowing_files
 
 SETUP = """\
 from glob import glob
@@ -191,6 +191,6 @@ def test_files_that_shadow_imported_packages_are_named(folder: Path, name: str) 
 def test_shadowing_file_that_nobody_imports_is_not_reported(tmp_path: Path) -> None:
     (tmp_path / "queue.py").write_text("")
     (tmp_path / "node.py").write_text("import rclpy\nfrom . import queue\n")
-    assert list(shadowed(tmp_path / "node.py")) == []
+    assert list(shadowing_files(tmp_path / "node.py")) == []
     (tmp_path / "node.py").write_text("import rclpy\nimport queue\n")
-    assert [each.line for each in shadowed(tmp_path / "node.py")] == [2]
+    assert [each.line for each in shadowing_files(tmp_path / "node.py")] == [2]

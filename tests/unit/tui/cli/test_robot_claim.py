@@ -26,8 +26,10 @@ def test_second_program_waits_for_the_robot_of_the_first(tmp_path):
     first, second = RobotClaim(tmp_path), RobotClaim(tmp_path)
     assert first.held and not second.held
     polls, reported = iter([[], [], ["/simulator"]]), []
-    assert first.seen(lambda: [], lambda: reported.append(1)) == [] and not reported, "there is nothing to wait for"
-    assert second.seen(lambda: next(polls), lambda: reported.append(1)) == ["/simulator"] and not second.held
+    assert first.wait_for_robot(lambda: [], lambda: reported.append(1)) == [] and not reported, (
+        "there is nothing to wait for"
+    )
+    assert second.wait_for_robot(lambda: next(polls), lambda: reported.append(1)) == ["/simulator"] and not second.held
     assert reported == [1], "who waits is told so, once"
     first.release(), first.release(), second.release()
 
@@ -42,14 +44,14 @@ def test_released_claim_can_be_taken(tmp_path):
             first.release()
         return []
 
-    assert second.seen(poll, list) == [] and second.held
+    assert second.wait_for_robot(poll, list) == [] and second.held
     assert not RobotClaim(tmp_path).held
 
 
 def test_wait_for_claimed_robot_ends_at_its_timeout(tmp_path, monkeypatch):
     monkeypatch.setattr(robot_claim, "ROBOT_START_TIMEOUT_S", 0.0)
     first, second = RobotClaim(tmp_path), RobotClaim(tmp_path)
-    assert second.seen(lambda: [], list) == [] and not second.held
+    assert second.wait_for_robot(lambda: [], list) == [] and not second.held
     first.release()
 
 
@@ -80,7 +82,7 @@ def test_file_removed_while_it_is_being_locked_is_not_a_claim(tmp_path, monkeypa
 def test_folder_without_lock_support_does_not_prevent_a_start(tmp_path):
     (tmp_path / NAME).mkdir()
     claim = RobotClaim(tmp_path)
-    assert claim.held and claim.descriptors == () and claim.seen(lambda: [], list) == []
+    assert claim.held and claim.descriptors == () and claim.wait_for_robot(lambda: [], list) == []
     claim.release()
 
 
@@ -141,7 +143,7 @@ def test_nodes_with_our_names_alone_are_not_a_robot(program, up, tmp_path, monke
     }.items():  # fmt: skip
         monkeypatch.setattr(headless, name, value)
     monkeypatch.setattr(domain, "same_names_there", lambda arguments: ["/sensor_handler"])
-    background.up([]) if program == "up" else headless._meet_others(parse(["--headless"]))
+    background.up([]) if program == "up" else headless._join_domain(parse(["--headless"]))
     reported = capsys.readouterr().err
     assert reported.startswith("nodes named like our robot's run already") and "/sensor_handler" in reported and not up
     assert bool(apart) == (program == "--headless") and RobotClaim(tmp_path).held
@@ -154,7 +156,7 @@ def test_headless_runs_in_isolation_beside_a_console_that_is_starting_a_robot(tm
         "isolate_from_domain": lambda: apart.append(1),
     }.items():  # fmt: skip
         monkeypatch.setattr(headless, name, value)
-    headless._meet_others(parse(["--headless"]))
+    headless._join_domain(parse(["--headless"]))
     assert apart and "runs in isolation" in capsys.readouterr().err
     first.release()
 
@@ -163,7 +165,7 @@ def test_headless_robot_that_cannot_join_the_domain_reaches_its_launched_program
     apart = []
     monkeypatch.setattr(headless, "take_part", lambda: "the folder belongs to another user")
     monkeypatch.setattr(headless, "isolate_from_domain", lambda: apart.append(1))
-    headless._meet_others(parse(["--headless"]))
+    headless._join_domain(parse(["--headless"]))
     assert apart and "belongs to another user" in capsys.readouterr().err
 
 

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
-from bot_console.tui.cli.verbs.background import Background, _written
+from bot_console.tui.cli.verbs.background import Background, _read
 from bot_console.tui.files import plot_presets
 from bot_console.tui.files.folders import OVERRIDE
 from bot_console.tui.learn.command_log import read_log
@@ -25,8 +25,8 @@ def test_damaged_record_of_a_background_system_is_ignored_or_not_running(tmp_pat
     file = tmp_path / "background.json"
     for pid, words in ((value, '["indoor"]'), ("1", f"[{value}]"), ("1", value)):
         file.write_text(f'{{"pid": {pid}, "words": {words}, "log": "/tmp/a.log"}}')
-        found = _written(file)
-        assert found is None or (not found.runs() and found.reported())
+        found = _read(file)
+        assert found is None or (not found.runs() and found.describe())
 
 
 def test_impossible_process_id_does_not_count_as_running() -> None:

@@ -88,7 +88,7 @@ def test_status_reports_a_stopped_process(monkeypatch, capsys):
         monkeypatch.setattr(background, "take_part", lambda: "")
         monkeypatch.setattr(background, "robot_there", lambda: [])
         monkeypatch.setattr(background, "others_take_part", lambda: False)
-        monkeypatch.setattr(background, "_known", lambda: None)
+        monkeypatch.setattr(background, "_running_system", lambda: None)
         try:
             assert background.status([]) == 1
             child.send_signal(signal.SIGSTOP)

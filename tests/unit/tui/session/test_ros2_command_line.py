@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from bot_console.runtime.workspace import discover
-from bot_console.tui.cli.started_lines import launched_by
+from bot_console.tui.cli.launch_lines import parse_launch_line
 from bot_console.tui.cli.verbs.colcon import answers
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.command_gate import done
@@ -110,7 +110,7 @@ def test_line_that_cannot_start_is_reported(folder: Path, line: str, problem: st
 
 @pytest.mark.parametrize("line", ["launch x.launch.py --show-args", "run", "run --help", "topic list", "launch"])
 def test_lines_that_start_nothing_are_run_as_usual(folder: Path, line: str) -> None:
-    assert launched_by(line.split()) is None
+    assert parse_launch_line(line.split()) is None
 
 
 def until(condition: Any) -> None:

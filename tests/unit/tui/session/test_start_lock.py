@@ -57,7 +57,7 @@ def started_processes(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[o
     monkeypatch.setattr(background, "take_part", lambda: "")
     monkeypatch.setattr(background, "_file", lambda: tmp_path / "background.json")
     monkeypatch.setattr(background, "_is_program", lambda pid, word: True)
-    monkeypatch.setattr(background, "_runs", lambda pid: True)
+    monkeypatch.setattr(background, "_accepts_consoles", lambda pid: True)
     monkeypatch.setattr(background, "robot_there", lambda: ["/simulator"] if calls else [])
     monkeypatch.setattr(system_log, "state_folder", lambda: tmp_path)
     return calls
@@ -118,7 +118,7 @@ def test_system_that_does_not_come_up_in_time_is_not_reported_as_running(
 ) -> None:
     monkeypatch.setattr(background, "START_TIMEOUT_S", 0.0)
     monkeypatch.setattr(background, "robot_there", list)
-    monkeypatch.setattr(background, "_runs", lambda pid: False)
+    monkeypatch.setattr(background, "_accepts_consoles", lambda pid: False)
     assert background.up(words) == 1
     message = capsys.readouterr()
     assert message.err.startswith(what) and f"process {os.getpid()}" in message.err and not message.out

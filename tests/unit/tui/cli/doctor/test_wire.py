@@ -12,7 +12,7 @@ from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of, pack, unpack
 from bot_console.runtime.rmw.zenoh.wire.keys import data_key
 from bot_console.runtime.rmw.zenoh.wire.tokens import TokenNode, entity_token, node_token, parse_token
 from bot_console.tui.cli.doctor.finding import Level
-from bot_console.tui.cli.doctor.wire import captured, watch_wire, wire_findings
+from bot_console.tui.cli.doctor.wire import to_capture, watch_wire, wire_findings
 from processes.ports import free_port
 
 STRING, HASH = "std_msgs/msg/String", "RIHS01_df668c740482bbd48fb39d76a70dfd4bd59db1288021743503259e948f6b1a18"
@@ -78,7 +78,7 @@ def test_correct_robot_has_no_findings_and_its_capture_matches_byte_by_byte(plac
     attachment = pack(7, time.time_ns(), gid_of(token))
     wire = observe(place, lambda: publisher.put(b"\x00\x01\x00\x00", pack(7, time.time_ns(), gid_of(token))))
     assert {each.level for each in wire_findings(wire, 0.0)} == {Level.OK}
-    read = json.loads(json.dumps(captured(wire, ["a test"])))
+    read = json.loads(json.dumps(to_capture(wire, ["a test"])))
     assert [parse_token(each).kind for each in read["tokens"]] == ["MP", "NN"] or len(read["tokens"]) == 2
     (sample, *_) = read["samples"]
     number, _, gid = unpack(bytes.fromhex(sample["attachment"]))

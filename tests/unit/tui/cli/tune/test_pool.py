@@ -8,8 +8,8 @@ from collections.abc import Generator
 
 import pytest
 from bot_console.tui.cli.main import main
-from bot_console.tui.cli.tune.describing import tunables_of
 from bot_console.tui.cli.tune.pool import CAN_FORK, Pool, profile_yaml
+from bot_console.tui.cli.tune.results import tunables_of
 from bot_console.tui.tuning.score import parse_score
 from bot_console.tui.tuning.specification import Trial, TuningSpecification
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.cli.tune import run as tune
-from bot_console.tui.cli.tune.describing import result_line, result_of
+from bot_console.tui.cli.tune.results import result_data, result_line
 from bot_console.tui.tuning.job import Progress, SettingResult
 from bot_console.tui.tuning.score import FAILED, parse_score
 from bot_console.tui.tuning.specification import TuningSpecification
@@ -49,7 +49,7 @@ def test_each_setting_is_printed_on_a_line() -> None:
 
 def test_result_reports_gain_and_whether_it_holds_on_other_seeds() -> None:
     worse = SettingResult((2.5,), 0.6, (0.6,))
-    result = result_of(QUESTION, Progress((NOW, BEST, WORST), 9, 9, 3.0, 9, (NOW, worse), True))
+    result = result_data(QUESTION, Progress((NOW, BEST, WORST), 9, 9, 3.0, 9, (NOW, worse), True))
     assert result["best"]["values"] == {"/robot_navigator:max_speed": 2.5}
     assert result["worst"]["score"] is None
     assert result["complete"]
@@ -65,7 +65,7 @@ def test_best_setting_is_saved_as_profile_with_original_comments(
 ) -> None:
     monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path))
     progress = Progress((NOW, BEST), 9, 9, 3.0, 9, (NOW, BEST), True)
-    assert tune._reported(QUESTION, progress, Namespace(json=False, save=name)) == code
+    assert tune._print_result(QUESTION, progress, Namespace(json=False, save=name)) == code
     message = capsys.readouterr().err
     if code:
         assert "is not a valid profile name" in message
@@ -78,4 +78,4 @@ def test_best_setting_is_saved_as_profile_with_original_comments(
 
 @pytest.mark.parametrize("progress", [Progress((WORST,), ended=True, problem="every setting failed"), Progress()])
 def test_exit_code_is_1_without_a_result(progress: Progress) -> None:
-    assert tune._reported(QUESTION, progress, Namespace(json=True, save="")) == 1
+    assert tune._print_result(QUESTION, progress, Namespace(json=True, save="")) == 1

@@ -52,7 +52,7 @@ def gain(before: SettingResult, after: SettingResult) -> str:
     return f"{share:+.0%}" if math.isfinite(share) else ""
 
 
-def result_of(specification: TuningSpecification, progress: Progress) -> dict[str, Any]:
+def result_data(specification: TuningSpecification, progress: Progress) -> dict[str, Any]:
     """The result as JSON data; its entry `text` has the lines for people."""
     rows, best = progress.rows, progress.best
     result: dict[str, Any] = {

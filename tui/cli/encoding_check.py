@@ -11,7 +11,7 @@ WRITTEN = ("--output-dir", "--destination-directory", "--report", "--output", "-
 """Options followed by a path that need not exist."""
 
 
-def undecodable(words: Sequence[str]) -> str:
+def encoding_problem(words: Sequence[str]) -> str:
     """A message about the first word that is neither UTF-8 nor a path; empty if there is none."""
     for before, word in zip(["", *words], words, strict=False):
         path = word.rpartition("=")[2]  # also finds the path in `params_file:=PATH`

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.cli import main as program
-from bot_console.tui.cli.undecodable import undecodable
+from bot_console.tui.cli.encoding_check import encoding_problem
 
 BAD = "\udcff"
 
@@ -49,11 +49,11 @@ def test_names_and_values_that_are_not_utf_8_are_refused_in_one_line(
 def test_paths_may_contain_any_bytes(line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     Path(os.fsdecode(b"\xff")).touch()
-    assert undecodable(line.replace("BAD", BAD).split()) == ""
+    assert encoding_problem(line.replace("BAD", BAD).split()) == ""
 
 
 @pytest.mark.parametrize("verb", ["stop", "release", "status", "down"])
 def test_stop_is_never_refused_for_its_bytes(verb: str, monkeypatch: pytest.MonkeyPatch) -> None:
     ran: list[list[str]] = []
-    monkeypatch.setattr(program, "_imported", lambda place: lambda words: ran.append(words) or 0)
+    monkeypatch.setattr(program, "_load", lambda place: lambda words: ran.append(words) or 0)
     assert program.main([verb, BAD]) == 0 and ran == [[BAD]]

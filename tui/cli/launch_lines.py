@@ -7,12 +7,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from bot_console.runtime.workspace.not_found import no_package
-from bot_console.tui.cli.programs import program
+from bot_console.tui.cli.programs import program_arguments
 from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH
 
 
 @dataclass(frozen=True)
-class Wanted:
+class LaunchRequest:
     """A launch file and its arguments, or `problem`, the reason why the line cannot be launched."""
 
     name: str = ""
@@ -21,19 +21,19 @@ class Wanted:
     problem: str = ""
 
 
-def launched_by(words: Sequence[str]) -> Wanted | None:
+def parse_launch_line(words: Sequence[str]) -> LaunchRequest | None:
     """The launch file that a line starts; None if it starts nothing, such as `launch --show-args`."""
     if len(words) < 2 or words[0] not in ("run", "launch") or words[1].startswith("-"):
         return None
     return _run(words[1:]) if words[0] == "run" else _launch(words[1:])
 
 
-def _run(words: Sequence[str]) -> Wanted:
-    arguments, problem = program(list(words), lambda text: None)
-    return Wanted(arguments.get("program", "").rpartition("/")[2], str(PROGRAM_LAUNCH), arguments, problem)
+def _run(words: Sequence[str]) -> LaunchRequest:
+    arguments, problem = program_arguments(list(words), lambda text: None)
+    return LaunchRequest(arguments.get("program", "").rpartition("/")[2], str(PROGRAM_LAUNCH), arguments, problem)
 
 
-def _launch(words: Sequence[str]) -> Wanted | None:
+def _launch(words: Sequence[str]) -> LaunchRequest | None:
     from ament_index_python.packages import PackageNotFoundError
     from ros2cli.launch_file import LaunchFileError, find_launch_file, parse_launch_arguments
 
@@ -43,8 +43,8 @@ def _launch(words: Sequence[str]) -> Wanted | None:
     try:
         if not os.path.isfile(file):
             file, rest = find_launch_file(file, rest[0] if rest else None), rest[1:]
-        return Wanted(os.path.basename(file), os.path.abspath(file), parse_launch_arguments(rest))
+        return LaunchRequest(os.path.basename(file), os.path.abspath(file), parse_launch_arguments(rest))
     except (PackageNotFoundError, ValueError):
-        return Wanted(problem=no_package(words[0]))
+        return LaunchRequest(problem=no_package(words[0]))
     except LaunchFileError as error:
-        return Wanted(problem=str(error))
+        return LaunchRequest(problem=str(error))
