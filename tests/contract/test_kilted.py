@@ -34,12 +34,12 @@ def run_program(*words: str, **environment: str) -> str:
     ],
     ids=["option", "option with =", "variable"],
 )
-def test_answers_are_those_of_kilted(words: list[str], environment: dict[str, str]) -> None:
+def test_results_equal_those_of_kilted(words: list[str], environment: dict[str, str]) -> None:
     assert run_program(OURS, *words, **environment) == RECORDED.read_text("utf-8")
 
 
 @pytest.mark.ros
 @pytest.mark.skipif(is_embedded_rclpy(), reason="for the rclpy of PyPI: .ci/on_rclpy")
 @pytest.mark.skipif(os.environ.get("BOT_CONSOLE_TESTS_DISTRO") != "kilted", reason="recorded on Kilted")
-def test_real_rclpy_answers_as_recorded() -> None:
+def test_real_rclpy_gives_the_recorded_results() -> None:
     assert run_program(sys.executable) == RECORDED.read_text("utf-8")

@@ -76,10 +76,10 @@ def compare(name: str, way: str, scene: Callable[[], Any]) -> None:
 
 
 @pytest.mark.parametrize("rig", WAYS, indirect=True)
-def test_the_panes_see_what_was_recorded(rig: Rig, request: pytest.FixtureRequest) -> None:
+def test_panes_see_the_recorded_data(rig: Rig, request: pytest.FixtureRequest) -> None:
     compare("panes", request.node.callspec.id, lambda: play(rig))
 
 
 @pytest.mark.parametrize("rig", LAUNCHERS, indirect=True)
-def test_the_launch_pane_sees_what_was_recorded(rig: LauncherRig, request: pytest.FixtureRequest) -> None:
+def test_launch_pane_sees_the_recorded_data(rig: LauncherRig, request: pytest.FixtureRequest) -> None:
     compare("launch", request.node.callspec.id, lambda: play_launch(rig.launcher, rig.info, rig.settle, rig.path))

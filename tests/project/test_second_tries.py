@@ -50,7 +50,7 @@ EXPLAINED = "where 1 = len(('tried',))"
 
 
 @pytest.mark.slow
-def test_only_what_fails_in_both_tries_is_a_failure(tmp_path: Path) -> None:
+def test_only_tests_that_fail_in_both_tries_are_failures(tmp_path: Path) -> None:
     (tmp_path / "test_it.py").write_text(TESTS + ALWAYS)
     assert run(tmp_path, "1")[:2] == (1, "1 failed, 4 passed, 4 rerun")
     assert failures(tmp_path) == ["test_is_wrong"]

@@ -118,12 +118,12 @@ words_and_lines = given(records, filters, st.integers(1, 4))
 
 
 @words_and_lines
-def test_the_log_finds_what_the_filter_means(lines, words, times):
+def test_log_search_finds_exactly_the_lines_that_match_the_filter(lines, words, times):
     the_log_finds(lines, words, times)
 
 
 @given(records, st.lists(st.tuples(without_pattern, st.booleans()), max_size=4), st.integers(1, 4))
-def test_the_log_finds_the_same_words_without_re2(lines, words, times):
+def test_log_search_finds_the_same_words_without_re2(lines, words, times):
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(patterns, "re2", None)
         the_log_finds(lines, words, times)

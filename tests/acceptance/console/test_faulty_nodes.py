@@ -142,7 +142,7 @@ def test_ending_node_ends_alone(system: System) -> None:
 
 
 @pytest.mark.soak
-def test_frozen_node_is_shown_as_such_until_it_continues(system: System) -> None:
+def test_frozen_node_is_shown_as_frozen_until_it_continues(system: System) -> None:
     system.start({"sleeps": HEAD + "time.sleep(1000)\n"})
     process = system.named("sleeps")
     assert process.pid

@@ -167,7 +167,7 @@ def test_listing_leaves_room_for_what_follows_and_long_lines_are_marked() -> Non
         ),
     ],
 )
-def test_two_lines_of_a_step_show_first_what_it_waits_for(waiting: str, lines: list[str]) -> None:
+def test_two_line_lesson_shows_first_what_the_step_waits_for(waiting: str, lines: list[str]) -> None:
     view = LessonView(
         "C", "Set the speed", 1, 2, 0, snippets=(("a.py", "x"), ("", "ls\npwd")), waits=((False, waiting),)
     )

@@ -12,7 +12,7 @@ FRAMED = ("steering", "topics")
 
 
 @pytest.mark.parametrize("digits", ["27", pytest.param("134568HMBI", marks=pytest.mark.slow)])
-def test_an_empty_pane_is_its_explanation_in_the_middle_and_nothing_else(digits: str) -> None:
+def test_an_empty_pane_shows_only_its_centred_explanation(digits: str) -> None:
     async def play(session: Session) -> None:
         for entry in (each for each in PANES if each.key in digits):
             if entry.id in FRAMED:

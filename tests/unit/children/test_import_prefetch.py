@@ -78,7 +78,7 @@ def test_numpy_is_imported_for_a_file_that_may_need_it(text: str, wanted: list[s
         ("from rclpy.nowhere import nothing\nimport numpy", ["rclpy.nowhere", "numpy"]),
     ],
 )
-def test_what_a_file_needs_is_read_from_its_imports(text: str, wanted: list[str], tmp_path: Path) -> None:
+def test_needed_modules_are_read_from_the_imports_of_a_file(text: str, wanted: list[str], tmp_path: Path) -> None:
     (tmp_path / "node.py").write_text(text)
     assert [*import_prefetch._needed(str(tmp_path / "node.py"))] == wanted
 

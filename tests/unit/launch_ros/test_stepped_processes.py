@@ -122,7 +122,7 @@ AS_IN_A_LIVE_RUN = """
 """
 
 
-def test_program_may_do_what_a_process_may(step: Any, nodes: Any) -> None:
+def test_program_may_use_all_features_of_a_process(step: Any, nodes: Any) -> None:
     done = step(*nodes(AS_IN_A_LIVE_RUN))
     assert done.lines == [
         "/ True True",

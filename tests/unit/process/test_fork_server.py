@@ -88,7 +88,7 @@ def fork(server: ForkServer, tmp_path: Path) -> Callable[..., ForkedChild]:
     return forked
 
 
-def test_child_has_what_the_job_states_and_nothing_of_the_server(fork: Any, tmp_path: Path) -> None:
+def test_child_has_the_state_of_its_job_and_nothing_of_the_server(fork: Any, tmp_path: Path) -> None:
     child = fork(
         "import os, signal, sys, threading\n"
         "print(sys.argv[1:], dict(os.environ), os.getcwd(), __name__, __file__)\n"

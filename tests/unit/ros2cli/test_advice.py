@@ -112,7 +112,7 @@ def test_launch_files_of_the_package_are_listed(ros, monkeypatch: pytest.MonkeyP
     assert asked.exit == 1
 
 
-def test_command_that_meets_no_other_program_reports_it(ros, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_command_that_finds_no_other_program_reports_it(ros, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(advice, "is_read", lambda: True)
     assert ros.ask("node", "list").stderr == ""
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF")

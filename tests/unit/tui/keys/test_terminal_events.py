@@ -116,7 +116,7 @@ def test_keys_with_extended_reports_are_parsed() -> None:
     assert [each.key for each in found] == ["A", "shift+a", "up", "enter", "ctrl+i"]
 
 
-def test_every_key_of_the_table_is_what_its_bytes_are_read_as() -> None:
+def test_bytes_of_every_key_in_the_table_are_read_as_that_key() -> None:
     plain = [bytes([each]) for each in (*range(1, 27), 27, *range(32, 128))]
     moving = [f"{modifier}{final}" for final in "ABCDHF" for modifier in ("", "1;2", "1;5")]
     special = [f"\x1b[{each}".encode() for each in (*moving, "Z", *TILDES)]

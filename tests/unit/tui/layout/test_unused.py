@@ -15,7 +15,7 @@ NODES = GraphInfo(nodes=(NodeInfo("/talker"),))
 WITHOUT = ConsoleSnapshot(graph=NODES)
 
 
-def test_a_world_that_nobody_publishes_is_given_up_after_a_while() -> None:
+def test_unpublished_world_gives_up_its_place_after_a_while() -> None:
     clock = Clock()
     unused = UnusedPanes(clock)
     assert not unused.panes(WITHOUT)
@@ -24,7 +24,7 @@ def test_a_world_that_nobody_publishes_is_given_up_after_a_while() -> None:
     assert not unused.panes(replace(WITHOUT, world=WorldInfo(pose=Pose()))), "it comes back with a pose"
 
 
-def test_a_world_is_not_given_up_before_there_are_nodes_or_while_odometry_is_offered() -> None:
+def test_world_keeps_its_place_until_there_are_nodes_and_while_odometry_is_offered() -> None:
     odometry = GraphInfo(NODES.nodes, (Endpoint("/odom", ("nav_msgs/msg/Odometry",)),))
     for graph in (GraphInfo(), odometry):
         clock = Clock()

@@ -145,7 +145,7 @@ SPEED = parameter("/robot", "speed", 1.0)
         ("saw-move 2", seen(metres=1.5), "waiting for: the robot to drive 0.5 m"),
     ],
 )
-def test_missing_deed_is_named(condition: str, activity: Activity, text: str) -> None:
+def test_missing_action_is_named(condition: str, activity: Activity, text: str) -> None:
     found = missing_text(condition, activity)
     assert found.startswith(text) and bool(found) == bool(text), found
 
@@ -210,7 +210,7 @@ def lesson(folder: Path, text: str, commands: str = "") -> CourseLesson:
 TWO = "## A\n```step\nsaw-set speed 2.0\nexpect-file a.txt\n```\n## B\n```step\nsaw-node b\n```\n"
 
 
-def test_step_is_done_by_its_deeds_and_open_again_when_a_state_is_lost(tmp_path: Path) -> None:
+def test_step_is_done_by_its_actions_and_reopened_when_a_state_is_lost(tmp_path: Path) -> None:
     held = lesson(tmp_path, TWO)
     assert held.observe(snapshot(), [change("speed", 2.0)], OnScreen()) == []
     (tmp_path / "a.txt").touch()
@@ -237,7 +237,7 @@ def test_course_is_resumed_at_an_open_step(tmp_path: Path) -> None:
     assert lesson(tmp_path, TWO).view().title == "B"
 
 
-def test_deeds_are_kept_in_the_workspace(tmp_path: Path) -> None:
+def test_progress_is_kept_in_the_workspace(tmp_path: Path) -> None:
     lesson(tmp_path, TWO).observe(snapshot(parameter("/b", "x", 1)), [change("speed", 2.0)], OnScreen())
     assert [held for held, _ in lesson(tmp_path, TWO).view().waits] == [True, False]
 
@@ -253,7 +253,7 @@ def test_progress_that_cannot_be_read_is_kept_and_reported(tmp_path: Path) -> No
     assert json.loads((tmp_path / ".bot-console" / "course-2.json").read_text(encoding="utf-8"))["held"]["b"]
 
 
-def test_robot_has_to_drive_after_the_other_deeds_of_the_step(tmp_path: Path) -> None:
+def test_robot_has_to_drive_after_the_other_actions_of_the_step(tmp_path: Path) -> None:
     held = lesson(tmp_path, "## A\n```step\nsaw-set speed 2.0\nsaw-move 1\n```\n")
 
     def drive(*places: float) -> list[str]:
@@ -300,7 +300,7 @@ def test_file_launched_from_the_launch_pane_counts_each_time(tmp_path: Path) -> 
     assert held.observe(snapshot(launch=LaunchInfo(files=(str(path), str(path)))), [], OnScreen()) == ["A"]
 
 
-def test_command_that_lasts_until_it_is_ended_counts_once_it_has_run_for_a_while(tmp_path: Path) -> None:
+def test_endless_command_counts_once_it_has_run_for_a_while(tmp_path: Path) -> None:
     path = tmp_path / "log"
     path.touch()
     append_record(str(path), ["run", "a.py"], None)
@@ -406,7 +406,7 @@ def is_done_by(condition: Condition, activity: Activity) -> bool:
 
 
 @pytest.mark.parametrize("step", WEEK6.steps(), ids=lambda each: each.id)
-def test_each_deed_of_the_course_counts_and_is_asked_for_when_left_out(step: Step, tmp_path: Path) -> None:
+def test_each_action_of_the_course_counts_and_is_requested_when_left_out(step: Step, tmp_path: Path) -> None:
     deeds_asked = [each for each in step.conditions if each.verb.startswith("saw-")]
     for left_out in (None, *deeds_asked):
         activity = Activity()

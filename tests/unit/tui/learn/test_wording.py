@@ -49,7 +49,7 @@ from bot_console.tui.learn.wording import command_text, fulfilled_text
         ("expect-no-findings a.launch.py", "lint finds nothing in a.launch.py"),
     ],
 )
-def test_condition_that_holds_is_put_into_a_sentence(condition: str, text: str) -> None:
+def test_fulfilled_condition_is_described_in_a_sentence(condition: str, text: str) -> None:
     read = read_condition(condition)
     assert fulfilled_text(read.verb, read.words) == text
 

@@ -37,7 +37,7 @@ def test_lines_have_the_colours_of_their_pens() -> None:
     assert (len(red) - len(red.lstrip()), len(red.strip())) == (8, 24)
 
 
-def test_a_turtle_is_an_arrow_where_it_is() -> None:
+def test_a_turtle_is_drawn_as_an_arrow_at_its_position() -> None:
     turtle = Turtle("leo", Pose(SIDE_M - 0.01, 0.01, 1.57))
     rows = text(FieldDrawing().rows(TurtleField("/sim", (turtle,), drawing()), WIDTH, HEIGHT))
     assert rows[-1][-1] == "↑"

@@ -81,7 +81,7 @@ def test_key_that_a_hung_screen_does_not_handle_holds(typing: bool) -> None:
     assert rig.asked == [("hold", "1")] and rig.early.due is None
 
 
-def test_turn_of_a_held_key_is_a_stop_and_keeps_it() -> None:
+def test_key_handled_after_its_early_stop_keeps_that_stop() -> None:
     rig = Rig()
     event = rig.press(alone=False)
     assert rig.early.has_acted(event)
@@ -106,7 +106,7 @@ def test_stop_that_nobody_has_seen_yet_is_not_released_by_pressing_again() -> No
     assert rig.early.has_acted(second) and rig.asked.count("stop") == 2
 
 
-def test_key_that_was_to_release_what_the_screen_showed_still_does() -> None:
+def test_key_that_was_to_release_the_shown_stop_still_does() -> None:
     rig = Rig()
     rig.held_by("a")
     event = rig.press(alone=False)

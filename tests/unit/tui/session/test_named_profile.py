@@ -116,6 +116,6 @@ def test_profiles_are_completed_for_every_command_that_takes_one(place: Path) ->
     assert "outdoor" in candidates(["ou"])
 
 
-def test_path_with_a_name_that_is_too_long_is_not_there() -> None:
+def test_path_with_a_too_long_name_counts_as_missing() -> None:
     with pytest.raises(NoProfileError, match="there is no file"):
         named_profile("./in" + "9" * 400)

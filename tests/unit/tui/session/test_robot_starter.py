@@ -57,6 +57,6 @@ def test_nothing_is_decided_before_the_first_process_runs(make, make_starter):
     assert not poll_until_settled(make_starter(0, 1), make("_looker"))
 
 
-def test_own_nodes_get_a_robot(make, make_starter):
+def test_launched_nodes_get_a_robot(make, make_starter):
     make("driver").create_publisher(Twist, "/cmd_vel", 10)
     assert poll_until_settled(make_starter(1, 0), make("_looker"))

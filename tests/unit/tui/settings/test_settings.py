@@ -40,7 +40,7 @@ def test_settings_are_read(tmp_path: Path) -> None:
     )
 
 
-def test_what_the_graph_hides_can_be_chosen(tmp_path: Path) -> None:
+def test_topics_hidden_in_the_graph_can_be_configured(tmp_path: Path) -> None:
     assert read_settings(write_settings(tmp_path, "graph_hides: [/tf, /camera/*]")).graph_hides == ("/tf", "/camera/*")
     assert read_settings(write_settings(tmp_path, "graph_hides: []")).graph_hides == ()
 

@@ -7,7 +7,7 @@ from rich.segment import Segment
 from rich.style import Style
 
 
-def test_few_cut_texts_are_kept_and_they_are_cut_as_before() -> None:
+def test_only_a_few_cut_texts_are_cached_and_cuts_stay_the_same() -> None:
     before = Segment("日本語").split_cells(3)
     limit_cut_cache()
     cut = Segment._split_cells
@@ -20,7 +20,7 @@ def test_few_cut_texts_are_kept_and_they_are_cut_as_before() -> None:
     assert Segment("⠿⠿⠿", bold).split_cells(1) == (Segment("⠿", bold), Segment("⠿⠿", bold))
 
 
-def test_cuts_that_are_kept_stay_when_another_app_begins() -> None:
+def test_cached_cuts_survive_the_start_of_another_app() -> None:
     limit_cut_cache()
     Segment("🤖").split_cells(1)
     cut = vars(Segment)["_split_cells"]

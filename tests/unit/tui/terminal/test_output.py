@@ -213,7 +213,7 @@ def test_a_layout_while_the_terminal_is_busy_is_not_lost() -> None:
 
 
 @pytest.mark.parametrize("over", [False, True])
-def test_what_changes_just_before_a_held_frame_is_drawn_is_not_lost(over: bool) -> None:
+def test_change_just_before_a_held_frame_is_drawn_is_not_lost(over: bool) -> None:
     async def script(app: Panes, pilot: Pilot[None]) -> None:
         if over:
             await app.push_screen(OverlayScreen())

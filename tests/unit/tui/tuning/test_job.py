@@ -108,7 +108,7 @@ def test_other_specification_uses_another_journal(other: dict[str, Any]) -> None
     assert replace(QUESTION, **other).digest != QUESTION.digest
 
 
-def test_stopping_keeps_what_was_found(tmp_path: Path) -> None:
+def test_stopping_keeps_the_best_setting_found(tmp_path: Path) -> None:
     journal = TuningJournal(tmp_path, QUESTION, resume=False)
     job = TuningJob(QUESTION, InstantRunner(), journal)
     job.changed = lambda progress: job.stop() if progress.done else None

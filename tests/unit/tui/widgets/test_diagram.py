@@ -23,7 +23,7 @@ def picture(text: str) -> str:
     return "\n".join(line[indent:].rstrip() for line in lines)
 
 
-def test_nothing_is_an_empty_picture() -> None:
+def test_empty_graph_is_an_empty_picture() -> None:
     assert draw(Digraph()).text() == ""
 
 

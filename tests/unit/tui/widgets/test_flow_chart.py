@@ -122,7 +122,7 @@ def test_boxes_without_links_fill_rows() -> None:
     assert drawing.text().count("node") == 20
 
 
-def test_nothing_is_an_empty_picture() -> None:
+def test_empty_graph_is_an_empty_picture() -> None:
     assert draw_chart(Chart(), 80, 24).text() == ""
 
 
@@ -144,7 +144,7 @@ def test_without_frames_backward_lines_from_several_boxes_have_a_separate_row() 
 
 
 @pytest.mark.parametrize("size", [(60, 11), (77, 16), (117, 30), (197, 40)])
-def test_who_publishes_and_who_subscribes_can_be_read_from_the_picture(size: tuple[int, int]) -> None:
+def test_publishers_and_subscribers_can_be_read_from_the_picture(size: tuple[int, int]) -> None:
     drawing = draw_chart(visible_graph(robot(), GraphView()).bundles.chart, *size)
     reader = Reader(drawing)
 

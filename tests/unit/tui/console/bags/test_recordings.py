@@ -74,7 +74,7 @@ def test_a_bag_is_recorded_from_start_to_stop(tmp_path: Path, node: rclpy.node.N
     assert answer_of(room.start(str(tmp_path / "late"))) == Answer(False, "the console has closed")
 
 
-def test_bag_contains_what_is_published_between_the_last_turn_and_its_end(
+def test_bag_contains_messages_published_just_before_its_end(
     tmp_path: Path, node: rclpy.node.Node, room: Recordings, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     publisher = node.create_publisher(String, "/words", 10)

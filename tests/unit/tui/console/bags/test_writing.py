@@ -62,7 +62,7 @@ def test_chunks_are_compressed_as_the_preset_says(tmp_path: Path, preset: str, c
     ],
     ids=str,
 )
-def test_what_is_written_is_read_here_and_by_another_library(tmp_path: Path, storage: str, how: dict[str, Any]) -> None:
+def test_written_bag_is_read_here_and_by_another_library(tmp_path: Path, storage: str, how: dict[str, Any]) -> None:
     folder = write_bag(tmp_path / "bag", storage=storage, **how)
     bag = Bag(folder)
     assert numbers(bag) == by_rosbags(folder) == list(range(COUNT)) and bag.storage == storage

@@ -253,7 +253,7 @@ def test_a_start_by_hand_replaces_the_pending_one():
     assert process.due() is Order.NOTHING
 
 
-def test_what_a_launch_file_respawns_is_left_to_it():
+def test_processes_respawned_by_a_launch_file_are_left_to_it():
     process = LaunchedProcess("key", "node-1", program=Program(("x",), respawn=True), restarts=True)
     answer = process.want("restart_on_failure")[1].result()
     assert not answer.ok and "respawn" in answer.text and not process.info.restart_policy

@@ -78,7 +78,7 @@ def test_a_file_of_a_public_package_previews_applies_and_saves_with_only_the_cha
 
 
 @pytest.mark.parametrize("path", PUBLIC, ids=lambda path: path.stem)
-def test_a_node_started_with_such_a_file_gets_the_values_previewed(path: Path) -> None:
+def test_a_node_started_with_a_previewed_file_gets_the_previewed_values(path: Path) -> None:
     table = ParameterTable()
     table.add_file(str(path))
     for node, found in declare_all(path).items():

@@ -78,7 +78,7 @@ def test_an_unknown_level_counts_as_error() -> None:
     assert watch.diagnostics().statuses[0].level is Level.ERROR
 
 
-def test_an_aggregator_replaces_other_topics_while_it_is_there() -> None:
+def test_an_aggregator_replaces_other_topics_while_it_exists() -> None:
     node = FakeNode()
     watch = DiagnosticsWatch(node)
     watch.follow(graph("/diagnostics", "/other/diagnostics"))

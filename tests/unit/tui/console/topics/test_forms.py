@@ -74,7 +74,7 @@ def test_arrays_including_those_of_messages_are_typed_as_yaml() -> None:
     assert (path.points[0].x, path.points[0].y) == (1.0, 2.0)
 
 
-def test_a_command_line_has_only_what_was_typed_and_now() -> None:
+def test_a_command_line_contains_only_typed_fields_and_now() -> None:
     fields = typed_fields(Payload.MESSAGE, ODOM, {"child_frame_id": "base", "twist.twist.linear.x": "0.5"})
     assert fields == {
         "header": {"stamp": "now"}, "child_frame_id": "base", "twist": {"twist": {"linear": {"x": 0.5}}},

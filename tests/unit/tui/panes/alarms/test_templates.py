@@ -36,7 +36,7 @@ def test_names_are_unique_and_there_are_not_too_many() -> None:
     assert templates([Endpoint("/odd", ())]) == ()
 
 
-def test_what_is_made_from_a_suggested_topic_is_not_suggested_too() -> None:
+def test_topics_derived_from_a_suggested_topic_are_not_suggested() -> None:
     kinds = {
         "/ground_truth": KINDS["/odom"], "/odom": KINDS["/odom"], "/scan": KINDS["/scan"],
         "/scan_filtered": KINDS["/scan"], "/r2/scan": KINDS["/scan"], "/bumper": KINDS["/bumper"],

@@ -47,7 +47,7 @@ def test_folded_rows_hide_their_descendants() -> None:
     assert row_facts(rows(statuses, NOW, {"/a/b"})) == [("a", 0, Level.WARN), ("b", 1, Level.WARN), ("d", 0, Level.OK)]
 
 
-def test_bad_only_hides_what_is_ok() -> None:
+def test_bad_only_hides_rows_that_are_ok() -> None:
     statuses = [status("a/b", Level.WARN), status("c"), status("d", heard=0.0)]
     assert [each.path for each in rows(statuses, NOW, bad_only=True)] == ["/a", "/a/b", "/d"]
 

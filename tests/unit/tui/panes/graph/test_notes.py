@@ -39,7 +39,7 @@ def test_folded_namespace_names_what_leads_out_and_in_and_the_topics_of_each_nod
     ]
 
 
-def test_what_does_not_fit_of_a_namespace_is_counted() -> None:
+def test_items_of_a_namespace_that_do_not_fit_are_counted() -> None:
     assert notes("namespace:/arm", 4)[2:] == [
         "reads  /map ← /fleet",
         "       2 more lines: enter unfolds it",

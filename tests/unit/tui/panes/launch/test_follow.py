@@ -33,7 +33,7 @@ def test_equal_lines_one_after_another_are_one_with_their_count() -> None:
     assert found == [("SAFE", 2, 3), ("Turning", 3, 1), ("SAFE", 4, 1)]
 
 
-def test_lines_belong_to_the_process_of_their_logger_or_of_what_printed_them() -> None:
+def test_lines_belong_to_the_process_of_their_logger_or_output() -> None:
     found = follower_with(
         ("arm.left.zoo", Severity.WARN), ("zoo.py-1", Severity.ERROR), ("arm.left.zoo.eyes", Severity.FATAL)
     )

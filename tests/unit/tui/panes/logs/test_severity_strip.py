@@ -37,7 +37,7 @@ def test_cleared_log_is_counted_from_zero() -> None:
     assert rows(strip, BAR_S) == []
 
 
-def test_only_what_looks_different_is_a_change() -> None:
+def test_only_a_visible_difference_is_a_change() -> None:
     strip = SeverityStrip()
     strip.take({Severity.WARN: 1}, 0.0)
     assert not strip.is_changed(0.0, WIDTH, is_shown=False)

@@ -13,5 +13,5 @@ PROCESS = ProcessInfo(
 INFO = LaunchInfo(("a.launch.py",), (PROCESS,), (LaunchEvent(0, 5, "begun", Severity.WARN),), "line 3", delayed=2)
 
 
-def test_state_is_the_same_on_the_other_side() -> None:
+def test_state_arrives_unchanged() -> None:
     assert to_info(json.loads(json.dumps(of_info(INFO, 0))), LaunchInfo(), kept=10) == INFO
