@@ -78,11 +78,9 @@ class TestRun:
         after.run(result)
 
     def _suite(self, afterwards: bool, known: Mapping[str, Any]) -> unittest.TestSuite:
-        """Return the test cases to run beside the launch, or `afterwards`, with the arguments that their methods
-        name.
-        """
+        """Return the test cases to run beside the launch, or `afterwards`, with the arguments their methods name."""
         suite = unittest.TestSuite()
-        named = (getattr(self._module, name) for name in dir(self._module))  # in order of name, as in unittest
+        named = (getattr(self._module, name) for name in dir(self._module))  # by name, like unittest
         for case in (each for each in named if isinstance(each, type) and issubclass(each, unittest.TestCase)):
             if bool(getattr(case, POST_SHUTDOWN, False)) == afterwards:
                 suite.addTests(self._tests_of(case, known))

@@ -14,9 +14,7 @@ class Parser(BaseParser):
 
     @classmethod
     def load(cls, file: str | TextIO) -> tuple[Entity, Parser]:
-        """Return the root element and this parser; raises `yaml.YAMLError`, or `RuntimeError` for other than one
-        root.
-        """
+        """Return the root element and this parser; raises `yaml.YAMLError`, or `RuntimeError` unless there is one."""
         cls.load_launch_extensions()
         if isinstance(file, str):
             with open(file, encoding="utf-8") as stream:

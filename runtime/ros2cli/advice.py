@@ -1,4 +1,4 @@
-"""Advice for a person at a terminal, beyond the words of `ros2`; programs that read the output get those alone."""
+"""Advice for a person at a terminal, beyond the output of `ros2`; programs that read the output do not get it."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from bot_console.runtime.programs.hints import did_you_mean, is_read
 from bot_console.runtime.programs.hints import wrong_type as _written
 
 FEW = 8
-"""Names that fit a hint of one line or two."""
+"""How many names fit into a hint of one or two lines."""
 ABOUT_DDS = {"multicast", "security"}
-"""Commands of ROS 2 that have no meaning here."""
+"""Commands of ROS 2 that are meaningless here."""
 NEEDS_TYPE = {("topic", "pub"): "topic", ("service", "call"): "service", ("action", "send_goal"): "action"}
-"""Verbs that take a name and its type, and the command that tells the type."""
+"""Verbs that take a name and its type, and the command that prints the type."""
 _WRONG_TYPE = r"Wrong parameter type, expected 'Type\.(\w+)' got 'Type\.(\w+)'"
 
 
@@ -26,13 +26,13 @@ def advise(text: Callable[[], str]) -> None:
 
 
 def no_parameter(node: str, name: str, names: Iterable[str]) -> str:
-    """The hint that a node does not declare a parameter, with the most similar name that it does declare."""
+    """Return the hint that a node does not declare a parameter, with the most similar name that it does declare."""
     meant = did_you_mean(name, names)
     return f"{node} has no parameter {name}{meant or f'; ros2 param list {node} shows those it has'}"
 
 
 def no_node(name: str, names: Sequence[str]) -> str:
-    """The hint that no node with the name runs, with the most similar one that does, or all of them if they are few."""
+    """Return the hint that no node has the name, with the most similar one that runs, or all if they are few."""
     if not names:
         return "no node runs in this ROS domain"
     near = did_you_mean(name, names)
@@ -41,7 +41,7 @@ def no_node(name: str, names: Sequence[str]) -> str:
 
 
 def no_subscription(topic: str, kind: str, kinds: Iterable[str], subscribed: Iterable[str]) -> str:
-    """The hint why nobody receives what is published: subscriptions of other types, or a topic of a similar name."""
+    """Return why nobody receives what is published: subscriptions of other types, or a topic with a similar name."""
     others = sorted(set(kinds) - {kind})
     if others:
         return f"{topic} is subscribed to as {', '.join(others)}, which does not match {kind}"
@@ -50,7 +50,7 @@ def no_subscription(topic: str, kind: str, kinds: Iterable[str], subscribed: Ite
 
 
 def wrong_type(name: str, value: str, reason: str) -> str:
-    """The hint for a value refused for its type: how to write it; empty if `reason` is a different one."""
+    """Return how to write a value that was refused for its type; empty if `reason` is a different one."""
     found = re.match(_WRONG_TYPE, reason)
     if found is None:
         return ""
@@ -58,7 +58,7 @@ def wrong_type(name: str, value: str, reason: str) -> str:
 
 
 def usage(words: Sequence[str]) -> str:
-    """What replaces an option or a command that is not there, or how to find a missing type; else empty."""
+    """Return what replaces a missing option or command, or how to find a missing type; otherwise empty."""
     if words and words[0] in ABOUT_DDS:
         return f"bot-console has no `ros2 {words[0]}`: it is about DDS, which bot-console does not use"
     if len(words) == 3 and not words[2].startswith("-") and (of := NEEDS_TYPE.get((words[0], words[1]))):
@@ -73,7 +73,7 @@ def usage(words: Sequence[str]) -> str:
 
 
 def launch_files(package: str, names: Sequence[str]) -> str:
-    """The hint that lists a package's launch files, for a command line that names none or an unknown one."""
+    """Return the hint that lists a package's launch files, for a command line that names none or an unknown one."""
     if not names:
         return f"package '{package}' has no launch files; they are in its folder launch/, and setup.py installs them"
     return f"package '{package}' has: {', '.join(names)}"

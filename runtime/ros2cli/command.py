@@ -1,4 +1,4 @@
-"""The data of a command and of a verb."""
+"""The data that describe a command and a verb."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 Result = str | int | None
-"""A text is printed on stderr and makes the exit code 1; a number is the exit code; None is 0."""
+"""The result of a verb: a text is printed on stderr, with exit code 1; a number is the exit code; None means 0."""
 
 Arguments = Callable[[argparse.ArgumentParser], None]
 
@@ -22,7 +22,7 @@ class Verb(NamedTuple):
 
 
 class Command(NamedTuple):
-    """A command such as `node`: either verbs, or a function of its own."""
+    """A command such as `node`, which has either verbs or a function."""
 
     name: str
     description: str

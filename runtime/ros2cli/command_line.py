@@ -27,7 +27,7 @@ COMMANDS: Mapping[str, tuple[str, str]] = {
     "service": ("ros2cli.verbs.service", "Various service related sub-commands"),
     "topic": ("ros2cli.verbs.topic", "Various topic related sub-commands"),
 }
-"""Where each command is, and what it is for; a module is imported when its command is asked for."""
+"""The module and description of each command; a module is imported when its command is used."""
 
 WRONG_USAGE = 2
 """The exit code of argparse."""
@@ -41,13 +41,13 @@ class HelpFormatter(argparse.RawDescriptionHelpFormatter):
 
 
 def _columns() -> int:
-    """The width of the terminal in columns, as `shutil.get_terminal_size` determines it."""
+    """Return the width of the terminal in columns, as `shutil.get_terminal_size` determines it."""
     reported = os.environ.get("COLUMNS", "")
     if reported.isdecimal() and int(reported):
         return int(reported)
     try:
         found = os.get_terminal_size(sys.__stdout__.fileno()).columns if sys.__stdout__ else 0
-    except (ValueError, OSError):  # closed, or no terminal
+    except (ValueError, OSError):  # closed, or not a terminal
         found = 0
     return found or 80
 
@@ -63,11 +63,11 @@ def main(argv: Sequence[str] | None = None) -> int:
         return stop.code if isinstance(stop.code, int) else 1 if stop.code else 0
     except KeyboardInterrupt:
         return Interrupted(signal.SIGINT)
-    except BrokenPipeError:  # the reader has closed the pipe: no fault, and silent where commands run for a shell
+    except BrokenPipeError:  # the reader has closed the pipe: no fault, and silent if run from a shell
         raise
-    except RuntimeError as error:  # includes the errors of the client library
+    except RuntimeError as error:  # includes errors of the client library
         return _finish(str(error))
-    except Exception as error:  # boundary of a verb: upstream ends with this traceback, a console continues after it
+    except Exception as error:  # boundary of a verb: upstream ends with this traceback, a console continues
         if code := ended_code(error):
             return code
         if fault := place_fault(error):
@@ -109,12 +109,12 @@ def _finish(result: Result) -> int:
 
 
 def load(name: str) -> Command | None:
-    """The command with that name, or None if there is none."""
+    """Return the command with that name, or None if there is none."""
     return importlib.import_module(COMMANDS[name][0]).COMMAND if name in COMMANDS else None
 
 
 def top_parser() -> argparse.ArgumentParser:
-    """The parser of `ros2`, without any command."""
+    """Return the parser of `ros2` without any command."""
     parser = argparse.ArgumentParser(
         "ros2",
         description="ros2 is an extensible command-line tool for ROS 2.",
@@ -141,7 +141,7 @@ def _all_commands(
 
 
 def add_command(parser: argparse.ArgumentParser, command: Command, words: Sequence[str]) -> argparse.ArgumentParser:
-    """Add a command's parser with all its verbs, and the arguments of those that `words` may be about."""
+    """Add a command's parser with all its verbs, and the arguments of the verbs that `words` may call."""
     commands = _all_commands(parser)
     subparser = commands.add_parser(command.name, description=command.description, formatter_class=HelpFormatter)
     command.arguments(subparser)

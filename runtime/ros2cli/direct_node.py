@@ -1,4 +1,4 @@
-"""The node of a verb, and the options shared by all verbs that have one."""
+"""The node of a verb, and the options that all verbs with a node share."""
 
 from __future__ import annotations
 
@@ -29,25 +29,25 @@ HIDDEN = "_"
 HINT_POLLS = 4
 """Checks without an answer after which the message names what is being waited for."""
 SERVER_POLL_S = 0.5
-"""Seconds between checks whether a request can still be answered."""
+"""Time (s) between checks whether a request can still be answered."""
 GONE_POLLS = 20
-"""Checks in a row without a server after which it counts as gone: a lost link may be restored meanwhile."""
+"""Checks in a row without a server after which it counts as gone, as a lost link may be restored meanwhile."""
 ENDED_POLLS = 2
-"""The same for a server that is known to have ended, whose link may be noticed as lost a little later."""
+"""The same for a server that is known to have ended; the loss of its link may be noticed a little later."""
 ENDED_POLLS_FOR_PROGRAMS = 14
-"""The same if no person reads stderr: upstream waits forever, and programs that stop it expect no output before."""
+"""The same if no person reads stderr: upstream waits for ever, and programs that stop it expect no output before."""
 DISCOVERY_S = 1.0
-"""Seconds without a change after which the graph counts as complete on another rclpy than ours."""
+"""Time (s) without a change after which the graph counts as complete, if rclpy is not ours."""
 MAX_DISCOVERIES = 5
-"""How many times in a row that may be waited for."""
+"""How many times in a row that time may be waited for."""
 LATE_S = 4.0
-"""Seconds for which what a verb is about may be missing from such a graph: on a busy machine it comes with pauses."""
+"""Time (s) that the subject of a verb may be missing from such a graph, which arrives with pauses on a busy machine."""
 NAMES = ("node_name", "topic_name", "service_name", "action_name")
-"""The arguments that say what a verb is about."""
+"""The arguments that name the subject of a verb."""
 
 
 class NodeName(NamedTuple):
-    """A node's name, namespace and fully qualified name; sorted by the name first, as upstream does."""
+    """A node's name, namespace and full name; sorted by name first, as upstream."""
 
     name: str
     namespace: str
@@ -55,7 +55,7 @@ class NodeName(NamedTuple):
 
 
 def add_strategy_arguments(parser: argparse.ArgumentParser, *, daemon: bool = True) -> None:
-    """Add `--spin-time`, `--use-sim-time` and, with a daemon, `--no-daemon`."""
+    """Add `--spin-time` and `--use-sim-time`, and for verbs that use a daemon, `--no-daemon`."""
     only = " (only applies when not using an already running daemon)"
     parser.add_argument(
         "--spin-time", type=float, default=None, help=f"Spin time in seconds to wait for discovery{only}"
@@ -68,8 +68,8 @@ def add_strategy_arguments(parser: argparse.ArgumentParser, *, daemon: bool = Tr
 class DirectNode:
     """A hidden node that exists for the duration of a `with` block.
 
-    Upstream asks a daemon for most answers, and the daemon's node counts in the graph; here the verb's own node
-    replaces it, with the publishers that the daemon's node would have. A block that SIGTERM interrupts raises
+    Upstream asks a daemon for most answers, and the daemon's node appears in the graph; here the verb's own node
+    replaces it, with the publishers of the daemon's node. A block that SIGTERM interrupts raises
     `ExternalShutdownException`, whatever it was doing.
     """
 
@@ -77,7 +77,7 @@ class DirectNode:
         self._daemon = not getattr(arguments, "no_daemon", False)
         self._sim_time = bool(getattr(arguments, "use_sim_time", False))
         self._spin_time: float | None = getattr(arguments, "spin_time", None)
-        # A verb that is told the type needs nothing of the graph: what it is about may come at any time, or never.
+        # A verb that is given the type needs nothing from the graph: its subject may appear at any time, or never.
         typed = getattr(arguments, "message_type", None)
         names = (getattr(arguments, each, None) for each in NAMES)
         self._about = "" if typed else next((absolute(each) for each in names if each), "")
@@ -110,16 +110,16 @@ class DirectNode:
         self._end(error)
 
     def _end(self, error: BaseException | None) -> None:
-        """Shut the context down; raises an error that SIGTERM has caused as `ExternalShutdownException`."""
+        """Shut the context down; an error that SIGTERM has caused is raised as `ExternalShutdownException`."""
         rclpy.try_shutdown()
         if isinstance(error, Exception) and getattr(self._context, "ended_by_signal", False):
             raise ExternalShutdownException from error
 
 
 def _discover(node: Node, seconds: float | None, about: str) -> None:
-    """Spin for so many seconds, or until the graph of another rclpy than ours seems complete: it comes bit by bit.
+    """Spin for `seconds`, or until the graph seems complete if rclpy is not ours, as it then arrives bit by bit.
 
-    A graph without `about`, the name of a node, topic, service or action, is given more time.
+    A graph that lacks `about`, the name of a node, topic, service or action, is given more time.
     """
     if seconds is not None:
         spin_until(node, lambda: False, seconds)
@@ -148,25 +148,25 @@ def _seen(node: Node) -> tuple[list[Any], ...]:
 
 
 def _bus(node: Node) -> Bus | None:
-    """The middleware below a node; None if `rclpy` is not ours, but that of an installed ROS 2."""
+    """Return the middleware below a node; None if `rclpy` is not ours but that of an installed ROS 2."""
     return getattr(node.context, "bus", None)
 
 
 def node_names(node: Node, *, include_hidden: bool = False) -> list[NodeName]:
-    """All nodes of the graph, without the hidden ones unless asked for."""
+    """Return all nodes of the graph, including hidden ones only if requested."""
     names = [NodeName(name, space, full_name(space, name)) for name, space in node.get_node_names_and_namespaces()]
     return [each for each in names if include_hidden or not each.name.startswith(HIDDEN)]
 
 
 def absolute(name: str) -> str:
-    """A name with its leading slash."""
+    """Return a name with its leading slash."""
     return name if name.startswith("/") else f"/{name}"
 
 
 def spin_until(node: Node, done: Callable[[], bool], timeout: float | None = None) -> bool:
     """Spin the node until `done()` is true; returns False if that takes longer than `timeout` (s).
 
-    It is asked after each callback, each change of the graph, and every 0.1 s.
+    `done` is called after each callback, each change of the graph, and every 0.1 s.
     """
     if done():
         return True
@@ -189,7 +189,7 @@ def spin_until(node: Node, done: Callable[[], bool], timeout: float | None = Non
 
 @contextlib.contextmanager
 def _woken_by_graph(node: Node) -> Generator[None]:
-    """Let each change of the graph that the node learns of end a `spin_once`."""
+    """Make each change of the graph that the node learns of end a `spin_once`."""
     bus = _bus(node)
     if bus is None:
         yield
@@ -197,7 +197,7 @@ def _woken_by_graph(node: Node) -> Generator[None]:
     guard = node.create_guard_condition(lambda: None)
 
     def wake(owner: Owner) -> None:
-        with contextlib.suppress(InvalidHandle):  # the guard has just been destroyed
+        with contextlib.suppress(InvalidHandle):  # the guard condition has just been destroyed
             guard.trigger()
 
     forget = bus.on_graph_change(wake)
@@ -217,7 +217,7 @@ def call(
 ) -> Any:
     """Call a service and wait for the answer, as `answer` does.
 
-    Raises `RuntimeError(missing)` if the service is not ready within `timeout` (s); without one, waits for it.
+    Raises `RuntimeError(missing)` if the service is not ready within `timeout` (s); without a timeout, waits for it.
     """
     client = node.create_client(kind, service)
     try:
@@ -231,7 +231,7 @@ def call(
 def answer(node: Node, client: Any, future: Any) -> Any:
     """Wait for the response to a request, without a time limit, as upstream does.
 
-    Raises `NoAnswer` if the server's process is stopped or its node has left; upstream waits forever then.
+    Raises `NoAnswer` if the server's process is stopped or its node has left; upstream then waits for ever.
     """
     service = client.service_name
     server = Server(node, client.service_is_ready, getattr(client, "endpoint", None))
@@ -251,10 +251,10 @@ def answer(node: Node, client: Any, future: Any) -> Any:
 
 
 class Server:
-    """The server of a pending request: whether it has gone, judged by one check after each poll."""
+    """Tracks whether the server of a pending request has gone, with one check after each poll."""
 
     def __init__(self, node: Node, is_ready: Callable[[], bool], client: Any) -> None:
-        """`client` is the end of the middleware that asks, if `rclpy` is ours."""
+        """`client` is the middleware's client endpoint, if `rclpy` is ours."""
         bus = _bus(node)
         self._is_ready = is_ready
         self._has_ended = bus.watch_servers(client) if bus else lambda: False
@@ -262,18 +262,18 @@ class Server:
         self._gone = 0
 
     def has_gone(self) -> bool:
-        """Whether it is missing for so many checks in a row that it counts as gone, fewer if it has surely ended."""
+        """Whether the server was missing in so many checks in a row that it counts as gone, fewer if it has ended."""
         self._gone = 0 if self._is_ready() else self._gone + 1
         return self._gone > GONE_POLLS or (self._gone >= self._ended_polls and self._has_ended())
 
 
 def polls_until_ended() -> int:
-    """Return the number of checks in a row without a server after which one that has ended is reported."""
+    """Return the number of checks without a server after which one that is known to have ended is reported."""
     return ENDED_POLLS if stderr_is_terminal() else ENDED_POLLS_FOR_PROGRAMS
 
 
 def _serves(node: Node, name: str, service: str) -> bool:
-    """Whether the node with that fully qualified name exists and offers the service."""
+    """Whether the node with that full name exists and offers the service."""
     namespace, _, base = name.rpartition("/")
     try:
         return service in dict(node.get_service_names_and_types_by_node(base, namespace or "/"))
@@ -282,7 +282,7 @@ def _serves(node: Node, name: str, service: str) -> bool:
 
 
 def wait_for_node(node: Node, name: str, *, include_hidden: bool, timeout: float) -> bool:
-    """Whether a node is in the graph, or appears within `timeout` (s)."""
+    """Wait for a node; returns whether it is in the graph, or appears within `timeout` (s)."""
 
     def there() -> bool:
         return any(each.full_name == name for each in node_names(node, include_hidden=include_hidden))

@@ -31,7 +31,7 @@ CONSTANT = re.compile(r"^[A-Za-z]\w*(<=\d+)?\s+[A-Z][A-Z0-9_]*\s*=")
 
 
 def show_text(name: str, *, all_comments: bool = False, no_comments: bool = False) -> str:
-    """The text for `pkg/kind/Name`; raises `LookupError` with upstream's message if it does not exist."""
+    """Return the text for `pkg/kind/Name`; raises `LookupError` with upstream's message if it does not exist."""
     package, kind, short = name.split("/")
     if package not in known_packages():
         raise LookupError(f"Unknown package '{package}'")

@@ -1,4 +1,4 @@
-"""Launch files of packages, and their arguments."""
+"""The launch files of packages, and their arguments."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class LaunchFileError(RuntimeError):
 
 
 def find_launch_file(package: str, name: str | None) -> str:
-    """The path of a package's launch file, which may be anywhere in its share folder; raises `LaunchFileError`."""
+    """Return a package's launch file, which may be anywhere in its share folder; raises `LaunchFileError`."""
     from ament_index_python.packages import get_package_share_directory
 
     share = get_package_share_directory(package)
@@ -40,13 +40,13 @@ def find_launch_file(package: str, name: str | None) -> str:
 
 
 def _unnamed(package: str) -> str:
-    """The message for a command line that names a package alone; upstream looks for a file called None."""
+    """Return the message for a command line with only a package, where upstream looks for a file called None."""
     names = launch_file_names(package)
     return f"name a launch file of package '{package}': {', '.join(names)}" if names else launch_files(package, ())
 
 
 def named_launch_file(named: str, words: Sequence[str]) -> tuple[str, list[str]]:
-    """The launch file given as a path, or as a package and the first of `words`; and the remaining words.
+    """Return the launch file, given as a path or as a package and the first of `words`, and the remaining words.
 
     Raises `LaunchFileError` with the message of `ros2 launch`.
     """
@@ -58,7 +58,7 @@ def named_launch_file(named: str, words: Sequence[str]) -> tuple[str, list[str]]
 
 @contextlib.contextmanager
 def of_package(named: str) -> Generator[None]:
-    """Raise an unknown or invalid package name as `LaunchFileError`."""
+    """Convert errors about an unknown or invalid package name to `LaunchFileError`."""
     from ament_index_python.packages import PackageNotFoundError
 
     try:
@@ -70,19 +70,19 @@ def of_package(named: str) -> Generator[None]:
 
 
 def _no_file(named: str) -> str:
-    """The message for a person whose path is no file."""
+    """Return the message for a person whose path is not a file."""
     if os.path.isdir(named):
         return f"{named} is a folder; name a launch file in it, or a package and its launch file"
     folder, name = os.path.split(named)
     try:
-        near = did_you_mean(name, os.listdir(folder or "."), similarity=0.85)  # endings are alike
+        near = did_you_mean(name, os.listdir(folder or "."), similarity=0.85)  # the endings are similar
     except OSError:
         near = ""
     return f"there is no launch file {named}{near}"
 
 
 def _as_upstream(named: str, error: ValueError) -> str:
-    """Upstream's output for such a path, with an explanation in between."""
+    """Return upstream's output for such a path, with an explanation inserted."""
     kind = "a folder" if os.path.isdir(named) else "not a file here"
     return (
         f"Traceback (most recent call last):\n  {named} is {kind}, so it was read as a package name\n"
@@ -91,7 +91,7 @@ def _as_upstream(named: str, error: ValueError) -> str:
 
 
 def parse_launch_arguments(words: Iterable[str]) -> dict[str, str]:
-    """Values by name, the last one given for each; raises `LaunchFileError` for anything but `name:=value`."""
+    """Return values by name; the last one counts. Raises `LaunchFileError` for anything but `name:=value`."""
     found: dict[str, str] = {}
     for word in words:
         name, separator, value = word.partition(":=")

@@ -1,4 +1,4 @@
-"""`ros2 launch --print` and `--show-args`: the tree and the arguments of a launch file, which is not run."""
+"""`ros2 launch --print` and `--show-args`: the tree and the arguments of a launch file, without running it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from launch.launch_introspector import LaunchIntrospector
 
 
 def print_resolved(path: str, arguments: Mapping[str, str]) -> int:
-    """Print the tree of a launch file with everything evaluated; returns 1 if the launch would fail."""
+    """Print the fully evaluated tree of a launch file; returns 1 if the launch would fail."""
     from launch_ros.resolved_description import resolve_description
 
     return _print(resolve_description(path, arguments))
@@ -28,7 +28,7 @@ def show_args(path: str) -> int:
 
 
 def _print(lines: Iterator[str]) -> int:
-    """Print lines as they are found; a launch file is a program: its exceptions are reported without a traceback."""
+    """Print lines as they are found; exceptions of a launch file, which is a program, are printed without traceback."""
     while True:
         try:
             line = next(lines, None)
@@ -49,7 +49,7 @@ def _arguments(path: str) -> Iterator[str]:
 
 
 def argument_lines(description: Any) -> Iterator[str]:
-    """Yield the arguments of a launch description with their defaults; raises what included files raise."""
+    """Yield the arguments of a launch description with their defaults; raises the errors of included files."""
     yield "Arguments (pass arguments as '<name>:=<value>'):"
     arguments = description.get_launch_arguments()
     if not arguments:

@@ -1,4 +1,4 @@
-"""Names in the graph with their types: which of them verbs list, and how they print them."""
+"""Names in the graph with their types: which names verbs list, and how they print them."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ GOAL_SUFFIX = "_SendGoal"
 
 
 def visible(rows: NamesAndTypes, include_hidden: bool) -> NamesAndTypes:
-    """Rows sorted by name, without hidden ones (and so without the parts of actions) unless asked for."""
+    """Return the rows sorted by name; hidden ones, which include the parts of actions, only if requested."""
     return sorted(row for row in rows if include_hidden or not topic_or_service_is_hidden(row[0]))
 
 
 def action_names_and_types(services: NamesAndTypes) -> NamesAndTypes:
-    """Actions with their types, derived from the goal services among the given services."""
+    """Return actions with their types, derived from the goal services among `services`."""
     return sorted(
         (name[: -len(SEND_GOAL)], [each.removesuffix(GOAL_SUFFIX) for each in types])
         for name, types in services
@@ -30,18 +30,18 @@ def action_names_and_types(services: NamesAndTypes) -> NamesAndTypes:
 
 
 def add_hidden_argument(kind: str, parser: argparse.ArgumentParser, **more: Any) -> None:
-    """Add the option to consider hidden `topics` or `services`."""
+    """Add the option that includes hidden `topics` or `services`."""
     text = f"Consider hidden {kind} as well"
     parser.add_argument(f"--include-hidden-{kind}", action="store_true", help=text, **more)
 
 
 def repeat_hidden_argument(kind: str, parser: argparse.ArgumentParser) -> None:
-    """Accept that option after the verb as well; if it is absent there, the one before the verb applies."""
+    """Accept that option after the verb, too; if it is missing there, the one before the verb applies."""
     add_hidden_argument(kind, parser, default=argparse.SUPPRESS)
 
 
 def add_count_argument(kind: str, parser: argparse.ArgumentParser) -> None:
-    """Add the option to print only how many `topics`, `services`, ... there are."""
+    """Add the option that prints only the number of `topics`, `services`, ..."""
     text = f"Only display the number of {kind} discovered"
     parser.add_argument("-c", f"--count-{kind}", action="store_true", help=text)
 
@@ -53,7 +53,7 @@ def print_names(rows: NamesAndTypes, with_types: bool) -> None:
 
 
 def print_types(rows: NamesAndTypes, name: str) -> Result:
-    """Print the types that a name has; without any the exit code is 1."""
+    """Print the types of a name; if there is none, the exit code is 1."""
     types = dict(rows).get(name)
     if types is None:
         return 1
@@ -63,7 +63,7 @@ def print_types(rows: NamesAndTypes, name: str) -> Result:
 
 
 def print_found(rows: NamesAndTypes, wanted_type: str, count: bool) -> Result:
-    """Print the names that have a type, or how many there are."""
+    """Print the names with a type, or their number."""
     found = [name for name, types in rows if wanted_type in types]
     if count:
         print(len(found))

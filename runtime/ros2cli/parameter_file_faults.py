@@ -1,4 +1,4 @@
-"""Why a file cannot be loaded as parameters, in words; upstream shows a traceback in most cases."""
+"""Explains why a file cannot be loaded as parameters; upstream shows a traceback in most cases."""
 
 from __future__ import annotations
 
@@ -10,19 +10,17 @@ UNREADABLE = (
     *(OSError, RuntimeError, ValueError, TypeError, AttributeError, LookupError, OverflowError),
     yaml.YAMLError,
 )
-"""The exceptions that reading may raise: of the file, of YAML, of the values of its tags, and of contents of another
-shape.
-"""
+"""The exceptions that reading may raise: for the file, YAML, the values of its tags, or an unexpected structure."""
 
 
 def is_bad_syntax(path: str, error: Exception) -> bool:
-    """Whether the file is not YAML at all; upstream's traceback for that is known."""
+    """Whether the file is not YAML at all, in which case upstream's traceback is well known."""
     mark = getattr(error, "problem_mark", None)
     return isinstance(error, (ScannerError, ParserError)) and mark is not None and mark.name == path
 
 
 def fault_of(path: str, error: Exception) -> str:
-    """A one-line description of an error that `rclpy.parameter.parameter_dict_from_yaml_file` raised for a file."""
+    """Return one line about an error that `rclpy.parameter.parameter_dict_from_yaml_file` raised for a file."""
     if isinstance(error, OSError):
         return f"{path}: {error.strerror or error}"
     if isinstance(error, RuntimeError) and not isinstance(error, RecursionError):

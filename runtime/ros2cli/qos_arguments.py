@@ -47,7 +47,7 @@ def add_qos_arguments(parser: argparse.ArgumentParser, verb: str, default: str) 
 
 
 def profile(arguments: argparse.Namespace, default: str) -> QoSProfile:
-    """The profile that the options select: a preset with the given policies changed."""
+    """Return the profile that the options select: a preset in which the given policies are changed."""
     changed = _preset(arguments.qos_profile or default)
     for option, policy, attribute in (
         (arguments.qos_history, HistoryPolicy, "history"),
@@ -60,7 +60,7 @@ def profile(arguments: argparse.Namespace, default: str) -> QoSProfile:
     lease: float = arguments.qos_liveliness_lease_duration_seconds or 0
     if lease > 0:
         changed.liveliness_lease_duration = Duration(seconds=lease)
-    depth: int = arguments.qos_depth or 0  # 0 and less keep the preset's depth, as upstream
+    depth: int = arguments.qos_depth or 0  # as upstream, 0 and less keep the preset's depth
     if depth > 0:
         changed.depth = depth
     elif changed.durability == DurabilityPolicy.TRANSIENT_LOCAL and changed.depth == 0:
@@ -69,7 +69,7 @@ def profile(arguments: argparse.Namespace, default: str) -> QoSProfile:
 
 
 def _preset(name: str) -> QoSProfile:
-    """A copy of a preset, which the caller may change."""
+    """Return a copy of a preset, which the caller may change."""
     base: Any = QoSProfile(depth=10) if name in ("unknown", "default") else QoSPresetProfiles.get_from_short_key(name)
     return QoSProfile(
         history=base.history,
@@ -81,7 +81,8 @@ def _preset(name: str) -> QoSProfile:
 
 
 def compatible(arguments: argparse.Namespace, default: str, publishers: Any) -> QoSProfile:
-    """The profile of the options; without any but a preset, one compatible with all publishers of a topic.
+    """Return the profile of the options, or, with at most a preset given, one compatible with all publishers of a
+    topic.
 
     Prints a notice if some publishers offer a stronger policy than the one chosen.
     """
@@ -100,7 +101,7 @@ def compatible(arguments: argparse.Namespace, default: str, publishers: Any) -> 
 
 
 def _offered(offers: Sequence[Any], best: Any, fallback: Any) -> Any:
-    """`best` if all publishers offer it, else `fallback`."""
+    """Return `best` if all publishers offer it, otherwise `fallback`."""
     count = offers.count(best)
     if count == len(offers):
         return best

@@ -1,4 +1,4 @@
-"""Types that are unknown here: requested from the nodes that use them, and verified with the hashes in the graph."""
+"""Types that are unknown here: requested from the nodes that use them, and verified against the hashes in the graph."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ if TYPE_CHECKING:
     from rclpy.node import Node
 
 DESCRIPTION_TIMEOUT_S = 2.0
-"""Seconds that a node may take to describe a type."""
+"""Time (s) that a node may take to describe a type."""
 MISSING = (ValueError, AttributeError, ModuleNotFoundError)
 
 
 def message_class(node: Node, topic: str, type_name: str) -> Any:
-    """The message class of a topic, or the reason why it is not available as a string."""
+    """Return the message class of a topic, or the reason why it is not available as a string."""
     try:
         return get_message(type_name)
     except MISSING:
@@ -34,10 +34,11 @@ def message_class(node: Node, topic: str, type_name: str) -> Any:
 
 
 def typed_class(get: Callable[[str], Any], kind: str, type_name: str, invalid: str, node: Node | None = None) -> Any:
-    """The class of a type that a user typed, with or without `kind` (msg, srv, action) in the middle of its name.
+    """Return the class of a type as typed by a user, with or without `kind` (msg, srv, action) in the middle of its
+    name.
 
-    `get` finds installed types; otherwise `node`, or a temporary node, asks the nodes that use the type. Returns a
-    string if there is no class: `invalid` if no node uses the type either, else why it could not be learned.
+    `get` finds installed types; otherwise `node`, or a temporary node, asks the nodes that use the type. If there is no
+    class, returns a string: `invalid` if no node uses the type either, else why it could not be learned.
     """
     try:
         return get(type_name)
@@ -51,7 +52,7 @@ def typed_class(get: Callable[[str], Any], kind: str, type_name: str, invalid: s
 
 
 def not_installed(type_name: str, why: str) -> str:
-    """The message for a type that could not be learned."""
+    """Return the message for a type that could not be learned."""
     return f"The type '{type_name}' is not installed here: {why}"
 
 
@@ -69,13 +70,13 @@ def learned(type_name: str, node: Node | None = None) -> str | None:
 
 
 def full_type_name(kind: str, type_name: str) -> str:
-    """`pkg/Name` as `pkg/<kind>/Name`; any other name unchanged."""
+    """Return `pkg/<kind>/Name` for `pkg/Name`; any other name unchanged."""
     package, slash, name = type_name.partition("/")
     return f"{package}/{kind}/{name}" if slash and "/" not in name else type_name
 
 
 def _learned(node: Node, type_name: str) -> str | None:
-    """Learn a type (an action's also by its parts); returns "", why it failed, or None if no node has it."""
+    """Learn a type, and an action's parts; returns "", why it failed, or None if no node knows it."""
     from bot_console.runtime.interfaces.type_inquiry import inquiries, whole
 
     why = None
@@ -88,7 +89,7 @@ def _learned(node: Node, type_name: str) -> str | None:
 
 
 def _asked(node: Node, name: str, inquiry: Any) -> str:
-    """Put all questions of an inquiry to a node; returns why that failed, or an empty string."""
+    """Ask a node all questions of an inquiry; returns why that failed, or an empty string."""
     from ros2cli.direct_node import spin_until
     from type_description_interfaces.srv import GetTypeDescription
 

@@ -7,12 +7,12 @@ from collections.abc import Generator
 from typing import IO, Any, cast
 
 MAX_BITS = 14_000
-"""The maximum size of an integer: Python prints no more than 4,300 digits, and no field holds more than 64 bits."""
+"""The maximum size of an integer, as Python prints no more than 4,300 digits and no field holds more than 64 bits."""
 
 
 def read_values(source: str | IO[str]) -> Any:
-    """The values; raises `YAMLError`, and `RuntimeError` as `report_yaml_errors` does."""
-    if source == "{}":  # what most calls without values say; importing the library takes a fifth of a verb's time
+    """Parse the values; raises `YAMLError`, and `RuntimeError` as `report_yaml_errors` does."""
+    if source == "{}":  # the text of most calls without values; importing the library takes a fifth of a verb's time
         return {}
     import yaml
 
@@ -24,9 +24,9 @@ def read_values(source: str | IO[str]) -> Any:
 
 @contextlib.contextmanager
 def report_yaml_errors() -> Generator[None]:
-    """Guard code that reads YAML: a `YAMLError` passes unchanged, as ROS 2 shows it, too.
+    """Guard code that reads YAML: a `YAMLError` passes unchanged, as ROS 2 also shows it.
 
-    Raises `RuntimeError`, which a command prints on one line, for the other exceptions that the library lets escape.
+    The other exceptions that the library lets escape become `RuntimeError`s, which a command prints on one line.
     """
     try:
         yield

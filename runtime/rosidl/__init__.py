@@ -1,1 +1,1 @@
-"""Message, service and action classes: generated at build time for standard packages, at run time for a user's."""
+"""Message, service and action classes: generated at build time for standard packages, at run time for users'."""

@@ -1,6 +1,6 @@
 """Serialization of messages: CDR version 1, as rmw implementations send it.
 
-The generators of the functions are imported with the first message: many short-lived programs serialize none.
+The generators of the functions are imported with the first message, as many short-lived programs serialize none.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ __all__ = ["CdrError", "deserialize", "serialize"]
 
 
 def serialize(message: Any) -> bytes:
-    """Serialize a message, including the header; raises `FieldTypeError` if a field holds what cannot be sent."""
+    """Serialize a message, including the header; raises `FieldTypeError` if a field's value cannot be sent."""
     try:
         return _writer(message.__class__)(message)
-    except Exception:  # any error: copying raises for values that cannot be sent, and converts the rest
+    except Exception:  # any error: copying raises it for values that cannot be sent, and converts the others
         pass
     copy = message._copy_()
     return _writer(copy.__class__)(copy)
@@ -41,7 +41,7 @@ def deserialize(data: bytes | bytearray | memoryview, message_class: Any) -> Any
 
 @cache
 def _writer(cls: Any) -> Callable[[Any], bytes]:
-    if hasattr(cls, "_given_digest"):  # a class without fields, of `generic.py`
+    if hasattr(cls, "_given_digest"):  # a class without fields, from `generic.py`
         return cls._to_bytes
     from bot_console.runtime.rosidl.cdr_write import writer
 

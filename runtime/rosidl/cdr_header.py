@@ -1,4 +1,4 @@
-"""The header of a serialized message, and the error for bytes that are none. Apart, since it costs no generator."""
+"""The header of a serialized message, and the error for invalid bytes; separate, so that it needs no generator."""
 
 HEADER_SIZE = 4
 """In bytes."""

@@ -1,4 +1,4 @@
-"""The layout of a message in CDR: runs of numbers between the parts whose length is known only on reading."""
+"""The layout of a message in CDR: runs of numbers between the parts whose length is known only when they are read."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from bot_console.runtime.rosidl.definition import TYPECODES, Type, parse_type
 from bot_console.runtime.rosidl.slot_types import nested_class
 
 CODES = {"boolean": "?", "octet": "c", **TYPECODES}
-"""Codes of `struct` by element type; for numbers those of `array.array`."""
+"""Codes of `struct` by element type; for numbers they are those of `array.array`."""
 
 FILLER = ""
 """Name of the byte sent for a structure without fields."""
 
 
 class Part(NamedTuple):
-    """A field by its path from the outermost message; `owner` is the class that declares it."""
+    """A field, given by its path from the outermost message; `owner` is the class that declares it."""
 
     path: tuple[str, ...]
     type: Type
@@ -25,12 +25,12 @@ class Part(NamedTuple):
 
     @property
     def number(self) -> bool:
-        """Whether its length is known and it is not an array."""
+        """Whether it is a value of known length and not an array."""
         return self.type.item in CODES and not self.type.sequence and not self.type.size
 
 
 def parts(cls: Any, path: tuple[str, ...] = ()) -> Iterator[Part]:
-    """Yield a message class's fields in wire order, with nested messages replaced by their fields."""
+    """Yield a message class's fields in wire order; nested messages are replaced by their fields."""
     fields = cls._fields_and_field_types
     if not fields:
         yield Part((*path, FILLER), Type("uint8"), cls)
@@ -43,7 +43,7 @@ def parts(cls: Any, path: tuple[str, ...] = ()) -> Iterator[Part]:
 
 
 def nested(cls: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
-    """Yield the single nested messages by path, outer ones first."""
+    """Yield the single nested messages with their paths, outer ones first."""
     for name, text in cls._fields_and_field_types.items():
         kind = parse_type(text)
         if not (kind.primitive or kind.sequence or kind.size):
@@ -63,7 +63,7 @@ class Place(NamedTuple):
         return -self.rest % size if size <= self.step else None
 
     def behind(self, length: int) -> Place:
-        """Return the place that many bytes further on."""
+        """Return the place that is `length` bytes further on."""
         return Place(self.step, (self.rest + length) % self.step)
 
     def behind_many(self, size: int) -> Place:
@@ -73,15 +73,15 @@ class Place(NamedTuple):
 
 
 START = Place(8, 4)
-"""The place after the header: what follows its 4 bytes is aligned to 8."""
+"""The place after the 4 bytes of the header, from which alignment to 8 is counted."""
 ANYWHERE = Place(1, 0)
 
 
 def row(codes: Sequence[str], place: Place, order: str) -> tuple[Sequence[struct.Struct], Place]:
-    """Return the structures for numbers in a row that begin at a place, and the place after them.
+    """Return the structures for a row of numbers that begins at a place, and the place after them.
 
-    One structure if the place determines all padding between the numbers, else eight: by the place modulo 8. Codes are
-    those of `struct` with a count, if any: `0d` only aligns, `x` is an unused byte.
+    It is one structure if the place determines all padding between the numbers, otherwise eight, one for each place
+    modulo 8. Codes are those of `struct`, with an optional count: `0d` only aligns, `x` is an unused byte.
     """
     behind, known = place, True
     for code in codes:

@@ -13,7 +13,8 @@ For `std_msgs/msg/String` it is
         m._data = raw.decode("utf-8", "replace")
         return m
 
-As in rclpy, bytes of a string that are not UTF-8 are replaced: a stop, or a log record, is not lost for its text.
+As in rclpy, bytes of a string that are not UTF-8 are replaced, so that a stop or a log record is not lost because of
+its text.
 """
 
 from __future__ import annotations
@@ -35,14 +36,14 @@ LENGTHS = {order: row(["I"], ANYWHERE, order)[0] for order in "<>"}
 
 @cache
 def reader(cls: Any, order: str = "<") -> Callable[[bytes], Any]:
-    """Return the function that reads a message of a class; raises `CdrError`, and `struct.error` for missing bytes."""
+    """Return the function that reads a message of a class; raises `CdrError`, or `struct.error` for missing bytes."""
     reading = _Reading(cls, order, outermost=True)
     return reading.source.compiled("data", reading.lines(), f"CDR reader of {cls.__name__}")
 
 
 @cache
 def element_reader(cls: Any, order: str) -> Callable[[bytes, memoryview, int, int], tuple[Any, int]]:
-    """Return the function `(data, view, at, end)` for an element of a sequence: it returns the element and the place
+    """Return the function `(data, view, at, end)` for an element of a sequence: it returns the element and the position
     after it.
     """
     reading = _Reading(cls, order, outermost=False)
@@ -52,7 +53,7 @@ def element_reader(cls: Any, order: str) -> Callable[[bytes, memoryview, int, in
 
 
 class _Reading:
-    """A reader being generated; `_codes` and `_targets` are the pending row of numbers."""
+    """Generates a reader; `_codes` and `_targets` are the pending row of numbers."""
 
     def __init__(self, cls: object, order: str, *, outermost: bool) -> None:
         helpers = (fixed, flags, missing, octets, texts, too_many, wide)
@@ -108,7 +109,7 @@ class _Reading:
         self._end_row()
         if not kind.size:
             self.source.reach()
-            # Each element takes at least one byte, so a larger number cannot be a length.
+            # Each element takes at least one byte, so a larger number cannot be a valid length.
             self.source.line(f"if {count} > end - at: raise too_many({count}, end - at)")
         if not kind.sequence and not kind.size:
             self._text(kind.item, target, count)
@@ -181,7 +182,7 @@ def too_many(count: int, left: int) -> CdrError:
 
 
 def missing(at: int, stop: int) -> CdrError:
-    """Return the error for bytes that end within an array."""
+    """Return the error for bytes that end in the middle of an array."""
     return CdrError(f"{stop - at} bytes are missing at byte {at - HEADER_SIZE}: the data end there")
 
 
@@ -225,7 +226,7 @@ def fixed(data: bytes, at: int, length: int, wire: str, end: int) -> Any:
     dtype = numpy.dtype(wire)
     if at + length * dtype.itemsize > end:
         raise missing(at, at + length * dtype.itemsize)
-    # By size, not by letter: an array of the letter q is no int64 for NumPy's repr.
+    # Chosen by size, not by code: to NumPy's `repr`, an array with the code q is not an int64.
     return numpy.frombuffer(data, dtype, length, at).astype(f"{dtype.kind}{dtype.itemsize}")
 
 

@@ -1,4 +1,4 @@
-"""The source of a function that walks a CDR stream, extended field by field."""
+"""The source code of a function that walks a CDR stream, extended field by field."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from bot_console.runtime.rosidl.cdr_layout import Place, nested, row
 
 
 class Source:
-    """Lines, what they name, and the place in the stream up to which they go.
+    """The lines, the objects they name, and the position in the stream that they have reached.
 
-    The place is `at` and some known bytes more (`ahead`), or those alone as long as all lengths are known.
+    The position is `at` plus a known number of bytes (`ahead`), or only that number while all lengths are known.
     """
 
     def __init__(
@@ -58,12 +58,12 @@ class Source:
 
     @property
     def there(self) -> str:
-        """The place as an expression."""
+        """The position as an expression."""
         return self._expression(self._ahead)
 
     @property
     def aligned(self) -> str:
-        """The place used for alignment, as an expression."""
+        """The position used for alignment, as an expression."""
         return self._expression(self._ahead + self._shift)
 
     def _expression(self, ahead: int) -> str:
@@ -77,16 +77,16 @@ class Source:
         self.place = self.place.behind(length)
 
     def leap(self, length: str, place: Place) -> None:
-        """Advance by an expression; `place` is what is known of the place after it."""
+        """Advance by an expression; `place` is what is known about the position after it."""
         self.line(f"at = {self.there} + {length}", moves=True)
         self.land(place)
 
     def land(self, place: Place) -> None:
-        """Continue at the `at` that a line has set."""
+        """Continue at the `at` that a line has set; `place` is what is known about it."""
         self._at, self._ahead, self.place = "at", 0, place
 
     def reach(self) -> None:
-        """Set `at` to the place, for lines that need it."""
+        """Set `at` to the position, for lines that need it."""
         if self.there != "at":
             self.line(f"at = {self.there}", moves=True)
             self.land(self.place)

@@ -1,6 +1,6 @@
 """Writes, for a message class, the function that returns the bytes of a message in one pass.
 
-Numbers in a row are one call of `struct`, together with the length of the text or sequence that follows; for
+Adjacent numbers are packed by one call of `struct`, with the length of the text or sequence after them; for
 `std_msgs/msg/String` the function is
 
     def f(m):
@@ -30,20 +30,20 @@ Put = Callable[[Any], None]
 HEADER = "256"
 """The header as a number: plain CDR, little endian, no options (00 01 00 00)."""
 EXACT = {"boolean": "bool", "float": "float", "double": "float"}
-"""Python classes of numbers. For all other types `struct` accepts and rejects the same values as a field."""
+"""Python classes of numbers. For all other types, `struct` accepts and rejects the same values as the field."""
 ZEROS = tuple(bytes(length) for length in range(8))
 LENGTHS = row(["I"], ANYWHERE, "<")[0]
 
 
 class InexactError(TypeError):
-    """A field does not hold exactly what a copy of the message would."""
+    """A field does not hold exactly what a copy of the message would hold."""
 
 
 @cache
 def writer(cls: Any) -> Callable[[Any], bytes]:
     """Return the function that serializes a message, with its header.
 
-    The function raises any exception if a field does not hold exactly what a copy of the message would.
+    The function raises some exception if a field does not hold exactly what a copy of the message would hold.
     """
     writing = _Writing(cls, outermost=True)
     return writing.source.compiled("m", writing.lines(), f"CDR writer of {cls.__name__}")
@@ -51,13 +51,13 @@ def writer(cls: Any) -> Callable[[Any], bytes]:
 
 @cache
 def element_writer(cls: Any) -> Callable[[Any, Put, int], int]:
-    """Return the function `(message, put, at)` that writes an element of a sequence and returns the place after it."""
+    """Return the function `(message, put, at)` that writes a sequence element and returns the position after it."""
     writing = _Writing(cls, outermost=False)
     return writing.source.compiled("m, put, at", writing.lines(), f"CDR writer of {cls.__name__} in a sequence")
 
 
 class _Writing:
-    """A writer being generated; `_codes` and `_values` are the pending row of numbers."""
+    """Generates a writer; `_codes` and `_values` are the pending row of numbers."""
 
     def __init__(self, cls: object, *, outermost: bool) -> None:
         helpers = (array, is_octets, texts, wide)
@@ -164,7 +164,7 @@ class _Writing:
         self._add("x")  # the terminating zero
 
     def _computed(self, call: str) -> None:
-        """Emit bytes that depend on their place in the stream."""
+        """Emit bytes that depend on their position in the stream."""
         self._end_row()
         data = self.source.local("d")
         self.source.line(f"{data} = {call % self.source.there}")
@@ -224,7 +224,7 @@ class _Writing:
         self._add("I", count)
         self._end_row()
         gap = self.source.place.gap(size)
-        # After an empty sequence there is nothing to align.
+        # After an empty sequence nothing needs alignment.
         behind = self.source.place.behind_many(size if gap == 0 else 4)
         if gap != 0:
             filler = self.source.local("g")
@@ -254,12 +254,12 @@ class _Writing:
 
 
 def is_octets(values: Sequence[Any]) -> bool:
-    """Whether each is a single byte."""
+    """Whether each element is a single byte."""
     return all(isinstance(each, bytes) and len(each) == 1 for each in values)
 
 
 def texts(values: Sequence[object], at: int, limit: int, is_wide: bool) -> bytes:
-    """Return the bytes of a sequence of strings at a place, each of at most `limit` characters (0: any length)."""
+    """Return the bytes of strings at a position, each with at most `limit` characters (0 means any length)."""
     chunks: list[bytes] = []
     for value in values:
         if not isinstance(value, str) or (limit and len(value) > limit):
@@ -278,7 +278,7 @@ def _text(value: str, at: int) -> bytes:
 
 
 def wide(value: str, at: int) -> bytes:
-    """Return a wide string: its number of UTF-16 units, then each in four bytes, as ROS 2's middlewares agree."""
+    """Return a wide string: its number of UTF-16 units, then each unit in four bytes, as all ROS 2 middlewares do."""
     if "\0" in value:
         raise InexactError
     units = array("H", value.encode(f"utf-16-{sys.byteorder[0]}e"))

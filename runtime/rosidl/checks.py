@@ -52,7 +52,7 @@ def _one(kind: Type, owner: object, field: str, value: object) -> None:
 
 
 def _range(kind: Type, number: str) -> tuple[Callable[[Any], bool], str]:
-    """Return whether a number is in the range of its type, and the range's name; `number` formats the bounds."""
+    """Return a test whether a number is in the range of its type, and the range's name; `number` formats the bounds."""
     if kind.item in INTEGERS:
         low, high = LIMITS[kind.item]
         word = "an integer" if low else "an unsigned integer"
@@ -69,7 +69,7 @@ def _range(kind: Type, number: str) -> tuple[Callable[[Any], bool], str]:
 
 
 def _is_kept(kind: Type, field: str, value: Any) -> bool:
-    """Whether a value is the very array type of the field; its element type and size are checked."""
+    """Whether a value already has the array type of the field; its element type and size are checked."""
     if kind.size and type(value).__name__ == "ndarray":
         dtype = DTYPES[kind.item]
         assert value.dtype == dtype, f"The '{field}' numpy.ndarray() must have the dtype of 'numpy.{dtype}'"

@@ -1,4 +1,4 @@
-"""The comments of a definition file, sorted by what they describe; editors show them."""
+"""The comments of a definition file, sorted by what they describe, for editors."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from bot_console.runtime.rosidl.parse import LINE, without_comment
 
 
 class Comments(NamedTuple):
-    """The comments of one part of an interface, without `#`."""
+    """The comments on one part of an interface, without `#`."""
 
     whole: str
-    """The comment above the first field, set off by a blank line."""
+    """The comment above the first field, separated from it by a blank line."""
     members: Mapping[str, str]
-    """By the name of a field or constant: the lines directly above it, beside it, and indented below it."""
+    """For each field or constant: the lines directly above it, beside it, and indented below it."""
 
 
 def comments(text: str) -> Sequence[Comments]:

@@ -1,4 +1,4 @@
-"""The model of an interface: fields, constants and defaults, independent of its notation."""
+"""The model of an interface: fields, constants and defaults, independent of the notation."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ PRIMITIVES = {
     "string": "string",
     "wstring": "wstring",
 }
-"""Type names in definition files and those in `get_fields_and_field_types`."""
+"""Type names in definition files, and the corresponding ones of `get_fields_and_field_types`."""
 
 WRITTEN = {name: name for name in PRIMITIVES.values()} | {
     "boolean": "bool",
@@ -35,7 +35,7 @@ WRITTEN = {name: name for name in PRIMITIVES.values()} | {
     "float": "float32",
     "double": "float64",
 }
-"""The usual one of the names in definition files, by that in `get_fields_and_field_types`."""
+"""The usual name in definition files, by the name in `get_fields_and_field_types`."""
 
 TYPECODES = {
     "float": "f",
@@ -60,9 +60,9 @@ BOUNDED = r"^(w?string)<(\d+)>$"
 
 
 class Type(NamedTuple):
-    """A field's type: an element type, alone or in a sequence (`bound` 0 is none) or in an array of fixed size.
+    """A field's type: an element type, alone, in a sequence (`bound` 0 means unbounded) or in an array of fixed size.
 
-    `item` is a primitive's name or `package/Name`; `limit` is the length a string may have, 0 without one.
+    `item` is a primitive's name or `package/Name`; `limit` is the maximum length of a string, 0 if there is none.
     """
 
     item: str
@@ -73,7 +73,7 @@ class Type(NamedTuple):
 
     @property
     def primitive(self) -> bool:
-        """Whether the element is not a message."""
+        """Whether the element is a primitive rather than a message."""
         return "/" not in self.item
 
     @property
@@ -120,7 +120,7 @@ class Interface(NamedTuple):
 
 def parse_type(text: str) -> Type:
     """Parse a type in the notation of `get_fields_and_field_types`."""
-    if not text.endswith((">", "]")):  # most fields: short-lived programs compile no pattern
+    if not text.endswith((">", "]")):  # most fields; short-lived programs then compile no pattern
         return Type(text)
     match = re.match(SHAPES, text)
     item = (match["item"] or match["fixed"]) if match else text

@@ -33,11 +33,11 @@ ZEROS = {"boolean": "False", "octet": "b'\\x00'", "float": "0.0", "double": "0.0
 
 
 PARTS_SUFFIX = "__parts"
-"""Suffix of the name of the module with a service's request, response and event."""
+"""Suffix of the module that contains a service's request, response and event."""
 
 
 def modules(interface: Interface) -> dict[str, str]:
-    """Return sources by module name: one module, for a service two, as often only its name is needed."""
+    """Return sources by module name: one module, or two for a service, of which often only the name is needed."""
     file = module_name(interface.name)
     if interface.kind != "srv":
         return {file: _module(interface)}
@@ -129,7 +129,7 @@ def _initial(field: Field, known: dict[str, str]) -> Iterator[str]:
 
 
 def _converted(kind: Type, value: str) -> str:
-    """Return the expression by which a constructor or a setter converts a value: numbers are always copied."""
+    """Return the expression with which a constructor or setter converts a value; numeric arrays are always copied."""
     if kind.size and kind.item in DTYPES:
         return f"_to_ndarray('{DTYPES[kind.item]}', {value})"
     return f"_array('{TYPECODES[kind.item]}', {value})" if kind.sequence and kind.item in TYPECODES else value
@@ -161,7 +161,7 @@ def _many_default(field: Field, known: dict[str, str]) -> str:
 
 
 def _given(kind: Type, known: dict[str, str]) -> str:
-    """Return the annotation of a field's value."""
+    """Return the type annotation of a field's value."""
     if kind.size and kind.item in DTYPES:
         return "Any"
     item = _item(kind, known)
@@ -171,7 +171,7 @@ def _given(kind: Type, known: dict[str, str]) -> str:
 
 
 def _taken(kind: Type, known: dict[str, str]) -> str:
-    """Return the annotation of values that can be assigned to a field."""
+    """Return the type annotation of values that can be assigned to a field."""
     if kind.size and kind.item in DTYPES:
         return "Any"
     item = _item(kind, known)

@@ -1,7 +1,7 @@
 """Generates the copy function of a message class: the effect of a CDR round trip, in plain Python.
 
-If every field holds exactly the type of its definition, a copy is a few slot assignments; anything else goes to
-`conversion`, which either converts as the wire would or raises with the field's name.
+If every field holds exactly the type of its definition, a copy is a few slot assignments; any other value goes to
+`conversion`, which either converts it as the wire would or raises an error with the field's name.
 """
 
 from __future__ import annotations
@@ -16,14 +16,12 @@ LIMITS = {
     )
     for name in INTEGERS
 }
-"""The least and the largest value of each type of integers."""
+"""The smallest and the largest value of each integer type."""
 EXACT = {"boolean": "bool", "double": "float", "string": "str", "wstring": "str"}
 
 
 def copy_lines(definition: Definition, module_of: dict[str, str]) -> list[str]:
-    """Return the body of `_copy_(self)`; `module_of` maps nested classes to the names by which the module knows
-    them.
-    """
+    """Return the body of `_copy_(self)`; `module_of` maps nested classes to their names in the module."""
     lines = [f"new = _new({definition.name})", "new._check_fields = False"]
     singles = [each for each in definition.fields if each.type.text == "float"]
     nested = [each for each in definition.fields if not (each.type.primitive or each.type.sequence or each.type.size)]
@@ -34,7 +32,7 @@ def copy_lines(definition: Definition, module_of: dict[str, str]) -> list[str]:
 
 
 def _nested(fields: Sequence[Field], module_of: dict[str, str]) -> list[str]:
-    """Copy all single nested messages; an error inside one is located by the slow way, which knows its path."""
+    """Copy all single nested messages; the slow path locates an error inside one, as it knows the path."""
     if not fields:
         return []
     lines = ["try:"]

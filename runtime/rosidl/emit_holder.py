@@ -1,4 +1,4 @@
-"""Generates the classes that hold the parts of services and actions, and the modules that export all classes."""
+"""Generates the classes that contain the parts of services and actions, and the modules that export all classes."""
 
 from __future__ import annotations
 

@@ -9,12 +9,12 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 PREFIX = "ament-prefix"
-"""The folder of definition files, laid out as in installed packages; its name cannot be imported."""
+"""The folder of the definition files, laid out as in installed packages; its name cannot be imported."""
 
 
 def main() -> None:
     """Regenerate all modules."""
-    _make_importable()  # A build runs this in a clone where nothing is installed, so these imports cannot come first.
+    _make_importable()  # Imported here: a build runs this in a clone where nothing is installed yet.
     from bot_console.runtime.rosidl.emit import modules
     from bot_console.runtime.rosidl.emit_holder import package_module
     from bot_console.runtime.rosidl.names import module_name

@@ -1,4 +1,4 @@
-"""Message classes of types without a definition here: their messages are serialized bytes, as in rclcpp's
+"""Message classes for types without a definition here: their messages are serialized bytes, as in rclcpp's
 GenericSubscription and GenericPublisher.
 """
 
@@ -12,11 +12,11 @@ from bot_console.runtime.rosidl.type_hash import digest_from
 
 
 class GenericMessage(Message):
-    """A message of which only the serialized bytes are known; raw subscriptions receive it, no others do."""
+    """A message of which only the serialized bytes are known; only raw subscriptions receive it."""
 
     __slots__ = ("data",)
     get_fields_and_field_types: ClassVar[Any] = None
-    """None: which fields it has is not known here."""
+    """None, as the fields are unknown."""
     _given_digest: ClassVar[bytes] = b""
     """The hash of the type, which cannot be computed without a definition."""
 
@@ -24,7 +24,7 @@ class GenericMessage(Message):
         self.data = data
 
     def _copy_(self) -> GenericMessage:
-        """Return the message itself, as bytes do not change."""
+        """Return the message itself, as its bytes never change."""
         return self
 
     def _to_bytes(self) -> bytes:
@@ -34,9 +34,9 @@ class GenericMessage(Message):
 
 @cache
 def generic_class(type_name: str, type_hash: str) -> type[GenericMessage]:
-    """The class of a type, given its name (`package/msg/Name`) and its hash (`RIHS01_...`).
+    """Return the class of a type, given its name (`package/msg/Name`) and its hash (`RIHS01_...`).
 
-    Raises `ValueError` if either is not one.
+    Raises `ValueError` if either is malformed.
     """
     package, _, rest = type_name.partition("/")
     kind, _, name = rest.partition("/")

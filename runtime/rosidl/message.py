@@ -17,7 +17,9 @@ CHECK_VARIABLE = "ROS_PYTHON_CHECK_FIELDS"
 
 
 class _Asked(threading.local):
-    """The environment's setting, per thread because each node process has its own; None before it was read."""
+    """The environment's setting, per thread because each node process has its own environment; None until it is
+    read.
+    """
 
     value: bool | None = None
 
@@ -26,10 +28,10 @@ _asked = _Asked()
 
 
 def checks_asked_for() -> bool:
-    """Whether fields are checked without an argument to the constructor; off by default since Jazzy.
+    """Whether fields are checked if the constructor gets no argument about it; off by default since Jazzy.
 
-    The environment is read with a thread's first message, and again after a message module was imported: reading it
-    takes longer than creating a message, and upstream reads it when a module is imported.
+    The environment is read with a thread's first message, and again after a message module was imported, when upstream
+    reads it; reading it for each message would take longer than creating the message.
     """
     value = _asked.value
     if value is None:
@@ -59,7 +61,7 @@ class MessageType(type):
 
 
 def type_shown(value: object) -> str:
-    """Return the class of a value as text; a message class has a metaclass of its own, as upstream."""
+    """Return the class of a value as text; as upstream, a message class has a metaclass of its own."""
     if isinstance(value, MessageType):
         return f"<class '{value.__module__}.Metaclass_{value.__name__}'>"
     return str(type(value))
@@ -76,19 +78,19 @@ class Message(metaclass=MessageType):
 
     @classmethod
     def get_fields_and_field_types(cls) -> dict[str, str]:
-        """Field names with their types, such as `sequence<double>`."""
+        """Return the field names with their types, such as `sequence<double>`."""
         return dict(cls._fields_and_field_types)
 
     def _check(self, field: str, value: object) -> bool:
-        """Reject a value by `AssertionError` as rclpy does with checks on; return whether it may be kept as it is."""
+        """Reject a value with `AssertionError`, as rclpy does with checks on; return whether it may be kept as it
+        is.
+        """
         from bot_console.runtime.rosidl.checks import check
 
         return check(type(self), field, value)
 
     def _unknown(self, names: Iterable[str]) -> None:
-        """Reject unknown keywords by `AssertionError` with checks on; else ignore them as Jazzy does, but with a
-        warning.
-        """
+        """Reject unknown keywords with `AssertionError` if checks are on; else ignore them as Jazzy, with a warning."""
         text = ", ".join(sorted(names))
         if self._check_fields:
             raise AssertionError(f"Invalid arguments passed to constructor: {text}")
@@ -108,20 +110,20 @@ class Message(metaclass=MessageType):
 
 
 def _shown(value: Any, kind: str) -> str:
-    """Return the text of a field: a sequence of numbers without its type, another value as it is."""
+    """Return the text of a field: a sequence of numbers without its type, any other value unchanged."""
     numbers = isinstance(value, array) and kind.startswith(NUMBER_SEQUENCES) and "/" not in kind
     return repr(cast("array[Any]", value).tolist() if numbers else cast("Any", value))
 
 
 def _equal(one: Any, other: Any) -> bool:
     different = one != other
-    # Upstream treats fixed-size arrays as different only if all of their elements differ.
+    # As upstream, fixed-size arrays count as different only if all of their elements differ.
     return not different.all() if hasattr(different, "all") else not different
 
 
 class ServiceType(type):
-    """The type of service and action classes, which only hold other classes; `_later` names those imported on first
-    use.
+    """The type of service and action classes, which only hold other classes; `_later` names those that are imported on
+    first use.
     """
 
     _later: tuple[str, ...] = ()
@@ -137,10 +139,10 @@ class ServiceType(type):
         return part
 
     def __dir__(cls) -> list[str]:
-        """Include the parts that are not yet imported."""
+        """Include the parts that have not been imported yet."""
         return sorted({*super().__dir__(), *cls._later})
 
     def __call__(cls, *args: object, **kwargs: object) -> Any:
-        """Refuse instantiation, as upstream does."""
+        """Reject instantiation, as upstream does."""
         kind = "Action" if hasattr(cls, "Goal") else "Service"
         raise NotImplementedError(f"{kind} classes can not be instantiated")

@@ -22,7 +22,7 @@ TEXTS = ("string", "wstring")
 
 
 class DefinitionError(ValueError):
-    """A definition file that cannot be read; the message has file and line."""
+    """A definition file is invalid; the message has file and line."""
 
 
 def parse(text: str, package: str, kind: str, name: str, file: str = "") -> Interface:
@@ -69,7 +69,7 @@ def _part(name: str, rows: list[tuple[int, str]], package: str, where: str) -> D
 
 
 def without_comment(line: str) -> str:
-    """Return a line up to its comment; a `#` inside quotes is no comment."""
+    """Return a line up to its comment; a `#` inside quotes is not a comment."""
     quote = ""
     for index, character in enumerate(line):
         if quote:
@@ -126,7 +126,7 @@ def _default(text: str, kind: Type) -> str:
 
 
 def _literal(text: str, kind: Type) -> str:
-    """Return the Python literal of a value in definition file notation; raises `ValueError`."""
+    """Return the Python literal of a value as written in a definition file; raises `ValueError`."""
     if kind.item in TEXTS:
         return repr(_unquoted(text))
     if kind.item == "boolean":

@@ -1,4 +1,4 @@
-"""The definitions derived from a service or an action."""
+"""The definitions that are derived from a service or an action."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ GOAL_ID = Field("goal_id", Type("unique_identifier_msgs/UUID"))
 
 
 def companions(interface: Interface) -> Sequence[Definition]:
-    """Return the event of a service; or the services, their events and the feedback message of an action."""
+    """Return the event of a service, or the services, their events and the feedback message of an action."""
     package, name = interface.package, interface.name
     if interface.kind == "srv":
         return [_event(package, name)]

@@ -1,4 +1,4 @@
-"""Type descriptions received from other programs, before any class is made from them."""
+"""Type descriptions received from other programs, before classes are made from them."""
 
 from __future__ import annotations
 
@@ -21,22 +21,22 @@ ACTION_TYPES = (
     ("get_result_service", "GetResult"),
     ("feedback_message", "FeedbackMessage"),
 )
-"""The types by which action servers and clients match, each with its own type and hash in the graph."""
+"""The types by which action servers and clients match; each has its own type and hash in the graph."""
 ACTION_SERVICES = ("SendGoal", "GetResult")
 FIELD_TYPE = ("type_id", "capacity", "string_capacity", "nested_type_name")
 """The properties of a field's type that enter its hash, in order; defaults and comments do not."""
 MESSAGE = Type("/")
-"""The type that represents any nested message."""
+"""A type that stands for any nested message."""
 
 Row = tuple[str, Type, str]
-"""A field's name, its type, and the full name of the message it holds; empty for a primitive."""
+"""A field's name, its type, and the full name of its message type; empty for a primitive."""
 
 
 def describe_texts(wanted: str, texts: Mapping[str, str]) -> Description:
-    """Return the description of the interface `wanted`, as `describe` does for its class.
+    """Return the description of the interface `wanted`, as `describe` would for its class.
 
-    `texts` are the definitions of all types it consists of, by full type name. Raises `DefinitionError` for one that is
-    invalid or missing.
+    `texts` are the definitions of all its types, by full type name. Raises `DefinitionError` if one is invalid or
+    missing.
     """
     structures: dict[str, Sequence[Row]] = {}
     for name, text in texts.items():
@@ -67,8 +67,8 @@ def _plain(reported: Any) -> Description:
 def describe_action(wanted: str, parts: Iterable[Description]) -> Description:
     """Return the description of an action from those of its `ACTION_TYPES`, whose hashes are in the graph.
 
-    The action itself is not in the graph: its hash follows from theirs. Raises `DefinitionError` if they lack a type
-    that it consists of.
+    The action itself is not in the graph; its hash follows from those of its parts. Raises `DefinitionError` if a type
+    of the action is missing from them.
     """
     found = {each["type_name"]: each for part in parts for each in _all(part)}
     rows = _action_rows(wanted)
@@ -109,9 +109,7 @@ def _description(name: str, rows: Sequence[Row]) -> Description:
 
 
 def _structures(name: str, text: str) -> Iterator[tuple[str, Sequence[Row]]]:
-    """Return the structures of one definition: a message is one, a service or an action has parts and containers of
-    them.
-    """
+    """Yield the structures of one definition: one for a message, parts and their containers for others."""
     package, kind, short = name.split("/")
     if kind not in PARTS:
         raise DefinitionError(f"{name} is not an interface")

@@ -10,14 +10,14 @@ if TYPE_CHECKING:
 
 
 def nested_class(owner: Any, item: str) -> Any:
-    """Return the class of a nested message, such as `geometry_msgs/Vector3`, of the message class that contains it."""
+    """Return the class of a nested message, such as `geometry_msgs/Vector3`, for the message class that contains it."""
     package, _, name = item.partition("/")
     names = owner._copy_.__globals__
     return names.get(f"_{package}__{name}") or names[name]
 
 
 class SlotTypes:
-    """A class attribute: the types of the fields in their order."""
+    """A class attribute with the types of the fields, in order."""
 
     def __init__(self) -> None:
         self._made: dict[Any, Sequence[Any]] = {}

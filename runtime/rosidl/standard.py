@@ -1,4 +1,4 @@
-"""The standard interfaces, at build time: messages from rosbags' Jazzy type store, the rest from our definitions."""
+"""The standard interfaces at build time: messages from rosbags' type store for Jazzy, the rest from our definitions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Type stubs of interfaces, for editors and type checkers: every field with its type, its range and its comment."""
+"""Type stubs of interfaces for editors and type checkers: every field with its type, range and comment."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from numpy.typing import NDArray as _NDArray
 
 from bot_console.runtime.rosidl.message import Message as _Message, ServiceType as _ServiceType
 '''
-"""Under names that no field can have: a field named `list` would stand for the type in its class."""
+"""Imported under names that no field can have: within its class, a field named `list` would hide the type."""
 NO_COMMENTS = Comments("", {})
 
 
@@ -127,7 +127,7 @@ def _documented(text: str, indent: str) -> Sequence[str]:
 
 
 def _shown(field: Field) -> str:
-    """The type of a field with the range of its values, such as `uint8, 0 to 255`."""
+    """Return the type of a field with the range of its values, such as `uint8, 0 to 255`."""
     kind = field.type
     item = WRITTEN[kind.item] if kind.primitive else kind.item
     item += f", at most {kind.limit} characters" if kind.limit else ""
@@ -146,7 +146,7 @@ def _item(kind: Type, names: Mapping[str, str]) -> str:
 
 
 def _given(kind: Type, names: Mapping[str, str]) -> str:
-    """The annotation of a field's value."""
+    """Return the type annotation of a field's value."""
     item = _item(kind, names)
     if kind.size and kind.item in DTYPES:
         return f"_NDArray[_numpy.{DTYPES[kind.item]}]"
@@ -156,7 +156,7 @@ def _given(kind: Type, names: Mapping[str, str]) -> str:
 
 
 def _taken(kind: Type, names: Mapping[str, str]) -> str:
-    """The annotation of what can be assigned to a field."""
+    """Return the type annotation of values that can be assigned to a field."""
     item = _item(kind, names)
     if not (kind.sequence or kind.size):
         return item

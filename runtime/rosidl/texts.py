@@ -1,4 +1,4 @@
-"""The definition files of all available interfaces, of standard and of additional packages."""
+"""The definition files of all available interfaces, in standard and additional packages."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from bot_console.runtime.rosidl.names import KINDS
 from bot_console.runtime.rosidl.sources import EXAMPLES, added_folders
 
 PREFIX = Path(__file__).resolve().parent / "generated" / "ament-prefix"
-"""The prefix in which the standard packages are installed, in ament's sense; their definitions lie below `share`."""
+"""The ament prefix of the standard packages; their definitions are below `share`."""
 
 
 def package_folder(package: str) -> Path | None:
-    """Return the folder that holds a package's `msg`, `srv` and `action`; None for an unknown package."""
+    """Return the folder that contains a package's `msg`, `srv` and `action`; None for an unknown package."""
     folder = PREFIX / "share" / package
     if folder.is_dir() and not (package in EXAMPLES and package in added_folders()):
         return folder
@@ -21,7 +21,7 @@ def package_folder(package: str) -> Path | None:
 
 
 def standard_packages() -> Sequence[str]:
-    """Return the names of the packages included."""
+    """Return the names of the included packages."""
     return sorted(each.name for each in (PREFIX / "share").iterdir())
 
 

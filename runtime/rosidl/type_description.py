@@ -1,4 +1,6 @@
-"""Type descriptions of interface classes, as in `type_description_interfaces/msg/TypeDescription`, as plain data."""
+"""Type descriptions of interface classes as plain data, structured as
+`type_description_interfaces/msg/TypeDescription`.
+"""
 
 from __future__ import annotations
 
@@ -28,7 +30,7 @@ IDS = {
 }
 BOUNDED_TEXT = {"string": 21, "wstring": 22}
 ARRAY, BOUNDED, UNBOUNDED = 48, 96, 144
-"""Numbers added to that of an element's type."""
+"""Numbers that are added to the number of an element's type."""
 
 FILLER = "structure_needs_at_least_one_member"
 SERVICE_PARTS = (("request_message", "Request"), ("response_message", "Response"), ("event_message", "Event"))
@@ -43,7 +45,7 @@ Description = dict[str, Any]
 
 
 def describe(cls: Any) -> Description:
-    """Return the description of a message, service or action class, and of all that it consists of, sorted by name."""
+    """Return the description of a message, service or action class, and of all types in it, sorted by name."""
     found: dict[str, Description] = {}
     _collect(cls, found)
     top = found.pop(type_name(cls))
@@ -86,7 +88,7 @@ def _members(cls: Any) -> Iterator[tuple[str, Any]]:
 
 
 def field_type(kind: Type, nested: str) -> Description:
-    """Return a field's type as in a description; `nested` is the full name of its message type, or empty."""
+    """Return a field's type as in a description; `nested` is the full name of its message type, if any."""
     number = NESTED if nested else (BOUNDED_TEXT if kind.limit else IDS)[kind.item]
     if kind.sequence:
         number += BOUNDED if kind.bound else UNBOUNDED

@@ -31,7 +31,7 @@ def digest(cls: Any) -> bytes:
 
 
 def digest_of_description(description: Description) -> bytes:
-    """Return the 32-byte hash of an interface known only by its description."""
+    """Return the 32-byte hash of an interface of which only the description is known."""
     from hashlib import sha256  # imported late, as it loads OpenSSL
 
     return sha256(json.dumps(description, separators=(", ", ": ")).encode()).digest()
@@ -43,7 +43,7 @@ def text(cls: object) -> str:
 
 
 def text_of_description(description: Description) -> str:
-    """Return the hash, in that notation, of an interface known only by its description."""
+    """Return the hash, in the same notation, of an interface of which only the description is known."""
     return _text(digest_of_description(description))
 
 
@@ -52,7 +52,7 @@ def _text(hashed: bytes) -> str:
 
 
 def digest_from(text: str) -> bytes:
-    """Parse a hash in that notation; raises `ValueError` for any other text."""
+    """Parse a hash in the same notation; raises `ValueError` for any other text."""
     scheme, digits = text[: len(SCHEME)], text[len(SCHEME) :]
     try:
         found = bytes.fromhex(digits) if scheme == SCHEME else b""

@@ -9,7 +9,7 @@ from bot_console.runtime.rosidl.definition import WRITTEN, Constant, Definition,
 
 
 def written(interface: Interface) -> str:
-    """Return the text of a definition file, its parts separated by `---`."""
+    """Return the text of a definition file, with its parts separated by `---`."""
     return "---\n".join(_part(each, interface.package) for each in interface.parts)
 
 
@@ -29,7 +29,7 @@ def _field(field: Field, package: str) -> str:
 
 
 def _read(literal: str) -> Any:
-    """Return the value of a Python literal, including `float('inf')` and the like, which the parser produces."""
+    """Return the value of a Python literal; includes `float('inf')` and the like, which the parser produces."""
     inner = literal.removeprefix("float('").removesuffix("')")
     return float(inner) if inner != literal else ast.literal_eval(literal)
 

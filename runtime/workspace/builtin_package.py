@@ -11,12 +11,12 @@ from bot_console.runtime.workspace.share import link
 
 NAME = "bot_console_robot"
 PAGE_NAME = "intelligent_robot"
-"""A second name for the same package, used by courses; valid unless another package has that name."""
+"""A second name of the same package, used by courses; valid unless another package has that name."""
 ROOT = Path(__file__).resolve().parents[2]
-"""The folder with `nodes/`, `launch/` and `profiles/`, in a checkout and in an installed wheel."""
+"""The folder that contains `nodes/`, `launch/` and `profiles/`, in a checkout and in an installed wheel."""
 FIRST_VARIABLE = "BOT_CONSOLE_ROBOT_FIRST"
-"""Set in the environment of our own launches, and so of their processes: our package comes before others of its
-name.
+"""Environment variable that is set in our own launches, and so in their processes: our package then precedes others of
+its name.
 """
 
 SECOND_SPELLING = "environment_launch.py"
@@ -37,12 +37,12 @@ def is_own(package: Package) -> bool:
 
 
 def own_is_first() -> bool:
-    """Whether the calling process belongs to a launch of our own."""
+    """Whether the calling process belongs to one of our own launches."""
     return bool(os.environ.get(FIRST_VARIABLE))
 
 
 def own_share(links: Path) -> Path:
-    """Return its share folder: `launch/`, `config/` with each profile under both its names, and `worlds/`."""
+    """Return the package's share folder: `launch/`, `config/` with each profile under both its names, and `worlds/`."""
     place = links / NAME
     for path in (ROOT / "launch").glob("*.launch.*"):
         link(path, place / "launch" / path.name)

@@ -10,14 +10,14 @@ LAUNCH_ENDINGS = tuple(f"{mark}launch{ending}" for mark in "._" for ending in ("
 
 
 def package_names() -> list[str]:
-    """Packages of the workspace and installed ones, without those that only bring standard interfaces."""
+    """Return the packages of the workspace and installed ones, except those that contain only standard interfaces."""
     from ament_index_python.resources import get_resources
 
     return sorted({*workspace().packages, *get_resources("packages")})
 
 
 def all_executable_names(package: str) -> list[str]:
-    """Names of a package's executables; none for an unknown package."""
+    """Return the names of a package's executables; none for an unknown package."""
     from ament_index_python.packages import PackageNotFoundError
     from bot_console.runtime.workspace.executables import executables
 
@@ -28,7 +28,7 @@ def all_executable_names(package: str) -> list[str]:
 
 
 def launch_file_paths(package: str) -> list[Path]:
-    """Launch files in a package's share folder; none for an unknown package."""
+    """Return the launch files in a package's share folder; none for an unknown package."""
     from ament_index_python.packages import PackageNotFoundError, get_package_share_path
 
     try:
@@ -39,7 +39,7 @@ def launch_file_paths(package: str) -> list[Path]:
 
 
 def launch_file_names(package: str) -> list[str]:
-    """Names of a package's launch files, as `launch PACKAGE NAME` takes them."""
+    """Return the names of a package's launch files, as accepted by `launch PACKAGE NAME`."""
     return sorted({each.name for each in launch_file_paths(package)})
 
 

@@ -1,7 +1,7 @@
 """Reads which Python programs and files a `CMakeLists.txt` installs, without running CMake.
 
 It understands `project`, `set`, `file(GLOB)`, `ament_python_install_package`, and `install` of PROGRAMS, FILES and
-DIRECTORY; `${NAME}` is replaced by the value set above. It ignores everything else, such as conditions and compiled
+DIRECTORY; `${NAME}` is replaced by the value set above. Everything else is ignored, such as conditions and compiled
 programs.
 """
 
@@ -59,7 +59,7 @@ def _commands(text: str, variables: Mapping[str, list[str]]) -> Iterator[tuple[s
 
 
 class _Reader:
-    """The variables and installed files of the commands so far."""
+    """The variables and installed files of the commands read so far."""
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
@@ -99,7 +99,7 @@ class _Reader:
             self.modules[words[0]] = folder
 
     def _install(self, words: list[str]) -> None:
-        """`install(KIND path... DESTINATION place [RENAME name] ...)`."""
+        """Process `install(KIND path... DESTINATION place [RENAME name] ...)`."""
         end = next(index for index, word in enumerate(words) if index and word in _KEYWORDS)
         place = words[words.index("DESTINATION") + 1].rstrip("/")
         sources = [(word, self._folder / word) for word in words[1:end] if word]

@@ -1,4 +1,4 @@
-"""The included packages of ROS 2's tutorials: their executables are in `nodes/demos/`, served as one package."""
+"""The included packages of ROS 2's tutorials, whose executables are all in the Python package `nodes/demos/`."""
 
 from __future__ import annotations
 
@@ -81,9 +81,9 @@ EXECUTABLES: Mapping[str, Mapping[str, str]] = {
         "turtlesim_node": "turtlesim.turtlesim_node:main",
     },
 }
-"""The program of each executable, by the package names of ROS 2."""
+"""The program of each executable, by ROS 2's package names."""
 SECOND_SPELLING = {"_launch.py": ".launch.py"}
-"""Endings of launch files, and the endings they had in older releases."""
+"""Extensions of launch files, and those that they had in older releases."""
 
 
 @cache
@@ -106,7 +106,7 @@ def is_demo(package: Package) -> bool:
 
 
 def demo_share(package: Package, links: Path) -> Path:
-    """Return its share folder, with its launch files."""
+    """Return the package's share folder, with its launch files."""
     place = links / package.name
     place.mkdir(parents=True, exist_ok=True)
     for path in sorted((ROOT / "launch" / package.name).glob("*.py")):

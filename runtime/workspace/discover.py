@@ -1,4 +1,4 @@
-"""Finds the packages of a workspace, and serves them to the ament index, the importer and `run`."""
+"""Finds the packages of a workspace, and provides them to the ament index, the importer and `run`."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ from bot_console.runtime.workspace.share import share_folder
 IGNORED = frozenset({"build", "install", "log", "node_modules", "__pycache__", "venv", "site-packages"})
 MARKERS = frozenset({"COLCON_IGNORE", "AMENT_IGNORE", "CATKIN_IGNORE"})
 MAX_DEPTH = 6
-"""Levels of folders below a workspace in which packages are searched for."""
+"""How many levels of folders below a workspace are searched for packages."""
 SOURCED_VARIABLE = "BOT_CONSOLE_WORKSPACE"
-"""The workspaces whose `install/setup.bash` a shell has sourced, joined by colons; the last one sourced is first."""
+"""The workspaces whose `install/setup.bash` was sourced in a shell, separated by colons; the last sourced is first."""
 MAX_FOLDERS = 20_000
 """The maximum number of folders searched, so that a start in a home directory does not take minutes."""
 
 
 class Workspace:
-    """The source packages below some folders, the included one, and those of the tutorials; the first of a name wins.
+    """The source packages below some folders, the included one, and those of the tutorials; the first with a name wins.
 
     The included package comes after those in the folders, but first in our own launches.
     """
@@ -37,11 +37,11 @@ class Workspace:
 
     @property
     def packages(self) -> Mapping[str, Package]:
-        """Packages by name."""
+        """The packages by name."""
         return self._with_ours_first if own_is_first() else self._with_ours_last
 
     def find(self, name: str) -> Package | None:
-        """Return the package of this name, or None; ours also has a second name unless another package has it."""
+        """Return the package with this name, or None; ours also has a second name unless another package has it."""
         packages = self.packages
         return packages.get(name) or (packages[NAME] if name == PAGE_NAME else None)
 
@@ -83,7 +83,7 @@ class Workspace:
 
     @cached_property
     def _links(self) -> Path:
-        """A folder of this process for share folders made of links; deleted with the process."""
+        """Return a folder of this process for share folders made of links; it is deleted with the process."""
         return Path(tempfile.mkdtemp(prefix="share-", dir=scratch()))
 
 
@@ -93,10 +93,9 @@ def default_folders(start: Path) -> tuple[Path, ...]:
 
 
 def _package_folders(folder: str, depth: int, budget: list[int]) -> Iterator[str]:
-    """Yield folders with a `package.xml`, as colcon finds them: not below another package, not where it is to be
-    ignored.
+    """Yield folders with a `package.xml`, as colcon finds them: not below another package, nor in ignored folders.
 
-    Each folder is read once, and no `Path` objects are created: a launch waits for this.
+    Each folder is read only once, and no `Path` objects are created, as a launch waits for this.
     """
     budget[0] -= 1
     if budget[0] == 0:
@@ -110,7 +109,7 @@ def _package_folders(folder: str, depth: int, budget: list[int]) -> Iterator[str
         return
     if any(os.path.exists(entries[marker]) for marker in MARKERS & entries.keys()):
         return
-    # the method of the entry raises for some links
+    # the entry's own method raises for some links
     if "package.xml" in entries and os.path.isfile(entries["package.xml"]):
         yield folder
     elif depth:
@@ -131,7 +130,7 @@ _current: list[Workspace] = []
 
 
 def workspace() -> Workspace:
-    """Return the workspace of this run: the working directory's and the sourced ones, unless `use` sets another."""
+    """Return the workspace of this run: the working directory's plus the sourced ones, unless `use` has set another."""
     if not _current:
         here = default_folders(Path.cwd())
         sourced = (Path(each) for each in os.environ.get(SOURCED_VARIABLE, "").split(os.pathsep) if each)

@@ -1,6 +1,6 @@
-"""The folders in which an editor finds what a program can import here: packages, and type stubs of all interfaces.
+"""Folders in which an editor finds what programs can import here: packages, and type stubs of all interfaces.
 
-They are in the user's cache folder. Those of the installed version are made once; those of a workspace again each time.
+They are in the user's cache folder. The installed version's are made once, a workspace's each time.
 """
 
 from __future__ import annotations
@@ -32,12 +32,12 @@ QT_MODULES = {"python_qt_binding": ("QtCore", "QtGui", "QtWidgets"), "rqt_gui_py
 
 
 def root() -> Path:
-    """Return the folder that holds all of them."""
+    """Return the folder that contains all of them."""
     return cache_folder() / "editor"
 
 
 def version_folder(version: str) -> Path:
-    """Return the folder with the packages and the standard interfaces of this version; it is made if missing."""
+    """Return the folder with the packages and standard interfaces of this version; it is created if missing."""
     sources = sorted(Path(RUNTIME, "rosidl").glob("*.py"))
     states = [RUNTIME, version, *(f"{each.name} {each.stat().st_mtime_ns}" for each in sources)]
     folder = root() / f"{version}-{_digest(states)}"
@@ -47,7 +47,7 @@ def version_folder(version: str) -> Path:
 
 
 def workspace_folder(workspace: Path) -> Path:
-    """Return the folder with the interfaces of a workspace, and those that the user has added; it is made again.
+    """Create and return the folder with the interfaces of a workspace, and those that the user has added.
 
     Raises `DefinitionError` with file and line of a mistake.
     """
@@ -61,7 +61,7 @@ def _digest(texts: Iterable[str]) -> str:
 
 
 def _replace(folder: Path, fill: Callable[[Path], None]) -> None:
-    """Fill a new folder and put it in the place of the old one, so that an editor never reads half of it."""
+    """Fill a new folder and replace the old one with it, so that an editor never reads an incomplete one."""
     folder.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
     with tempfile.TemporaryDirectory(dir=folder.parent, prefix=".new-") as made:
         new, old = Path(made, "new"), Path(made, "old")
@@ -76,7 +76,7 @@ def _fill_with_version(folder: Path) -> None:
     for name in PACKAGES:
         _link(Path(RUNTIME, name), folder / name)
     _link(Path(RUNTIME).parent / "nodes", folder / "bot_console_robot")
-    package = folder / "bot_console"  # Only what the others import: the editor need not offer the rest.
+    package = folder / "bot_console"  # Needed only by imports of the others; the editor need not offer the rest.
     package.mkdir()
     _link(Path(RUNTIME), package / "runtime")
     for name in standard_packages():
@@ -108,5 +108,5 @@ def _write(path: Path, text: str) -> None:
 def _link(target: Path, place: Path) -> None:
     try:
         os.symlink(target, place, target_is_directory=True)
-    except OSError:  # Not every account on Windows may make links.
+    except OSError:  # Not every account on Windows may create links.
         shutil.copytree(target, place, ignore=shutil.ignore_patterns("__pycache__", "*.pyc"))

@@ -1,4 +1,4 @@
-"""Executables as scripts, as `colcon build` installs them: what a prefix such as `python3 -m pdb` is put before."""
+"""Executables as scripts, as `colcon build` installs them, for prefixes such as `python3 -m pdb`."""
 
 from __future__ import annotations
 
@@ -41,7 +41,8 @@ def script_of(executable: Executable) -> Path:
 
 
 def script_of_file(path: str) -> Path:
-    """Return a script that runs a Python file with this interpreter, whatever its first line and its permissions say.
+    """Return a script that runs a Python file with this interpreter, whatever the file's first line and permissions
+    are.
 
     Raises `OSError` if it cannot be written.
     """
@@ -53,7 +54,7 @@ def _written(name: str, text: str) -> Path:
     digest = hashlib.sha256(text.encode()).hexdigest()[:16]
     try:
         return _write(cache_folder() / "scripts" / digest / name, text)
-    except OSError:  # the user's cache cannot be written
+    except OSError:  # the user's cache is not writable
         return _write(Path(scratch()) / f"bot-console-scripts-{os.getuid()}" / digest / name, text)
 
 

@@ -12,7 +12,7 @@ from bot_console.runtime.workspace.package import EntryPoint, Package
 
 
 class Executable(NamedTuple):
-    """Something that can be run: an entry point of a source package, or a file."""
+    """A program that can be run: an entry point of a source package, or a file."""
 
     package: str
     name: str
@@ -38,12 +38,12 @@ def executables(package: str) -> dict[str, Executable]:
     if source is None or not found:
         found = {**_of_prefix(package, required=source is None), **found}
     if not found and package in demo_packages():
-        return _of_source(demo_packages()[package])  # the workspace has it in C++, which is not built here
+        return _of_source(demo_packages()[package])  # in the workspace it is C++, which is not built here
     return found
 
 
 def executable_names(package: str) -> dict[str, str]:
-    """Return the names of a package's executables, each with a description, for `ros2 pkg executables`."""
+    """Return the names of a package's executables with descriptions, for `ros2 pkg executables`."""
     return {name: str(each) for name, each in executables(package).items()}
 
 

@@ -1,4 +1,4 @@
-"""Writes the robot's package in the layout colcon expects, for a machine with ROS 2."""
+"""Exports the robot's package in the layout that colcon expects, for a machine with ROS 2."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from bot_console.runtime.workspace.builtin_package import NAME, ROOT, SECOND_SPE
 from bot_console.runtime.workspace.export_readme import readme
 
 ROS_PYTHON = {"numpy": "python3-numpy", "yaml": "python3-yaml"}
-"""rosdep keys of libraries; pymunk has none and comes from pip."""
+"""The rosdep keys of libraries; pymunk has none and comes from pip."""
 FROM_PIP = ("pymunk",)
 FOLDERS = {
     "launch": ("launch", "*.launch.*"),
@@ -23,7 +23,7 @@ FOLDERS = {
 
 
 def export(folder: Path) -> Path:
-    """Write `<folder>/bot_console_robot`; raises `ValueError` if that exists, and `OSError`."""
+    """Write `<folder>/bot_console_robot`; raises `ValueError` if it exists, and `OSError`."""
     place = Path(os.path.expanduser(folder)).resolve() / NAME
     if place.exists():
         raise ValueError(f"{place} exists; give another folder, or remove it")
@@ -45,7 +45,7 @@ def export(folder: Path) -> Path:
 
 
 def imported(folder: Path) -> set[str]:
-    """Return the top-level names imported by the Python files of a folder."""
+    """Return the top-level names that the Python files in a folder import."""
     return {name for path in sorted(folder.rglob("*.py")) for name in _imports(path)}
 
 
@@ -58,7 +58,7 @@ def _imports(path: Path) -> Iterator[str]:
 
 
 def package_xml(place: Path) -> str:
-    """Return the manifest, with dependencies on what the files import."""
+    """Return the manifest, with dependencies on the packages that the files import."""
     names = sorted(imported(place) - set(sys.stdlib_module_names) - {NAME, "setuptools", *FROM_PIP})
     depends = "\n".join(f"  <exec_depend>{ROS_PYTHON.get(each, each)}</exec_depend>" for each in names)
     return f"""<?xml version="1.0"?>
@@ -77,7 +77,7 @@ def package_xml(place: Path) -> str:
 
 
 def setup_py() -> str:
-    """Return the build script, with one executable for each node."""
+    """Return the `setup.py`, with one executable for each node."""
     nodes = own_package().executables.items()
     scripts = _lines((f'"{name} = {entry.module}:{entry.function}",' for name, entry in nodes), depth=3)
     data = _lines(f'("share/" + NAME + "/{each}", glob("{each}/*")),' for each in FOLDERS)

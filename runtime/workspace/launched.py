@@ -1,4 +1,4 @@
-"""The program of a launched Python node, as a thread or as a process; it finds the same packages as its launch."""
+"""The program of a launched Python node, as a thread or a process; it finds the same packages as its launch."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def entry_point(workspace_folders: Sequence[str], function: str, folders: Sequen
 
 
 def python_file(workspace_folders: Sequence[str], path: str, folders: Sequence[str], calls_main: bool) -> Program:
-    """Return the program of a file whose modules are in these folders; if it only defines `main()`, that is called."""
+    """Return the program of a file whose modules are in these folders; if it only defines `main()`, this is called."""
     find_packages_in(workspace_folders)
     runs = file_program(path, places_of(folders))
     return then_main(runs) if calls_main else runs

@@ -1,4 +1,4 @@
-"""Messages for a missing package or executable: which ones exist, and what to add."""
+"""Messages for a missing package or executable: which exist, and what to add."""
 
 from __future__ import annotations
 
@@ -25,9 +25,7 @@ def no_executable(package: str, name: str) -> str:
 
 
 def to_add(package: str, name: str) -> str:
-    """Return what to repair so that a workspace package has it, to append after a full stop; empty for other
-    packages.
-    """
+    """Return what to repair so that a workspace package has it, as a further sentence; empty for other packages."""
     source = workspace().packages.get(package)
     if source is None or not (source.folder / "setup.py").is_file():
         return ""

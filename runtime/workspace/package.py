@@ -14,11 +14,11 @@ from bot_console.runtime.workspace.cmake_lists import read_cmake_lists
 from bot_console.runtime.workspace.setup_py import PANES, SetupFile, entry_lines, read_setup_py
 
 MAX_NAME_CHARACTERS = 100
-"""Characters of a file's name that are shown in a problem."""
+"""How many characters of a file's name are shown in a problem."""
 
 
 class EntryPoint(NamedTuple):
-    """A console script: the function `function` of the module `module`."""
+    """A console script that calls `function` of `module`."""
 
     module: str
     function: str
@@ -26,7 +26,7 @@ class EntryPoint(NamedTuple):
 
 @dataclass(frozen=True)
 class Package:
-    """A package by name. `problem` says why it cannot be used as it is; empty if it can."""
+    """A package. `problem` says why it cannot be used as it is; empty if it can."""
 
     name: str
     folder: Path
@@ -35,13 +35,13 @@ class Package:
     executables: Mapping[str, EntryPoint] = field(default_factory=lambda: MappingProxyType({}))
     scripts: Mapping[str, Path] = field(default_factory=lambda: MappingProxyType({}))
     modules: Mapping[str, Path] = field(default_factory=lambda: MappingProxyType({}))
-    """Python packages by import name."""
+    """The Python packages by import name."""
     data_files: tuple[tuple[str, tuple[Path, ...]], ...] = ()
     problem: str = ""
     panes: Mapping[str, EntryPoint] = field(default_factory=lambda: MappingProxyType({}))
-    """Panes that it provides for the console."""
+    """The panes that it provides for the console."""
     setup: SetupFile | None = None
-    """What its setup files say."""
+    """The contents of its setup files; None if there are none."""
 
     @cached_property
     def has_interfaces(self) -> bool:
@@ -51,7 +51,7 @@ class Package:
 
 def read_package(folder: Path) -> Package:
     """Read the package in a folder that holds a `package.xml`."""
-    from xml.etree import ElementTree  # not imported by launches without packages
+    from xml.etree import ElementTree  # imported here, as launches without packages do not need it
 
     try:
         root = ElementTree.parse(folder / "package.xml").getroot()
@@ -68,7 +68,7 @@ def read_package(folder: Path) -> Package:
         problem = setup.problem
     except ValueError as error:
         problem = str(error)
-    except OSError as error:  # a name in one of these files that no file can have
+    except OSError as error:  # one of these files contains a name that no file can have
         problem = f"{folder}: {error.strerror}: {str(error.filename)[:MAX_NAME_CHARACTERS]}"
     return Package(
         name,
@@ -91,8 +91,8 @@ def _entry_point(text: str) -> EntryPoint:
 
 
 def read_setup_cfg(folder: Path) -> SetupFile:
-    """Read `setup.cfg` of a package folder; a missing one is empty. Raises `ValueError` with file and line."""
-    import configparser  # not imported by launches without packages
+    """Read the `setup.cfg` of a package folder; empty if it is missing. Raises `ValueError` with file and line."""
+    import configparser  # imported here, as launches without packages do not need it
 
     parser = configparser.ConfigParser(delimiters=("=",), interpolation=None)
     parser.optionxform = str  # type: ignore[assignment,method-assign] -- as the documentation of configparser has it

@@ -10,11 +10,11 @@ from bot_console.runtime.workspace.discover import workspace
 from bot_console.runtime.workspace.package import Package
 
 MAX_SHOWN_PLACES = 3
-"""The maximum number of places named in a hint."""
+"""How many places a hint names at most."""
 
 
 def hint_for(path: str) -> str:
-    """Return a hint naming packages that have a file which does not exist at the given relative path; else empty."""
+    """Return a hint with the packages that have a file missing at the given relative path; empty if there are none."""
     if os.path.isabs(path):
         return ""
     packages = workspace().packages

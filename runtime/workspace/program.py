@@ -1,4 +1,4 @@
-"""The program of a workspace executable, for a node process or for the real process."""
+"""The program of a workspace executable, to be run in a node process or in the real process."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def python_file(path: Path) -> Program:
 
 
 def source_folders(first: str = "") -> list[str]:
-    """Return the folders of the workspace's Python packages, those of the package `first` before the others."""
+    """Return the folders of the workspace's Python packages, starting with those of the package `first`."""
     packages = workspace().packages
     ordered = sorted(packages, key=lambda name: name != first)
     folders = (str(path.parent) for name in ordered for path in packages[name].modules.values())

@@ -1,7 +1,7 @@
 """Reads the call of `setup()` in a `setup.py` without running the file.
 
-It understands the expressions commonly used by ROS packages: strings and their methods, names assigned above, `+`, `%`,
-f-strings, `os.path`, `glob`, `find_packages`, lists, tuples, dicts, and comprehensions over them.
+It understands the expressions that ROS packages commonly use: strings and their methods, names assigned above, `+`,
+`%`, f-strings, `os.path`, `glob`, `find_packages`, lists, tuples, dicts, and comprehensions over them.
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ from bot_console.runtime.workspace.setup_py_syntax import first_mistake
 from bot_console.runtime.workspace.setup_values import Unreadable, Values, called
 
 PANES = "bot_console.panes"
-"""The group of entry points by which a package provides panes for the console."""
+"""The entry point group through which a package provides panes for the console."""
 
 WRITTEN_OUT = "Write them out: 'name = package.module:main'"
 TARGET = re.compile(r"[\w.]+\s*(:\s*[\w.]+)?\s*(\[.*\])?")
-"""The part of an entry point after the `=`: a module, its function, extras."""
+"""The part of an entry point after the `=`: a module, a function and extras."""
 
 
 class DataRow(NamedTuple):
-    """A row of `data_files`: its line, its target folder, its files, and the call of `glob` that finds them, if any."""
+    """A row of `data_files`: its line, target folder and files, and the call of `glob` that finds them, if any."""
 
     line: int
     target: str
@@ -35,31 +35,29 @@ class DataRow(NamedTuple):
 
 @dataclass(frozen=True)
 class SetupFile:
-    """The contents that a package installs: console scripts as `module:function`, files by target folder, Python
-    packages.
-    """
+    """The contents that a package installs: scripts as `module:function`, files by target folder, Python packages."""
 
     console_scripts: dict[str, str] = field(default_factory=dict[str, str])
     scripts: dict[str, Path] = field(default_factory=dict[str, Path])
     modules: dict[str, Path] = field(default_factory=dict[str, Path])
     data_files: tuple[tuple[str, tuple[Path, ...]], ...] = ()
     panes: dict[str, str] = field(default_factory=dict[str, str])
-    """Panes that a package provides for the console, as `module:class` (entry points of the group
+    """The panes that a package provides for the console, as `module:class` (entry points of the group
     `bot_console.panes`).
     """
     problem: str = ""
-    """Why some of it is missing; empty if nothing is."""
+    """Why part of the contents is missing; empty if none is."""
     name: str = ""
     packages: tuple[str, ...] | None = None
-    """Python packages as they are listed; None if that cannot be evaluated."""
+    """The Python packages as listed; None if the list cannot be evaluated."""
     rows: tuple[DataRow, ...] = ()
     has_all_rows: bool = True
-    """Whether `rows` are all that `data_files` says; False if a part of it cannot be evaluated."""
+    """Whether `rows` covers all of `data_files`; False if a part of it cannot be evaluated."""
     lines: Mapping[str, int] = field(default_factory=dict[str, int])
-    """Where the arguments of `setup()` are, by their names."""
+    """The lines of the arguments of `setup()`, by their names."""
 
     def merged(self, other: SetupFile) -> SetupFile:
-        """Return both combined; values of this one take precedence."""
+        """Return the two combined; values of this one take precedence."""
         return SetupFile(
             {**other.console_scripts, **self.console_scripts},
             {**other.scripts, **self.scripts},
@@ -76,7 +74,7 @@ class SetupFile:
 
 
 def read_setup_py(folder: Path) -> SetupFile:
-    """Read `setup.py` of a package folder; raises `ValueError` with file and line if it is not Python."""
+    """Read the `setup.py` of a package folder; raises `ValueError` with file and line if it is not Python."""
     path = folder / "setup.py"
     try:
         tree = ast.parse(path.read_text(encoding="utf-8"))
@@ -96,7 +94,7 @@ def read_setup_py(folder: Path) -> SetupFile:
 
 
 def _statements(tree: ast.Module) -> list[ast.stmt]:
-    """Return top-level statements, and those of a `main` or an `if __name__` block, in order."""
+    """Return the top-level statements, and those in `main` or an `if __name__` block, in order."""
     found: list[ast.stmt] = []
     for statement in tree.body:
         if isinstance(statement, (ast.If, ast.FunctionDef)):
@@ -201,7 +199,7 @@ class _Reader:
         rows = self._keywords.get("data_files")
         if rows is None:
             return ()
-        # Row by row, so that one unreadable row does not lose the others.
+        # Row by row, so that a row that cannot be evaluated does not lose the others.
         elements = rows.elts if isinstance(rows, (ast.List, ast.Tuple)) else []
         found = [(each.lineno, self._row(each), _written_glob(each)) for each in elements]
         if not isinstance(rows, (ast.List, ast.Tuple)) or not all(row for _, row, _ in found):
@@ -222,7 +220,7 @@ class _Reader:
 
 
 def _written_glob(row: ast.expr) -> str:
-    """The call of `glob` in a row, as it is written."""
+    """Return the call of `glob` in a row, as it is written."""
     calls = (each for each in ast.walk(row) if isinstance(each, ast.Call) and called(each) in ("glob", "iglob"))
     return next((ast.unparse(each) for each in calls), "")
 

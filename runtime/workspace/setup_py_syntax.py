@@ -1,4 +1,4 @@
-"""Finds mistakes that keep a `setup.py` from running, without running it."""
+"""Finds mistakes that prevent a `setup.py` from running, without running it."""
 
 from __future__ import annotations
 
@@ -9,17 +9,15 @@ from typing import cast
 
 ALWAYS_THERE = frozenset(dir(builtins)) | {"__file__", "__builtins__", "__annotations__", "__class__", "__qualname__"}
 HIDDEN_SCOPES = frozenset({"exec", "globals", "locals", "vars", "NameError"})
-"""Names whose use means that a file may define names invisibly, as by `exec` of a version file, or handle a missing
-one.
-"""
+"""A file that uses one of these may define names invisibly, as by `exec` of a version file, or handle a missing one."""
 NEVER_CALLED = (ast.Tuple, ast.List, ast.Dict, ast.Constant, ast.JoinedStr)
 
 
 def first_mistake(tree: ast.Module) -> str:
-    """Return the line and the mistake there as `line N: ...`; empty if none was found.
+    """Return the first mistake as `line N: ...`; empty if none was found.
 
     Finds names that nothing in the file defines, such as a module that is not imported, and a missing comma before a
-    parenthesis. Python stops at both: such a package would work here, but `colcon build` of ROS 2 would fail.
+    parenthesis. Python stops at both: such a package works here, but ROS 2's `colcon build` would fail.
     """
     found = sorted([*_missing_commas(tree), *_undefined(tree)])
     return f"line {found[0][0]}: {found[0][1]}" if found else ""
@@ -33,7 +31,7 @@ def _missing_commas(tree: ast.Module) -> Iterator[tuple[int, str]]:
 
 
 def _undefined(tree: ast.Module) -> Iterator[tuple[int, str]]:
-    """Yield names that are read but bound nowhere in the file, regardless of order: those that certainly fail."""
+    """Yield names that are read but bound nowhere in the file, in whatever order, so that they certainly fail."""
     bound = set(ALWAYS_THERE)
     read: list[ast.Name] = []
     for each in _evaluated(tree):
@@ -44,7 +42,7 @@ def _undefined(tree: ast.Module) -> Iterator[tuple[int, str]]:
                 bound.add(each.id)
         else:
             bound.update(_bound_by(each))
-    # it is not known here which names that import provides
+    # the names that this import provides are unknown
     if "*" in bound or any(name.id in HIDDEN_SCOPES for name in read):
         return
     for name in read:
@@ -53,7 +51,7 @@ def _undefined(tree: ast.Module) -> Iterator[tuple[int, str]]:
 
 
 def _evaluated(node: ast.AST) -> Iterator[ast.AST]:
-    """Yield a node and all below it, except annotations, of which only some are evaluated."""
+    """Yield a node and all nodes below it, except annotations, of which only some are evaluated."""
     yield node
     for name, below in ast.iter_fields(node):
         if name not in ("annotation", "returns"):
@@ -63,9 +61,7 @@ def _evaluated(node: ast.AST) -> Iterator[ast.AST]:
 
 
 def _bound_by(node: ast.AST) -> Iterator[str]:
-    """Yield the names bound by nodes other than names: imports, arguments, definitions, exceptions, captures of
-    `match`.
-    """
+    """Yield the names that nodes other than names bind: imports, arguments, definitions, exceptions, `match`."""
     if isinstance(node, ast.alias):
         yield node.asname or node.name.partition(".")[0]
     elif isinstance(node, ast.arg):
@@ -75,7 +71,7 @@ def _bound_by(node: ast.AST) -> Iterator[str]:
 
 
 def _import_of(name: str) -> str:
-    """Return how to import a name commonly used by setup files of ROS packages."""
+    """Return the import statement of a name that setup files of ROS packages commonly use."""
     lines = {"os": "import os", "glob": "from glob import glob", "setup": "from setuptools import setup"}
     lines["find_packages"] = "from setuptools import find_packages"
     return f"; add `{lines[name]}`" if name in lines else ""

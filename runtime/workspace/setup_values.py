@@ -22,7 +22,7 @@ OF_TEXTS = frozenset(
     | {"startswith", "strip"}
 )
 FORMATTED = re.compile(r"\{[^{}]*[:!.\[]")
-"""A replacement field with more than a name, such as a width, which could demand any amount of memory."""
+"""A replacement field with more than a name, such as a width, which could require any amount of memory."""
 COMPARED: Mapping[type[ast.cmpop], Callable[[Any, Any], bool]] = {
     ast.Eq: operator.eq,
     ast.NotEq: operator.ne,
@@ -32,23 +32,23 @@ COMPARED: Mapping[type[ast.cmpop], Callable[[Any, Any], bool]] = {
 
 
 class Unreadable(ValueError):
-    """An expression that can only be evaluated by running the file; the message says which and where."""
+    """An expression that can be evaluated only by running the file; the message says which expression and where."""
 
 
 def called(call: ast.Call) -> str:
-    """The last name of what is called."""
+    """Return the last part of the name of the called function."""
     return call.func.attr if isinstance(call.func, ast.Attribute) else getattr(call.func, "id", "")
 
 
 class Values:
-    """Works out the value of an expression as far as that is possible without running code."""
+    """Evaluates expressions as far as possible without running code."""
 
     def __init__(self, folder: Path, names: dict[str, Any]) -> None:
         self.names = names
         self._folder = folder
 
     def of(self, node: ast.expr) -> Any:
-        """The value; raises `Unreadable`."""
+        """Return the value of an expression; raises `Unreadable`."""
         method: Callable[[ast.expr], object] | None = getattr(self, f"_{type(node).__name__.lower()}", None)
         if method is None:
             raise Unreadable(f"line {node.lineno}: {ast.unparse(node)}")

@@ -12,8 +12,8 @@ from bot_console.runtime.workspace.package import Package
 def share_folder(package: Package, links: Path) -> Path:
     """Return a folder laid out as the package's installed `share/<name>`.
 
-    Most packages install `launch/x` as `launch/x`; then that is the source folder. Others get a folder of links
-    below `links`, built anew each time.
+    For most packages, which install `launch/x` as `launch/x`, that is the source folder. Others get a folder of links
+    below `links`, built again each time.
     """
     targets = list(_targets(package))
     if all(package.folder / target == source for target, source in targets):
@@ -26,7 +26,7 @@ def share_folder(package: Package, links: Path) -> Path:
 
 
 def _targets(package: Package) -> list[tuple[Path, Path]]:
-    """Return the destination of each installed file in the share folder, and its source."""
+    """Return the destination in the share folder and the source of each installed file."""
     prefix = f"share/{package.name}"
     found: list[tuple[Path, Path]] = []
     for target, sources in package.data_files:
@@ -37,7 +37,7 @@ def _targets(package: Package) -> list[tuple[Path, Path]]:
 
 
 def link(source: Path, place: Path) -> None:
-    """Make `place` refer to a file: a symlink, or a copy if links are not allowed."""
+    """Make `place` refer to a file: by a symlink, or by a copy if links are not allowed."""
     place.parent.mkdir(parents=True, exist_ok=True)
     try:
         place.symlink_to(source)

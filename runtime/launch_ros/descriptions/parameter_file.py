@@ -64,9 +64,7 @@ class ParameterFile:
 
 
 _copies: WeakKeyDictionary[LaunchContext, dict[str, Path]] = WeakKeyDictionary()
-"""Files downloaded for each launch: all its nodes start with the same text, and it waits for a silent server only
-once.
-"""
+"""Files downloaded for each launch: all its nodes start with the same text, and waits for a silent server only once."""
 
 
 def _fetched(context: LaunchContext, address: str) -> Path:

@@ -58,9 +58,7 @@ def _key(name: SomeSubstitutionsType, prefix: Key | None) -> Key:
 
 
 def normalize_value(value: object) -> Any:
-    """Return scalars, tuples of them and `ParameterValue`s unchanged; substitutions as a list, lists of them as a
-    tuple.
-    """
+    """Return scalars, tuples of them and `ParameterValue`s unchanged; substitutions as a list, several as a tuple."""
     if isinstance(value, (ParameterValue, *SCALARS)):
         return value
     if isinstance(value, Substitution):

@@ -1,1 +1,1 @@
-"""The commands, one file each; long verbs have their own."""
+"""The commands, one file each; long verbs have files of their own."""

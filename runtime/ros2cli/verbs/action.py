@@ -39,11 +39,11 @@ if TYPE_CHECKING:
     from bot_console.runtime.rosidl.message import Message
 
 Rows = list[tuple[str, list[str]]]
-"""Names, of nodes or actions, with the types of an action."""
+"""Names of nodes or actions, each with the types of an action."""
 
 
 def _clients_and_servers(node: Node, action: str) -> tuple[Rows, Rows]:
-    """The clients and servers of an action; raises `InvalidTopicNameException` or `ValueError` for an invalid name."""
+    """Return the clients and servers of an action; `InvalidTopicNameException` or `ValueError` for an invalid name."""
     name = expand_topic_name(action, node.get_name(), node.get_namespace())
     validate_full_topic_name(name)
     sides: tuple[Rows, Rows] = ([], [])
@@ -123,11 +123,11 @@ def _send_goal(arguments: argparse.Namespace) -> Result:
     goal = kind.Goal()
     try:
         set_message_fields(goal, values)
-    except Exception as error:  # a field may raise anything about a value; upstream catches all, too
+    except Exception as error:  # a field may raise any exception about a value; upstream also catches all
         return f"Failed to populate message fields: {error!r}"
     arguments.no_daemon = True
     with DirectNode(arguments, name=f"_ros2cli_send_goal_{arguments.action_type.replace('/', '_')}") as node:
-        # A Ctrl-C must not shut the context down: the goal has to be cancelled first.
+        # Ctrl-C must not shut the context down, as the goal has to be cancelled first.
         uninstall_signal_handlers()
         client = ActionClient(node, kind, arguments.action_name)
         try:
@@ -138,7 +138,7 @@ def _send_goal(arguments: argparse.Namespace) -> Result:
 
 
 class _Interrupt:
-    """A Ctrl-C that is raised by `check`, not wherever it arrives: the answer that is being taken would be lost."""
+    """A Ctrl-C that `check` raises, not the line where it arrives: otherwise an answer being taken would be lost."""
 
     def __init__(self) -> None:
         self.came = False
@@ -192,7 +192,7 @@ def _follow(node: Node, client: ActionClient, goal: Message, feedback: bool, int
 def _outcome(node: Node, client: ActionClient, future: Any, interrupt: _Interrupt) -> Any:
     """Wait for the server's part of the work; raises `KeyboardInterrupt` on Ctrl-C.
 
-    Raises `NoAnswer` if the server has left, where upstream waits forever.
+    Raises `NoAnswer` if the server has left, where upstream would wait for ever.
     """
     endpoints = getattr(client, "_endpoints", None)
     server = Server(node, client.server_is_ready, endpoints and endpoints.goal)

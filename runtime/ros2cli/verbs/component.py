@@ -18,14 +18,14 @@ if TYPE_CHECKING:
     from bot_console.runtime.rosidl.message import Message, ServiceType
 
 RESOURCE = "rclcpp_components"
-"""The kind of resource in which packages name their components."""
+"""The kind of resource in which packages list their components."""
 ANSWER_TIMEOUT_S = 5.0
-"""Seconds to wait for the service of a container."""
+"""How long to wait for the service of a container, in seconds."""
 SERVICES = {"load_node": "LoadNode", "unload_node": "UnloadNode", "list_nodes": "ListNodes"}
 
 
 def _containers(node: Node) -> list[str]:
-    """Nodes that offer the services of a component container."""
+    """Return the nodes that offer the services of a component container."""
     services = dict(node.get_service_names_and_types())
 
     def offers_all(name: str) -> bool:
@@ -133,7 +133,7 @@ def _unload(arguments: argparse.Namespace) -> Result:
 
 
 def _asked(node: Node, kind: ServiceType, container: str, service: str, request: Message) -> Any:
-    """The response of a container's service; raises `RuntimeError` if the service is not ready in time."""
+    """Return the response of a container's service; raises `RuntimeError` if the service is not ready in time."""
     missing = f"No '{service}' service found for '{container}' container"
     return call(node, kind, f"{container}/_container/{service}", request, ANSWER_TIMEOUT_S, missing)
 

@@ -1,4 +1,4 @@
-"""`ros2 interface`: list, package, packages, proto and show; and `add`, which ROS 2 does by a build."""
+"""`ros2 interface`: list, package, packages, proto and show; and `add`, for which ROS 2 needs a build."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ UNVERIFIED = (
 
 
 def _all() -> dict[str, list[str]]:
-    """Interfaces such as `msg/String`, by package."""
+    """Return the interfaces by package, such as `msg/String`."""
     found: dict[str, list[str]] = {}
     for get in (get_message_interfaces, get_service_interfaces, get_action_interfaces):
         interfaces: Mapping[str, Sequence[str]] = get()
@@ -98,7 +98,7 @@ def _proto(arguments: argparse.Namespace) -> Result:
         kind = _prototype(arguments.type)
     except (AttributeError, ImportError, LookupError, TypeError, ValueError) as error:
         if isinstance(error, AttributeError) and re.fullmatch(r"\w+/(msg|srv|action)/\w+", arguments.type):
-            raise  # a name that its package lacks: reported as ROS 2 does
+            raise  # the package has no such name, which is reported as in ROS 2
         return f"Unknown interface '{arguments.type}'"
     text = message_to_yaml(kind())
     print(text if arguments.no_quotes else f'"{text}"')
@@ -148,7 +148,7 @@ def _show(arguments: argparse.Namespace) -> Result:
 
 
 def _text(name: str, arguments: argparse.Namespace) -> str:
-    """The installed definition, else the one learned from a node; raises `LookupError` if there is neither."""
+    """Return the installed definition, or the one learned from a node; raises `LookupError` if there is neither."""
     try:
         return show_text(name, all_comments=arguments.all_comments, no_comments=arguments.no_comments)
     except LookupError:

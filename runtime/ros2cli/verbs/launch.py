@@ -1,4 +1,4 @@
-"""`ros2 launch`: a launch file, by its path or by package and name."""
+"""`ros2 launch`: runs a launch file, given by its path or by package and name."""
 
 from __future__ import annotations
 
@@ -160,14 +160,14 @@ def launch(
         allow_missing(service)
     service.include_launch_description(LaunchDescription([include, WarnOfUndeclaredArguments(arguments)]))
     if threading.current_thread() is threading.main_thread():
-        signal.signal(signal.SIGINT, _late)  # the run installs its own handler, and restores this one at its end
+        signal.signal(signal.SIGINT, _late)  # the run installs its own handler, and restores this one at the end
         # Python removes its own handlers before the process has ended.
         atexit.register(signal.signal, signal.SIGINT, signal.SIG_IGN)
     return service.run()
 
 
 def _late(number: int, frame: FrameType | None) -> None:
-    """Ignore the first interrupt after the end of a launch; a second one ends a program that does not exit."""
+    """Ignore the first interrupt after the end of a launch; the second one ends a program that does not exit."""
     signal.signal(number, signal.default_int_handler)
 
 

@@ -16,7 +16,7 @@ GET_STATE = "lifecycle_msgs/srv/GetState"
 
 
 def _managed(node: Node, include_hidden: bool) -> list[str]:
-    """Lifecycle nodes."""
+    """Return the lifecycle nodes."""
     services = dict(node.get_service_names_and_types())
     names = sorted(each.full_name for each in node_names(node, include_hidden=include_hidden))
     return [name for name in names if GET_STATE in services.get(f"{name}/get_state", ())]
@@ -84,7 +84,7 @@ def _set(arguments: argparse.Namespace) -> Result:
         if call(node, ChangeState, f"{name}/change_state", request).success:
             print("Transitioning successful")
         else:
-            print("Transitioning failed", file=sys.stderr)  # the exit code stays 0, as upstream's does
+            print("Transitioning failed", file=sys.stderr)  # as upstream, the exit code stays 0
     return None
 
 

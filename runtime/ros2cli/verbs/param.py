@@ -25,7 +25,7 @@ def _timeout(parser: argparse.ArgumentParser) -> None:
 
 
 def _one(*names: tuple[str, str], middle: Any = None) -> Any:
-    """The arguments of a verb on one node: the shared options around the verb's own."""
+    """Return a function that adds the arguments of a verb about one node: the shared options around the verb's own."""
 
     def add(parser: argparse.ArgumentParser) -> None:
         add_strategy_arguments(parser)

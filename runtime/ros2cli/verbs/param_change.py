@@ -16,7 +16,7 @@ from ros2cli.verbs.param_show import NOT_FOUND, found, report_missing, warn
 from ros2cli.yaml_values import report_yaml_errors
 
 UNDECLARED = "Invalid access to undeclared parameter"
-"""The beginning of a node's refusal of an undeclared parameter, which does not name the parameter."""
+"""The beginning of a node's refusal of an undeclared parameter, which does not contain the parameter's name."""
 
 
 def set_(arguments: argparse.Namespace) -> Result:
@@ -32,9 +32,9 @@ def set_(arguments: argparse.Namespace) -> Result:
             result = call(node, SetParameters, f"{absolute(arguments.node_name)}/set_parameters", request).results[0]
         except TypeError as error:
             text = cast(object, value.string_value)
-            if isinstance(text, str):  # an integer beyond 64 bits
+            if isinstance(text, str):  # an integer of more than 64 bits
                 return f"{arguments.parameter_name}: {error}"
-            # A YAML map: the message of ROS 2's conversion of strings.
+            # A YAML map gets the message of ROS 2's conversion of strings.
             raise TypeError("bad argument type for built-in operation") from None
         if result.successful:
             print(f"Set parameter successful{': ' + result.reason if result.reason else ''}")
@@ -62,7 +62,7 @@ def delete(arguments: argparse.Namespace) -> Result:
 
 
 def load(arguments: argparse.Namespace) -> Result:
-    """`ros2 param load`; the parameters of every node key in the file are set, as upstream does."""
+    """`ros2 param load`; as upstream, it sets the parameters of every node key in the file."""
     from ros2cli.parameter_file_faults import UNREADABLE, fault_of, is_bad_syntax
 
     with DirectNode(arguments) as node:
@@ -78,7 +78,7 @@ def load(arguments: argparse.Namespace) -> Result:
         request = SetParameters.Request(parameters=parameters)
         try:
             results = call(node, SetParameters, f"{absolute(arguments.node_name)}/set_parameters", request).results
-        except TypeError as error:  # an integer beyond 64 bits
+        except TypeError as error:  # an integer of more than 64 bits
             return f"{arguments.parameter_file}: {error}"
     for parameter, result in zip(parameters, results, strict=True):
         if result.successful:

@@ -1,4 +1,4 @@
-"""The verbs of `ros2 param` that only read."""
+"""The verbs of `ros2 param` that only read parameters."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ TYPE_WORDS = {NOT_SET: "not set", **{code: each.shown for code, each in BY_CODE.
 
 
 def found(node: Node, arguments: argparse.Namespace) -> bool:
-    """Whether the node that is named exists, or appears within the time-out; a person gets a hint if not."""
+    """Return whether the node exists, or appears within the time-out; a person gets a hint if not."""
     name = absolute(arguments.node_name)
     hidden = arguments.include_hidden_nodes
     if wait_for_node(node, name, include_hidden=hidden, timeout=arguments.timeout):
@@ -32,7 +32,7 @@ def found(node: Node, arguments: argparse.Namespace) -> bool:
 
 
 def values_of(node: Node, name: str, parameters: list[str]) -> list[ParameterValue]:
-    """The values that the node's service returns; empty if any of them is undeclared or unset."""
+    """Return the values from the node's service; empty if any parameter is undeclared or unset."""
     request = GetParameters.Request(names=parameters)
     return list(call(node, GetParameters, f"{name}/get_parameters", request).values)
 
@@ -66,7 +66,7 @@ def _label(kind: ParameterType) -> str:
 
 
 def _shown(value: ParameterValue, kind: ParameterType) -> Any:
-    """The field of the message that holds the value; arrays as lists."""
+    """Return the message field that holds the value, with arrays as lists."""
     shown = getattr(value, kind.field)
     return shown.tolist() if hasattr(shown, "tolist") else shown
 
@@ -87,7 +87,7 @@ def describe(arguments: argparse.Namespace) -> Result:
 
 
 def report_missing(node: Node, name: str, parameters: Sequence[str]) -> None:
-    """Hint on a terminal which parameters the node with that full name lacks; upstream prints nothing then."""
+    """On a terminal, hint which parameters the node with that full name lacks; upstream then prints nothing."""
 
     def text() -> str:
         known = call(node, ListParameters, f"{name}/list_parameters", ListParameters.Request()).result.names
@@ -170,7 +170,7 @@ def dump(arguments: argparse.Namespace) -> Result:
 
 
 def _insert(tree: dict[str, Any], path: list[str], value: object) -> None:
-    """Insert a value under nested keys; where a prefix is itself a parameter, the rest of the name keeps its dots."""
+    """Insert a value under nested keys; where a prefix is a parameter itself, the rest of the name keeps its dots."""
     *above, last = path
     for depth, key in enumerate(above):
         below = tree.setdefault(key, {})
@@ -182,5 +182,5 @@ def _insert(tree: dict[str, Any], path: list[str], value: object) -> None:
 
 
 def warn(text: str) -> None:
-    """Print to stderr, for failures that leave the exit code at 0."""
+    """Print to stderr; for failures that leave the exit code at 0."""
     print(text, file=sys.stderr)

@@ -1,4 +1,4 @@
-"""The files that `pkg create` writes for CMake packages; interface packages among them run here without a build."""
+"""The files that `pkg create` writes for CMake packages; those of interface packages work here without a build."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ros2cli.verbs.pkg_templates import PACKAGE_XML
 def files(
     words: Mapping[str, str], build_type: str, dependencies: list[str], node: str, library: str
 ) -> dict[str, str]:
-    """The contents of the files by path in the package, in order; `words` are the template values of `pkg create`."""
+    """Return the files' contents by path in the package, in order; `words` are the template values of `pkg create`."""
     name, ament = words["name"], build_type == "ament_cmake"
     buildtool = ("ament_cmake_ros" if library else "ament_cmake") if ament else ""
     found = [*(["ament_cmake"] if ament else []), *([buildtool] if ament and library else []), *dependencies]
@@ -66,7 +66,7 @@ def _cmake_lists(words: Mapping[str, str], ament: bool, node: str, library: str)
 
 
 def _uses(ament: bool, target: str, dependencies: list[str]) -> str:
-    """The lines that link a target to the dependencies; empty for plain CMake, where their target names are unknown."""
+    """Return the lines that link a target to the dependencies; empty for plain CMake: target names are unknown."""
     if not ament or not dependencies:
         return ""
     lines = "\n".join(f'  "{each}"' for each in dependencies)

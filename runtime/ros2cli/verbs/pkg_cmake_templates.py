@@ -1,4 +1,4 @@
-"""Texts of the files of a new package that CMake builds."""
+"""Templates for the files of a new package that CMake builds."""
 
 from __future__ import annotations
 

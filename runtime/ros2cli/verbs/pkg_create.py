@@ -26,7 +26,7 @@ LICENSES = (
     "MIT",
     "MIT-0",
 )
-"""SPDX identifiers that ament knows."""
+"""The SPDX identifiers that ament knows."""
 LICENSE_FOLDER = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "licenses")
 
 NOT_COMPILED = (
@@ -38,7 +38,7 @@ NOT_COMPILED = (
 def _user() -> str:
     try:
         return getpass.getuser()
-    except (KeyError, OSError):  # for example in a container without an entry for this user
+    except (KeyError, OSError):  # for example in a container that has no entry for this user
         return "user"
 
 
@@ -175,7 +175,7 @@ def _file(folder: str, name: str, text: str) -> None:
 
 
 def _words(arguments: argparse.Namespace, email: str) -> dict[str, str]:
-    """The values that the templates are filled with."""
+    """Return the values for the templates."""
     name, node = arguments.package_name, arguments.node_name
     depends = "".join(f"  <depend>{each}</depend>\n" for each in arguments.dependencies)
     free = {
@@ -195,7 +195,7 @@ def _words(arguments: argparse.Namespace, email: str) -> dict[str, str]:
 
 
 def _license(folder: str, identifier: str) -> None:
-    """Write the license file of the package, or print why there is none."""
+    """Write the package's license file, or print why there is none."""
     text = _license_text(identifier)
     if text:
         with open(os.path.join(folder, "LICENSE"), "w", encoding="utf-8") as file:
@@ -210,7 +210,7 @@ def _license(folder: str, identifier: str) -> None:
 
 
 def _license_text(identifier: str) -> str:
-    """The text of a license; empty for those that are not included, such as the GPL's."""
+    """Return the text of a license; empty if it is not included, as for the GPL."""
     path = os.path.join(LICENSE_FOLDER, f"{identifier}.txt")
     if identifier not in LICENSES or not os.path.exists(path):
         return ""

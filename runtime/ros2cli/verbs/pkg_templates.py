@@ -1,4 +1,4 @@
-"""Templates for the manifest of a new package, and for the other files of one in Python."""
+"""Templates for the manifest of a new package, and for the other files of a Python package."""
 
 from __future__ import annotations
 
@@ -78,4 +78,4 @@ def test_$linter():
     assert linter.main(argv=$argv) == 0
 """)
 LINTERS = {"copyright": "['.', 'test']", "flake8": "[]", "pep257": "['.', 'test']"}
-"""ament's linters that a new package is checked with, and their arguments."""
+"""ament's linters for a new package, with their arguments."""

@@ -1,4 +1,4 @@
-"""`ros2 run`: one executable, in the foreground."""
+"""`ros2 run`: runs one executable in the foreground."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ RQT = {
     "rqt_robot_steering": "steering",
     "rqt_gui": "overview",
 }
-"""Panes of the console that stand for rqt's programs."""
+"""The console's panes that correspond to rqt's programs."""
 
 
 def _arguments(parser: argparse.ArgumentParser) -> None:
@@ -60,7 +60,7 @@ def _run(arguments: argparse.Namespace) -> Result:
 
 
 def run(executable: Executable, words: list[str], prefix: str | None = None) -> int:
-    """Run an executable: in this process if it is Python and has no prefix, else in a child; returns its exit code."""
+    """Run an executable in this process if it is Python and has no prefix, else in a child; returns its exit code."""
     runs = None if prefix else program(executable)
     if runs is None:
         code = _wait_for([*shlex.split(prefix or ""), *_command(executable, bool(prefix)), *words])
@@ -80,12 +80,12 @@ def _wait_for(command: list[str]) -> int:
         try:
             return process.wait()
         except KeyboardInterrupt:
-            # The child has received the same signal and ends in its own time.
+            # The child has received the same signal, and ends in its own time.
             continue
 
 
 def _command(executable: Executable, prefixed: bool) -> list[str]:
-    """The command of a child; behind a prefix, which may be Python itself, Python programs are scripts as on ROS 2."""
+    """Return the command of a child; after a prefix, maybe Python itself, Python programs are scripts as on ROS 2."""
     if prefixed:
         return [str(script_of(executable))]
     runner = [sys.executable, "-m", "bot_console.runtime.programs.run"]

@@ -125,7 +125,7 @@ def _call(arguments: argparse.Namespace) -> Result:
 
 
 def _interface(type_name: str) -> Any:
-    """The interface class with that type name, whether it is a service or not."""
+    """Return the interface class with that type name, which need not be a service."""
     *modules, name = full_type_name("srv", type_name).split("/")
     return getattr(importlib.import_module(".".join(modules)), name)
 
@@ -135,7 +135,7 @@ def _requests(node: Node, kind: Any, values: Any, arguments: argparse.Namespace)
     request = kind.Request()
     try:
         set_message_fields(request, values)
-    except Exception as error:  # a field may raise anything about a value; upstream catches all, too
+    except Exception as error:  # a field may raise any exception about a value; upstream also catches all
         return f"Failed to populate field: {error}"
     if not client.service_is_ready():
         print("waiting for service to become available...")

@@ -1,4 +1,4 @@
-"""`ros2 service echo`: the requests and responses of a service whose introspection is on."""
+"""`ros2 service echo`: prints the requests and responses of a service whose introspection is on."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from rosidl_runtime_py.utilities import get_service
 
 EVENT_TOPIC = "/_service_event"
 EVENTS = ("REQUEST_SENT", "REQUEST_RECEIVED", "RESPONSE_SENT", "RESPONSE_RECEIVED")
-"""Words for `service_msgs/msg/ServiceEventInfo.event_type`."""
+"""The words for `service_msgs/msg/ServiceEventInfo.event_type`."""
 
 
 def arguments(parser: argparse.ArgumentParser) -> None:
@@ -50,7 +50,7 @@ def echo(arguments: argparse.Namespace) -> Result:
 
 
 def _service_class(node: Node, arguments: argparse.Namespace) -> Any:
-    """The class of the service, or the reason why it is not available as a string."""
+    """Return the class of the service, or the reason why it is not available as a string."""
     name = arguments.service_name
     if arguments.service_type is not None:
         invalid = f"The service type '{arguments.service_type}' is invalid"

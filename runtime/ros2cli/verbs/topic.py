@@ -1,4 +1,4 @@
-"""`ros2 topic`: list, info, type, find; the verbs that carry messages have files of their own."""
+"""`ros2 topic`: list, info, type and find; the verbs that send or receive messages have files of their own."""
 
 from __future__ import annotations
 

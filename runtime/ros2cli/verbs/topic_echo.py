@@ -18,7 +18,7 @@ from rosidl_runtime_py import message_to_csv, message_to_yaml
 from rosidl_runtime_py.utilities import get_message
 
 MAX_SHOWN = 128
-"""Elements or characters that are shown by default."""
+"""How many elements or characters are shown by default."""
 
 
 def unsigned(text: str) -> int:
@@ -104,7 +104,7 @@ class _Printer:
         self.done = False
 
     def show(self, message: object, info: object) -> None:
-        """Print one message, or the selected field of it; the filter is applied to what would be printed."""
+        """Print one message, or the selected field of it; the filter applies to what would be printed."""
         chosen = self._arguments
         if self._field:
             try:
@@ -124,7 +124,7 @@ class _Printer:
         self.done = chosen.once
 
     def _print_value(self, value: object, info: object) -> None:
-        """Print what is not a message, that is a field or raw bytes; ignores `--csv`."""
+        """Print something other than a message, i.e. a field or raw bytes; ignores `--csv`."""
         if self._arguments.include_message_info:
             print(f"---Got new message, message info:---\n{info}\n---Message data:---")
         print(value, end="\n---\n")
@@ -153,7 +153,7 @@ class _Printer:
 
 
 def message_filter(expression: str | None) -> Callable[[Any], bool]:
-    """Compile a filter expression to a predicate on messages; raises `SyntaxError` if it is not an expression."""
+    """Compile a filter expression to a predicate for messages; raises `SyntaxError` if it is not an expression."""
     if expression is None:
         return lambda message: True
     code = compile(expression, "<string>", "eval")
@@ -161,7 +161,7 @@ def message_filter(expression: str | None) -> Callable[[Any], bool]:
 
 
 def _message_class(node: Node, arguments: argparse.Namespace) -> Any:
-    """The class to subscribe with, or the reason why it is not available as a string."""
+    """Return the class to subscribe with, or the reason why it is not available as a string."""
     if arguments.message_type:
         invalid = "The passed message type is invalid"
         return typed_class(get_message, "msg", arguments.message_type, invalid, node)
@@ -177,7 +177,7 @@ def _message_class(node: Node, arguments: argparse.Namespace) -> Any:
 
 def _report_lost(info: Any) -> None:
     counts = f"\ttotal count change:{info.total_count_change}\n\ttotal count: {info.total_count}"
-    print(f"A message was lost!!!\n{counts}", end="---\n")  # upstream does not end the line before the dashes either
+    print(f"A message was lost!!!\n{counts}", end="---\n")  # upstream does not end the line before the dashes, either
 
 
 def echo(arguments: argparse.Namespace) -> Result:

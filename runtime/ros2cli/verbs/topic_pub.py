@@ -134,7 +134,7 @@ _Filled = tuple[Any, Sequence[Callable[[Any], None]]]
 
 
 def _wait_for_subscriptions(node: Node, publisher: Any, arguments: argparse.Namespace) -> str:
-    """Wait for the requested number, with a notice each second; returns an error message if too few came in time."""
+    """Wait for the requested number, with a notice each second; returns an error message if too few appear."""
     wanted = arguments.wait_matching_subscriptions
     wanted = int(arguments.once or arguments.times > 0) if wanted is None else wanted
     left: float = math.inf if arguments.max_wait_time_secs is None else arguments.max_wait_time_secs
@@ -142,7 +142,7 @@ def _wait_for_subscriptions(node: Node, publisher: Any, arguments: argparse.Name
     hint: Callable[[], str] | None = partial(_unmatched, node, publisher, arguments.message_type)
     while count() < wanted:
         if left <= 0:
-            # the misspelling is upstream's: scripts search for this line
+            # upstream's misspelling, as scripts search for this line
             return f"Timed out waiting for subscribers: Expected {wanted} subcribers but only got {count()} subscribers"
         print(f"Waiting for at least {wanted} matching subscription(s)...")
         spin_until(node, lambda: count() >= wanted, min(left, 1.0))
@@ -154,7 +154,7 @@ def _wait_for_subscriptions(node: Node, publisher: Any, arguments: argparse.Name
 
 
 def _unmatched(node: Node, publisher: Any, message_type: str) -> str:
-    """Why nobody may receive it, for a person; empty if nothing is known."""
+    """Return, for a person, why nobody may receive the messages; empty if nothing is known."""
     topic = publisher.topic_name
     package, *_, name = message_type.split("/")
     kinds = [each.topic_type for each in node.get_subscriptions_info_by_topic(topic)]
@@ -207,10 +207,10 @@ class _Sender:
 
 
 def _filled(kind: Any, values: Any) -> _Filled:
-    """A message with the values, and functions that set its time stamps just before it is sent."""
+    """Return a message with the values, and functions that set its time stamps just before it is sent."""
     message = kind()
     try:
         stamps = set_message_fields(message, values, expand_header_auto=True, expand_time_now=True)
-    except Exception as error:  # a field may raise anything about a value; upstream catches all, too
+    except Exception as error:  # a field may raise any exception about a value; upstream also catches all
         raise _Refused(f"Failed to populate field: {error}") from None
     return message, stamps or ()

@@ -18,7 +18,7 @@ from ros2cli.verbs.topic_echo import message_filter
 
 WINDOW = 10_000
 BYTES_WINDOW = 100
-"""Messages over which is measured by default, and those of `bw`."""
+"""The number of messages in the window, by default and always for `bw`."""
 SECOND_NS = 1_000_000_000
 
 
@@ -39,7 +39,7 @@ def _window(parser: argparse.ArgumentParser, default: int, what: str) -> None:
 
 
 def rate_arguments(parser: argparse.ArgumentParser) -> None:
-    """Options of `hz`."""
+    """Add the options of `hz`."""
     parser.add_argument("topic_name", help="Name of the ROS topic to listen to (e.g. '/chatter')")
     _window(parser, WINDOW, f"window size, in # of messages, for calculating rate (default: {WINDOW})")
     parser.add_argument("--filter", dest="filter_expr", metavar="EXPR", default=None, help="only measure messages "
@@ -53,7 +53,7 @@ def rate_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def bandwidth_arguments(parser: argparse.ArgumentParser) -> None:
-    """Options of `bw`."""
+    """Add the options of `bw`."""
     parser.add_argument("topic", help="Topic name to monitor for bandwidth utilization")
     _window(
         parser, BYTES_WINDOW, f"maximum window size, in # of messages, for calculating rate (default: {BYTES_WINDOW})"
@@ -62,7 +62,7 @@ def bandwidth_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def delay_arguments(parser: argparse.ArgumentParser) -> None:
-    """Options of `delay`."""
+    """Add the options of `delay`."""
     parser.add_argument("topic_name", help="Topic name to calculate the delay for")
     _window(parser, WINDOW, f"window size, in # of messages, for calculating rate, string to (default: {WINDOW})")
     add_strategy_arguments(parser, daemon=False)
@@ -82,7 +82,7 @@ def _subscribe(node: Node, topic: str, take: Callable[..., None], *, raw: bool =
 
 
 def _print_each_second(node: Node, report: Callable[[], str]) -> Result:
-    """Print the text that `report` returns, if any, once a second, forever."""
+    """Print the text that `report` returns, if any, once a second, for ever."""
 
     def show() -> None:
         if text := report():
@@ -94,13 +94,13 @@ def _print_each_second(node: Node, report: Callable[[], str]) -> Result:
 
 
 def spread(values: Sequence[float]) -> tuple[float, float, float, float]:
-    """Mean, minimum, maximum and (population) standard deviation."""
+    """Return mean, minimum, maximum and (population) standard deviation."""
     mean = sum(values) / len(values)
     return mean, min(values), max(values), math.sqrt(sum((each - mean) ** 2 for each in values) / len(values))
 
 
 class _Rate:
-    """Gaps (ns) between messages; a report is due with the first message 1 s (1e9 ns) or more after the last report."""
+    """Gaps (ns) between messages; a report is due with the first message at least 1 s after the last report."""
 
     def __init__(self, window: int) -> None:
         self.gaps: deque[int] = deque(maxlen=window)
@@ -143,7 +143,7 @@ def rate(arguments: argparse.Namespace) -> Result:
         measured = _Rate(arguments.window_size)
 
         def take(message: object, info: Mapping[str, int]) -> None:
-            # Messages may have waited while the type of the topic was learned.
+            # Messages may have queued while the type of the topic was learned.
             now = clock.now().nanoseconds if simulated else info["received_timestamp"]
             if passes(message) and (text := measured.take(now)):
                 print(text)
@@ -195,7 +195,7 @@ def _amount(count: float, total: float) -> str:
 
 
 def delay(arguments: argparse.Namespace) -> Result:
-    """`ros2 topic delay`; not measured on the first message. Raises `RuntimeError` for messages without a header."""
+    """`ros2 topic delay`; the first message is not measured. Raises `RuntimeError` for messages without a header."""
     delays: deque[int] = deque(maxlen=arguments.window_size)
     started = fresh = False
     arguments.no_daemon = True
