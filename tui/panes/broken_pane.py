@@ -18,7 +18,7 @@ from textual.widgets import Static
 class BrokenPane(Pane):
     """Shows why a pane has failed, and reopens it."""
 
-    HELP = "This pane has ended by a fault of the console. Everything else goes on; Enter opens it again."
+    HELP = "A fault in the console has ended this pane. Everything else keeps running; Enter opens it again."
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("broken")]
     can_focus = True
 
@@ -38,7 +38,7 @@ class BrokenPane(Pane):
     def compose(self) -> ComposeResult:
         """The reason, and the remedy."""
         text = Text(f"This pane has ended: {sanitize(self._why)}\n\n", "bold")
-        text.append("Everything else goes on; the robot is not touched by it. Enter opens the pane again.", "not bold")
+        text.append("Everything else keeps running; the robot is not affected. Enter opens the pane again.", "not bold")
         text.append(f"\n\nDetails: {sanitize(self._details)}" if self._details else "", "not bold dim")
         yield Static(text)
 

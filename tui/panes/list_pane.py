@@ -14,7 +14,7 @@ from bot_console.tui.widgets.row_list import RowList
 
 FILTERED = Mode(
     {"narrowed.all": "Clear filter", "find.next": "Next"},
-    "A filter is on: Escape clears it, n and N go from match to match.",
+    "A filter is on: Escape clears it; n and N go to the next and the previous match.",
 )
 
 

@@ -204,7 +204,8 @@ class Pane(LazyParts):
             path = typed_path(text)
             if replaces and os.path.isfile(path):
                 size = counted(path.stat().st_size, "byte")
-                self.ask(Confirmation(f"Replace {path}?", lambda _: save(path), reasons=f"There is a file of {size}."))
+                reasons = f"The existing file has {size}."
+                self.ask(Confirmation(f"Replace {path}?", lambda _: save(path), reasons=reasons))
             else:
                 save(path)
 

@@ -17,7 +17,7 @@ def ask_transition(pane: Pane, graph: GraphInfo, nodes: Sequence[str]) -> None:
     """Ask for a transition of one of these nodes and request it; notifies why if none is possible."""
     managed = [each for each in nodes if each in graph.lifecycle]
     if not managed:
-        pane.notify("This is no lifecycle node.", severity="warning")
+        pane.notify("This is not a lifecycle node.", severity="warning")
         return
     if not pane.may_change():
         return
@@ -42,4 +42,4 @@ def ask_transition(pane: Pane, graph: GraphInfo, nodes: Sequence[str]) -> None:
 
 def about(state: str, verb: str) -> str:
     """The description of a transition."""
-    return f"is {state}" + (", for good" if verb in FINAL else "")
+    return f"is {state}" + (", cannot be undone" if verb in FINAL else "")

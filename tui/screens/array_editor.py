@@ -185,7 +185,7 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
         if not self._changed or self._leaving:
             self.give_up()
             return
-        self._report("The array was changed: s sets it, esc again drops the changes.")
+        self._report("The array was changed: s sets it, esc again discards the changes.")
         self._leaving = True
 
 

@@ -60,7 +60,7 @@ class ArgumentsScreen(QuestionScreen[dict[str, str]]):
     def _about(argument: LaunchArgument) -> str:
         parts = [sanitize(argument.description)]
         parts.append("required" if argument.default is None else "")
-        parts.append("Page up, Page down Choose" if argument.choices else "")
+        parts.append("Page Up and Page Down choose" if argument.choices else "")
         return " · ".join(each for each in parts if each)
 
     def on_mount(self) -> None:
@@ -97,7 +97,7 @@ class ArgumentsScreen(QuestionScreen[dict[str, str]]):
         event.stop()
         values = {each.name: field.value for each, field in zip(self._arguments, self.query(Input), strict=True)}
         wrong = [
-            f"{each.name} has to be given" for each in self._arguments if each.default is None and not values[each.name]
+            f"{each.name} is required" for each in self._arguments if each.default is None and not values[each.name]
         ]
         wrong += [
             f"{each.name} must be one of {', '.join(each.choices)}"

@@ -183,14 +183,14 @@ class FillScreen(QuestionScreen[None]):
         known = self._asked.traffic.earlier(self._asked.name)
         back = max(0, min(self._back + step, len(known)))
         if back == self._back:
-            self._show_text("Nothing earlier was sent from here." if step > 0 else "This is the newest.", ok=False)
+            self._show_text("Nothing earlier was sent from here." if step > 0 else "There is nothing newer.", ok=False)
             return
         if self._back == 0:
             self._draft = dict(self._values)
         self._back = back
         self._values = dict(known[-back]) if back else dict(self._draft)
         self._fill_in()
-        self._show_text(f"{back} of {len(known)} earlier ones" if back else "what was being typed")
+        self._show_text(f"{back} of {len(known)} sent earlier" if back else "the unsent draft")
 
     def action_send(self) -> None:
         """Publish the message once, call the service, or send the goal."""
@@ -255,7 +255,7 @@ class FillScreen(QuestionScreen[None]):
             self._show_text(answer.text, ok=answer.ok)
         elif asked.name in traffic.repeated():
             traffic.stop(asked.name)
-            self._show_text("nothing is published from here any more")
+            self._show_text("no longer published from here")
 
     def action_copy(self) -> None:
         """Copy the `ros2` command that sends the same."""
@@ -271,4 +271,4 @@ def _wrong_rate(text: str) -> str:
         rate = parse_number(text)
     except ValueError as error:
         return str(error)
-    return "" if 0 < rate <= 1000 else "a rate is above 0 and at most 1000 Hz"
+    return "" if 0 < rate <= 1000 else "the rate must be above 0 and at most 1000 Hz"

@@ -164,9 +164,9 @@ class TuningScreen(DimmedScreen):
         """Apply the setting at the cursor to the running system."""
         chosen = self._chosen
         if chosen is None:
-            self._show_text("Nothing is known yet.")
+            self._show_text("There are no results yet.")
         elif chosen.problem:
-            self._show_text(f"This setting has failed: {chosen.problem}")
+            self._show_text(f"This setting failed: {chosen.problem}")
         else:
             self._tuning.stop()
             self.dismiss()
@@ -176,7 +176,7 @@ class TuningScreen(DimmedScreen):
         """Ask for a name and save the setting at the cursor as a profile."""
         chosen = self._chosen
         if chosen is None:
-            self._show_text("Nothing is known yet.")
+            self._show_text("There are no results yet.")
             return
 
         def save(name: str) -> None:
@@ -190,7 +190,7 @@ class TuningScreen(DimmedScreen):
             self._tuning.stop()
             self.dismiss()
             return
-        self._show_text("The runs go on: esc again ends them. T with the same answers goes on where they were.")
+        self._show_text("Runs are unfinished: esc again ends them. T with the same answers continues from there.")
         self._leaving = True
 
 
@@ -222,7 +222,7 @@ def verdict(progress: Progress) -> str:
         before, after = progress.held_out
         text += f"; on {counted(len(after.scores), 'other seed')} {before.score:.3f} → {after.score:.3f}"
         if after.score <= before.score and best is not first:
-            text += ": no better there"
+            text += ": not better there"
     elif progress.ended:
         text += f"; {progress.problem}" if progress.problem else ""
     return text

@@ -158,7 +158,7 @@ class CommandField(Vertical):
         waits = self._completion.waits
         text = Text()
         if not found:
-            text.append("looking ..." if waits else HINT)
+            text.append("searching ..." if waits else HINT)
         first = 0 if self._tried < 0 else max(0, self._tried - 2)
         for index, each in enumerate(found[first:], first):
             name = sanitize(each)

@@ -209,7 +209,7 @@ def _is_visible(value: float) -> bool:
 def link_text(link: LinkInfo) -> str:
     """The state of the link to a robot: that it is silent, or its delay and the number of lost messages."""
     if link.silent_s:
-        return f"NO ANSWER {link.silent_s} s: all that is shown is that old  {sanitize(link.to)}"
+        return f"NO ANSWER {link.silent_s} s: everything shown is that old  {sanitize(link.to)}"
     delay = "" if link.delay_ms is None else f" {link.delay_ms} ms"
     return f"{sanitize(link.to)}{delay}" + (f", {counted(link.lost, 'message')} lost" if link.lost else "")
 

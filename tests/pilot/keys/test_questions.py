@@ -145,7 +145,7 @@ def test_kill_confirmation_closes_when_the_process_has_ended() -> None:
         session.app.pull()
         await session.settle()
         assert len(session.app.screen_stack) == 1
-        assert "ended meanwhile" in session.text()
+        assert "ended in the meantime" in session.text()
         assert session.launcher.asked == []
 
     run(live(), play, (120, 30))

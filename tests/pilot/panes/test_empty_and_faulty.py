@@ -13,7 +13,7 @@ KEYS_AND_WORDS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "5": (("plus", "f"), ("there is no map and no pose yet",)),
     "7": (("a", "w", "down", "r", "u"), ("parameter files were found", "o  Open a parameter file")),
     "9": (("enter", "P", "p", "x", "y", "space"), ("All topics of the system",)),
-    "H": (("u", "b", "p", "y", "x", "escape"), ("Every change of a parameter is listed here",)),
+    "H": (("u", "b", "p", "y", "x", "escape"), ("Every parameter change is listed here",)),
     "M": (("enter", "left", "C", "w"), ("no node publishes",)),
     "B": (("d", "b", "p"), ("Add an alarm",)),
     "I": (("n", "space", "g", "y", "t"), ("no topic of sensor_msgs/msg/Image",)),

@@ -506,7 +506,7 @@ def test_the_robot_is_drawn_without_scrolling_at_80_columns_and_described_at_120
         assert "No publisher   cmd_vel_teleop" in session.text() and "telemetry ×2" in session.text()
         assert "Flow · 6 nodes · 6 of 9 topics · D 2 hidden" in session.text()
         assert "/simulator  publishes 2 + 2 hidden, subscribes to 1" in session.text()
-        assert "×2 that many topics of a namespace" in session.text() and "↺" not in session.text()
+        assert "×2 two topics of a namespace" in session.text() and "↺" not in session.text()
         await session.press("D")
         assert "of 11 topics · w" in session.text() and "/simulator  publishes 4, subscribes" in session.text()
 

@@ -177,7 +177,7 @@ def test_a_launch_file_is_picked_and_its_arguments_are_filled_in() -> None:
         await until(session, ArgumentsScreen)
         assert isinstance(session.app.focused, Input) and session.app.focused.value == "", "the required one first"
         await session.press("enter")
-        assert "robot has to be given" in session.text()
+        assert "robot is required" in session.text()
         await session.type("mine")
         await session.press("down", "pagedown", "enter")
         assert session.launcher.asked == [
@@ -411,7 +411,7 @@ def test_warnings_and_output_of_the_process_at_the_cursor_are_shown() -> None:
         session.pane(LaunchPane).go_to(process.nodes[0])
         await session.settle()
         assert "a line of severity ERROR" in session.text() and "a line of severity ERROR" not in before
-        assert f"what {process.label} logged and printed" in session.text()
+        assert f"output of {process.label}" in session.text()
         row = next(line for line in session.lines() if process.label in line and "running" in line)
         assert "1 error" in row and "warning" in row
         output, rows = (

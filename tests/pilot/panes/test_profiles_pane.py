@@ -188,7 +188,7 @@ def test_node_that_can_check_values_is_asked_before_applying() -> None:
             and "1 node would refuse it" in session.text()
         )
         await session.press("a")
-        assert "and with it every other value" in session.text() and applied(session) == []
+        assert "and with them all other values" in session.text() and applied(session) == []
         await session.press("n", "up", "down")
         assert len(questions) == 2, "another time it is looked at is another question"
         answers[1].set_result(Answer(True, ""))

@@ -444,7 +444,7 @@ def test_limits_and_dead_man_time_are_kept_per_robot_and_arming_is_not() -> None
         assert ours.armed and (ours.typed, ours.deadman) == ((0.2, 0.4), 5.0)
         await steer("/robot2")
         theirs = steering(session).state
-        assert not ours.armed and not theirs.armed and "Disarmed: another robot" in session.text()
+        assert not ours.armed and not theirs.armed and "steers another robot" in session.text()
         assert (theirs.typed, theirs.deadman, theirs.linear) == (None, 2.0, 0.0)
         assert stops(session)[-2:] == [("all_stop", True), ("steer", False)], "it stands, locked"
         await steer("/")

@@ -114,7 +114,7 @@ def test_robot_is_drawn_at_its_pose_of_the_inspected_time() -> None:
         assert "◆" in session.text() and "x    2.0  y    1.0" in session.text()
         session.app.time_cursor.move(START - 1)
         await session.settle()
-        assert "is not known" in session.text()
+        assert "is unknown" in session.text()
         session.app.time_cursor.move(None)
         await session.settle()
         assert "◆" not in session.text() and "x    5.0" in session.text()

@@ -24,7 +24,7 @@ def test_rqt_plot_line_replaces_curves_and_waits_for_missing_topics() -> None:
         await session.press("enter")
         assert session.pane(PlotPane).display
         assert session.pane(PlotPane).paths == [NEAREST]
-        assert "waits for /none/x" in session.text()
+        assert "waiting for /none/x" in session.text()
         assert not any(each[0] == "run" for each in session.console.asked)
 
     run(live(), play, (120, 40))
@@ -35,9 +35,9 @@ def test_rqt_plot_line_replaces_curves_and_waits_for_missing_topics() -> None:
     [
         (
             ("/robot/speed", "/robot/distance"),
-            "Waits for /robot/speed, /robot/distance: the curve begins with the first",
+            "Waiting for /robot/speed, /robot/distance: the curve begins with the first",
         ),
-        ((), "Numbers over time: there are no curves."),
+        ((), "The plot shows numbers over time; there are no curves yet."),
     ],
 )
 def test_empty_plot_names_awaited_paths_or_the_key_to_press(wanted: tuple[str, ...], message: str) -> None:
@@ -73,11 +73,11 @@ def test_unknown_path_is_plotted_once_its_topic_appears(wanted: str) -> None:
     async def play(session: Session) -> None:
         session.app.open(Opening("plot", (wanted,)))
         await session.settle()
-        assert f"waits for {wanted}" in session.text()
+        assert f"waiting for {wanted}" in session.text()
         console.change(graph=replace(there, topics=(*there.topics, Endpoint("/tf", ("tf2_msgs/msg/TFMessage",)))))
         await session.settle()
         assert len(session.pane(PlotPane).paths) == 1
-        assert "waits for" not in session.text()
+        assert "waiting for /" not in session.text()
 
     run((console, launcher), play, (120, 40))
 
@@ -94,7 +94,7 @@ def test_reason_for_an_unplottable_field_is_shown(wanted: str, path: str, why: s
         session.console.unplottable[path] = why
         session.app.open(Opening("plot", (wanted,)))
         await session.settle()
-        assert f"waits for {wanted}: {why}" in session.text()
+        assert f"waiting for {wanted}: {why}" in session.text()
 
     run(live(), play, (120, 40))
 
@@ -104,7 +104,7 @@ def test_topic_is_plotted_with_a_curve_per_number() -> None:
         session.app.open(Opening("plot", (SPEED.rpartition("/")[0],)))
         await session.settle()
         assert SPEED in session.pane(PlotPane).paths
-        assert "waits for" not in session.text()
+        assert "waiting for /" not in session.text()
 
     run(live(), play, (120, 40))
 
@@ -113,12 +113,12 @@ def test_preselected_node_is_selected() -> None:
     async def play(session: Session) -> None:
         session.app.open(Opening("parameters", node="/none"))
         await session.settle()
-        assert "waits for /none" in session.text()
+        assert "waiting for /none" in session.text()
         session.app.open(Opening("parameters", node="/simulator"))
         await session.settle()
         row = session.pane(ParametersPane).query_one(ParameterRows).current
         assert row is not None and row.node == "/simulator"
-        assert "waits for" not in session.text()
+        assert "waiting for /" not in session.text()
 
     run(live(), play)
 

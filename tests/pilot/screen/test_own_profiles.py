@@ -72,7 +72,7 @@ def test_profile_is_renamed_unless_the_name_is_taken(tmp_path: Path) -> None:
         await session.press("7", "G", "m")
         await session.paste("attic")
         await session.press("enter")
-        assert "there is a profile attic already" in session.text() and profile_requests(session) == []
+        assert "there is already a profile attic" in session.text() and profile_requests(session) == []
         await session.press("escape", "m")
         await session.paste("cellar")
         await session.press("enter")
@@ -97,8 +97,8 @@ def test_profile_is_deleted_after_a_question(tmp_path: Path) -> None:
 def test_built_in_profiles_are_neither_renamed_nor_deleted() -> None:
     async def play(session: Session) -> None:
         await session.press("7", "d")
-        assert len(session.app.screen_stack) == 1 and "is not deleted: only profiles that S has saved" in session.text()
+        assert len(session.app.screen_stack) == 1 and "cannot be deleted: only profiles saved with S" in session.text()
         await session.press("m")
-        assert "is not renamed: only profiles that S has saved" in session.text() and profile_requests(session) == []
+        assert "cannot be renamed: only profiles saved with S" in session.text() and profile_requests(session) == []
 
     run(live(), play, (120, 40))

@@ -140,7 +140,7 @@ def test_command_without_room_is_refused_and_an_ended_one_makes_room(streams: li
         while len(streams) < has:
             await begin(session)
         await begin(session, typed=True)
-        assert len(streams) == has and f"no room: {has} run below the panes already; ^o ends one" in session.text()
+        assert len(streams) == has and f"no room: {has} commands are running; ^o ends one" in session.text()
         await session.press("escape")
         streams[1].ended = True
         panels.poll()

@@ -149,7 +149,7 @@ def test_step_2_a_sine_wave_is_plotted(page: Terminals, robot: Program, publishe
 def test_rqt_plot_lines_of_the_page_wait_for_unpublished_topics(page: Terminals) -> None:
     async def play(screen: Screen) -> None:
         await screen.line("ros2 run rqt_plot rqt_plot /robot/speed /robot/distance")
-        await screen.shows("waits for /robot/speed")
+        await screen.shows("waiting for /robot/speed")
         await screen.line("ros2 run rqt_plot rqt_plot /parameter_events")
         await screen.shows("/parameter_events")
         await screen.press("X")

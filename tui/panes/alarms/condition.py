@@ -19,7 +19,7 @@ from bot_console.tui.text.sanitize import cut
 
 MAX_CHARACTERS = 400
 """Maximum characters of a condition."""
-NOTHING_NAMED = "name a field or a parameter in it, for instance /battery/percentage < 0.2"
+NOTHING_NAMED = "name a field or a parameter, for instance /battery/percentage < 0.2"
 COMPARISON = re.compile(r"<=|>=|==|!=|<|>")
 OPERATORS: Mapping[str, Callable[[float, float], bool]] = {
     "<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge, "==": operator.eq, "!=": operator.ne,
@@ -67,7 +67,7 @@ class Condition:
 def parse_condition(text: str) -> Condition:
     """Parse a condition; raises `ValueError` that says what is wrong and how to fix it."""
     if len(text) > MAX_CHARACTERS:
-        raise ValueError(f"a condition of more than {MAX_CHARACTERS} characters")
+        raise ValueError(f"the condition is longer than {MAX_CHARACTERS} characters")
     if not text.strip():
         raise ValueError(NOTHING_NAMED)
     alternatives = _ConditionReader(text, paths=True).alternatives()
@@ -100,7 +100,7 @@ class _ConditionReader(Reader):
     def _comparison(self) -> Comparison:
         begin = self.rest()
         if not begin or EITHER.match(begin):
-            raise ValueError("a comparison is missing before or behind 'and', 'or'; write for instance /a/x < 0.2")
+            raise ValueError("a comparison is missing before or after 'and' or 'or'; write for instance /a/x < 0.2")
         sides, operators = [self._side()], list[str]()
         while sign := self.take(COMPARISON):
             operators.append(sign)
@@ -120,7 +120,7 @@ class _ConditionReader(Reader):
 def _check(side: Tree, paths: tuple[str, ...]) -> None:
     """Evaluate an expression with made-up values, to find the errors that do not depend on the values."""
     if any(isinstance(each, Span) for each in walk(side)):
-        raise ValueError("a length of time stands in curves of the plot only; an alarm is judged at each message")
+        raise ValueError("a time span such as 1 s works in plotted curves only; an alarm is evaluated at each message")
     for value in (1.0, 0.5):
         try:
             value_of(side, {**WORDS, **dict.fromkeys(paths, value)})

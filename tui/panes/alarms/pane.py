@@ -249,7 +249,7 @@ class AlarmsPane(ListPane):
         except ValueError as error:
             return str(error)
         taken = any(each.text.name == name and each is not old for each in self._alarms)
-        return f"there is an alarm '{name}'" if taken else ""
+        return f"there is already an alarm '{name}'" if taken else ""
 
     def _take(self, old: Alarm | None, typed: str) -> None:
         name, condition = split_name(typed)

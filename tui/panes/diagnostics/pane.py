@@ -31,8 +31,8 @@ POLL_S = 0.5
 MIN_SIDE_BY_SIDE_CELLS = 110
 """Minimum width (cells) at which the list and the details are shown side by side."""
 EMPTY = Placeholder(
-    "What nodes report about themselves: no node publishes diagnostics (diagnostic_msgs/msg/DiagnosticArray) yet.",
-    (("3", "Nodes and topics that are there"), ("8", "Start nodes"), ("?", "Help")),
+    "Nodes report their own health here; no node publishes diagnostics yet (diagnostic_msgs/msg/DiagnosticArray).",
+    (("3", "See the nodes and topics"), ("8", "Start nodes"), ("?", "Help")),
 )
 ALL_OK = Placeholder("All is OK.", (("w", "Show everything"),))
 
@@ -105,7 +105,7 @@ class DiagnosticsPane(ListPane):
         self._due = min((each.heard + int(now - each.heard) + 1 for each in every), default=math.inf)
         self._list.exchange(rows(passing, now, self._folded, bad_only=self._bad_only))
         shown = sum(not self._bad_only or each.now(now) is not Level.OK for each in passing)
-        more = f"{self._info.dropped} more names than are kept" if self._info.dropped else ""
+        more = f"{self._info.dropped} more names not kept" if self._info.dropped else ""
         self.report_filter(shown, len(every), "not OK" if self._bad_only else "", more)
         self._describe()
 

@@ -115,4 +115,4 @@ def _how(frame: Frame, clock: float) -> Iterator[str]:
     yield f"{frame.rate:.1f} times a second" if frame.rate is not None else "rate not known yet"
     yield f"{clock - frame.heard:.1f} s ago"
     if frame.late is not None:
-        yield f"{frame.late * 1000:.0f} ms old when it came, by its stamp"
+        yield f"{frame.late * 1000:.0f} ms old on arrival, by its stamp"

@@ -89,7 +89,7 @@ class FramesView(Container):
         parts = ["frames of tf2", f"/{self._words}" if self._words else ""]
         parts += [counted(len(info.frames), "transform") if info.frames else ""]
         parts += [f"w {counted(self._count, 'finding')}" if self._count else ""]
-        parts += [f"{info.dropped} more than are kept" if info.dropped else ""]
+        parts += [f"{info.dropped} more not kept" if info.dropped else ""]
         return " · ".join(filter(None, parts))
 
     @property

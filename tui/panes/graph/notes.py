@@ -18,7 +18,7 @@ from rich.cells import cell_len
 
 GAP = "  "
 EMPTY = Placeholder(
-    "Nodes, and the topics between them: there are no nodes yet.", (("8", "Start nodes"), ("?", "Help"))
+    "The graph shows nodes and their topics; there are no nodes yet.", (("8", "Start nodes"), ("?", "Help"))
 )
 UNSENT, UNHEARD = "No publisher ", "No subscriber"
 INDENT_CELLS = 7
@@ -94,8 +94,8 @@ def legend(found: VisibleGraph, width: int) -> str:
     words = [word for link in chart.links for word in link.words]
     marks = {
         "✗ QoS does not match": any(word.startswith("✗") for word in words),
-        f"{LOOP} sends it to itself": bool(loops),
-        "×2 that many topics of a namespace": any(" ×" in word for word in (*words, *loops, *dead_ends(found, width))),
+        f"{LOOP} sent to itself": bool(loops),
+        "×2 two topics of a namespace": any(" ×" in word for word in (*words, *loops, *dead_ends(found, width))),
         f"{IDLE}: no messages now": any(word.rstrip().endswith(f" {IDLE}") for word in words),
     }
     text = ""

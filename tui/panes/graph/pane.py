@@ -368,7 +368,9 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
         else:
             space = "" if is_link(item) or not closed else namespace_of(item)
         if not space:
-            self.notify("It is in no namespace." if closed else "Only a folded namespace can be unfold.")
+            self.notify(
+                "The selected item is in no namespace." if closed else "Only a folded namespace can be unfolded."
+            )
             return
         self._folds = folded | {space} if closed else unfold(folded, space, self._visible)
         self._draw()

@@ -45,7 +45,7 @@ MAX_NAMED_VALUES = 12
 """Maximum number of values that a question lists."""
 
 EMPTY = Placeholder(
-    "Every change of a parameter is listed here, whoever made it, with a way back.",
+    "Every parameter change is listed here, whoever made it, and can be undone.",
     (("1", "Change a parameter"), ("7", "Apply a profile"), ("?", "Help")),
 )
 
@@ -56,10 +56,10 @@ class HistoryPane(ListPane):
     TITLE = "History"
     HELP = (
         "Every change of a parameter and every refusal, whoever made it, the newest first; earlier runs follow below\n"
-        "with their dates. What was changed together, for example by a profile, is one row that Enter opens; the line\n"
-        "at the top shows the rows of one run over time. u goes back to a row: every value changed after it returns\n"
-        "to what it was then, all or nothing, after a question. Log and plot show the moment of the row at the\n"
-        "cursor; Escape returns to now. Behind a change stands what the robot's speed did in the seconds after it."
+        "with their dates. Changes made together, for example by a profile, are one row that Enter opens; the line\n"
+        "at the top shows the rows of one run over time. u goes back to a row: after a question, every value changed\n"
+        "after it returns to what it was then, all or nothing. Log and plot show the moment of the row at the\n"
+        "cursor; Escape returns to now. Each change also shows how the robot's speed changed in the seconds after it."
     )
     BINDINGS = keymap.bindings("history")
 

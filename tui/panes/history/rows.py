@@ -108,7 +108,8 @@ def set_details(row: ChangeSet) -> Text:
     text = Text(no_wrap=False, overflow="fold")
     begin, end = clock_text(row.changes[-1].stamp), clock_text(row.stamp)
     text.append(f"{sanitize(source_text(row.newest))}  {set_text(row)}\n", "bold")
-    text.append(f"{day_text(row.stamp)[:5]} {begin} .. {end} · Enter lists them, u goes back to after them\n", "dim")
+    keys = "Enter lists them, u goes back to just after them"
+    text.append(f"{day_text(row.stamp)[:5]} {begin} .. {end} · {keys}\n", "dim")
     text.append(", ".join(dict.fromkeys(sanitize(each.name) for each in reversed(row.changes))), "dim")
     return text
 

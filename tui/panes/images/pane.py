@@ -22,8 +22,8 @@ from textual.app import ComposeResult
 from textual.events import Click
 
 EMPTY = Placeholder(
-    "What cameras see: no topic of sensor_msgs/msg/Image or CompressedImage is published.",
-    (("9", "Topics that are there"), ("8", "Start nodes"), ("?", "Help")),
+    "Images show what cameras see; no topic of sensor_msgs/msg/Image or CompressedImage is published.",
+    (("9", "See the topics"), ("8", "Start nodes"), ("?", "Help")),
 )
 
 
@@ -43,7 +43,7 @@ class ImagesPane(Pane):
         "The newest image of a topic, scaled to the pane: two pixels per cell as half-blocks, or greys as letters\n"
         "(g), which take a fortieth of the bytes. At most 2 pictures per second (+ and - change that), and 5 kB per\n"
         "second on average: a picture that changes a lot is drawn less often. On a slow link the picture freezes, and\n"
-        "Space fetches one. Depths and other wide numbers range from black (the least) to white."
+        "Space fetches one. Depth and other 16- or 32-bit images range from black (the smallest value) to white."
     )
     SCOPES = ()
     BINDINGS = keymap.bindings("images")
@@ -155,12 +155,12 @@ class ImagesPane(Pane):
         newer = self.console.sensors.picture().count - self._seen.count
         new = f", +{newer} new" if newer > 0 else ""
         if self._slow:
-            return f"slow link: frozen{new}; space takes one picture"
+            return f"slow link: frozen{new}; space fetches one picture"
         if self._frozen:
             return f"frozen{new}; space resumes"
         wait = self._frame_limit.wait(self.clock())
         if newer > 0 and wait > 2.0 / self._frame_limit.rate:
-            return f"the next one in {wait:.0f} s (5 kB/s); g shows letters, which cost less"
+            return f"next picture in {wait:.0f} s (5 kB/s); g shows letters, which cost less"
         return f"at most {self._frame_limit.rate:g} a second"
 
     def on_picture_resized(self, event: Picture.Resized) -> None:

@@ -33,8 +33,8 @@ class ProcessOutput(Picture):
             return
         self._drawn = drawn
         width = self.size.width
-        what = "logged and printed" if newest else "has logged and printed nothing yet"
-        title = f" {'what ' if newest else ''}{name} {what} " if name else ""
+        what = f"output of {name}" if newest else f"{name} has logged and printed nothing yet"
+        title = f" {what} " if name else ""
         head: Line = ((cut(title.center(width, "─"), width), "dim"),)
         shown: list[Line] = [
             ((_text(each, width, named=named), STYLES.get(each.record.severity, "")),) for each in newest

@@ -54,8 +54,8 @@ NEWS_S = 2.0
 """Minimum seconds between two updates of output and usage; a line after that much silence is shown at once."""
 
 EMPTY = Placeholder(
-    "Processes that launch files started, with keys to stop and start each: none was launched yet.",
-    (("o", "Open a launch file"), ("3", "Nodes that run already"), ("?", "Help")),
+    "The processes of launch files are listed here, to stop and start one by one; nothing has been launched yet.",
+    (("o", "Open a launch file"), ("3", "See the running nodes"), ("?", "Help")),
 )
 
 
@@ -66,8 +66,8 @@ class LaunchPane(ListPane):
     HELP = (
         "What the launch files have started: state, process id, restarts and last exit code. On a launch file or a\n"
         "group, start, stop, restart and kill mean all of its processes. o opens a launch file and asks for its\n"
-        "arguments; several can run at once. E and W count errors and warnings; below the tree stands what the\n"
-        "process at the cursor logged and printed last."
+        "arguments; several can run at once. E and W count errors and warnings; below the tree are the lines that\n"
+        "the process at the cursor logged and printed last."
     )
     BINDINGS = keymap.bindings("launch")
 
@@ -329,7 +329,7 @@ class LaunchPane(ListPane):
         if any(each.key in now and not is_pointless(verb, now[each.key]) for each in processes):
             return ""
         who = processes[0].label if len(processes) == 1 else "All of them"
-        return f"{who} ended meanwhile; nothing was done."
+        return f"{who} ended in the meantime; nothing was done."
 
     def _answered(self, done: Future[Answer]) -> None:
         answer = answer_of(done)

@@ -32,9 +32,9 @@ class LessonPane(Pane):
 
     TITLE = "Lesson"
     HELP = (
-        "The step of the course, why it matters, and what to write or to type. Below it stands what it waits for: a\n"
-        "step is done as soon as the system or your files show that it is, whichever terminal you did it in. Steps\n"
-        "may be done in any order."
+        "The step of the course, why it matters, what to write or type, and what it waits for: a step is done as\n"
+        "soon as the system or your files show that it is, whichever terminal you did it in. Steps may be done in\n"
+        "any order."
     )
     DEFAULT_CSS = """
     LessonPane { border: round $surface-lighten-2; }

@@ -54,7 +54,7 @@ class LinePane(ListPane):
         events = self.console.snapshot().launch.timeline
         found = preceding_events(record.stamp, self.console.parameters.changes(-(10**9)), events)
         if not found:
-            self.notify("No parameter was changed and nothing launched before this line.")
+            self.notify("No parameter was changed and nothing was launched before this line.")
             return
 
         def go(number: str) -> None:

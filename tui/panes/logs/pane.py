@@ -36,7 +36,7 @@ from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
 
 EMPTY = Placeholder(
-    "What all nodes log and print: there is nothing yet.",
+    "Everything that nodes log and print is shown here; there is nothing yet.",
     (("8", "Start nodes"), ("O", "Read a saved log"), ("?", "Help")),
 )
 COMPACT_LINES = 6

@@ -21,6 +21,7 @@ from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import BindingType
 
+NO_RULES = "No rules yet: in the log, x hides lines like the one at the cursor, and + highlights them."
 HINT = "Space On/off · Enter Edit · c Colour · a Add · d Delete · Esc Close"
 
 
@@ -74,7 +75,7 @@ class RulesScreen(DimmedScreen):
         return find_open_prompt(self) is None and super().check_action(action, parameters)
 
     def _report(self, problem: str = "") -> None:
-        empty = "" if self._book.rules else "No rules: in the log x hides lines like one, + highlights them."
+        empty = "" if self._book.rules else NO_RULES
         count = f"{counted(len(self._book.rules), 'rule')}, kept in {self._book.path}"
         self.query_one("#rules-state", StaticText).show_text(problem or empty or count)
 

@@ -33,7 +33,7 @@ def details(
     if refused is not None:
         text.append(f"{in_detail(refused)}\n", "bold")
     if staged is not None:
-        text.append(f"→ {sanitize(value_text(staged))} is marked; a applies, x drops the mark\n", "bold")
+        text.append(f"→ {sanitize(value_text(staged))} is marked; a applies it, x removes the mark\n", "bold")
     text.append(sanitize(parameter.description) or "No description.")
     if risk := risky_change(parameter):
         text.append(f"\n⚠ {risk}", "bold")

@@ -23,8 +23,8 @@ from bot_console.tui.tuning.tunable import Setting, Tunable, find_tunables
 from bot_console.tui.widgets.prompt.question import Choice, Confirmation, Elements, Line
 
 MARKING = (
-    "Values are marked: a sends all of them or none, A makes them set B and sends it, x drops the mark at the cursor, "
-    "and m ends marking, so that edits are sent at once again."
+    "Values are marked: a sends all of them or none, A sends them as set B, x removes the mark at the cursor, and m "
+    "ends marking, so that edits are sent at once again."
 )
 REFUSED = Mode(
     {"parameters.edit": "Try again", "parameters.dismiss": "Dismiss"},
@@ -139,7 +139,7 @@ class EditPane(ListPane):
         if tree is None:
             return f"{parameter.node} has left; {parameter.name} was not set."
         if tree.get(parameter.name) is None and not tree.problem:
-            return f"{parameter.node} has no parameter {parameter.name} any more; it was not set."
+            return f"{parameter.node} no longer has a parameter {parameter.name}; it was not set."
         return ""
 
     def _set_text(self, parameter: ParameterInfo, text: str) -> None:
@@ -223,7 +223,7 @@ class EditPane(ListPane):
             values = staging.other
             self._asked_first(f"Send {SETS[1 - staging.live]}?", values, self.edits.swap)
         else:
-            self.notify("Mark values with m first: they become set B, and what is now is set A.")
+            self.notify("Mark values with m first: they become set B, and the current values set A.")
 
     def action_tune(self) -> None:
         """Ask for ranges, score and runs, then tune the marked parameters, or else the one at the cursor."""
@@ -241,7 +241,7 @@ class EditPane(ListPane):
         keys = self.edits.staging.marked or ({(parameter.node, parameter.name): None} if parameter else {})
         tunables = [each for each in known if (each.node, each.name) in keys]
         if not tunables:
-            self.notify("Nothing to tune here: T is for a number or a boolean that can be set, or for marked ones.")
+            self.notify("Nothing to tune here: T tunes a number or boolean that can be set, or all that are marked.")
             return
         check = partial(tuning_questions.wrong_ranges, known)
         text = tuning_questions.ranges_text(tunables)
@@ -252,7 +252,7 @@ class EditPane(ListPane):
         find = partial(tuning_questions.scores, self.console.plots.plottable())
         then = partial(self._ask_runs, tunables)
         hint = "a score, or a formula such as mean_speed - 2*collisions"
-        self.host.call_later(self.ask, Choice("Score: more is better", then, find=find, hint=hint))
+        self.host.call_later(self.ask, Choice("Score: higher is better", then, find=find, hint=hint))
 
     def _ask_runs(self, tunables: Sequence[Tunable], score: str) -> None:
         def wrong(text: str) -> str:
@@ -267,7 +267,7 @@ class EditPane(ListPane):
             self.notify(problem, severity="error", markup=False)
             return
         then = partial(self._tune, tunables, score)
-        self.host.call_later(self.ask, Line("runs, and simulated s of each", then, text="60 60", check=wrong))
+        self.host.call_later(self.ask, Line("runs, and simulated seconds of each", then, text="60 60", check=wrong))
 
     def _tune(self, tunables: Sequence[Tunable], score: str, text: str) -> None:
         question = tuning_questions.specification_of(tunables, score, text, self.console.snapshot().parameters)

@@ -40,7 +40,7 @@ from rich.text import Text
 from textual.app import ComposeResult
 
 WAITING = Placeholder(
-    "The parameters of all nodes: waiting for nodes that have some.",
+    "The parameters of all nodes are shown here; waiting for nodes that have some.",
     (("8", "Start nodes"), ("7", "Profiles: values to start from"), ("?", "Help")),
 )
 COMPACT_LINES = 12
@@ -64,7 +64,7 @@ class ParametersPane(EditPane):
         "Every node's parameters, live. Enter edits; + and - move a number by its step or a hundredth of its range.\n"
         "A value may be an expression with a unit: 0.5*2, 30 cm. A refused value snaps back; the row says who refused\n"
         "it and why. Marks: • differs from its declared (or start) value, ◦ changed since the start, * in no file,\n"
-        "~ set by somebody else. m marks edits instead of sending them, a sends all or nothing, A swaps two sets."
+        "~ set by another program. m marks edits instead of sending them, a sends all or nothing, A swaps two sets."
     )
     BINDINGS = keymap.bindings("parameters")
 
@@ -178,7 +178,7 @@ class ParametersPane(EditPane):
     def _go_to_expected(self) -> None:
         shown = self._list
         found = next((index for index, row in enumerate(shown.rows) if row.node == self._expected), None)
-        self.caption(f"waits for {self._expected}" if found is None else "")
+        self.caption(f"waiting for {self._expected}" if found is None else "")
         if found is not None:
             self._expected, self._chosen = "", True
             shown.cursor = found
@@ -391,8 +391,10 @@ class ParametersPane(EditPane):
         if row is not None and row.node in self._snapshot.parameters:
             choices[f"this node: {row.node}"] = ((row.node,), False)
         if self.words and 1 < len(shown) < every:
-            choices[f"the {len(shown)} nodes that are shown"] = (tuple(shown), False)
-        choices |= {f"{each}, only what differs": (nodes, True) for each, (nodes, _) in tuple(choices.items())}
+            choices[f"the {len(shown)} nodes shown"] = (tuple(shown), False)
+        choices |= {
+            f"{each}, only what differs from the defaults": (nodes, True) for each, (nodes, _) in tuple(choices.items())
+        }
         find = partial(matching_options, [Option(each) for each in choices])
         self.ask(Choice("Save", lambda chosen: self._save_what(*choices[chosen]), find=find))
 

@@ -30,7 +30,7 @@ SCORED = ("rise", "overshoot", "settling", "error")
 """The figures of a response that a score may name."""
 
 EMPTY = Placeholder(
-    "Numbers over time: there are no curves.",
+    "The plot shows numbers over time; there are no curves yet.",
     (
         ("a", "Add /topic/field, or /node:parameter"),
         ("p", "Show saved curves"),
@@ -48,8 +48,8 @@ class PlotPane(PlotQuestions):
         "such as /robot_navigator:max_speed, or an expression: /a/x - /b/x, derivative(/a/x), mean(/a/x, 1 s).\n"
         "▲ on the time axis marks a changed parameter, ✗ a refused one, ! a crossed threshold. A value that is not\n"
         "finite leaves a gap. Space pauses; c sets a cursor that left and right move. , and . go from mark to mark\n"
-        "and say what was changed there. o lays the responses to set A and set B over each other,\n"
-        "with rise time (10 to 90 %), overshoot, settling time (5 %) and steady error against the reference."
+        "and say what was changed there. o overlays the responses to set A and set B, with rise time\n"
+        "(10 to 90 %), overshoot, settling time (5 %) and steady error against the reference."
     )
     BINDINGS = keymap.bindings("plot")
     SCOPES: ClassVar[tuple[str, ...]] = ()
@@ -204,7 +204,7 @@ class PlotPane(PlotQuestions):
         """Go to the next or the previous mark of a parameter change on the time axis."""
         time = self._timeline.next_mark(step)
         if time is None:
-            self.notify("No further change of a parameter is marked.")
+            self.notify("There are no more marked parameter changes.")
             return
         stamps = {self.console.plots.time(each.stamp): each.stamp for each in self.console.parameters.changes()}
         if (stamp := stamps.get(time)) is not None:
@@ -258,7 +258,7 @@ class PlotPane(PlotQuestions):
         if timeline.limits:
             parts.append(f"y {timeline.limits[0]:g} .. {timeline.limits[1]:g}")
         if self._expected:
-            parts.append(f"waits for {self._waiting()}")
+            parts.append(f"waiting for {self._waiting()}")
         return " · ".join(parts)
 
     def _waiting(self) -> str:
@@ -267,7 +267,7 @@ class PlotPane(PlotQuestions):
     def _nothing(self) -> Placeholder:
         """The text that is shown while there is no curve."""
         if self._expected:
-            text = f"Waits for {self._waiting()}: the curve begins with the first message."
+            text = f"Waiting for {self._waiting()}: the curve begins with the first message."
             return Placeholder(text, (("a", "Add another curve"),))
         return EMPTY
 

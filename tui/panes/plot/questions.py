@@ -185,11 +185,11 @@ class PlotQuestions(Pane):
         """Ask which saved curves to show."""
         names = plot_presets.preset_names()
         if not names:
-            self.notify("No curves have been saved; w saves those that are shown.")
+            self.notify("No curves have been saved; w saves those shown.")
             return
 
         find = partial(matching_options, [Option(each) for each in names])
-        self.ask(Choice("Curves", self.show_kept, find=find, hint="name", empty="No saved curves have this name."))
+        self.ask(Choice("Curves", self.show_kept, find=find, hint="name", empty="No saved curves match."))
 
     def show_kept(self, name: str) -> None:
         """Replace the current curves with those saved under a name."""

@@ -13,7 +13,7 @@ from bot_console.tui.panes.plot.view import Axes, framed_plot
 from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.picture import Line
 
-HOW = "No responses yet: mark values in the Parameters pane (m), then A there sends set B, and again set A."
+HOW = "No responses yet: mark values in the Parameters pane (m); there, A sends set B, and A again sends set A."
 
 
 @dataclass

@@ -42,6 +42,7 @@ from bot_console.tui.widgets.static_text import StaticText
 from textual.app import ComposeResult
 
 ADDRESSES = ("https://", "http://")
+RUNNING = "Nothing to change: the robot already runs with these values."
 MAX_VISIBLE_PROFILES = 6
 """Maximum number of profiles visible at once."""
 MAX_HEAD_ROWS, MAX_STATUS_ROWS = 4, 3
@@ -49,8 +50,8 @@ MAX_HEAD_ROWS, MAX_STATUS_ROWS = 4, 3
 
 
 EMPTY = Placeholder(
-    "Sets of parameter values, compared before they are applied: no parameter files were found.",
-    (("o", "Open a parameter file"), ("S", "Save what runs as a profile"), ("?", "Help")),
+    "Profiles are sets of parameter values, compared before they are applied; no parameter files were found.",
+    (("o", "Open a parameter file"), ("S", "Save the running values as a profile"), ("?", "Help")),
 )
 
 
@@ -59,13 +60,13 @@ class ProfilesPane(ListPane):
 
     TITLE = "Profiles"
     HELP = (
-        "A profile is a ROS parameter file with the settings for one environment. Below the list stands what it\n"
+        "A profile is a ROS parameter file with the settings for one environment. Below the list you see what it\n"
         "would change, and what would be refused: by descriptors, and by nodes that can check values in advance.\n"
-        "Where it would change nothing, and for every profile after c, all profiles are compared: ⚠ less safe than\n"
-        "now, ✗ would be refused, dim: as now.\n"
-        "a sets the values live, all or nothing over all nodes; w also resets the simulator into the profile's world.\n"
-        "o opens any parameter file the same way, S saves what runs as a profile; m renames and d deletes one that\n"
-        "was saved so. A launch profile takes the place of the running system, after a question. p shows the presets\n"
+        "If it would change nothing, or after c, all profiles are compared instead: ⚠ is less safe than now, ✗ would\n"
+        "be refused, dim values are as now.\n"
+        "a sets the values live, all or nothing over all nodes; w also resets the simulator to the profile's world.\n"
+        "o opens any parameter file the same way; S saves the running values as a profile, m renames and d deletes a\n"
+        "profile saved that way. A launch profile replaces the running system, after a question. p shows the presets\n"
         "that nodes keep."
     )
     BINDINGS = keymap.bindings("profiles")
@@ -178,13 +179,11 @@ class ProfilesPane(ListPane):
             return profile.problem
         if profile.launch:
             given = " ".join(f"{name}:={value}" for name, value in profile.arguments.items())
-            return f"a launches {profile.launch} {given}".rstrip() + ", in place of what runs"
+            return f"a launches {profile.launch} {given}".rstrip() + " and replaces the running system"
         absent = self._absent(profile)
         if not self._differences:
             running = len(absent) < len({key for key, _ in profile.values})
-            message = (
-                "Nothing to change: the robot runs on these values." if running else "None of its nodes is running."
-            )
+            message = RUNNING if running else "None of its nodes is running."
             return f"{message} Not running: {', '.join(absent)}" if absent and running else message
         unknown = sum(each.unknown for each in self._differences)
         refused = sum(bool(each.refusal and not each.unknown) for each in self._differences)
@@ -197,7 +196,7 @@ class ProfilesPane(ListPane):
         text += f", not running: {', '.join(absent)}" if absent else ""
         unasked = self._asking.unasked_text()
         text += f"; {unasked}" if unasked else ""
-        return text + ("; w also resets the simulator into its world" if reset and profile.world else "")
+        return text + ("; w also resets the simulator to its world" if reset and profile.world else "")
 
     def _absent(self, profile: Profile) -> list[str]:
         """The node keys of a profile that match no running node."""
@@ -242,7 +241,7 @@ class ProfilesPane(ListPane):
         ]
         reasons += [f"{node}: {reason}" for node, reason in self._asking.refusals().items()]
         if reasons:
-            reasons.insert(0, "Would be refused, and with it every other value:")
+            reasons.insert(0, "These would be refused, and with them all other values:")
         reasons += [
             f"⚠ {each.name} {value_text(each.now)} → {value_text(each.then)} {each.unsafe}."
             for each in self._differences
@@ -263,7 +262,7 @@ class ProfilesPane(ListPane):
 
     def _gone(self, name: str) -> str:
         there = any(each.name == name for each in self.console.snapshot().profiles)
-        return "" if there else f"The profile {name} is not there any more; nothing was applied."
+        return "" if there else f"The profile {name} no longer exists; nothing was applied."
 
     def _apply(self, name: str, reset_world: bool) -> None:
         self._reported = f"applying {name} ..."
@@ -344,7 +343,7 @@ class ProfilesPane(ListPane):
             return
         running = [each for each in self._own_processes() if each.state is ProcessState.RUNNING]
         given = " ".join(f"{name}:={value}" for name, value in profile.arguments.items())
-        reasons = [f"{profile.launch} {given}".rstrip(), "It replaces what this console has started:"]
+        reasons = [f"{profile.launch} {given}".rstrip(), "It replaces everything that this console has started:"]
         reasons += [f"  {each.label}" for each in running] or ["  nothing"]
         reasons += ended_lock_warning(self.console.snapshot(), running)
         self.ask(

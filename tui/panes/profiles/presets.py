@@ -17,8 +17,8 @@ LIST, CHANGE = "std_srvs/srv/Trigger", "diagnostic_msgs/srv/AddDiagnostics"
 """The types of `list`, and of `apply`, `save` and `delete`."""
 NOBODY = "No node here keeps presets. One that does: ros2 run bot_console_robot preset_node"
 UNSEEN = (
-    "{keeper} sets the values itself, all or none. Which values those are, and whether any lowers "
-    "safety, cannot be shown here in advance; History lists them afterwards, and each can be undone there."
+    "{keeper} sets the values itself, all or none. Which values these are, and whether any makes the robot less "
+    "safe, cannot be shown in advance; History lists them afterwards, and each can be undone there."
 )
 
 
@@ -89,7 +89,7 @@ class PresetMenu:
             offer(f"apply {name}", f"{title}  {keeper}".strip(), partial(self._ask_apply, keeper, name))
         for keeper, answer in self._lists.items():
             if answer.ok:
-                offer("save what runs as a preset", keeper, partial(self._ask_save, keeper))
+                offer("save the running values as a preset", keeper, partial(self._ask_save, keeper))
         for keeper, name, _ in kept:
             offer(f"delete {name}", keeper, partial(self._ask_delete, keeper, name))
         return offers
@@ -103,7 +103,8 @@ class PresetMenu:
         self.ask(Confirmation(f"Delete the preset {name} of {keeper}?", lambda _: then()))
 
     def _ask_save(self, keeper: str) -> None:
-        self.ask(Line(f"save what runs as a preset of {keeper}", partial(self._change, keeper, "save"), check=_unnamed))
+        label = f"save the running values as a preset of {keeper}"
+        self.ask(Line(label, partial(self._change, keeper, "save"), check=_unnamed))
 
     def _change(self, keeper: str, verb: str, name: str) -> None:
         answer = self.console.topics.call_service(f"{keeper}/{verb}", CHANGE, {"load_namespace": name.strip()})

@@ -31,7 +31,8 @@ class UserProfiles:
     def save(self, snapshot: ConsoleSnapshot) -> None:
         """Ask for a name and a description, then save; ask before overwriting an existing profile."""
         text = snapshot.active_profile
-        self.ask(Line("save what runs as profile", self._named, text=text, check=lambda name: _problem(name.strip())))
+        label = "save the running values as profile"
+        self.ask(Line(label, self._named, text=text, check=lambda name: _problem(name.strip())))
 
     def _named(self, typed: str) -> None:
         name = typed.strip()
@@ -40,7 +41,7 @@ class UserProfiles:
             self.later(self.ask, Line(f"what {name} is for", partial(self._save, name)))
             return
         changed = f", changed {reported}" if (reported := _changed(there.path)) else ""
-        reasons = f"{there.path}{changed}:\nits values are replaced by those that run, its comments stay."
+        reasons = f"{there.path}{changed}:\nits values are replaced by the running ones; its comments stay."
         question = Confirmation(f"Save over the profile {name}?", lambda _: self._save(name, ""), reasons=reasons)
         self.later(self.ask, question)
 
@@ -57,7 +58,7 @@ class UserProfiles:
     def _name_problem(self, name: str, typed: str) -> str:
         to = typed.strip()
         taken = to != name and self._own(to) is not None
-        return _problem(to) or (f"there is a profile {to} already" if taken else "")
+        return _problem(to) or (f"there is already a profile {to}" if taken else "")
 
     def _rename(self, name: str, to: str) -> None:
         self.report(self.console.profiles.rename(name, to.strip()))
@@ -66,7 +67,7 @@ class UserProfiles:
         """Ask whether to delete the file of a profile."""
         if not self._refused(profile, "deleted"):
             changed = f", changed {reported}" if (reported := _changed(profile.path)) else ""
-            reasons = f"{profile.path}{changed}.\nThe values that run stay as they are. The file cannot be restored."
+            reasons = f"{profile.path}{changed}.\nThe running values stay as they are. The file cannot be restored."
             delete = partial(self._delete, profile.name)
             gone = partial(self._gone, profile.name)
             self.ask(Confirmation(f"Delete the profile {profile.name}?", delete, gone=gone, reasons=reasons))
@@ -76,12 +77,12 @@ class UserProfiles:
 
     def _gone(self, name: str) -> str:
         there = any(each.name == name for each in self.console.snapshot().profiles)
-        return "" if there else f"The profile {name} is not there any more."
+        return "" if there else f"The profile {name} no longer exists."
 
     def _refused(self, profile: Profile, what: str) -> bool:
         if not profile.own:
             self.report(
-                Answer(False, f"{profile.name} is not {what}: only profiles that S has saved are; see {profile.path}")
+                Answer(False, f"{profile.name} cannot be {what}: only profiles saved with S can; see {profile.path}")
             )
         return not profile.own
 

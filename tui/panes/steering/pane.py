@@ -43,11 +43,11 @@ class SteeringPane(Pane):
     TITLE = "Steering"
     HELP = (
         "Enter arms; then w s a d or the arrow keys drive, Shift takes ten steps, x and c zero one velocity and\n"
-        "Space stops. While armed only a person's commands count, where a safety monitor chooses between them;\n"
-        "without one the newest command wins, and the other nodes are named. When no key comes for the\n"
-        "dead-man time, when the pane is left, and when this console is frozen or gone, the robot stands, locked:\n"
+        "Space stops. While armed, only a person's commands count if a safety monitor chooses between them;\n"
+        "without one the newest command wins, and the other nodes are named. If no key comes within the\n"
+        "dead-man time, if you leave the pane, or if this console freezes or ends, the robot is stopped and locked:\n"
         "Enter resumes steering, ! returns control to its own program (h does so while armed). The limits are\n"
-        "max_speed and turn_rate. Below stands what became of the command, and what has limited it."
+        "max_speed and turn_rate. Below you see what became of the command, and what has limited it."
     )
     BINDINGS = keymap.bindings("steering")
 
@@ -113,7 +113,7 @@ class SteeringPane(Pane):
     def _take_robot(self, robot: str) -> None:
         """Switch to a robot and its settings; disarm first, so that keys meant for another one never move it."""
         if self._robot and self.state.armed:
-            self._disarm("Disarmed: another robot is steered now." if robot else "Disarmed: the robot has left.")
+            self._disarm("Disarmed: this pane now steers another robot." if robot else "Disarmed: the robot has left.")
         self._robot = robot
         if robot:
             self.state = self._states.setdefault(robot, self._fresh() if self._states else self.state)
@@ -183,7 +183,8 @@ class SteeringPane(Pane):
         """Ask for limits."""
         now = self.state.typed
         text = f"{now[0]:g} {now[1]:g}" if now else ""
-        self.ask(Line("limits m/s rad/s (empty: the parameters')", self._limits_typed, text=text, check=_wrong_limits))
+        label = "limits m/s rad/s (empty: from the parameters)"
+        self.ask(Line(label, self._limits_typed, text=text, check=_wrong_limits))
 
     def _limits_typed(self, text: str) -> None:
         self.state.typed = parse_limits(text)
@@ -390,7 +391,7 @@ class SteeringPane(Pane):
             named = robot_of(typed.strip(), robots)
             return [Option(each) for each in found or ([named] if named else [])]
 
-        empty = "No topic of that name takes velocity commands."
+        empty = "No topic with this name takes velocity commands."
         choose = self.console.drive.choose
         self.ask(Choice("Steer which robot or topic?", choose, find=find, hint="type part of its name", empty=empty))
 

@@ -172,7 +172,7 @@ def parse_limits(text: str) -> tuple[float, float] | None:
     if not words:
         return None
     if len(words) != 2:
-        raise ValueError("two numbers, such as 0.5 1.0, or nothing for the parameters'")
+        raise ValueError("two numbers, such as 0.5 1.0, or nothing for those of the parameters")
     speed, turn = (parse_number(each) for each in words)
     if not (0 < speed <= MAX_LIMIT and 0 < turn <= MAX_LIMIT):
         raise ValueError(f"each above 0 and at most {MAX_LIMIT:g}")

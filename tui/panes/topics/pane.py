@@ -409,7 +409,7 @@ class TopicsPane(ListPane):
         elif row is not None and self._kind is Kind.TOPICS:
             paths = [each for each in self.console.plots.plottable() if each.startswith(f"{row.name}/")]
             if not paths:
-                self.notify(f"{row.name} has no number that could be plotted.", severity="warning")
+                self.notify(f"{row.name} has no numbers to plot.", severity="warning")
             else:
                 find = partial(matching_options, [Option(each) for each in paths])
                 self.ask(Choice(f"Plot {row.name}", self._plot, find=find, hint="type part of a field"))
@@ -436,9 +436,9 @@ class TopicsPane(ListPane):
             self.report(answer)
         elif row.name in self.console.topics.repeated():
             self.console.topics.stop(row.name)
-            self.notify(f"{row.name}: nothing is published from here any more")
+            self.notify(f"{row.name}: no longer published from here")
         else:
-            self.notify(f"Nothing is published to {row.name} from here at a rate.", severity="warning")
+            self.notify(f"This console is not publishing to {row.name} repeatedly.", severity="warning")
 
     def action_expect(self) -> None:
         """Ask for a file of expected rates, suggesting the last one; an empty name ends the checks."""
@@ -484,4 +484,4 @@ def _next(kind: Kind) -> Kind:
 def _empty(kind: Kind) -> Placeholder:
     """The text that is shown while nothing of a kind exists."""
     actions = (("m", f"List {_next(kind).value}"), ("8", "Start nodes"), ("?", "Help"))
-    return Placeholder(f"All {kind.value} of the system, with rates and messages: there are none yet.", actions)
+    return Placeholder(f"All {kind.value} of the system are listed here; there are none yet.", actions)

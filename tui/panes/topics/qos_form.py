@@ -16,8 +16,8 @@ CHOICES = {
 }
 ABOUT = {
     "reliability": "A reliable subscription receives nothing from a best-effort publisher",
-    "durability": "A transient-local subscription gets what was published earlier, from such publishers only",
-    "history": "Whether the newest messages are kept, or all",
+    "durability": "A transient-local subscription also gets earlier messages, but only from transient-local publishers",
+    "history": "Whether only the newest messages are kept, or all of them",
 }
 DEPTH = "depth"
 
@@ -27,7 +27,7 @@ def qos_fields(now: RequestedQos) -> Sequence[LaunchArgument]:
     policies = [
         LaunchArgument(name, ABOUT[name], getattr(now, name) or OFFERED, choices) for name, choices in CHOICES.items()
     ]
-    depth = LaunchArgument(DEPTH, "Messages that are kept until they are shown", str(now.depth or OFFERED))
+    depth = LaunchArgument(DEPTH, "How many messages are kept until they are shown", str(now.depth or OFFERED))
     return (*policies, depth)
 
 

@@ -32,7 +32,7 @@ DRAWINGS_PER_HITS = 3
 
 EMPTY = Placeholder(
     "The robot on its map: there is no map and no pose yet (no OccupancyGrid, no Odometry).",
-    (("9", "Topics that are there"), ("8", "Start nodes"), ("?", "Help")),
+    (("9", "See the topics"), ("8", "Start nodes"), ("?", "Help")),
 )
 
 
@@ -126,9 +126,9 @@ class WorldPane(Pane):
     TITLE = "World"
     HELP = (
         "The map, the robot as an arrow, where it has been, and where its LIDAR beams end. + zooms in, f shows all. "
-        "While another moment is looked at (plot, log, history) it stands where it was then. "
+        "While another moment is chosen (in Plot, Logs or History), the robot is shown where it was then. "
         "Of several robots the steered one is shown: n takes the next, and Steering and the status line follow. "
-        "A field of turtlesim shows with its turtles and what they draw; n goes there after the robots."
+        "A turtlesim field is shown with its turtles and what they draw; n goes there after the robots."
     )
     BINDINGS = keymap.bindings("world")
     DEFAULT_CSS = """
@@ -210,7 +210,7 @@ class WorldPane(Pane):
             text += (drawn.scale if len(drawn.scale) <= room or not width else drawn.scale_within(room)) + more
             stamp = self.time_cursor.stamp
             if stamp is not None:
-                known = f"{where}  " if self._then else "where the robot was then is not known  "
+                known = f"{where}  " if self._then else "the robot's position then is unknown  "
                 text = f"◆ {clock_text(stamp)}  {known}{drawn.scale}{more}"
         facts = self.query_one(LiveFigures)
         (facts.show_live if live else facts.show_now)(text)

@@ -70,7 +70,7 @@ class StreamPanels(Container):
         if len(self._panels) < has:
             return ""
         larger = "" if has >= MAX_STREAMS else ", a larger terminal has more room"
-        return f"no room: {len(self._panels)} run below the panes already; {self._key} ends one{larger}"
+        return f"no room: {len(self._panels)} commands are running; {self._key} ends one{larger}"
 
     def begin(self, line: str, stream: Stream) -> None:
         """Show a stream; if there is no room for it, remove the oldest one that has ended."""

@@ -84,7 +84,7 @@ def test_line_begins_with_the_state_of_the_robot(state: str) -> None:
 
 def test_a_link_without_an_answer_and_a_stop_come_before_all_else() -> None:
     silent = ConsoleSnapshot(link=LinkInfo("robot:7447", silent_s=3), drive=CRUISING)
-    assert status_text(silent).startswith("NO ANSWER 3 s: all that is shown is that old  robot:7447")
+    assert status_text(silent).startswith("NO ANSWER 3 s: everything shown is that old  robot:7447")
     held = status_text(replace(silent, drive=STATES["ALL STOP held (! releases)"]))
     assert held.startswith("ALL STOP held (! releases)") and "NO ANSWER 3 s" in held
     moves = status_text(ConsoleSnapshot(drive=DriveInfo(stopped=True, lockable=True)), columns=78)

@@ -82,14 +82,14 @@ def parse_formula(text: str) -> Formula | str:
         return tree.text
     paths = paths_of(tree)
     if not paths:
-        raise ValueError("name a path in it, such as /odom/twist.twist.linear.x")
+        raise ValueError("name a path, such as /odom/twist.twist.linear.x")
     for each in walk(tree):
         if isinstance(each, Call):
             _check_call(each)
         elif isinstance(each, Name) and each.text not in CONSTANTS:
             raise ValueError(f"'{each.text}' is not a path; paths begin with /")
         elif any(isinstance(part, Span) for part in children(each)):
-            raise ValueError("a length of time stands only at the end of mean, min, max, std or rms")
+            raise ValueError("a time span such as 1 s can only be the last argument of mean, min, max, std or rms")
     return Formula(text.strip(), tree, paths)
 
 
@@ -109,14 +109,14 @@ def _check_call(call: Call) -> None:
     given, name = call.arguments, call.function
     if given and isinstance(given[-1], Span):
         if name not in OVER_TIME:
-            raise ValueError(f"over a length of time there are {', '.join(OVER_TIME)}, not {name}")
+            raise ValueError(f"{name} takes no time span; {', '.join(OVER_TIME)} do")
         if len(given) != 2 or isinstance(given[0], Span):
             raise ValueError(f"write {name}(a path, 1 s)")
         if given[-1].seconds <= 0:
-            raise ValueError("a length of time is more than 0 s")
+            raise ValueError("a time span must be longer than 0 s")
         return
     if any(isinstance(each, Span) for each in given):
-        raise ValueError(f"the length of time stands last: {name}(a path, 1 s)")
+        raise ValueError(f"the time span comes last: {name}(a path, 1 s)")
     if name in OF_CURVES:
         if len(given) != 1:
             raise ValueError(f"write {name}(a path)")

@@ -43,7 +43,7 @@ def _as_typed(text: str, found: Sequence[Option]) -> list[Option]:
     except ValueError as error:
         return [] if found else [Option(text, f"✗ {error}")]
     if isinstance(formula, Formula):
-        return [Option(text, "worked out")]
+        return [Option(text, "expression")]
     return [] if found else [Option(text)]
 
 
@@ -51,7 +51,7 @@ def _missing_path(text: str, found: Sequence[Option]) -> list[Option]:
     """The typed path as an option even if it does not exist yet, after known paths that only match it loosely."""
     if not found or any(text in each.title for each in found) or not PATH.fullmatch(text):
         return []
-    return [Option(text, "is not there yet")]
+    return [Option(text, "does not exist yet")]
 
 
 def _best(known: Sequence[str], typed: str) -> list[str]:

@@ -51,7 +51,7 @@ def write_png(path: Path, page: VectorDrawing) -> None:
         kit.putText(image, text, place, kit.FONT_HERSHEY_SIMPLEX, 0.7, _bgr(word.colour), 1, kit.LINE_AA)
     done, content = kit.imencode(".png", image)
     if not done:
-        raise NotSaved(f"{path}: the picture could not be made")
+        raise NotSaved(f"{path}: the picture could not be encoded")
     save_file(path, bytes(content))
 
 

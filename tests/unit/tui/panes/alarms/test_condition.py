@@ -49,7 +49,7 @@ def test_condition_is_evaluated(text: str, values: dict[str, float], holds: bool
         ("/a/b < 1 and", "a comparison is missing"),
         ("/a/b < nonsense", "nonsense"),
         ("min(/a/b", "a comma or a closing bracket is expected"),
-        ("mean(/a/b, 1 s) > 2", "length of time"),
+        ("mean(/a/b, 1 s) > 2", "time span"),
         ("/a/b or", "compares nothing"),
         ("/a/b < __import__('os')", ""),
         ("/a/b < (1).__class__", ""),

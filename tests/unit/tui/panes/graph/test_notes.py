@@ -89,9 +89,9 @@ def test_legend_explains_the_marks_that_are_drawn_and_no_others() -> None:
 
     assert words(GraphInfo((node("/a", "/x"), node("/b", "", "/x"))), {}) == ""
     marked = GraphInfo((node("/a", "/stop/x /stop/y /own /map", "/own"), node("/b", "", "/stop/x /stop/y /map")))
-    assert words(marked, {}) == "↺ sends it to itself    ×2 that many topics of a namespace"
+    assert words(marked, {}) == "↺ sent to itself    ×2 two topics of a namespace"
     assert words(marked, {"/map": IDLE}).endswith("    idle: no messages now")
-    assert words(marked, {"/map": IDLE}, 30) == "↺ sends it to itself", "what does not fit is left out"
+    assert words(marked, {"/map": IDLE}, 30) == "↺ sent to itself", "what does not fit is left out"
 
 
 def test_legend_explains_marks_of_mismatched_qos_and_of_dead_ends() -> None:
@@ -99,4 +99,4 @@ def test_legend_explains_marks_of_mismatched_qos_and_of_dead_ends() -> None:
     mismatched = GraphInfo((node("/a", "/x"), node("/b", "", "/x")), incompatible={"/x": (pair,)})
     assert legend(visible_graph(mismatched, GraphView()), 118) == "✗ QoS does not match"
     unheard = GraphInfo((node("/a", "/x /stop/x /stop/y"), node("/b", "", "/x")))
-    assert legend(visible_graph(unheard, GraphView()), 118) == "×2 that many topics of a namespace"
+    assert legend(visible_graph(unheard, GraphView()), 118) == "×2 two topics of a namespace"

@@ -26,7 +26,7 @@ def numbers(shown: list[str]) -> list[int]:
 
 def test_newest_lines_are_shown_below_the_name() -> None:
     shown = texts(ProcessOutput(), 20)
-    assert "zoo-1 logged and printed" in shown[0] and numbers(shown) == [*range(11, 20)]
+    assert "output of zoo-1" in shown[0] and numbers(shown) == [*range(11, 20)]
     assert "nothing yet" in texts(ProcessOutput(), 0)[0]
 
 
