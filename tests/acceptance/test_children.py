@@ -142,7 +142,7 @@ def test_process_forked_after_init_is_reported(home: Path) -> None:
     ],
     ids=lambda given: " ".join(given) if isinstance(given, list) else "",
 )
-def test_run_takes_modules_and_code_as_python_does(words: list[str], stdout: str, exit_code: int, home: Path) -> None:
+def test_run_accepts_modules_and_code_as_python_does(words: list[str], stdout: str, exit_code: int, home: Path) -> None:
     (home / "shown.py").write_text("import rclpy, sys\nprint(rclpy.__name__, sys.argv, __name__)\n")
     done = finish(["env", "bot-console", "run", *words], environment(home), home)
     assert (done.stdout.strip(), done.returncode) == (stdout.format(folder=home), exit_code), done.stderr

@@ -109,7 +109,9 @@ PLAIN = "from debugged.node import main; main()"
         pytest.param("launch prefix", marks=pytest.mark.soak),
     ],
 )
-def test_breakpoints_of_an_editor_stop_timer_and_callback_and_others_see_where(way: str, workspace: Path) -> None:
+def test_breakpoints_of_an_editor_stop_timer_and_callback_and_other_processes_see_the_line(
+    way: str, workspace: Path
+) -> None:
     file, port = workspace / "debugged" / "debugged" / "node.py", free_port()
     file.write_text(NODE.replace("    breakpoint()\n", "    here\n"))
     options = ["--listen", f"127.0.0.1:{port}", "--wait-for-client"]

@@ -107,7 +107,7 @@ def test_interrupt_ends_the_cell_and_a_restart_leaves_no_node(kernel: Kernel) ->
 
 
 @pytest.mark.soak
-def test_example_notebook_runs_and_takes_its_robot_down(kernel: Kernel, env: dict[str, str]) -> None:
+def test_example_notebook_runs_and_ends_its_robot(kernel: Kernel, env: dict[str, str]) -> None:
     cells = [each for each in json.loads(NOTEBOOK.read_text("utf-8"))["cells"] if each["cell_type"] == "code"]
     printed = [kernel.run("".join(each["source"])) for each in cells]
     assert not any(failed for _, failed in printed), printed

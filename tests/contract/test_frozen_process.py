@@ -58,7 +58,7 @@ def test_a_service_of_another_process_responds(here):
     assert here.result(client.call_async(Trigger.Request())).success
 
 
-def test_the_frozen_process_is_known_at_once_with_its_nodes(here):
+def test_the_frozen_process_is_reported_at_once_with_its_nodes(here):
     assert {pid: list(nodes) for pid, nodes in here.context.bus.stopped().items()} == {here.frozen: ["/other/peer"]}
 
 

@@ -131,6 +131,6 @@ def test_continuous_lines_print_until_they_are_stopped(peer: None) -> None:
     until(lambda: stream.ended, "the end of the line")
 
 
-def test_command_that_needs_an_installed_ros2_says_so(peer: None) -> None:
+def test_command_that_needs_an_installed_ros2_reports_it(peer: None) -> None:
     assert "node" in MachineCommandLine().commands() and "pkg" not in MachineCommandLine().commands()
     assert "there is no command 'ros2'" in printed_by("pkg list") and "topic" in printed_by("pkg list")

@@ -164,7 +164,7 @@ def test_program_without_ros_notices_nothing(program: Path, env: dict[str, str],
     assert (done.stdout, done.stderr) == ("[]\n", "")
 
 
-def test_sitecustomize_of_others_runs(env: dict[str, str], tmp_path: Path) -> None:
+def test_foreign_sitecustomize_still_runs(env: dict[str, str], tmp_path: Path) -> None:
     (tmp_path / "sitecustomize.py").write_text("MARK = 'theirs'")
     path = os.pathsep.join([env["PYTHONPATH"], str(tmp_path)])
     text = "import sitecustomize, sys, rclpy; print(sitecustomize.MARK, rclpy.__name__)"
@@ -182,7 +182,9 @@ def test_packages_of_workspace_may_be_imported_first(env: dict[str, str], worksp
 
 
 @pytest.mark.parametrize("first", slow_after(1, ["", "import rclpy; "]), ids=["alone", "after rclpy"])
-def test_package_in_working_directory_is_no_namespace_package(first: str, env: dict[str, str], workspace: Path) -> None:
+def test_package_in_working_directory_is_not_taken_for_a_namespace_package(
+    first: str, env: dict[str, str], workspace: Path
+) -> None:
     for folder, name in ((workspace / "src" / "all", "own_nodes.node"), (workspace / "src", "own_interfaces.msg")):
         done = python(["-c", f"{first}import {name}"], {**env, "BOT_CONSOLE_WORKSPACE": str(workspace)}, cwd=folder)
         assert (done.stderr, done.returncode) == ("", 0)

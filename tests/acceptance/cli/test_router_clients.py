@@ -63,7 +63,7 @@ def run_connected(place: str, *words: str) -> subprocess.CompletedProcess[str]:
     return typed(*words, env=dict(os.environ, BOT_CONSOLE_CONNECT=place, ROS_DOMAIN_ID="0"))
 
 
-def test_a_program_with_a_session_ends_without_finalizing_the_interpreter_under_its_threads(place: str) -> None:
+def test_program_with_a_session_exits_without_finalizing_the_interpreter(place: str) -> None:
     ended = run(place, "-c", ENDING, place)
     assert (ended.returncode, ended.stdout, ended.stderr) == (7, "", "")
 

@@ -91,7 +91,7 @@ def robot(
 
 
 @pytest.mark.slow
-def test_attached_console_shows_robot_launches_beside_it_and_leaves_it_alone(
+def test_attached_console_shows_the_robot_launches_programs_and_leaves_the_robot_running(
     robot: subprocess.Popen[bytes], tmp_path: Path
 ) -> None:
     program, file = tmp_path / "second.py", tmp_path / "second.launch.py"

@@ -122,7 +122,7 @@ def test_second_signal_does_not_break_the_end(console):
 
 
 @pytest.mark.slow
-def test_console_frozen_during_input_takes_keys_and_ends_in_order(console):
+def test_console_frozen_during_input_handles_keys_afterwards_and_ends_in_order(console):
     for _ in range(2):
         os.kill(console.process.pid, signal.SIGSTOP)
         os.waitpid(console.process.pid, os.WUNTRACED)

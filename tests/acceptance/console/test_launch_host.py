@@ -142,7 +142,7 @@ def test_busy_process_is_named_and_others_go_on(hosted: HostedSystem) -> None:
 
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="needs /proc")
-def test_killed_host_takes_its_processes_along_and_console_reports_it(hosted: HostedSystem) -> None:
+def test_processes_of_a_killed_host_end_with_it_and_console_reports_it(hosted: HostedSystem) -> None:
     assert hosted.launch(waiter=WAITS).ok
     pid = hosted.up("waiter").pid
     hosted.process.kill()

@@ -28,7 +28,7 @@ def when(program: Program) -> list[tuple[float, str]]:
     return [(int(seconds) - START + int(tenths) / 10, text) for seconds, tenths, text in lines]
 
 
-def test_listener_hears_talker() -> None:
+def test_listener_receives_messages_of_talker() -> None:
     with system() as running:
         talker, listener = start(running, "talker"), start(running, "listener")
         running.run(3.5)

@@ -59,7 +59,7 @@ def test_logs_are_formatted_as_in_ros(runs):
 
 
 @pytest.mark.slow
-def test_real_time_run_takes_real_time(tmp_path):
+def test_real_time_run_is_reported_as_not_deterministic(tmp_path):
     done = typed("--headless", "--duration", "1", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     assert '"deterministic": false' in done.stdout

@@ -16,7 +16,7 @@ def message(program: Program) -> list[str]:
     ("package", "numbers", "quote"),
     [("demo_nodes_cpp", (1, 2, 3), "'"), ("demo_nodes_py", (0, 1, 2), '"')],
 )
-def test_listener_hears_talker(package: str, numbers: tuple[int, ...], quote: str) -> None:
+def test_listener_receives_messages_of_talker(package: str, numbers: tuple[int, ...], quote: str) -> None:
     with system() as running:
         listener = running.executable(package, "listener")
         talker = running.executable(package, "talker")
@@ -25,7 +25,7 @@ def test_listener_hears_talker(package: str, numbers: tuple[int, ...], quote: st
     assert message(listener) == [f"I heard: [Hello World: {each}]" for each in numbers]
 
 
-def test_qos_and_serialized_talkers_are_heard() -> None:
+def test_listeners_receive_messages_of_qos_and_serialized_talkers() -> None:
     with system() as running:
         talker = running.executable("demo_nodes_py", "talker_qos")
         heard = running.executable("demo_nodes_py", "listener_qos")

@@ -71,7 +71,7 @@ def test_refusal_is_readable_beside_a_short_value_where_another_value_is_long() 
     run(live(), play, (60, 20))
 
 
-def test_editing_a_read_only_parameter_says_so_instead_of_asking_for_a_value() -> None:
+def test_editing_a_read_only_parameter_shows_a_message_instead_of_asking_for_a_value() -> None:
     async def play(session: Session) -> None:
         await session.press("1")
         await go_to(session, "seed")

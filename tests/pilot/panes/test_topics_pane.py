@@ -260,7 +260,7 @@ def test_newest_message_is_a_tree_that_can_be_frozen_and_folded() -> None:
 
 
 @pytest.mark.slow
-def test_names_beside_a_message_are_cut_in_the_middle() -> None:
+def test_topic_names_beside_a_message_are_cut_in_the_middle() -> None:
     ends = ("colour/image_raw", "depth/image_raw", "info")
     deep = [f"/cell_3{at}/perception/front/left/camera/{each}" for at, each in enumerate(ends)]
     topics = tuple(Endpoint(each, ("std_msgs/msg/Float64",)) for each in deep)

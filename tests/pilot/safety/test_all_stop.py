@@ -115,7 +115,7 @@ def test_stop_pressed_during_the_question_holds_without_asking_again() -> None:
     run(live(), play)
 
 
-def test_release_question_closes_when_others_have_released() -> None:
+def test_release_question_closes_when_others_have_released_their_stops() -> None:
     async def play(session: Session) -> None:
         session.console.hold([BEN])
         await session.press(STOP, STOP)

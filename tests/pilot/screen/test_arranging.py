@@ -130,7 +130,7 @@ def test_layout_is_saved_under_a_name_and_reopened() -> None:
     run(live(), play, SIZE)
 
 
-def test_layout_without_room_shows_one_pane_and_says_so() -> None:
+def test_layout_without_room_shows_one_pane_and_a_message() -> None:
     async def play(session: Session) -> None:
         session.app.stage.arrangement.change(below(*(each.id for each in PANES[:6])))
         await session.press("V")

@@ -82,7 +82,7 @@ def test_first_frame_shows_the_keys_of_the_pane_that_opens_first() -> None:
     asyncio.run(main())
 
 
-def test_panes_made_one_by_one_look_in_the_end_like_panes_made_at_once() -> None:
+def test_panes_made_one_by_one_finally_look_like_panes_made_at_once() -> None:
     seen: list[str] = []
 
     async def poll(session: Session) -> None:

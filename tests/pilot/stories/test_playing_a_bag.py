@@ -166,7 +166,7 @@ def test_bag_plays_at_once_on_request(bag: Bag) -> None:
 
 
 @pytest.mark.slow
-def test_player_goes_on_while_the_panes_are_dismantled(bag: Bag) -> None:
+def test_player_continues_while_the_panes_are_dismantled(bag: Bag) -> None:
     async def play(app: BagApp, pilot: Any, published: PublishingNode) -> None:
         for pane in app.query(Pane):
             await pane.remove_children()

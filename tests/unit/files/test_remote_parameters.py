@@ -242,7 +242,7 @@ def test_copy_changed_by_hand_is_fetched_again(server: Server) -> None:
     assert server.asked == ["", ""]
 
 
-def test_node_takes_parameters_from_an_address(server: Server) -> None:
+def test_node_loads_parameters_from_an_address(server: Server) -> None:
     found = parse(["--ros-args", "--params-file", server.address]).parameters
     assert found.for_node("/robot") == {"speed": 1.5}
     with pytest.raises(ArgumentsError, match="give an https:// address"):

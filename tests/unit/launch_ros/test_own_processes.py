@@ -107,7 +107,7 @@ def test_program_joins_the_domain_that_its_launch_has_joined(run: Launch, script
 
 
 @pytest.mark.parametrize("joined", [True, False])
-def test_programs_of_an_isolated_system_are_processes_that_meet_in_a_separate_folder(
+def test_programs_of_an_isolated_system_are_processes_that_find_each_other_in_a_separate_folder(
     run: Launch, script: Any, socket_folder: str, joined: bool
 ) -> None:
     if joined:

@@ -189,7 +189,7 @@ def test_parameter_entries_may_be_dicts_files_or_parameters(tmp_path: Path) -> N
     assert (parameter.name, parameter.value) == ("a", 1)
 
 
-def test_parameters_that_are_no_list_are_refused_with_what_was_given():
+def test_parameters_that_are_not_a_list_are_refused_with_the_given_value():
     with pytest.raises(TypeError, match=r"Expecting list of parameters, got params\.yaml"):
         normalize_parameters("params.yaml")
 

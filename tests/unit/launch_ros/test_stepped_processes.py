@@ -295,7 +295,7 @@ GOALS = """
 """
 
 
-def test_nodes_of_three_processes_meet_the_same_way_in_each_run(step: Any, nodes: Any) -> None:
+def test_nodes_of_three_processes_interact_identically_in_each_run(step: Any, nodes: Any) -> None:
     runs = [step(*nodes(TALKER, LISTENER, GOALS), TimerAction(period=2.0, actions=[Shutdown()])) for _ in range(2)]
     first = runs[0].lines
     assert "True ['listener', 'talker'] 1" in first

@@ -141,7 +141,7 @@ def test_late_message_that_its_full_queue_drops_is_not_passed_on() -> None:
     assert sets == []
 
 
-def test_subscriber_takes_the_quality_of_service_by_its_name_only() -> None:
+def test_subscriber_accepts_the_quality_of_service_only_by_its_name() -> None:
     taken: list[Any] = []
 
     class Node:

@@ -73,9 +73,7 @@ def test_only_owner_may_read_the_file(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("turn", [-1, 2**63 + 1, 10**300])
-def test_turn_that_the_other_lock_would_read_as_another_number_makes_the_file_unreadable(
-    tmp_path: Path, turn: int
-) -> None:
+def test_turn_that_is_not_read_back_as_the_same_number_makes_the_file_unreadable(tmp_path: Path, turn: int) -> None:
     path = tmp_path / "stops.json"
     path.write_text(json.dumps({"version": 1, "robots": {"/": {"turn": turn, "stops": [], "released": []}}}))
     with pytest.raises(UnreadableStopFileError, match="turn"):

@@ -49,13 +49,13 @@ def test_formatted_exception_equals_what_the_interpreter_prints(mistyped: Callab
     assert text.endswith(end)
 
 
-def test_shipped_nodes_are_no_library_where_a_wheel_has_put_them(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_shipped_nodes_in_an_installed_wheel_do_not_count_as_a_library(monkeypatch: pytest.MonkeyPatch) -> None:
     site = "/home/me/.venv/lib/python3.12/site-packages/"
     monkeypatch.setattr(stack_frames, "_SHIPPED", (site + "bot_console/",))
     assert not stack_frames.is_library(site + "bot_console/nodes/robot_node.py")
     assert stack_frames.is_library(site + "numpy/core.py")
 
 
-def test_library_is_one_also_in_an_environment_within_a_clone(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_library_in_an_environment_within_a_clone_counts_as_a_library(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(stack_frames, "_SHIPPED", ("/home/me/bot-console/",))
     assert stack_frames.is_library("/home/me/bot-console/.venv/lib/python3.12/site-packages/numpy/core.py")

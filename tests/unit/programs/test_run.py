@@ -90,7 +90,7 @@ def run(tmp_path: Path) -> Iterator[Runs]:
         (("-p", "x:=2.5"), "/talker 1.0"),
     ],
 )
-def test_file_takes_ros_arguments(run: Runs, words: tuple[str, ...], message: str) -> None:
+def test_file_accepts_ros_arguments(run: Runs, words: tuple[str, ...], message: str) -> None:
     program = run.file(TALK + CALL, *words)
     assert (program.stdout, program.stderr, program.exit) == (f"{message}\n", "", 0)
 

@@ -96,7 +96,7 @@ def test_domain_id_beyond_64_bits_is_rejected() -> None:
         Context().init([], domain_id=2**64)
 
 
-def test_largest_domain_id_stands_for_the_one_of_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_largest_domain_id_means_the_one_of_the_environment(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", "0x4D")
     context = Context()
     context.init([], domain_id=2**64 - 1)
@@ -104,7 +104,7 @@ def test_largest_domain_id_stands_for_the_one_of_the_environment(monkeypatch: py
     context.shutdown()
 
 
-def test_environment_whose_domain_id_is_no_number_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_environment_whose_domain_id_is_not_a_number_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", "abc")
     with pytest.raises(RCLError, match=r"^failed to initialize rcl: ROS_DOMAIN_ID is not an integral number$"):
         Context().init([])

@@ -101,7 +101,7 @@ def test_request_that_is_valid_is_not_explained(managed: Managed) -> None:
     assert lines == []
 
 
-def test_callback_failure_is_no_success(managed: Managed) -> None:
+def test_callback_failure_is_not_reported_as_success(managed: Managed) -> None:
     managed.node._callbacks[10] = lambda state: TransitionCallbackReturn.FAILURE
     assert not managed.change(label="configure")
     assert managed.state == (1, "unconfigured")

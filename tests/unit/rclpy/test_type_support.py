@@ -42,7 +42,7 @@ def test_interface_of_another_kind_is_rejected(check: Any, cls: Any, kind: str, 
 
 @pytest.mark.parametrize("thing", [int, "std_msgs/msg/String", None, String()])
 @pytest.mark.parametrize("check", [check_is_valid_msg_type, check_is_valid_srv_type])
-def test_class_that_is_no_interface_is_rejected(check: Any, thing: Any) -> None:
+def test_class_that_is_not_an_interface_is_rejected(check: Any, thing: Any) -> None:
     with pytest.raises(AttributeError, match=ROS1):
         check(thing)
 

@@ -34,7 +34,7 @@ uint8[] data      # [a, b]
 """
 
 
-def test_number_sign_inside_a_constant_is_no_comment(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_number_sign_inside_a_constant_does_not_start_a_comment(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(interface_text, "definition_text", lambda *names: DEFINITION)
     assert interface_text.show_text("std_msgs/msg/String", no_comments=True).splitlines() == [
         'string COLOUR="#ff0000"',

@@ -107,7 +107,7 @@ def test_package_can_import_from_another(ros, src: Path) -> None:
 
 
 @pytest.mark.parametrize("name", ["intelligent_robot", "bot_console_robot"])
-def test_workspace_package_takes_precedence_over_ours(name: str, ros, src: Path) -> None:
+def test_workspace_package_takes_precedence_over_the_bundled_one(name: str, ros, src: Path) -> None:
     assert "robot_node" in ros.ask("pkg", "executables", name).stdout
     use(src)  # as in a new process: packages are searched for once
     package(src, name, robot_node="def main():\n    print('theirs')\n")

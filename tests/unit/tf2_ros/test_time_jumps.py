@@ -76,7 +76,7 @@ def test_static_listener_follows_the_clock(node: Node, serve: Serve, capfd: pyte
 
 
 @pytest.mark.parametrize("later", [5.0, 5.1, 500.0])
-def test_time_that_goes_on_keeps_the_transforms(
+def test_time_that_only_advances_keeps_the_transforms(
     node: Node, serve: Serve, later: float, capfd: pytest.CaptureFixture[str]
 ) -> None:
     rig = Rig(node, serve)
@@ -96,7 +96,7 @@ def test_switch_to_simulated_time_forgets_the_transforms(
     assert "Detected time source change. Clearing tf buffer." in capfd.readouterr().err
 
 
-def test_transform_waited_for_comes_after_the_jump(node: Node, serve: Serve) -> None:
+def test_awaited_transform_arrives_after_the_jump(node: Node, serve: Serve) -> None:
     rig = Rig(node, serve)
     rig.set_time(50.0)
     future = rig.buffer.wait_for_transform_async("map", "base", Time(seconds=2.0))

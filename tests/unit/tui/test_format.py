@@ -33,6 +33,6 @@ def test_a_long_name_keeps_both_ends() -> None:
     [(Kind.DOUBLE, "type a number"), (Kind.INTEGER, "type an integer"), (Kind.BOOL, "type true or false")],
 )
 @pytest.mark.parametrize("text", ["", "  "])
-def test_empty_text_is_answered_with_what_to_type(kind: Kind, asked: str, text: str) -> None:
+def test_empty_text_gets_a_hint_on_what_to_type(kind: Kind, asked: str, text: str) -> None:
     with pytest.raises(ValueError, match=f"^{asked}$"):
         parse_value(text, ParameterInfo("/a", "x", kind, None))

@@ -47,7 +47,7 @@ def gets_link(settings: dict[str, Any]) -> bool:
         return False
 
 
-def test_simultaneous_starts_meet_and_a_killed_process_is_cleaned_up(socket_folder: str) -> None:
+def test_simultaneously_started_processes_find_each_other_and_a_killed_one_is_cleaned_up(socket_folder: str) -> None:
     with members(3) as (one, two, killed):
         assert every_pair_talks([one, two, killed])
         killed.end()

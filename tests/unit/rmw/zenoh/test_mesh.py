@@ -18,14 +18,14 @@ def sockets_of(folder: str) -> set[str]:
 
 
 @pytest.mark.slow
-def test_simultaneous_starts_all_meet():
+def test_simultaneously_started_processes_all_find_each_other():
     with members(8) as present:
         assert every_pair_talks(present)
 
 
 @pytest.mark.soak
 @pytest.mark.timeout(600)
-def test_fifty_simultaneous_starts_all_meet_ten_times(monkeypatch, socket_folder):
+def test_fifty_simultaneously_started_processes_all_find_each_other_ten_times(monkeypatch, socket_folder):
     for round_number in range(10):
         monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", f"{socket_folder}{round_number}")
         with members(50) as present:

@@ -127,7 +127,7 @@ def test_log_lines_older_than_their_lifespan_are_received(captured_nodes, consol
     assert heard == [f"line {number}" for number in range(MANY)]
 
 
-def test_a_served_robot_keeps_the_rules_of_its_domain_within_and_those_of_rmw_zenoh_behind_its_router(socket_folder):
+def test_served_robot_follows_domain_rules_inside_and_rmw_zenoh_rules_behind_its_router(socket_folder):
     serving = Serving((f"tcp/127.0.0.1:{free_port()}",))
     robot, beside = MeshSession(0, serving), MeshSession(0)
     listener = CapturedNode(Way(serving.endpoints), "MS", "/tl_sub")

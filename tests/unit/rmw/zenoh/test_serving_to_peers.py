@@ -138,7 +138,7 @@ def test_peer_gets_response_of_a_service(robot: Robot, peers: list[Peer]) -> Non
     assert set(answers) == {b"answer"}
 
 
-def test_peers_of_the_router_meet_each_other(peers: list[Peer]) -> None:
+def test_peers_of_the_router_discover_each_other(peers: list[Peer]) -> None:
     one, two = peers
     until(lambda: one.sees(str(two.session.zid())) and two.sees(str(one.session.zid())))
     until(lambda: b"from peer" in two.heard, lambda: one.publisher.put(b"from peer"))

@@ -49,7 +49,7 @@ def test_signal_after_the_app_has_ended_is_ignored() -> None:
         assert not ending.is_alive()
 
 
-def test_terminal_that_has_gone_counts_as_a_signal(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_vanished_terminal_counts_as_a_signal(monkeypatch: pytest.MonkeyPatch) -> None:
     ended, ends = list[int](), threading.Event()
 
     def end(number: int) -> None:

@@ -72,7 +72,9 @@ def test_real_rclpy_is_never_shadowed(venv: Path, capsys: pytest.CaptureFixture[
     assert run_in_venv(venv, "import rclpy; print(rclpy.__file__)").stdout == f"{packages(venv)}/rclpy/__init__.py\n"
 
 
-def test_folder_that_is_no_environment_and_another_python_are_refused(venv: Path, capsys: pytest.CaptureFixture[str]):
+def test_folder_that_is_not_an_environment_and_another_python_are_refused(
+    venv: Path, capsys: pytest.CaptureFixture[str]
+):
     assert main(["setup", "venv", str(venv.parent)]) == 1
     assert "is not a virtual environment" in capsys.readouterr().err
     program = venv / "bin" / "python3"

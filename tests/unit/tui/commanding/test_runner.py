@@ -109,7 +109,7 @@ def test_recording_starts_once_and_stops() -> None:
         ("param get /a b", done("Integer value is: 1\n"), "OutputScreen"),
     ],
 )
-def test_started_command_is_notified_and_takes_no_focus(line: str, printed: Future[str], reported: str) -> None:
+def test_started_command_is_announced_without_taking_the_focus(line: str, printed: Future[str], reported: str) -> None:
     run, screen, lines = runner()
     lines.commands = lambda: ("run", "launch", "param")
     lines.run = lambda _: printed

@@ -80,7 +80,7 @@ def test_a_robot_without_arbiter_is_driven_directly():
     assert bench.got == [("/ns/cmd_vel", 0.5)]
 
 
-def test_all_stop_sends_zero_everywhere_and_takes_no_command(bench):
+def test_all_stop_sends_zero_everywhere_and_ignores_commands(bench):
     bench.link.stop(True, "ALL STOP")
     bench.link.drive(0.5, 0.0)
     bench.settle()
@@ -311,7 +311,7 @@ def test_closing_waits_for_an_unacknowledged_zero_if_there_is_a_subscription(mon
     assert waits.waited == [7.0]
 
 
-def test_closing_does_not_wait_for_a_robot_that_has_gone(monkeypatch):
+def test_closing_does_not_wait_for_a_robot_that_has_left(monkeypatch):
     bench, waits = Bench("/cmd_vel"), Waits(monkeypatch)
     bench.link.stop(True, "bot-console was quit")
     bench.robot.destroy_node()

@@ -191,7 +191,7 @@ def test_a_lock_that_no_longer_reports_confirms_nothing(rig: StopRig, monkeypatc
     assert anna.info.confirmed
 
 
-def test_a_report_that_comes_after_its_lock_has_gone_counts_for_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_report_that_arrives_after_its_lock_has_left_is_ignored(monkeypatch: pytest.MonkeyPatch) -> None:
     bus, now = LossyBus(), [0.0]
     monkeypatch.setattr(stop_link, "time", SimpleNamespace(monotonic=lambda: now[0]))
     arbiter, base = f"/{ARBITER}", f"/{BASE}"

@@ -57,7 +57,7 @@ def test_no_more_is_requested_than_wanted():
     assert weakest(wanted, [BEST]) == (BEST_EFFORT, VOLATILE)
 
 
-def test_messages_of_a_weaker_publisher_and_of_others_are_received(node):
+def test_messages_of_a_weaker_publisher_and_of_all_others_are_received(node):
     heard = []
     strong = node.create_publisher(String, "/t", BEST)
     subscription = OfferedSubscription(node, String, "/t", lambda message: heard.append(message.data), BEST)

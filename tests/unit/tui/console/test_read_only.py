@@ -23,7 +23,7 @@ def gate() -> Gate:
     return gate
 
 
-def test_commands_are_refused_in_every_state_and_the_snapshot_says_so() -> None:
+def test_commands_are_refused_in_every_state_and_the_snapshot_shows_it() -> None:
     console = RosConsole()
     console.refuse_changes()
     assert console.snapshot() is console.snapshot()

@@ -204,7 +204,7 @@ def test_stop_of_locks_that_missed_the_console_counts_as_its_own_until_released(
     assert not (rig.link.info.own or rig.link.info.stopped or any(lock.lock.held for lock in locks))
 
 
-def test_own_stop_that_one_lock_has_released_is_no_longer_own(rig: Rig) -> None:
+def test_stop_that_one_lock_has_released_is_no_longer_the_consoles_own(rig: Rig) -> None:
     arbiter, base = rig.robot()
     rig.settle()
     id = rig.link.stop("the arm swings")

@@ -288,7 +288,7 @@ def test_a_response_from_before_the_release_does_not_confirm_the_next_stop(bench
     assert bench.robot.calls == [True, False, True] and not bench.info.stop_confirmed
 
 
-def test_a_means_whose_node_has_gone_no_longer_confirms(bench: Bench) -> None:
+def test_a_means_whose_node_has_left_no_longer_confirms(bench: Bench) -> None:
     bench.robot.offer({"set_bool": "/motors/hold"})
     bench.link_with({"set_bool": "/motors/hold"})
     bench.link.stop(True, "ALL STOP")

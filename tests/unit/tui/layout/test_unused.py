@@ -34,7 +34,7 @@ def test_world_keeps_its_place_until_there_are_nodes_and_while_odometry_is_offer
         assert not unused.panes(replace(WITHOUT, graph=graph))
 
 
-def test_the_graph_takes_the_place_of_an_empty_world_or_its_neighbours_do() -> None:
+def test_the_graph_or_the_neighbours_take_the_place_of_an_empty_world() -> None:
     for size in ((60, 20), (80, 24), (120, 40)):
         arrangement = Arrangement()
         before = panes(arrangement.tree(*size) or "")

@@ -54,7 +54,7 @@ def test_fulfilled_condition_is_described_in_a_sentence(condition: str, text: st
     assert fulfilled_text(read.verb, read.words) == text
 
 
-def test_anything_between_words_of_a_command_is_one_ellipsis() -> None:
+def test_anything_between_words_of_a_command_is_shown_as_one_ellipsis() -> None:
     assert command_text(["run", "*", "--params-file", "*indoor*", "*"]) == "run … --params-file … indoor …"
 
 

@@ -57,7 +57,7 @@ def test_without_a_drawing_trails_are_shown() -> None:
     assert any(style == "#b3b8ff on #4556ff" for row in rows for _, style in row)
 
 
-def test_a_turtle_outside_or_a_tiny_pane_is_no_fault() -> None:
+def test_a_turtle_outside_and_a_tiny_pane_are_drawn_without_an_error() -> None:
     turtle = Turtle("leo", Pose(-3.0, 99.0, float("nan")))
     for width, height in ((4, 2), (5, 9), (200, 3)):
         rows = FieldDrawing().rows(TurtleField("/sim", (turtle, turtle), drawing((9, 9, 9))), width, height)

@@ -172,7 +172,7 @@ def restored_key_table(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.usefixtures("restored_key_table")
-def test_key_that_is_no_character_stops_in_a_text_field_too() -> None:
+def test_key_that_is_not_a_character_stops_in_a_text_field_too() -> None:
     remap({"app.stop": "f9"})
     rig = Rig()
     rig.typing = True

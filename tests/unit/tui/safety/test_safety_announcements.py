@@ -29,13 +29,13 @@ def announcements(news: SafetyAnnouncements, console: FakeConsole, calls: int = 
     return [text for _ in range(calls) for text in news.announcements(console.snapshot())]
 
 
-def test_edit_is_announced_with_the_key_that_takes_it_back(news: SafetyAnnouncements, console: FakeConsole) -> None:
+def test_edit_is_announced_with_the_key_that_undoes_it(news: SafetyAnnouncements, console: FakeConsole) -> None:
     console.set_parameters(NODE, {"safety_distance": 0.4})
     (text,) = announcements(news, console)
     assert text.endswith("lowers a safety margin. u in the Parameters pane undoes it.")
 
 
-def test_value_that_a_refused_set_has_taken_back_is_not_announced(
+def test_value_that_a_refused_set_has_reverted_is_not_announced(
     news: SafetyAnnouncements, console: FakeConsole
 ) -> None:
     console.set_parameters(NODE, {"max_speed": 0.9})  # Undo would take this back.

@@ -103,7 +103,7 @@ def test_missing_folder_of_profiles_is_named() -> None:
         named_profile("slow", [Path("nowhere")])
 
 
-def test_attached_console_takes_a_folder_of_profiles() -> None:
+def test_attached_console_accepts_a_folder_of_profiles() -> None:
     options, _ = parse_attach(["--profiles", "mine"], attach_parser())
     assert options.profile_folders == [Path("mine")]
 

@@ -17,7 +17,7 @@ def test_read_only_option_reaches_the_session(words: list[str]) -> None:
 
 
 @pytest.mark.parametrize("read_only", [False, True])
-def test_panes_of_attached_session_get_a_console_launcher_and_lines_that_change_nothing(read_only: bool) -> None:
+def test_read_only_session_gives_its_panes_a_read_only_console_launcher_and_command_line(read_only: bool) -> None:
     console, launcher, asked = RosConsole(), FakeLauncher((), ("x.launch.py",)), []
     options = Options(attach=True, read_only=read_only)
     console.attach_launcher(launcher)

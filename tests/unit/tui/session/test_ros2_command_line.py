@@ -154,7 +154,7 @@ def test_continuous_line_is_recorded_for_a_lesson(tmp_path: Path, monkeypatch: p
     until(lambda: read_log(str(log))[0].code is not None)
 
 
-def test_line_that_waits_for_too_long_is_interrupted_and_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_line_that_waits_for_too_long_is_interrupted_with_a_message(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROS_DOMAIN_ID", "87")
     monkeypatch.setattr(ros2_command_line, "LINE_TIMEOUT_S", 0.5)
     printed = Ros2CommandLine().run("service call /nothing std_srvs/srv/Trigger").result(TIMEOUT_S)

@@ -21,7 +21,7 @@ def test_state_is_kept_per_system_and_alarms_for_all() -> None:
     assert other.get("alarms") == [{"name": "low"}]
 
 
-def test_alarms_file_lies_beside_the_settings_with_a_comment(folder: Path) -> None:
+def test_alarms_file_is_beside_the_settings_and_has_a_comment(folder: Path) -> None:
     StateFiles().put("alarms", [])
     assert (folder / "config" / "alarms.yaml").read_text().startswith("# Alarms of bot-console")
 

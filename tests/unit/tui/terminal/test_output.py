@@ -136,7 +136,7 @@ def test_only_the_requested_part_of_a_widget_need_be_sent() -> None:
     run(script)
 
 
-def test_a_screen_over_the_panes_comes_and_goes() -> None:
+def test_screen_over_the_panes_is_drawn_and_removed() -> None:
     async def script(app: Panes, pilot: Pilot[None]) -> None:
         await app.push_screen(OverlayScreen())
         await pilot.pause()
@@ -151,7 +151,7 @@ def test_a_screen_over_the_panes_comes_and_goes() -> None:
 
 
 @pytest.mark.parametrize("screens", [1, 2, pytest.param(3, marks=pytest.mark.slow)])
-def test_panes_go_on_below_screens_that_lie_over_each_other(screens: int) -> None:
+def test_panes_keep_updating_below_stacked_screens(screens: int) -> None:
     async def script(app: Panes, pilot: Pilot[None]) -> None:
         for _ in range(screens):
             await app.push_screen(OverlayScreen())

@@ -59,14 +59,14 @@ def test_adaptive_search_comes_closer_than_random_search() -> None:
     assert sorted(best("adaptive"))[4] > 0.5 * sorted(best("random"))[4]
 
 
-def test_the_adaptive_search_steps_back_from_a_border_instead_of_staying_at_it() -> None:
+def test_adaptive_search_steps_back_from_a_border_instead_of_staying_there() -> None:
     corner = (Tunable("/a", "x", "double", 0.0, 1.0, 1.0), Tunable("/a", "y", "double", -2.0, 2.0, 2.0))
     tried = searched("adaptive", corner, 30, 1, lambda setting: setting[0] + setting[1])
     at_border = [each for each in tried[1:] if each.setting[0] == 1.0 or each.setting[1] == 2.0]
     assert len(at_border) < 3, "half of all steps lead beyond each border"
 
 
-def test_the_adaptive_search_goes_on_after_settings_that_failed() -> None:
+def test_adaptive_search_continues_after_failed_settings() -> None:
     assert len(searched("adaptive", (X, Y), 20, 1, lambda setting: -math.inf)) == 20
 
 

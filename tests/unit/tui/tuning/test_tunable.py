@@ -87,7 +87,7 @@ def test_unknown_parameter_is_rejected_with_a_hint(words: list[str], why: str) -
         find_tunables(words, KNOWN)
 
 
-def test_a_parameter_without_a_range_takes_the_given_one() -> None:
+def test_a_parameter_without_a_range_uses_the_given_one() -> None:
     assert find_tunables(["gain=1..3"], KNOWN)[0].high == 3.0
 
 

@@ -195,7 +195,7 @@ def test_a_recording_says_at_its_end_which_topics_have_no_definition(
         room.close()
 
 
-def test_a_message_without_a_definition_is_no_message_for_a_subscription_of_the_same_program() -> None:
+def test_message_without_a_definition_reaches_only_raw_subscriptions_of_the_same_program() -> None:
     rclpy.init()
     try:
         node = rclpy.create_node("both")

@@ -30,13 +30,13 @@ def test_two_publishers_of_a_velocity_topic_are_named_with_the_topic() -> None:
 
 
 @pytest.mark.parametrize("nodes", [(BASE, NAVIGATOR), (BASE, NAVIGATOR, HIDDEN), (NAVIGATOR, TELEOP)])
-def test_a_console_beside_one_publisher_and_topics_without_subscriptions_are_no_rivals(
+def test_console_beside_one_publisher_and_topics_without_subscriptions_cause_no_warning(
     nodes: Sequence[NodeInfo],
 ) -> None:
     assert not logged(GraphInfo(tuple(nodes)))
 
 
-def test_lifecycle_nodes_are_no_rivals_unless_another_node_joins_them() -> None:
+def test_lifecycle_publishers_cause_no_warning_unless_another_node_joins_them() -> None:
     managed = tuple(
         NodeInfo(name, CMD_VEL, services=(Endpoint(f"{name}/change_state", ("lifecycle_msgs/srv/ChangeState",)),))
         for name in ("/behavior_server", "/controller_server")

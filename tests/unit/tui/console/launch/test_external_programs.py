@@ -76,7 +76,7 @@ def test_processes_of_a_known_launch_host_or_of_this_console_are_not_listed_agai
     assert [each.key for each in machine.found(launched)] == ["talker@1"]
 
 
-def test_nodes_of_a_launched_program_are_known_even_if_it_started_them_through_a_shell(tmp_path: Path) -> None:
+def test_nodes_of_a_launched_program_are_found_even_if_it_started_them_through_a_shell(tmp_path: Path) -> None:
     machine = Machine(tmp_path)
     machine.runs(600, SHELL, "sh", "-c", "python3 mine.py")
     machine.runs(601, 600, "python3", "mine.py", nodes=("/mine", "/_hidden"))

@@ -166,7 +166,7 @@ def test_a_stop_just_after_a_crash_is_done_when_launch_gives_up_the_respawn():
     assert stop.result(0).ok and process.info.state is ProcessState.CRASHED
 
 
-def test_the_placeholder_of_a_node_without_a_process_of_its_own_is_no_process_id():
+def test_placeholder_of_a_composed_node_is_not_shown_as_a_process_id():
     process = LaunchedProcess("key", "node-1")
     process.started("node-1", (1 << 22) + 1)
     assert process.info.pid is None and process.info.state is ProcessState.RUNNING

@@ -139,7 +139,7 @@ def test_unknown_values_are_marked(tmp_path: Path) -> None:
     assert "_hidden" not in text and "launch_ros_7" not in text
 
 
-def test_the_nodes_of_a_program_are_known_by_its_process_and_those_of_a_container_are_not(tmp_path: Path) -> None:
+def test_nodes_of_a_program_are_identified_by_its_process_except_those_of_a_container(tmp_path: Path) -> None:
     nodes = tuple(node(f"/{name}") for name in ("one", "two", "container", "loaded"))
     temporary = ("/bin/x", "--ros-args", "--params-file", "/tmp/launch_params_1")
     launch = LaunchInfo(
@@ -202,7 +202,7 @@ def test_no_file_of_the_user_is_replaced(tmp_path: Path) -> None:
         ([""], None),
     ],
 )
-def test_programs_are_known_by_their_command_lines(
+def test_programs_are_identified_by_their_command_lines(
     words: list[str], program: Program | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     content = b"\0".join(each.encode() for each in words) + b"\0"

@@ -130,7 +130,7 @@ def test_stop_cancels_a_pending_restart(bench):
     assert bench.process().restarts == 0
 
 
-def test_a_respawning_process_comes_back(bench):
+def test_a_respawning_process_is_started_again(bench):
     path = bench.program(FAILS)
     bench.run(f"[Node(executable={path!r}, respawn=True, respawn_delay=0.01)]")
     bench.until(lambda: bench.process().restarts >= 3, "the third respawn")
@@ -151,7 +151,7 @@ def test_stop_during_the_respawn_delay_prevents_the_respawn(bench):
     assert bench.process().state is ProcessState.EXITED
 
 
-def test_a_killed_process_that_respawns_comes_back(bench):
+def test_a_killed_process_that_respawns_is_started_again(bench):
     path = bench.program(WAITS)
     bench.run(f"[Node(executable={path!r}, respawn=True)]")
     assert bench.do("kill", bench.process()).ok
@@ -352,7 +352,7 @@ def test_process_that_computes_without_pause_is_reported_once(bench, waiting_nod
     assert reports() == [f"{bench.process().label} has been computing for 0.1 s without a pause"]
 
 
-def test_node_of_ours_that_survives_being_killed_is_reported(bench, monkeypatch):
+def test_bundled_node_that_survives_being_killed_is_reported(bench, monkeypatch):
     stop = threading.Event()
 
     def compute():

@@ -17,7 +17,7 @@ def test_arguments_are_sorted_by_purpose() -> None:
     )
 
 
-def test_the_first_of_several_names_counts_and_an_unfinished_line_is_no_fault() -> None:
+def test_the_first_of_several_names_counts_and_an_unfinished_line_is_accepted() -> None:
     words = "--ros-args -r __node:=a --ros-args -r __node:=b --disable-rosout-logs -r"
     found = read_ros_arguments(words.split())
     assert (found.name, found.others) == ("a", ("--disable-rosout-logs",))

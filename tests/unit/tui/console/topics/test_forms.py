@@ -22,7 +22,7 @@ def test_a_form_has_defaults_units_and_the_names_of_enumerations() -> None:
     assert "1 GOOD" in found["power_supply_health"].choices, "each field has its own names"
 
 
-def test_a_yaw_stands_for_the_numbers_of_a_quaternion() -> None:
+def test_a_yaw_may_be_typed_for_a_quaternion() -> None:
     message, _ = filled(Payload.MESSAGE, ODOM, {"pose.pose.orientation": "90°", "pose.pose.position.x": "2"})
     q = message.pose.pose.orientation
     assert (q.x, q.y) == (0.0, 0.0) and math.isclose(q.z, math.sqrt(0.5)) and math.isclose(q.w, math.sqrt(0.5))

@@ -59,7 +59,7 @@ def test_summary_fits_the_widest_column() -> None:
     assert len(headline(String(data="x" * 10_000), "std_msgs/msg/String")) == MAX_CHARACTERS
 
 
-def test_bytes_that_are_no_message_have_no_value() -> None:
+def test_bytes_that_are_not_a_message_have_no_value() -> None:
     assert value_text(serialize_message(Float64(data=2.5)), Float64) == "2.50"
     assert value_text(b"\0\1\0\0", Float64) == "" and value_text(b"", Float64) == ""
 

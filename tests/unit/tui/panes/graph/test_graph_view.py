@@ -81,7 +81,7 @@ def test_a_node_of_a_stopped_process_is_marked_in_the_line_below():
     assert text.startswith("/b is frozen") and "kill -CONT 42" in text
 
 
-def test_a_node_in_a_debugger_is_no_fault_and_is_not_drawn_as_dead() -> None:
+def test_a_node_in_a_debugger_is_neither_reported_as_a_fault_nor_drawn_as_dead() -> None:
     info = GraphInfo((NodeInfo("/a"), NodeInfo("/b")), debugged=(("/b", "/ws/b.py:12, in tick"),))
     assert summary(info, "/b", GraphView().hides_name).endswith("- stopped in debugger at /ws/b.py:12, in tick")
     assert "debugger" not in summary(info, "/a", GraphView().hides_name)

@@ -55,7 +55,7 @@ def test_flood_is_read_in_pieces_and_only_the_newest_lines_are_kept() -> None:
     assert follower.of("2").warnings == len(records) and len(follower.of("2").lines) == MAX_LINES
 
 
-def test_dropped_records_and_another_log_are_no_obstacle() -> None:
+def test_dropped_records_and_another_log_are_handled() -> None:
     follower = follower_with(("arm", Severity.WARN), ("arm", Severity.WARN))
     assert not follower.read(LogState(0, 1), lambda _: None)
     assert follower.read(LogState(5, 6), lambda at: LogRecord(at, 0, Severity.ERROR, "arm", ""))

@@ -51,7 +51,7 @@ def test_single_long_name_does_not_remove_all_sliders() -> None:
     assert not columns(measure([rows[0], row(LONG)]), 60).bar, "one of two is not few"
 
 
-def test_moved_edge_gives_and_takes_room_but_leaves_names_and_values_some() -> None:
+def test_moved_edge_shifts_room_but_leaves_some_for_names_and_values() -> None:
     need = measure([row("gain"), row("emergency_stop_distance")])
     own, wider, narrower = (columns(need, 52, split) for split in (0, 6, -6))
     assert (wider.name, narrower.name) == (own.name + 6, own.name - 6)

@@ -25,7 +25,7 @@ def snapshot(*known: str) -> ConsoleSnapshot:
     return ConsoleSnapshot(graph=GraphInfo(services=services), parameters=trees)
 
 
-def test_node_whose_parameters_are_not_known_any_more_is_not_asked() -> None:
+def test_node_whose_parameters_are_no_longer_known_is_not_asked() -> None:
     asking = DryRun(FakeConsole(), lambda *_: None, lambda: None)
     differences = [ProfileDifference(f"/{each}", "a", 1, 2) for each in ("talker", "monitor")]
     asking.ask(differences, snapshot("talker", "monitor"))

@@ -35,7 +35,7 @@ def test_mark_is_where_the_mouse_would_request_its_velocity(velocity: tuple[floa
     assert velocity_at(drawn, *place(drawn, ASKED), (1.0, 2.0)) == pytest.approx(velocity)
 
 
-def test_robot_beyond_the_limits_is_at_the_edge_and_beside_the_plane_is_no_velocity() -> None:
+def test_robot_beyond_the_limits_is_at_the_edge_and_a_position_beside_the_plane_has_no_velocity() -> None:
     drawn = plane_lines(None, (9.0, -9.0))
     assert place(drawn, ROBOT) == (28, 1)
     assert place(plane_lines(None, (float("nan"), 0.0)), ROBOT) == place(plane_lines(None, (0.0, 0.0)), ROBOT)

@@ -60,6 +60,6 @@ def test_other_lines_are_not_streams(line: str) -> None:
     assert MachineCommandLine().stream(line) is None
 
 
-def test_other_lines_are_interrupted_after_some_time_and_say_so() -> None:
+def test_other_lines_are_interrupted_after_some_time_with_a_message() -> None:
     printed = printed_by("ros2 service call /a b", 0.5)
     assert printed.splitlines()[-1].startswith("interrupted after 0.5 s")
