@@ -104,7 +104,7 @@ class AutoTune(Node):
                 values = {pair.key: pair.value for pair in each.values}
                 self._locked = values.get("limited_by", "") == LOCKED
 
-    def _hindrance(self) -> str:
+    def _reason_not_to_adjust(self) -> str:
         """Why the parameter may not be adjusted now; empty if it may."""
         if not self.get_parameter("enabled").value:
             return "it is not enabled"
@@ -122,18 +122,18 @@ class AutoTune(Node):
             return
         self._busy = True
         try:
-            why = self._hindrance()
+            why = self._reason_not_to_adjust()
             if why:
                 await self._suspend(why)
-            elif await self._ready() and self._climber is not None:
+            elif await self._prepare() and self._climber is not None:
                 elapsed = (self._steady.now().nanoseconds - self._began) * 1e-9
                 if self._bumps:
                     self.get_logger().warning(
                         f"Collision at {self._name} {self._climber.value:g}: this value will not be exceeded again"
                     )
-                    await self._send(self._climber.danger())
+                    await self._send(self._climber.record_danger())
                 elif elapsed >= float(self.get_parameter("period").value) and self._speeds:
-                    await self._send(self._climber.evaluated(self._score()))
+                    await self._send(self._climber.record_score(self._score()))
         finally:
             self._busy = False
 
@@ -152,7 +152,7 @@ class AutoTune(Node):
             self.get_logger().warning(f"Not adjusting, {why}: {reported}")
         self._climber = None
 
-    async def _ready(self) -> bool:
+    async def _prepare(self) -> bool:
         """Read the parameter's value and range if unknown or changed by another client; False if that fails."""
         now = await self._value()
         if now is None:
@@ -192,7 +192,7 @@ class AutoTune(Node):
         if refusal:
             self.get_logger().warning(f"{self._name} {value:g} refused: {refusal}")
             if self._climber is not None:
-                self._climber.danger()
+                self._climber.record_danger()
         elif value != before:
             self.get_logger().info(f"{self._name} {before:g} → {value:g}; {before:g} scored {score:.2f}")
         self._forget()

@@ -20,9 +20,9 @@ DIRECTIONS = np.radians(np.arange(-90.0, 91.0, 6.0)).astype(np.float32)
 AHEAD = len(DIRECTIONS) // 2
 STEERING = 2.0
 """Turn rate per rad of angle to the opening, in 1/s."""
-BEND = 0.9
+TURN_COST = 0.9
 """Extra room (m) that a turn of 1 rad must gain."""
-HABIT = 0.3
+HEADING_CHANGE_COST = 0.3
 """Extra room (m) that changing the heading by 1 rad must gain."""
 WANDER = 0.55
 """Heading offset (rad) that breaks ties; without it, the robot would follow the same wall for ever."""
@@ -102,7 +102,11 @@ class Avoidance:
     def _steer(self, room: Floats, rules: Rules) -> tuple[float, float]:
         """Return the velocity towards the best direction."""
         self._scans += 1
-        score = room - BEND * np.abs(DIRECTIONS - self._whim()) - HABIT * np.abs(DIRECTIONS - self._heading)
+        score = (
+            room
+            - TURN_COST * np.abs(DIRECTIONS - self._wander_offset())
+            - HEADING_CHANGE_COST * np.abs(DIRECTIONS - self._heading)
+        )
         self._heading = float(DIRECTIONS[int(score.argmax())])
         angular = max(-rules.turn_rate, min(rules.turn_rate, STEERING * self._heading))
         if not rules.enable_safety:
@@ -111,7 +115,7 @@ class Avoidance:
         fastest = min(rules.max_speed, math.sqrt(2.0 * BRAKING * spare))
         return fastest * max(0.2, math.cos(self._heading)), angular
 
-    def _whim(self) -> float:
+    def _wander_offset(self) -> float:
         """Return the present heading offset (rad) that breaks ties; see `WANDER`."""
         return 0.5 * WANDER * sum(math.sin(math.tau * self._scans / period) for period in WANDER_PERIODS)
 

@@ -24,7 +24,7 @@ class HillClimber:
         self._direction: float = 1.0
         self._best_score: float | None = None
 
-    def evaluated(self, score: float) -> float:
+    def record_score(self, score: float) -> float:
         """Record the score of the current value; returns the value to try next."""
         if self._best_score is None or score >= self._best_score:
             self.best, self._best_score = self.value, score
@@ -39,7 +39,7 @@ class HillClimber:
         self.value = self.best
         return self.value
 
-    def danger(self) -> float:
+    def record_danger(self) -> float:
         """Record that the current value was dangerous; returns the value to go back to, one step towards safety."""
         if self.value > self.low and (self._direction > 0 or self.value >= self.best):
             self.high = max(self.low, self.value - self._step)

@@ -18,8 +18,8 @@ from bot_console_robot.common.parameters import fixed, number
 from bot_console_robot.common.running import run
 from bot_console_robot.navigation.action_goal import Goal, run_goal
 from bot_console_robot.navigation.driving import Point
-from bot_console_robot.navigation.planner import NoWay
-from bot_console_robot.navigation.tasks import Spin, Straight, Task, Wait, Way
+from bot_console_robot.navigation.planner import NoPath
+from bot_console_robot.navigation.tasks import DriveStraight, FollowPath, Spin, Task, Wait
 from bot_console_robot.navigation.world_model import WorldModel
 from bot_console_robot.simulation_ros.messages import heading_of, quaternion
 from geometry_msgs.msg import Pose, PoseStamped, Twist, TwistStamped
@@ -88,7 +88,7 @@ class Navigator(Node):
         return self._steady.now().nanoseconds * 1e-9
 
     def _control(self) -> None:
-        goal, seen = self._current, self._known.seen()
+        goal, seen = self._current, self._known.observation()
         if goal is None or seen is None:
             return
         if goal.cancelled:
@@ -124,14 +124,14 @@ class Navigator(Node):
         return self._current
 
     def _plan(self, poses: Sequence[Pose]) -> tuple[list[Point], float]:
-        """Return the path through all poses, and the heading of the last one; raises `NoWay`."""
+        """Return the path through all poses, and the heading of the last one; raises `NoPath`."""
         if not poses:
-            raise NoWay("no pose was given")
+            raise NoPath("no pose was given")
         if self._known.pose is None:
-            raise NoWay("the robot's position is unknown: nothing received on ground_truth or odom")
+            raise NoPath("the robot's position is unknown: nothing received on ground_truth or odom")
         here, points = self._known.pose[:2], list[Point]()
         for pose in poses:
-            points += self._known.way(points[-1] if points else here, (pose.position.x, pose.position.y))
+            points += self._known.plan(points[-1] if points else here, (pose.position.x, pose.position.y))
         heading = heading_of(poses[-1].orientation)
         self._plans.publish(self._path([here, *points]))
         return points, heading
@@ -151,11 +151,11 @@ class Navigator(Node):
     def _on_goal_pose(self, message: PoseStamped) -> None:
         try:
             points, heading = self._plan([message.pose])
-        except NoWay as error:
+        except NoPath as error:
             self.get_logger().warning(f"Goal on goal_pose ignored: {error}")
             return
         self._announce(message.pose)
-        goal = self._begin(Way(points, heading, self._known.limits()))
+        goal = self._begin(FollowPath(points, heading, self._known.limits()))
         goal.done.add_done_callback(lambda done: self._publish_result(done.result() or 0))
 
     def _announce(self, pose: Pose) -> None:
@@ -169,17 +169,17 @@ class Navigator(Node):
         self.get_logger().info("Goal succeeded" if not code else f"Goal failed, error code {code}")
 
     async def _travel(
-        self, handle: ServerGoalHandle, poses: Sequence[Pose], feedback: Callable[[Way, Any], None], kind: Any
+        self, handle: ServerGoalHandle, poses: Sequence[Pose], feedback: Callable[[FollowPath, Any], None], kind: Any
     ) -> int:
         """Drive through poses as one path; returns Nav2's error code, 0 when the goal is reached."""
         try:
             points, heading = self._plan(poses)
-        except NoWay as error:
+        except NoPath as error:
             self.get_logger().error(f"Goal failed: {error}")
             handle.abort()
             return NO_VALID_PATH
         self._announce(poses[-1])
-        task = Way(points, heading, self._known.limits())
+        task = FollowPath(points, heading, self._known.limits())
         message = kind.Feedback()
         code = await run_goal(self, self._begin(task, handle), lambda: feedback(task, message), message)
         self._publish_result(code)
@@ -192,7 +192,7 @@ class Navigator(Node):
     async def _through_poses(self, handle: ServerGoalHandle) -> Any:
         poses = [each.pose for each in handle.request.poses]
 
-        def report(task: Way, message: Any) -> None:
+        def report(task: FollowPath, message: Any) -> None:
             self._publish_path(task, message)
             message.number_of_poses_remaining = _left_of(poses, task, self._known.pose)
 
@@ -200,7 +200,7 @@ class Navigator(Node):
             error_code=await self._travel(handle, poses, report, ACTIONS.NavigateThroughPoses)
         )
 
-    def _publish_path(self, task: Way, message: Any) -> None:
+    def _publish_path(self, task: FollowPath, message: Any) -> None:
         pose = self._known.pose or (0.0, 0.0, 0.0)
         message.current_pose.header.stamp = self.get_clock().now().to_msg()
         message.current_pose.header.frame_id = "map"
@@ -219,8 +219,8 @@ class Navigator(Node):
             handle.publish_feedback(message)
             try:
                 points, heading = self._plan([stamped.pose])
-                goal = self._begin(Way(points, heading, self._known.limits()), handle)
-            except NoWay:
+                goal = self._begin(FollowPath(points, heading, self._known.limits()), handle)
+            except NoPath:
                 code = NO_VALID_PATH
             else:
                 code = await goal.done
@@ -248,7 +248,7 @@ class Navigator(Node):
         asked, message = handle.request, kind.Feedback()
         distance = sign * abs(asked.target.x)
         allowance = asked.time_allowance.sec + asked.time_allowance.nanosec * 1e-9
-        task = Straight(distance, asked.speed, allowance, self._known.limits())
+        task = DriveStraight(distance, asked.speed, allowance, self._known.limits())
 
         def report() -> None:
             message.distance_traveled = task.travelled
@@ -274,8 +274,8 @@ class Navigator(Node):
         start = (here.x, here.y) if asked.use_start else (self._known.pose or (math.nan, math.nan))[:2]
         goal = asked.goal.pose.position
         try:
-            points = self._known.way(start, (goal.x, goal.y))
-        except NoWay as error:
+            points = self._known.plan(start, (goal.x, goal.y))
+        except NoPath as error:
             self.get_logger().warning(f"No path: {error}")
             handle.abort()
             return ACTIONS.ComputePathToPose.Result(error_code=NO_VALID_PATH)
@@ -292,7 +292,7 @@ def _active(_: Any, response: GetState.Response) -> GetState.Response:
     return response
 
 
-def _left_of(poses: Sequence[Pose], task: Way, pose: tuple[float, float, float] | None) -> int:
+def _left_of(poses: Sequence[Pose], task: FollowPath, pose: tuple[float, float, float] | None) -> int:
     """Return how many poses of a path are still ahead: those no farther from its end than the robot."""
     ahead, count = task.left(pose or (0.0, 0.0, 0.0)), 0
     for before, after in zip(poses[::-1], [poses[-1], *poses[::-1]], strict=False):

@@ -81,7 +81,7 @@ class Presets(Node):
         done: list[str] = []
         for node, values in wanted.items():
             reason = await self._set(
-                node, {name: _fitting(value, before[node][name]) for name, value in values.items()}
+                node, {name: _converted(value, before[node][name]) for name, value in values.items()}
             )
             if reason:
                 stuck = [each for each in reversed(done) if await self._set(each, before[each])]
@@ -94,7 +94,7 @@ class Presets(Node):
         self, request: AddDiagnostics.Request, response: AddDiagnostics.Response
     ) -> AddDiagnostics.Response:
         try:
-            values = {node: await self._all_values(node) for node in self._nodes()}
+            values = {node: await self._all_values(node) for node in self._target_nodes()}
             path = preset_files.write(self._folder, request.load_namespace, values)
             return self._answered(response, True, f"{sum(map(len, values.values()))} values saved to {path}")
         except PresetError as error:
@@ -115,7 +115,7 @@ class Presets(Node):
         response.success, response.message = done, text
         return response
 
-    def _nodes(self) -> list[str]:
+    def _target_nodes(self) -> list[str]:
         """Return the nodes to query: the configured ones, else all whose parameters can be set."""
         chosen = [str(each) for each in self.get_parameter("nodes").value or () if each]
         if chosen:
@@ -135,10 +135,10 @@ class Presets(Node):
                 return client
             if not self.count_services(f"{node}/set_parameters"):
                 break
-            await self._moment()
+            await self._yield_to_executor()
         raise PresetError(f"{node} is not running, or has no parameter services")
 
-    async def _moment(self) -> None:
+    async def _yield_to_executor(self) -> None:
         """Let other callbacks run before the next check."""
         over: Future[None] = Future()
 
@@ -175,7 +175,7 @@ def _is_array(value: Any) -> bool:
     return hasattr(value, "__len__") and not isinstance(value, str)
 
 
-def _fitting(value: Any, now: Any) -> Any:
+def _converted(value: Any, now: Any) -> Any:
     """Convert a value to the parameter's type: `2` in a file is a double if one is declared."""
     return float(value) if isinstance(now, float) and type(value) is int else value
 

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable
 
 from bot_console_robot.common.checking import offer_check
-from bot_console_robot.common.demand import wanted
+from bot_console_robot.common.demand import has_receiver
 from bot_console_robot.common.diagnostics import ERROR, OK, WARN, status
 from bot_console_robot.common.parameters import accepted, number, plain, proposed, refused
 from bot_console_robot.common.robot_time import RobotTime
@@ -103,7 +103,7 @@ class SafetyMonitor(Node):
 
     def _on_scan(self, scan: LaserScan) -> None:
         self._scan.take(scan)
-        self._robot_time.heard(self._scan.stamp)
+        self._robot_time.note_stamp(self._scan.stamp)
         if self._verdict.final[0] > 0.0:
             self._decide()
 
@@ -161,7 +161,7 @@ class SafetyMonitor(Node):
             log.warning("Stopped: no velocity command for 0.5 s")
 
     def _publish_diagnostics(self) -> None:
-        if not wanted(self._diagnostics):
+        if not has_receiver(self._diagnostics):
             return
         verdict = self._verdict
         level = {"": OK, "warning_distance": WARN, NO_COMMAND: WARN, STEERED: OK}.get(verdict.limited_by, ERROR)

@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from bot_console_robot.common.demand import wanted
+from bot_console_robot.common.demand import has_receiver
 from bot_console_robot.common.diagnostics import ERROR, OK
 from bot_console_robot.common.health import Health, HealthReport
 from bot_console_robot.common.parameters import number, plain, whole
 from bot_console_robot.common.running import run
 from bot_console_robot.common.scans import SCANS, intensities_of, packed, ranges_of
-from bot_console_robot.detection import Detection, find, median_of_three, strong
+from bot_console_robot.detection import Detection, find, median_of_three, without_weak_returns
 from geometry_msgs.msg import Pose, PoseArray
 from rclpy.node import Node
 from rclpy.parameter import Parameter
@@ -64,9 +64,11 @@ class SensorHandler(Node):
 
     def _process(self) -> None:
         scan, self._newest = self._newest, None
-        if scan is None or not (self._health.wanted or wanted(self._scans) or wanted(self._detections)):
+        if scan is None or not (
+            self._health.has_receiver or has_receiver(self._scans) or has_receiver(self._detections)
+        ):
             return
-        ranges = strong(ranges_of(scan), intensities_of(scan), self._threshold)
+        ranges = without_weak_returns(ranges_of(scan), intensities_of(scan), self._threshold)
         if self._filter:
             ranges = median_of_three(ranges)
         found = find(ranges, scan.angle_min, scan.angle_increment)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 
 from bot_console_robot.common.checking import offer_check
-from bot_console_robot.common.demand import wanted
+from bot_console_robot.common.demand import has_receiver
 from bot_console_robot.common.diagnostics import OK, WARN
 from bot_console_robot.common.health import Health, HealthReport
 from bot_console_robot.common.parameters import accepted, refused
@@ -311,7 +311,7 @@ class Simulator(Node):
         wheels = (drive.linear, drive.angular)
         reported = frames.in_odom(simulation.odometry.pose)
         self._odometry.publish(self._reported.report(reported, wheels, stamp))
-        if wanted(self._truth):
+        if has_receiver(self._truth):
             true, speeds = frames.in_map(simulation.pose), (simulation.speed, simulation.turn_rate)
             self._truth.publish(self._true.report(true, speeds, stamp))
         self._signals.publish(simulation, stamp)

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from rclpy.publisher import Publisher
 
 
-def wanted(publisher: Publisher) -> bool:
+def has_receiver(publisher: Publisher) -> bool:
     """Whether the publisher currently has a receiver.
 
     A middleware that has receivers other than subscriptions, such as a recorder of the last minutes, reports them

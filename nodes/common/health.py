@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from bot_console_robot.common.demand import wanted
+from bot_console_robot.common.demand import has_receiver
 from bot_console_robot.common.diagnostics import status
 from diagnostic_msgs.msg import DiagnosticArray
 from rclpy.node import Node
@@ -27,10 +27,10 @@ class HealthReport:
 
     def _report(self) -> None:
         level, message, values = self._poll()
-        if self.wanted:
+        if self.has_receiver:
             self._publisher.publish(status(self._name, level, message, values, self._node.get_clock().now().to_msg()))
 
     @property
-    def wanted(self) -> bool:
+    def has_receiver(self) -> bool:
         """Whether somebody receives the status."""
-        return wanted(self._publisher)
+        return has_receiver(self._publisher)

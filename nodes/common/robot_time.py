@@ -54,7 +54,7 @@ class RobotTime:
         if matched.current_count == 0:
             self._leave()
 
-    def heard(self, stamp: int) -> None:
+    def note_stamp(self, stamp: int) -> None:
         """Record the stamp (ns) of a scan for comparison with a clock."""
         self._stamp = stamp
 

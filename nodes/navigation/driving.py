@@ -13,7 +13,7 @@ Pose = tuple[float, float, float]
 Velocity = tuple[float, float]
 """Linear (m/s) and angular (rad/s) velocity."""
 
-WAY_POINT = 0.25
+CORNER_RADIUS = 0.25
 """Distance (m) from a corner of the path at which the robot heads for the next one."""
 TURN_FIRST = 0.6
 """Angle (rad) to the next point above which the robot turns in place first."""
@@ -32,18 +32,18 @@ class Limits:
     room: float = 0.35
 
 
-def off(wanted: float, is_now: float) -> float:
+def heading_error(wanted: float, is_now: float) -> float:
     """Return the angle (rad) from the present heading to the wanted one, the shorter way round."""
     return math.remainder(wanted - is_now, 2.0 * math.pi)
 
 
-def turning(error: float, limits: Limits) -> Velocity:
+def turn_in_place(error: float, limits: Limits) -> Velocity:
     """Return the velocity for turning in place by an angle (rad)."""
     rate = max(-limits.turn_rate, min(limits.turn_rate, GAIN * error))
     return 0.0, math.copysign(max(abs(rate), 0.15), error)
 
 
-class WayFollower:
+class PathFollower:
     """Follows points, then turns to a final heading."""
 
     def __init__(self, points: Sequence[Point], heading: float, limits: Limits) -> None:
@@ -59,16 +59,16 @@ class WayFollower:
     def velocity(self, pose: Pose, ahead: float) -> Velocity | None:
         """Return the velocity at a pose with this much room ahead (m); None when the goal is reached."""
         limits = self._limits
-        while len(self.points) > 1 and math.dist(pose[:2], self.points[0]) < WAY_POINT:
+        while len(self.points) > 1 and math.dist(pose[:2], self.points[0]) < CORNER_RADIUS:
             self.points.pop(0)
         if len(self.points) == 1 and math.dist(pose[:2], self.points[0]) < limits.place:
             self.points.clear()
         if not self.points:
-            error = off(self.heading, pose[2])
-            return None if abs(error) < limits.angle else turning(error, limits)
+            error = heading_error(self.heading, pose[2])
+            return None if abs(error) < limits.angle else turn_in_place(error, limits)
         x, y = self.points[0]
-        error = off(math.atan2(y - pose[1], x - pose[0]), pose[2])
+        error = heading_error(math.atan2(y - pose[1], x - pose[0]), pose[2])
         if abs(error) > TURN_FIRST:
-            return turning(error, limits)
+            return turn_in_place(error, limits)
         speed = min(limits.speed, math.sqrt(0.8 * max(0.0, self.left(pose))), max(0.0, ahead - limits.room))
         return speed * math.cos(error), max(-limits.turn_rate, min(limits.turn_rate, GAIN * error))

@@ -14,7 +14,7 @@ OCCUPIED = 50
 """Occupancy in percent at and above which a cell is blocked; unknown cells (-1) are blocked too."""
 COARSE = 0.1
 """Cell size in m of the grid used for planning."""
-SHY = 0.3
+COMFORT_MARGIN = 0.3
 """Distance in m beyond the clearance within which a path costs more."""
 NEIGHBOURS = ((1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1))
 
@@ -22,7 +22,7 @@ Point = tuple[float, float]
 Cell = tuple[int, int]
 
 
-class NoWay(Exception):
+class NoPath(Exception):
     """There is no path; the message says why."""
 
 
@@ -43,17 +43,17 @@ class Planner:
         self._step = max(COARSE, grid.resolution)
         taken = _coarse(grid, self._step)
         self._blocked = _grown(taken, clearance / self._step)
-        near = _grown(taken, (clearance + SHY) / self._step)
+        near = _grown(taken, (clearance + COMFORT_MARGIN) / self._step)
         self._cost: npt.NDArray[np.float64] = np.where(near, 3.0, 1.0)
 
-    def way(self, start: Point, goal: Point) -> list[Point]:
-        """Return the points (m) of a path to the goal, without the start; raises `NoWay`."""
+    def plan(self, start: Point, goal: Point) -> list[Point]:
+        """Return the points (m) of a path to the goal, without the start; raises `NoPath`."""
         if not all(map(math.isfinite, (*start, *goal))):
-            raise NoWay("a position is not a finite number")
+            raise NoPath("a position is not a finite number")
         first, last = self._free_near(start, "the robot"), self._free_near(goal, "the goal")
         cells = self._search(first, last)
         if cells is None:
-            raise NoWay(f"x = {goal[0]:.2f} m, y = {goal[1]:.2f} m is enclosed by walls")
+            raise NoPath(f"x = {goal[0]:.2f} m, y = {goal[1]:.2f} m is enclosed by walls")
         places = [self._place(each) for each in self._straightened(cells)][1:]
         return [*places[:-1], goal] if self._cell(goal) == last else places
 
@@ -76,7 +76,7 @@ class Planner:
         around = [(row + r, column + c) for r in range(-reach, reach + 1) for c in range(-reach, reach + 1)]
         free = [each for each in around if self._free(each)]
         if not free:
-            raise NoWay(f"{what} is inside a wall or outside the map: x = {point[0]:.2f} m, y = {point[1]:.2f} m")
+            raise NoPath(f"{what} is inside a wall or outside the map: x = {point[0]:.2f} m, y = {point[1]:.2f} m")
         return min(free, key=lambda each: math.dist(each, (row, column)))
 
     def _search(self, first: Cell, last: Cell) -> list[Cell] | None:

@@ -6,7 +6,15 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from bot_console_robot.navigation.driving import Limits, Point, Pose, Velocity, WayFollower, off, turning
+from bot_console_robot.navigation.driving import (
+    Limits,
+    PathFollower,
+    Point,
+    Pose,
+    Velocity,
+    heading_error,
+    turn_in_place,
+)
 
 STUCK = 10.0
 """Seconds without progress after which a goal is aborted."""
@@ -17,7 +25,7 @@ FAILED_TO_MAKE_PROGRESS, COLLISION_AHEAD, TIMEOUT = 105, 714, 711
 
 
 @dataclass
-class Seen:
+class Observation:
     """The input of a control step: time (s), pose in the map, and free room ahead and behind (m)."""
 
     time: float
@@ -34,7 +42,7 @@ class Task:
         self.error_code = 0
         self._mark: tuple[float, Pose] | None = None
 
-    def step(self, seen: Seen) -> Velocity:
+    def step(self, seen: Observation) -> Velocity:
         """Return the velocity for this step."""
         if self._mark is None or _moved(self._mark[1], seen.pose):
             self._mark = seen.time, seen.pose
@@ -44,7 +52,7 @@ class Task:
         self.done = self.done or wanted is None
         return wanted or (0.0, 0.0)
 
-    def wanted(self, seen: Seen) -> Velocity | None:
+    def wanted(self, seen: Observation) -> Velocity | None:
         """Return the velocity towards the goal, or None when it is reached."""
         raise NotImplementedError
 
@@ -55,22 +63,22 @@ class Task:
 
 
 def _moved(before: Pose, after: Pose) -> bool:
-    return math.dist(before[:2], after[:2]) > PROGRESS or abs(off(after[2], before[2])) > PROGRESS
+    return math.dist(before[:2], after[:2]) > PROGRESS or abs(heading_error(after[2], before[2])) > PROGRESS
 
 
-class Way(Task):
+class FollowPath(Task):
     """Follow points (m) and face a heading (rad)."""
 
     def __init__(self, points: Sequence[Point], heading: float, limits: Limits) -> None:
         super().__init__()
-        self._follower = WayFollower(points, heading, limits)
+        self._follower = PathFollower(points, heading, limits)
 
     def left(self, pose: Pose) -> float:
         """The remaining metres."""
         return self._follower.left(pose)
 
-    def wanted(self, seen: Seen) -> Velocity | None:
-        """See `WayFollower.velocity`."""
+    def wanted(self, seen: Observation) -> Velocity | None:
+        """See `PathFollower.velocity`."""
         return self._follower.velocity(seen.pose, seen.ahead)
 
 
@@ -84,15 +92,15 @@ class Spin(Task):
         self._limits = limits
         self._before: float | None = None
 
-    def wanted(self, seen: Seen) -> Velocity | None:
+    def wanted(self, seen: Observation) -> Velocity | None:
         """Return the velocity for the remaining turn."""
-        self.turned += 0.0 if self._before is None else off(seen.pose[2], self._before)
+        self.turned += 0.0 if self._before is None else heading_error(seen.pose[2], self._before)
         self._before = seen.pose[2]
         left = self._angle - self.turned
-        return None if abs(left) < self._limits.angle else turning(left, self._limits)
+        return None if abs(left) < self._limits.angle else turn_in_place(left, self._limits)
 
 
-class Straight(Task):
+class DriveStraight(Task):
     """Drive a distance (m) at a speed (m/s); backwards if the distance is negative."""
 
     def __init__(self, distance: float, speed: float, allowance: float, limits: Limits) -> None:
@@ -104,7 +112,7 @@ class Straight(Task):
         self._limits = limits
         self._start: tuple[float, Pose] | None = None
 
-    def wanted(self, seen: Seen) -> Velocity | None:
+    def wanted(self, seen: Observation) -> Velocity | None:
         """Drive straight ahead until the distance is covered, an obstacle is in the way, or time is up."""
         if self._start is None:
             self._start = seen.time, seen.pose
@@ -127,7 +135,7 @@ class Wait(Task):
         self._end: float | None = None
         self._duration = duration
 
-    def step(self, seen: Seen) -> Velocity:
+    def step(self, seen: Observation) -> Velocity:
         """Return zero; standing still is the goal here, not a failure."""
         self._end = seen.time + self._duration if self._end is None else self._end
         self.left = max(0.0, self._end - seen.time)

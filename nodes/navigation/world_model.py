@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 from bot_console_robot.common.scans import SCANS, ranges_of
 from bot_console_robot.navigation.driving import Limits, Point, Pose
-from bot_console_robot.navigation.planner import Grid, NoWay, Planner
-from bot_console_robot.navigation.tasks import Seen
+from bot_console_robot.navigation.planner import Grid, NoPath, Planner
+from bot_console_robot.navigation.tasks import Observation
 from bot_console_robot.simulation_ros.messages import heading_of
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import OccupancyGrid, Odometry
@@ -85,7 +85,7 @@ class WorldModel:
         behind = float(np.min(-along[inside & (along < 0)], initial=math.inf))
         self._scan = self._seconds(), ahead, behind
 
-    def seen(self) -> Seen | None:
+    def observation(self) -> Observation | None:
         """Return the current state, or None if there is no pose. Without a recent scan, it has no free room on either
         side.
         """
@@ -94,15 +94,15 @@ class WorldModel:
         now = self._seconds()
         fresh = self._scan is not None and now - self._scan[0] < SCAN_TIMEOUT_S
         ahead, behind = self._scan[1:] if self._scan is not None and fresh else (0.0, 0.0)
-        return Seen(now, self.pose, ahead, behind)
+        return Observation(now, self.pose, ahead, behind)
 
-    def way(self, start: Point, goal: Point) -> list[Point]:
-        """Return a path on the map, or a straight line if there is no map. Raises `NoWay`."""
+    def plan(self, start: Point, goal: Point) -> list[Point]:
+        """Return a path on the map, or a straight line if there is no map. Raises `NoPath`."""
         if self._planner is None:
             if not all(map(math.isfinite, goal)):
-                raise NoWay("a position is not a finite number")
+                raise NoPath("a position is not a finite number")
             return [goal]
-        return self._planner.way(start, goal)
+        return self._planner.plan(start, goal)
 
     def limits(self) -> Limits:
         """Return speeds and tolerances from the current parameters."""

@@ -11,11 +11,11 @@ from bot_console_robot.safety.lock import NODE, Lock, new_id
 from bot_console_robot.safety.stop_file import StopFile, StopFileError, UnreadableStopFileError
 from bot_console_robot.safety.stop_messages import (
     State,
+    parse_question,
+    parse_request,
+    parse_state,
     request_message,
-    request_of,
-    specification_of,
     state_message,
-    state_of,
 )
 from diagnostic_msgs.msg import DiagnosticStatus
 from rclpy.clock import Clock
@@ -81,7 +81,7 @@ class EmergencyStop:
         self._file = StopFile(stop_file, node.get_namespace()) if stop_file else None
         self._filed: Lock | None = None
         self._unreadable = False
-        self._keep()
+        self._sync_file()
         if locked:
             self._latch.stop(node.get_name(), locked)
         self._states = node.create_publisher(DiagnosticStatus, own, LATCHED)
@@ -114,19 +114,19 @@ class EmergencyStop:
         return self._steady.now().nanoseconds
 
     def _on_request(self, message: DiagnosticStatus) -> None:
-        request = request_of(message)
+        request = parse_request(message)
         if refusal := self._latch.refusal(request):
             text = f"Release by {request.holder} ignored: {refusal}"
             self._node.get_logger().warning(text, throttle_duration_sec=REFUSAL_LOG_PERIOD_S)
         changed = self._latch.request(request, self._now())
         self._settle(changed)
-        question = specification_of(message)
+        question = parse_question(message)
         if question or (not changed and request.verb in (STOP, RELEASE)):
             # A requester that asks again has not received the answer, or has received a replayed state since.
             self._publish(question)
 
     def _on_state(self, message: DiagnosticStatus) -> None:
-        state = state_of(message)
+        state = parse_state(message)
         self._other_challenge = state.challenge
         if state.instance not in self._other_instances:
             # A message of an instance that is known already may be a replayed one, and does not mean a restart.
@@ -173,7 +173,7 @@ class EmergencyStop:
         self._settle(self._latch.watch(self._now()))
         self._polls += 1
         if self._polls % REPORT_POLLS == 0:
-            self._keep_again()
+            self._restore_file()
             self._publish()
         if self._other == ARBITER and self._other_instances:
             self._gone = 0 if self._others else self._gone + 1
@@ -189,9 +189,9 @@ class EmergencyStop:
             return
         free = not self.lock.held
         if free:
-            self._keep()
+            self._sync_file()
         self._act()
-        if not free and self._keep():
+        if not free and self._sync_file():
             self._act()
 
     def _act(self) -> None:
@@ -199,7 +199,7 @@ class EmergencyStop:
         self._publish()
         self._log()
 
-    def _keep(self) -> bool:
+    def _sync_file(self) -> bool:
         """Merge the lock with the file; returns whether that has changed the lock.
 
         If the file cannot be used, the robot is locked, since no stop would be known after the next start. This stop is
@@ -211,19 +211,19 @@ class EmergencyStop:
             both = self._file.merge(self.lock, replace_unreadable=self._unreadable and not self.lock.held)
         except StopFileError as error:
             self._unreadable = isinstance(error, UnreadableStopFileError)
-            return self._latch.stop(self._node.get_name(), _remedy(error, self._unreadable), kept=True)
+            return self._latch.stop(self._node.get_name(), _file_problem(error, self._unreadable), kept=True)
         changed = self._latch.follow(both)
         self._unreadable, self._filed = False, self.lock.kept
         return changed
 
-    def _keep_again(self) -> None:
+    def _restore_file(self) -> None:
         """Restore the file if it was deleted or replaced, or could not be used before.
 
         Otherwise nobody might remember the stops after the nodes have ended.
         """
         if self._file is not None and not self._file.is_as_left:
             self._filed = None
-            if self._keep():
+            if self._sync_file():
                 self._act()
 
     def _log(self) -> None:
@@ -240,7 +240,7 @@ class EmergencyStop:
         self._states.publish(state_message(state, self._node.get_name()))
 
 
-def _remedy(error: StopFileError, unreadable: bool) -> str:
+def _file_problem(error: StopFileError, unreadable: bool) -> str:
     """A text that says what is wrong with the stop file, and how to fix it."""
     if unreadable:
         return f"the kept stops are unknown: {error}; a release moves that file aside"

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from bot_console_robot.safety.lock import Lock
-from bot_console_robot.safety.stop_messages import releases_of, releases_text, stops_of, stops_text
+from bot_console_robot.safety.stop_messages import parse_releases, parse_stops, releases_text, stops_text
 
 VERSION = 1
 MAX_FILE_BYTES = 4_000_000
@@ -63,7 +63,7 @@ class StopFile:
         """
         must_write, self._left = self._left is None, None
         try:
-            with self._taken():
+            with self._locked_file():
                 robots = self._read(replace_unreadable)
                 both = _lock_of(robots.get(self._robot)).merged(replace(lock.kept, turn=lock.turn))
                 section = {
@@ -80,7 +80,7 @@ class StopFile:
         return lock.merged(both)
 
     @contextlib.contextmanager
-    def _taken(self) -> Generator[None, None, None]:
+    def _locked_file(self) -> Generator[None, None, None]:
         """Keep other locks from using the file; raises `OSError` if one of them does not release it in time."""
         self._path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         handle = os.open(f"{self._path}.lock", os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0), 0o600)
@@ -149,7 +149,7 @@ def _lock_of(section: Any) -> Lock:
             raise ValueError(f"its turn is not between 0 and {MAX_TURN}")
     except (TypeError, KeyError):
         raise ValueError("it contains no stops") from None
-    lock = Lock(stops_of(json.dumps(stops)), turn, releases_of(json.dumps(released)))
+    lock = Lock(parse_stops(json.dumps(stops)), turn, parse_releases(json.dumps(released)))
     if len(lock.stops) != len(cast("list[Any]", stops)) or len(lock.released) != len(cast("list[Any]", released)):
         raise ValueError("it contains something that is not a stop")
     return lock

@@ -53,7 +53,7 @@ def request_message(request: Request) -> DiagnosticStatus:
     )
 
 
-def request_of(message: DiagnosticStatus) -> Request:
+def parse_request(message: DiagnosticStatus) -> Request:
     """The request in a message; its verb is empty if the message has none."""
     values = _values(message)
     verb = _short(values.get("request", ""))
@@ -71,7 +71,7 @@ def request_of(message: DiagnosticStatus) -> Request:
     )
 
 
-def specification_of(message: DiagnosticStatus) -> str:
+def parse_question(message: DiagnosticStatus) -> str:
     """The text in a request that the answer has to quote; empty if there is none."""
     return _short(_values(message).get("question", ""))
 
@@ -93,17 +93,17 @@ def state_message(state: State, node: str) -> DiagnosticStatus:
     )
 
 
-def state_of(message: DiagnosticStatus) -> State:
+def parse_state(message: DiagnosticStatus) -> State:
     """The state in a message; an unreadable one counts as locked."""
     values = _values(message)
     turn, instance = _number(values.get("turn")), _short(values.get("instance", ""))
-    stops = stops_of(values.get("stops"), instance)
+    stops = parse_stops(values.get("stops"), instance)
     if values.get("locked") == "false":
         stops = ()
     elif not stops:  # the node reports only that it is locked
         holder, reason = _short(values.get("holder", "")), _short(values.get("reason", ""))
         stops = (Stop(_older_id(OTHERS, turn, instance), OTHERS, holder, reason, turn),)
-    lock = Lock(stops, turn, releases_of(values.get("released")))
+    lock = Lock(stops, turn, parse_releases(values.get("released")))
     challenge, steered_by, answers = (_short(values.get(key, "")) for key in ("challenge", "steered_by", "answers"))
     return State(lock, instance, challenge, steered_by, answers)
 
@@ -115,7 +115,7 @@ def stops_text(stops: tuple[Stop, ...]) -> str:
     return json.dumps([[each.key, each.holder, each.reason, each.turn, each.id, each.kept] for each in stops])
 
 
-def stops_of(text: str | None, instance: str = "") -> tuple[Stop, ...]:
+def parse_stops(text: str | None, instance: str = "") -> tuple[Stop, ...]:
     """The stops in such a text; those of an older lock get an id made from key, turn and instance."""
     found: list[Stop] = []
     for row in _rows(text)[: MAX_STOPS + 1]:
@@ -137,7 +137,7 @@ def releases_text(released: tuple[Release, ...]) -> str:
     return json.dumps([[each.id, each.by, each.turn] for each in released])
 
 
-def releases_of(text: str | None) -> tuple[Release, ...]:
+def parse_releases(text: str | None) -> tuple[Release, ...]:
     """The releases in such a text."""
     rows = [each for each in _rows(text)[:MAX_RELEASES] if len(each) >= 3]
     return tuple(Release(_short(str(id)), _short(str(by)), _number(str(turn))) for id, by, turn, *_ in rows)

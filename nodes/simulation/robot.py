@@ -37,12 +37,12 @@ class DifferentialDrive:
     @limits.setter
     def limits(self, limits: DriveLimits) -> None:
         self._limits = limits
-        self._feasible = feasible(*self._asked, limits)
+        self._feasible = limit_to_speeds(*self._asked, limits)
 
     def command(self, linear: float, angular: float) -> None:
         """Set a new command, which is valid until the next one or until it is older than `command_timeout`."""
         self._asked = (linear, angular)
-        self._feasible = feasible(linear, angular, self._limits)
+        self._feasible = limit_to_speeds(linear, angular, self._limits)
         self._age = 0.0
 
     def advance(self, dt: float) -> None:
@@ -58,7 +58,7 @@ class DifferentialDrive:
             self.angular += _clamp(angular - self.angular, limits.turn_acceleration * dt)
 
 
-def feasible(linear: float, angular: float, limits: DriveLimits) -> tuple[float, float]:
+def limit_to_speeds(linear: float, angular: float, limits: DriveLimits) -> tuple[float, float]:
     """Return a command within the speed limits, slowed along its own curve if the outer wheel could not keep up."""
     linear, angular = _clamp(linear, limits.max_speed), _clamp(angular, limits.max_turn_rate)
     outer = abs(linear) + 0.5 * limits.wheel_separation * abs(angular)

@@ -11,11 +11,11 @@ from bot_console_robot.simulation.collisions import TOUCH, CollisionLog
 from bot_console_robot.simulation.figures.metrics import Metrics
 from bot_console_robot.simulation.geometry import TURN, Pose
 from bot_console_robot.simulation.lidar import Lidar, LidarSettings, Scan, Surfaces
-from bot_console_robot.simulation.motion_and_walls import FAR, Space
 from bot_console_robot.simulation.moving_obstacles import MovingObstacle
 from bot_console_robot.simulation.odometry import Odometry, OdometryNoise
 from bot_console_robot.simulation.robot import DifferentialDrive, DriveLimits
-from bot_console_robot.simulation.world import World, WorldError, inside, populated
+from bot_console_robot.simulation.space import FAR, Space
+from bot_console_robot.simulation.world import World, WorldError, inside, populate
 
 STEP = 0.01
 """The constant physics step in s. Elapsed wall time determines how many steps are made, never how long they are."""
@@ -43,7 +43,7 @@ class Simulation:
         settings = settings or Settings()
         self.seed = seed
         self._rng = np.random.default_rng(seed)
-        self.world = populated(world, self._rng)
+        self.world = populate(world, self._rng)
         self._movers = [MovingObstacle(each, self._rng) for each in self.world.movers]
         self._surfaces = Surfaces(self.world)
         self.pose = self.world.start

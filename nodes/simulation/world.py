@@ -54,7 +54,7 @@ class World:
         return tuple((a, b, reflectivity) for points, reflectivity in lines for a, b in itertools.pairwise(points))
 
 
-def populated(world: World, rng: np.random.Generator) -> World:
+def populate(world: World, rng: np.random.Generator) -> World:
     """Return the world with its scattered discs placed by this generator."""
     discs = list(world.discs)
     edges = table([(*a, *b) for a, b, _ in world.edges()], 4)

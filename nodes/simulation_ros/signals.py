@@ -23,7 +23,7 @@ LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 GRAVITY_M_S2 = 9.81
 FULL_VOLTAGE, EMPTY_VOLTAGE, CAPACITY = 12.6, 11.0, 1.8
 """Voltages (V) and capacity (Ah) of three lithium cells."""
-LASTS = 9000.0
+BATTERY_LIFE_S = 9000.0
 """Simulated seconds until the battery is empty; wall time would make runs differ."""
 POSES_PER_BATTERY_STATE = 20
 """Number of poses between two battery states, for one per second at 20 Hz."""
@@ -104,12 +104,12 @@ class Signals:
         return message
 
     def _charge(self, simulation: Simulation, stamp: Time) -> BatteryState:
-        left = max(0.0, 1.0 - simulation.time_ns * 1e-9 / LASTS)
+        left = max(0.0, 1.0 - simulation.time_ns * 1e-9 / BATTERY_LIFE_S)
         message = BatteryState(present=True, percentage=left, capacity=CAPACITY, design_capacity=CAPACITY)
         message.header.stamp = stamp
         message.voltage = EMPTY_VOLTAGE + left * (FULL_VOLTAGE - EMPTY_VOLTAGE)
         message.charge = left * CAPACITY
-        message.current = -CAPACITY * 3600.0 / LASTS
+        message.current = -CAPACITY * 3600.0 / BATTERY_LIFE_S
         message.power_supply_status = BatteryState.POWER_SUPPLY_STATUS_DISCHARGING
         message.power_supply_technology = BatteryState.POWER_SUPPLY_TECHNOLOGY_LION
         return message

@@ -77,7 +77,7 @@ def control_bag(suffix: str) -> Callable[[str], None]:
 def held_through(recorded: Iterable[bytes]) -> None:
     """Feed recorded messages to a lock that holds a robot, as requests and as states of the other lock."""
     from bot_console_robot.safety.latch import STOP, Latch, Request
-    from bot_console_robot.safety.stop_messages import request_of, state_of
+    from bot_console_robot.safety.stop_messages import parse_request, parse_state
     from diagnostic_msgs.msg import DiagnosticStatus
     from rclpy.serialization import deserialize_message
 
@@ -89,8 +89,8 @@ def held_through(recorded: Iterable[bytes]) -> None:
             message = deserialize_message(data, DiagnosticStatus)
         except RuntimeError:
             continue
-        asked.request(request_of(message), 1)
-        followed.follow(state_of(message).lock)
+        asked.request(parse_request(message), 1)
+        followed.follow(parse_state(message).lock)
     assert RECORDED_ID in asked.lock.ids, "a recorded request has released the stop"
     assert "never recorded" in followed.lock.ids, "a recorded state has released the stop"
 

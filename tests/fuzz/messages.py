@@ -95,7 +95,7 @@ def pane_text(text: str) -> None:
 def stop(text: str) -> None:
     from bot_console.tui.console.robot.lock_state import LockState
     from bot_console_robot.safety.latch import Latch
-    from bot_console_robot.safety.stop_messages import State, request_of, state_message, state_of
+    from bot_console_robot.safety.stop_messages import State, parse_request, parse_state, state_message
     from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
     keys = (
@@ -105,12 +105,12 @@ def stop(text: str) -> None:
     pairs = [KeyValue(key=key, value=text) for key in keys]
     message = DiagnosticStatus(name=text, message=text, hardware_id=text, values=pairs)
     latch = Latch()
-    latch.request(request_of(message), 0)
-    latch.follow(state_of(message).lock)
+    latch.request(parse_request(message), 0)
+    latch.follow(parse_state(message).lock)
     state = state_message(State(latch.lock, "1", latch.challenge, latch.steered_by), "n")
-    assert state_of(state).lock == latch.lock
+    assert parse_state(state).lock == latch.lock
     LockState.of({each.key: each.value for each in message.values}).holds("1", "a")
-    assert state_of(message).lock.held or text == "false"
+    assert parse_state(message).lock.held or text == "false"
 
 
 def key_expressions(text: str) -> None:

@@ -22,7 +22,7 @@ def stop_file(text: str) -> None:
     from bot_console_robot.safety.latch import Latch
     from bot_console_robot.safety.lock import Lock
     from bot_console_robot.safety.stop_file import StopFile
-    from bot_console_robot.safety.stop_messages import State, state_message, state_of
+    from bot_console_robot.safety.stop_messages import State, parse_state, state_message
 
     path = file(text, "stops.json")
     kept = StopFile(str(path), "/").merge(Lock())
@@ -30,7 +30,7 @@ def stop_file(text: str) -> None:
     latch.follow(kept)
     latch.stop("node", "why")
     assert latch.lock.held and kept.ids <= latch.lock.ids
-    assert state_of(state_message(State(latch.lock, "1"), "n")).lock == latch.lock
+    assert parse_state(state_message(State(latch.lock, "1"), "n")).lock == latch.lock
     assert StopFile(str(path), "/").merge(latch.lock).kept.ids >= kept.ids
     latch.release([each.id for each in latch.lock.stops], "anna")
     StopFile(str(path), "/").merge(latch.lock)

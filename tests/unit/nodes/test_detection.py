@@ -2,7 +2,7 @@ import math
 
 import numpy as np
 import pytest
-from bot_console_robot.detection import find, median_of_three, strong
+from bot_console_robot.detection import find, median_of_three, without_weak_returns
 
 INF = math.inf
 
@@ -25,8 +25,8 @@ def test_median_equals_numpys() -> None:
 
 
 def test_weak_returns_are_removed() -> None:
-    assert strong(floats(1, 2, 3), floats(99, 100, 101), 100).tolist() == [INF, 2, 3]
-    assert strong(floats(1, 2), floats(), 100).tolist() == [1, 2]
+    assert without_weak_returns(floats(1, 2, 3), floats(99, 100, 101), 100).tolist() == [INF, 2, 3]
+    assert without_weak_returns(floats(1, 2), floats(), 100).tolist() == [1, 2]
 
 
 def test_groups_of_beams_are_objects() -> None:

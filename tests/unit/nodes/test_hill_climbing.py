@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 def climbed(top: float, begin: float, periods: int = 60) -> HillClimber:
     climber = HillClimber(0.0, 10.0, begin, 1.0)
     for _ in range(periods):
-        climber.evaluated(-abs(climber.value - top))
+        climber.record_score(-abs(climber.value - top))
     return climber
 
 
@@ -23,24 +23,24 @@ def test_climbing_approaches_the_top_from_anywhere(top: float, begin: float) -> 
 def test_climbing_stays_in_range_and_avoids_dangerous_values(steps: list[tuple[float, bool]], begin: float) -> None:
     climber = HillClimber(0.0, 10.0, begin, 1.0)
     for score, dangerous in steps:
-        value = climber.danger() if dangerous else climber.evaluated(score)
+        value = climber.record_danger() if dangerous else climber.record_score(score)
         assert value == climber.value
         assert 0.0 <= climber.low <= value <= climber.high <= 10.0
 
 
 def test_collision_on_the_way_up_limits_the_range() -> None:
     climber = HillClimber(0.0, 10.0, 5.0, 1.0)
-    assert climber.evaluated(1.0) == 6.0
-    assert climber.danger() == 5.0
+    assert climber.record_score(1.0) == 6.0
+    assert climber.record_danger() == 5.0
     assert climber.high == 5.0
     for _ in range(20):
-        assert climber.evaluated(climber.value) <= 5.0
+        assert climber.record_score(climber.value) <= 5.0
 
 
 def test_value_is_not_blamed_for_a_place_that_became_slow() -> None:
     climber = HillClimber(0.0, 10.0, 5.0, 1.0)
-    climber.evaluated(3.0)
-    climber.evaluated(2.0)
+    climber.record_score(3.0)
+    climber.record_score(2.0)
     assert climber.value == 5.0
-    climber.evaluated(1.0)
+    climber.record_score(1.0)
     assert climber.value != 5.0

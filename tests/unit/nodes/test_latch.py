@@ -7,7 +7,7 @@ import itertools
 import pytest
 from bot_console_robot.safety.latch import RELEASE, STEER, STOP, Latch, Request
 from bot_console_robot.safety.lock import MAX_RELEASES, MAX_STOPS, NODE, OTHERS, Lock, Release, Stop
-from bot_console_robot.safety.stop_messages import State, request_message, request_of, state_message, state_of
+from bot_console_robot.safety.stop_messages import State, parse_request, parse_state, request_message, state_message
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 
 ANNA = Request(STOP, "anna", "the arm swings", "a", "a1")
@@ -163,14 +163,14 @@ def test_restarted_lock_does_not_bring_back_released_stops() -> None:
 
 
 def test_messages_survive_a_round_trip() -> None:
-    assert request_of(request_message(ANNA)) == ANNA
+    assert parse_request(request_message(ANNA)) == ANNA
     asked = Request(RELEASE, "ben", "", "b", ids=("a1", "b1"), challenges=("c1", "c2"), of=("a", "b"))
-    assert request_of(request_message(asked)) == asked
+    assert parse_request(request_message(asked)) == asked
     passing = Request(STOP, "anna", "", "a", "a2", kept=False)
-    assert request_of(request_message(passing)) == passing
+    assert parse_request(request_message(passing)) == passing
     lock = Lock((Stop("a1", "a", "anna", "the arm swings", 3), Stop("b1", "b", "ben", "", 7, kept=False)), 7)
     state = State(Lock(lock.stops, 7, (Release("c1", "carla", 5),)), "1", "a challenge", "ben")
-    assert state_of(state_message(state, "simulator")) == state
+    assert parse_state(state_message(state, "simulator")) == state
 
 
 def test_report_of_an_older_lock_is_read_with_distinct_stops() -> None:
@@ -179,9 +179,9 @@ def test_report_of_an_older_lock_is_read_with_distinct_stops() -> None:
         return DiagnosticStatus(values=[KeyValue(key=key, value=value) for key, value in values.items()])
 
     latch = Latch()
-    assert latch.follow(state_of(report(1)).lock) and latch.lock.holder == "anna"
+    assert latch.follow(parse_state(report(1)).lock) and latch.lock.holder == "anna"
     release(latch, *latch.lock.ids)
-    assert not latch.follow(state_of(report(1)).lock) and latch.follow(state_of(report(3)).lock)
+    assert not latch.follow(parse_state(report(1)).lock) and latch.follow(parse_state(report(3)).lock)
 
 
 @pytest.mark.parametrize("text", ["x" * 1000, "\ud800" * 1000, "[" * 1000, "9" * 1000])
@@ -192,23 +192,23 @@ def test_lock_report_is_read_by_another_lock_whatever_texts_it_was_sent(text: st
         name=text, message=text, hardware_id=text, values=[KeyValue(key=key, value=text) for key in keys]
     )
     latch = Latch()
-    latch.request(request_of(message), 0)
-    latch.follow(state_of(message).lock)
+    latch.request(parse_request(message), 0)
+    latch.follow(parse_state(message).lock)
     assert len(latch.lock.stops) == 2
-    assert state_of(state_message(State(latch.lock, "1"), "node")).lock == latch.lock
+    assert parse_state(state_message(State(latch.lock, "1"), "node")).lock == latch.lock
 
 
 def test_unreadable_state_counts_as_locked() -> None:
-    assert state_of(DiagnosticStatus()).lock.held
-    assert request_of(DiagnosticStatus()).verb == ""
+    assert parse_state(DiagnosticStatus()).lock.held
+    assert parse_request(DiagnosticStatus()).verb == ""
 
 
 @pytest.mark.parametrize("text", ["", "[", "{}", "[[]]", "[1, 2]", "[[1, 2, 3, 4], null]", '["*"]', "[" * 100_000])
 def test_unreadable_stops_are_one_stop_and_unreadable_release_releases_nothing(text: str) -> None:
     state = DiagnosticStatus(values=[KeyValue(key="locked", value="true"), KeyValue(key="stops", value=text)])
-    assert len(state_of(state).lock.stops) == 1
+    assert len(parse_state(state).lock.stops) == 1
     values = [KeyValue(key="request", value="release"), KeyValue(key="ids", value=text)]
-    asked = request_of(DiagnosticStatus(hardware_id="b", values=values))
+    asked = parse_request(DiagnosticStatus(hardware_id="b", values=values))
     assert asked.ids == (("*",) if "*" in text else ())
     latch = Latch()
     latch.request(ANNA, 0)

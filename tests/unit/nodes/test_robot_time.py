@@ -108,7 +108,7 @@ def test_clock_is_followed_while_scans_continue(rig: Rig) -> None:
     rig.clock(0.0)
     began = rig.time.now()
     for seconds in (4.0, 8.0, 12.0):
-        rig.time.heard(round(seconds * SECOND))
+        rig.time.note_stamp(round(seconds * SECOND))
         rig.clock(seconds)
         rig.wall += 20 * SECOND
     assert rig.time.now() - began == 12 * SECOND, "a clock is compared with the newest scan, not with the first"

@@ -149,7 +149,7 @@ def test_full_disk_is_an_error_and_keeps_the_old_content(tmp_path: Path, monkeyp
 def test_wait_for_a_locked_file_ends_at_its_timeout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(stop_file, "TURN_TIMEOUT_S", 0.0)
     monkeypatch.setattr(stop_file, "TURN_POLL_S", 0.0)
-    with at(tmp_path)._taken(), pytest.raises(StopFileError, match="another process has locked it"):
+    with at(tmp_path)._locked_file(), pytest.raises(StopFileError, match="another process has locked it"):
         at(tmp_path).merge(Lock((ANNA,), 1))
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from bot_console.runtime.rmw.middleware import bus_of
-from bot_console_robot.common.demand import wanted
+from bot_console_robot.common.demand import has_receiver
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.serialization import deserialize_message
 from std_msgs.msg import String
@@ -32,9 +32,9 @@ def test_monitor_receives_unsubscribed_messages_and_is_not_counted(node: Any, ca
     publisher.publish(String(data="to nobody"))
     assert [(number, each.data) for number, each in carried_messages] == [(1, "to nobody")]
     assert publisher.get_subscription_count() == node.count_subscribers("/words") == 0
-    assert wanted(publisher)
+    assert has_receiver(publisher)
     bus_of(0).overhear(None)
-    assert not wanted(publisher)
+    assert not has_receiver(publisher)
     publisher.publish(String(data="again"))
     assert len(carried_messages) == 1
 

@@ -7,8 +7,8 @@ import math
 import pytest
 from bot_console_robot.simulation.collisions import TOUCH
 from bot_console_robot.simulation.geometry import Pose
-from bot_console_robot.simulation.motion_and_walls import Space
 from bot_console_robot.simulation.simulation import Simulation
+from bot_console_robot.simulation.space import Space
 from bot_console_robot.simulation.world_file import parse_world
 
 RADIUS = 0.2

@@ -9,7 +9,7 @@ from bot_console.tui.cli.doctor.command_timeout import base_finding
 from bot_console.tui.cli.doctor.finding import Level
 from bot_console.tui.console.robot.stop_link import LATCHED
 from bot_console_robot.safety.emergency_stop import ARBITER, BASE, REQUESTS, EmergencyStop
-from bot_console_robot.safety.stop_messages import request_of
+from bot_console_robot.safety.stop_messages import parse_request
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from domains import unused_domain
 from geometry_msgs.msg import Twist
@@ -52,7 +52,7 @@ class Bench:
             states.publish(DiagnosticStatus(values=[KeyValue(key="locked", value=locked)]))
 
         def requested(message: DiagnosticStatus) -> None:
-            if request_of(message).verb not in ("release", "steer", "hand_back"):
+            if parse_request(message).verb not in ("release", "steer", "hand_back"):
                 report("true")
 
         report("false")
