@@ -1,1 +1,1 @@
-"""ROS 2 without ROS 2: the node runtime that `import rclpy` means here."""
+"""ROS 2 without ROS 2: the runtime for nodes to which `import rclpy` refers here."""

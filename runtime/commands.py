@@ -14,7 +14,7 @@ They are files because scripts, `timeout` and `watch` do not find shell function
 """
 
 COMMAND_VARIABLE = "BOT_CONSOLE_COMMAND"
-"""The `bot-console` that these commands run, whatever environment is active where they are called."""
+"""The `bot-console` that these commands run, whichever environment is active where they are called."""
 
 
 def command() -> str:

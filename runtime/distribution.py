@@ -1,7 +1,7 @@
-"""The ROS 2 distribution whose answers the runtime gives: Jazzy's, or those that `BOT_CONSOLE_DISTRO` names.
+"""The ROS 2 distribution as which the runtime behaves: Jazzy, or the one that `BOT_CONSOLE_DISTRO` names.
 
-All differences between the distributions are in one table; the rest of the runtime asks it, and knows no distribution.
-A process has one distribution from its start to its end.
+All differences between the distributions are in one table, which the rest of the runtime queries without knowing the
+distributions. The distribution of a process never changes.
 """
 
 from __future__ import annotations
@@ -19,27 +19,27 @@ class Distribution(NamedTuple):
 
     name: str
     parameter_type_base: type[Enum]
-    """The base of `Parameter.Type`; as whole numbers, types print as numbers, in refusals, too."""
+    """The base of `Parameter.Type`; with an integer base, types print as numbers, even in messages about refusals."""
     init_is_context_manager: bool
-    """Whether `with rclpy.init():` shuts down at its end; else `init` returns None."""
+    """Whether `with rclpy.init():` shuts down at its end; otherwise `init` returns None."""
     error_before_init: type[Exception]
-    """The exception that making an executor raises before `rclpy.init()`."""
+    """The exception for creating an executor before `rclpy.init()`."""
     second_shutdown: tuple[str, str]
-    """Type and text of the error of a context's second shutdown."""
+    """Type and text of the error when a context is shut down a second time."""
     newest_task_first: bool
-    """Whether of several tasks that are ready the newest runs first."""
+    """Whether the newest of several ready tasks runs first."""
     closed_executor_takes_work: bool
     """Whether nodes and tasks can be added to an executor that was shut down."""
     invalid_transition_ends_node: bool
-    """Whether a lifecycle transition that does not exist raises; else it is logged, and answered as failed."""
+    """Whether a lifecycle transition that does not exist raises; otherwise it is logged, and answered as failed."""
     durations_add_up: bool
     """Whether durations can be added, subtracted, and multiplied by a number."""
     warn_is_deprecated: bool
     """Whether `logger.warn` warns that it is deprecated."""
     invalid_qos_prefix: tuple[str, ...]
-    """The arguments of `InvalidQoSProfileException` before the reason."""
+    """The arguments of `InvalidQoSProfileException` that precede the reason."""
     has_rosout_preset: bool
-    """Whether there are `qos_profile_rosout_default` and its preset."""
+    """Whether `qos_profile_rosout_default` and its preset exist."""
 
 
 TABLE = {
@@ -79,7 +79,7 @@ DEFAULT = TABLE["jazzy"]
 
 
 class UnknownDistributionError(ValueError):
-    """There is no distribution of the given name."""
+    """There is no distribution with the given name."""
 
     def __init__(self, name: str, source: str) -> None:
         super().__init__(f"{source}: there is no distribution '{name}' here; choose {' or '.join(TABLE)}")
@@ -87,7 +87,7 @@ class UnknownDistributionError(ValueError):
 
 @cache
 def distribution() -> Distribution:
-    """The distribution of this process; raises `UnknownDistributionError`."""
+    """Return the distribution of this process; raises `UnknownDistributionError`."""
     name = os.environ.get(VARIABLE, "")
     if name and name not in TABLE:
         raise UnknownDistributionError(name, VARIABLE)
@@ -95,7 +95,7 @@ def distribution() -> Distribution:
 
 
 def choose(name: str, source: str) -> None:
-    """Choose the distribution of this process and of those that it starts, before anything asks for it.
+    """Choose the distribution of this process and of those that it starts, before anything queries it.
 
     Raises `UnknownDistributionError`, which names the `source` of the choice.
     """

@@ -7,9 +7,9 @@ import re
 
 VARIABLE = "ROS_DOMAIN_ID"
 DEFAULT_DOMAIN = 2**64 - 1
-"""What rcl takes for "not given", so that -1 in the environment means domain 0."""
+"""The value that means "not given" to rcl, so that -1 in the environment means domain 0."""
 MAX_DOMAIN = 10**10 - 1
-"""Far above what DDS allows (232), and short enough for the path of a socket."""
+"""Far above the limit of DDS (232), but short enough for the path of a socket."""
 _NUMBER = re.compile(r"[ \t\n\v\f\r]*([+-]?)(0[xX][0-9a-fA-F]+|0[0-7]*|[1-9][0-9]*)")
 
 
@@ -23,7 +23,7 @@ def domain_id() -> int:
 
 
 def parse_domain(text: str) -> int | None:
-    """Read a domain ID as rcl does by `strtoul`: `0x5` and `5 a` are 5; None if it is no number or too large.
+    """Parse a domain ID as rcl does with `strtoul`: `0x5` and `5 a` are 5; None if it is not a number or too large.
 
     An empty text means domain 0, and so does -1.
     """

@@ -1,6 +1,6 @@
 """Makes the ROS import names (`rclpy`, `std_msgs.msg`, `launch` ...) refer to the embedded runtime.
 
-`install()` puts one finder first on `sys.meta_path`. The modules load under their ROS names, so that they print as
+`install()` puts a finder first on `sys.meta_path`. The modules are loaded under their ROS names, so that they print as
 `std_msgs.msg._string.String`; `bot_console.runtime.rclpy` is an alias of the same module object.
 """
 
@@ -25,7 +25,7 @@ from bot_console.runtime.rosidl.sources import EXAMPLES, add_source
 if TYPE_CHECKING:
     from bot_console.runtime.process.program import Places
 
-# No importlib.abc, importlib.util or pathlib here: they take a fifth of the time to the first message.
+# No importlib.abc, importlib.util or pathlib here, as they take a fifth of the time to the first message.
 RUNTIME = os.path.dirname(os.path.realpath(__file__))
 GENERATED = os.path.join(RUNTIME, "rosidl", "generated")
 PACKAGES = (
@@ -55,18 +55,18 @@ ALIAS = "bot_console.runtime."
 OWN_PACKAGE = "bot_console_robot"
 """The ROS package in the folder `nodes/`."""
 OWN_PACKAGES = (OWN_PACKAGE, "intelligent_robot")
-"""Its two names; the second applies if the workspace has no package of that name."""
+"""Both names of that package; the second applies if the workspace has no package of that name."""
 DEMOS = "bot_console_demos"
-"""The import name of `nodes/demos/`: the nodes of the tutorials."""
+"""The import name of `nodes/demos/`, the nodes of the tutorials."""
 
 
 class RosFinder:
-    """A finder of `sys.meta_path`: embedded ROS packages by their ROS names, and aliases in `bot_console.runtime`."""
+    """A finder for `sys.meta_path`: embedded packages under their ROS names, and aliases in `bot_console.runtime`."""
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Return the spec of an embedded package or alias; None for every other name."""
+        """Return the spec of an embedded package or alias; None for any other name."""
         if path is None:
             return self._find_package(fullname)
         if fullname.startswith(ALIAS) and fullname[len(ALIAS) :].split(".", maxsplit=1)[0] in PACKAGES:
@@ -89,9 +89,7 @@ class RosFinder:
 
 
 def _own_package(name: str) -> ModuleSpec | None:
-    """Return what one of our names refers to: the package of that name in a workspace or on the path, else our own
-    nodes.
-    """
+    """Return the spec for one of our names: the package of that name in a workspace or on the path, or our nodes."""
     from bot_console.runtime.workspace.discover import workspace
 
     theirs = workspace().packages.get(name)
@@ -115,7 +113,7 @@ def _alias(name: str, stands_for: str) -> ModuleSpec:
 
 
 class _AliasLoader:
-    """Loads a module by returning the one known under another name."""
+    """Loads a module by returning the one that is known under another name."""
 
     def __init__(self, name: str) -> None:
         self.stands_for = name
@@ -130,22 +128,23 @@ class _AliasLoader:
 
 
 def is_embedded(name: str) -> bool:
-    """Whether a top-level import name refers to a part of the embedded runtime."""
+    """Whether a top-level import name belongs to the embedded runtime."""
     return name in PACKAGES or os.path.isdir(os.path.join(GENERATED, name))
 
 
 @cache
 def generated_packages() -> tuple[str, ...]:
-    """Return the included packages with interfaces."""
+    """Return the included packages that have interfaces."""
     with os.scandir(GENERATED) as listed:
         return tuple(each.name for each in listed if each.is_dir())
 
 
 def places_of(folders: Sequence[str | os.PathLike[str]] = (), *, ours_first: bool = False) -> Places:
-    """Return where the modules of a program are: in these folders, whose packages come before ours of the same name.
+    """Return where a program's modules are: in these folders, whose packages precede ours of the same name.
 
-    Each folder corresponds to an entry of `sys.path`: that of a node file, or the one that contains a Python package.
-    With `ours_first` our package of nodes comes before one of its name in the folders: for executables of our launches.
+    Each folder corresponds to an entry of `sys.path`: the folder of a node's file, or one that contains a Python
+    package. With `ours_first`, our package of nodes precedes one with its name in the folders, for the executables of
+    our launches.
     """
     from bot_console.runtime.process.program import Places
 
@@ -161,9 +160,10 @@ def install() -> None:
     """Make the ROS names refer to the embedded runtime; a second call does nothing."""
     if is_installed():
         return
-    os.environ.setdefault("ROS_DISTRO", distribution().name)  # as in a shell that has sourced ROS 2
+    os.environ.setdefault("ROS_DISTRO", distribution().name)  # as in a shell in which ROS 2 was sourced
     sys.meta_path.insert(0, _finder)
-    # Just before the path: a folder `my_interfaces` without `__init__.py` would be a namespace package there.
+    # Just before the finder for the path, which would take a folder `my_interfaces` without `__init__.py` for a
+    # namespace package.
     place = sys.meta_path.index(PathFinder) if PathFinder in sys.meta_path else len(sys.meta_path)
     sys.meta_path.insert(place, _interfaces)
     add_source(interface_folders)

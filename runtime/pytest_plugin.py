@@ -1,4 +1,4 @@
-"""A pytest plug-in for tests that import rclpy: each test process has a domain of its own, in real or stepped time."""
+"""A pytest plug-in for tests that import rclpy: each test process has its own domain, in real or stepped time."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ __all__ = [
 
 FOLDER_VARIABLE = "BOT_CONSOLE_SOCKET_DIR"
 FIRST_DOMAIN = 1
-"""Domain 0 is that of tests that ask for no other."""
+"""Domain 0 is left to tests that do not ask for one."""
 MARK = "ros_time(kind): run the test in 'stepped' or 'real' time, whatever --ros-time says"
 
 _folders: list[str] = []
@@ -40,9 +40,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Give this test process, and what its tests start, a place of its own to meet: no other program is seen there."""
+    """Isolate this test process and the programs its tests start: their own socket folder shows them no others."""
     config.addinivalue_line("markers", MARK)
-    folder = tempfile.mkdtemp(prefix="bc-", dir="/tmp" if os.path.isdir("/tmp") else None)  # a socket's path is short
+    folder = tempfile.mkdtemp(prefix="bc-", dir="/tmp" if os.path.isdir("/tmp") else None)  # sockets need short paths
     _folders.append(folder)
     os.environ[FOLDER_VARIABLE] = os.path.join(folder, "s")
     os.environ[STOP_FILE_VARIABLE] = os.path.join(folder, "stops.json")
@@ -50,7 +50,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 
 def pytest_unconfigure() -> None:
-    """Leave that place and remove it."""
+    """Leave the domains and remove that folder."""
     close_shared_buses()
     while _folders:
         shutil.rmtree(_folders.pop(), ignore_errors=True)
@@ -58,7 +58,7 @@ def pytest_unconfigure() -> None:
 
 @pytest.fixture
 def ros_domain(monkeypatch: pytest.MonkeyPatch) -> int:
-    """A ROS domain of the test's own, to which `ROS_DOMAIN_ID` is set for its nodes and the programs that it starts."""
+    """A ROS domain for the test alone; `ROS_DOMAIN_ID` names it, for the test's nodes and the programs it starts."""
     domain = next(_domains)
     monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
     return domain
@@ -66,7 +66,7 @@ def ros_domain(monkeypatch: pytest.MonkeyPatch) -> int:
 
 @pytest.fixture
 def stepped_time(monkeypatch: pytest.MonkeyPatch) -> Iterator[SteppedTime]:
-    """Time that passes only while every thread waits, and then at once; `run_for(seconds)` lets it pass.
+    """Time that passes only while every thread waits, and then at once; advance it with `run_for(seconds)`.
 
     The nodes of the test see no other process.
     """
@@ -77,7 +77,7 @@ def stepped_time(monkeypatch: pytest.MonkeyPatch) -> Iterator[SteppedTime]:
 
 @pytest.fixture(autouse=True)
 def bot_console_time(request: pytest.FixtureRequest) -> Any:
-    """Run the test in the time that its mark or the command line names; the clock, if that is stepped."""
+    """Run the test in the time that its mark or the command line names; returns the clock if that is stepped."""
     mark = request.node.get_closest_marker("ros_time")
     kind = mark.args[0] if mark else request.config.getoption("--ros-time")
     if kind not in ("real", "stepped"):

@@ -1,7 +1,8 @@
-"""The folder of shims: what a shell, a virtual environment or a child process has on its path instead of a ROS 2.
+"""The folder of shims, which a shell, a virtual environment or a child process has on its path in place of a ROS 2.
 
 It has one file for each ROS package, all of them links to the same few files of this installation (`shims/`), so that
-they lead nowhere once it is gone. The folder is in the user's cache folder and is kept: each use adds what it lacks.
+they lead nowhere once the installation is gone. The folder stays in the user's cache folder: each use adds what is
+missing.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ SHIM = "shim.py"
 BESIDE = ("bot_console_shims.py", "sitecustomize.py", "bot_console_pytest.py")
 INSTALLATION = "bot_console_installation.py"
 DEPENDENCIES = ("numpy", "yaml", "zenoh", "xxhash", "pymunk", "platformdirs")
-"""The packages that this one depends on, by their import names: another interpreter may have none of them."""
+"""The packages that the runtime depends on, by their import names; another interpreter may have none of them."""
 _TEXT = """\
 VERSION = {version!r}
 INTERPRETER = {interpreter!r}
@@ -36,9 +37,9 @@ FOLDERS = {folders!r}
 
 
 def shim_folder() -> Path:
-    """Return the folder, complete. If the user's cache cannot be written, it is one that ends with this process.
+    """Return the complete folder. If the user's cache cannot be written, it is temporary and ends with this process.
 
-    Raises `OSError` if that one cannot be made either.
+    Raises `OSError` if that cannot be created either.
     """
     try:
         return kept_shim_folder()
@@ -47,12 +48,12 @@ def shim_folder() -> Path:
 
 
 def kept_shim_folder() -> Path:
-    """Return the folder in the user's cache, complete; raises `OSError` if it cannot be written."""
+    """Return the complete folder in the user's cache; raises `OSError` if it cannot be written."""
     return _complete(cache_folder() / "shims" / _name())
 
 
 def refresh_shims() -> None:
-    """Add shims for packages that are new, if a shell or an environment may use the folder."""
+    """Add shims for new packages, if a shell or an environment may use the folder."""
     folder = cache_folder() / "shims" / _name()
     if folder.is_dir():
         with suppress(OSError):
@@ -60,7 +61,7 @@ def refresh_shims() -> None:
 
 
 def _name() -> str:
-    """Return a name that differs between installations, and between Pythons of one."""
+    """Return a name that differs between installations, and between the Pythons of one installation."""
     identity = hashlib.sha256("\n".join((str(PACKAGE), sys.prefix)).encode()).hexdigest()[:8]
     return f"python{sys.version_info.major}.{sys.version_info.minor}-{identity}"
 
@@ -71,7 +72,7 @@ def _temporary() -> Path:
 
 
 def _complete(folder: Path) -> Path:
-    """Add what is missing. Each step is atomic and leaves what exists: several processes may do this at once."""
+    """Add what is missing. Each step is atomic and keeps what exists, as several processes may do this at once."""
     folder.mkdir(parents=True, exist_ok=True, mode=0o700)
     links = {f"{name}.py": SHIMS / SHIM for name in _shimmed()} | {name: SHIMS / name for name in BESIDE}
     with os.scandir(folder) as listed:
@@ -84,7 +85,7 @@ def _complete(folder: Path) -> Path:
 
 
 def _shimmed() -> Iterable[str]:
-    """Return all names that the runtime provides, except for those of a workspace."""
+    """Return all names that the runtime provides, except for those of workspaces."""
     return {*PACKAGES, *generated_packages(), *OWN_PACKAGES, DEMOS, *unverified_folders(), *added_by_user()}
 
 

@@ -1,4 +1,4 @@
-"""Puts the embedded runtime in place in a Python that has imported a shim: see `shims/bot_console_shims.py`."""
+"""Installs the embedded runtime in a Python that has imported a shim: see `shims/bot_console_shims.py`."""
 
 from __future__ import annotations
 
@@ -28,19 +28,19 @@ def take_over() -> None:
     install()
     if sys.excepthook is sys.__excepthook__:
         sys.excepthook = _uncaught
-    # First for a folder of the working directory that would be taken for a namespace package.
+    # First, for folders in the working directory that would be taken for namespace packages.
     sys.meta_path.insert(0, _WorkspaceModules(lambda name: os.path.isfile(os.path.join(name, "package.xml"))))
     sys.meta_path.append(_WorkspaceModules(lambda name: True))
     if is_in_range():
         share_domains()
-        # An interpreter that is finalized while Zenoh's threads call into it would crash.
+        # An interpreter that is finalized while Zenoh's threads call into it could crash.
         atexit.register(close_shared_buses)
         let_children_meet(True)
         os.environ[STOP_FILE_VARIABLE] = str(stop_file())
 
 
 def _uncaught(kind: type[BaseException], exception: BaseException, trace: TracebackType | None) -> None:
-    """Print an uncaught exception as `bot-console run` does: without frames of the runtime's inside, with its cause."""
+    """Print an uncaught exception as `bot-console run` does: with its cause, but without the runtime's own frames."""
     exception.__traceback__ = trace
     trim(exception)
     sys.__excepthook__(kind, exception, exception.__traceback__)
@@ -49,7 +49,7 @@ def _uncaught(kind: type[BaseException], exception: BaseException, trace: Traceb
 
 
 class _WorkspaceModules:
-    """A finder of Python packages of the workspace, which is searched only for names that `may_be` in it."""
+    """A finder for Python packages of the workspace, which is searched only for names that `may_be` in it."""
 
     def __init__(self, may_be: Callable[[str], bool]) -> None:
         self._may_be = may_be
@@ -57,7 +57,7 @@ class _WorkspaceModules:
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Return the spec of a top-level module of the workspace; None for every other name."""
+        """Return the spec of a top-level module in the workspace; None for any other name."""
         if path is not None or fullname in sys.stdlib_module_names or not self._may_be(fullname):
             return None
         from bot_console.runtime.workspace.program import source_folders

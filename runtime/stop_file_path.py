@@ -1,4 +1,4 @@
-"""Where the robots of this domain keep their stops, for all nodes that this program runs or starts."""
+"""The file in which this domain's robots keep their stops, for all nodes that this program runs or starts."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 STOP_FILE_VARIABLE = "BOT_CONSOLE_STOP_FILE"
-"""Names the file to nodes: see `docs/safety.md`."""
+"""Environment variable that names the file to nodes: see `docs/safety.md`."""
 
 
 def stop_file() -> Path:
-    """Return the file with the unreleased stops of this domain's robots, and with releases.
+    """Return the file that contains the unreleased stops of this domain's robots, and releases.
 
-    An invalid domain, which is reported when a context is made, counts as 0.
+    An invalid domain, which is reported when a context is created, counts as 0.
     """
-    from bot_console.runtime.files.user_folders import state_folder  # with pathlib, which --version does without
+    from bot_console.runtime.files.user_folders import state_folder  # loads pathlib, which `--version` does without
 
     try:
         domain = domain_id()

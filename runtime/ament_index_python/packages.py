@@ -17,13 +17,13 @@ NAME = re.compile(r"^[a-zA-Z0-9][a-zA-Z0-9_-]*$")
 
 
 class PackageNotFoundError(KeyError):
-    """A package that is neither installed nor in the workspace."""
+    """A package is neither installed nor in the workspace."""
 
 
 def get_packages_with_prefixes() -> dict[str, str]:
     """Return the names of all packages with their prefixes; a source package's prefix is its folder.
 
-    The user's packages take precedence over the included interface packages.
+    A user's packages take precedence over the included interface packages.
     """
     found = _installed()
     for name, package in workspace().packages.items():
@@ -48,14 +48,14 @@ def get_package_prefix(package_name: str) -> str:
     if found is None and (package := workspace().find(package_name)):
         found = str(package.folder)
     if found is None:
-        # Without prefixes only the folders with source packages were searched.
+        # Without prefixes, only the folders with source packages were searched.
         searched = get_search_paths() or [str(each) for each in workspace().folders]
         raise PackageNotFoundError(f"package '{package_name}' not found, searching: {searched}")
     return found
 
 
 def get_package_share_directory(package_name: str, print_warning: bool = True) -> str:
-    """Return a package's share folder: for an installed one `<prefix>/share/<name>`."""
+    """Return a package's share folder; if the package is installed, `<prefix>/share/<name>`."""
     prefix = get_package_prefix(package_name)
     if package_name in _installed():
         path = os.path.join(prefix, "share", package_name)
@@ -67,5 +67,5 @@ def get_package_share_directory(package_name: str, print_warning: bool = True) -
 
 
 def get_package_share_path(package_name: str, print_warning: bool = True) -> Path:
-    """Return the same as a path."""
+    """Return a package's share folder as a path."""
     return Path(get_package_share_directory(package_name, print_warning))

@@ -15,11 +15,11 @@ def get_search_paths() -> list[str]:
 
 
 class InvalidResourceTypeNameError(ValueError):
-    """An invalid resource type: it is empty, or leads to another folder."""
+    """A resource type is empty, or leads to another folder."""
 
 
 class InvalidResourceNameError(ValueError):
-    """An invalid resource name: it is empty, or leads to another folder."""
+    """A resource name is empty, or leads to another folder."""
 
 
 def name_is_invalid(resource_name: str) -> bool:
@@ -28,7 +28,9 @@ def name_is_invalid(resource_name: str) -> bool:
 
 
 def _check(resource_type: str, resource_name: str = "any") -> None:
-    """Reject an empty name by `AssertionError`, as upstream, and one that leads to another folder by its own error."""
+    """Reject an empty name with `AssertionError`, as upstream, and one that leads to another folder with our own
+    error.
+    """
     assert resource_type, "The resource type must not be empty"
     assert resource_name, "The resource name must not be empty"
     if name_is_invalid(resource_type):
@@ -38,7 +40,7 @@ def _check(resource_type: str, resource_name: str = "any") -> None:
 
 
 def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
-    """Return content and prefix of a resource; raises `LookupError` if it does not exist."""
+    """Return the content and prefix of a resource; raises `LookupError` if it does not exist."""
     _check(resource_type, resource_name)
     for prefix in get_search_paths():
         path = Path(prefix) / INDEX / resource_type / resource_name
@@ -48,7 +50,7 @@ def get_resource(resource_type: str, resource_name: str) -> tuple[str, str]:
 
 
 def get_resources(resource_type: str) -> dict[str, str]:
-    """Return the names of the resources of a type with their prefixes; the first prefix of a name wins."""
+    """Return the names of a type's resources with their prefixes; for each name, the first prefix counts."""
     _check(resource_type)
     found: dict[str, str] = {}
     for prefix in get_search_paths():

@@ -1,4 +1,4 @@
-"""The prefixes searched by the ament index."""
+"""The prefixes that the ament index searches."""
 
 from ament_index_python.resources import get_search_paths
 

@@ -17,15 +17,14 @@ from bot_console.runtime.workspace.discover import SOURCED_VARIABLE, workspace
 from bot_console.runtime.workspace.program import source_folders
 
 EMBEDDED = {"BOT_CONSOLE_RUNTIME": "embedded"}
-"""Makes the shims stand for the embedded runtime even if there is a real rclpy: a child meets its parent's nodes."""
+"""Makes the shims stand for the embedded runtime even beside a real rclpy, so that a child meets its parent's nodes."""
 
 
 def child_environment(env: Mapping[str, str]) -> dict[str, str]:
-    """Return the environment of a process that this one starts, based on the one given, with the folders first on both
-    paths.
+    """Return the environment for a child process: `env`, with our folders first on both paths.
 
-    It is unchanged for a launch on the machine's own rclpy, whose processes find everything there, and one without PATH
-    was not inherited.
+    It is unchanged for a launch on the machine's own rclpy, where processes find everything, and if PATH is missing, as
+    it was then not inherited.
     """
     if os.name != "posix" or not is_installed() or "PATH" not in env:
         return dict(env)
@@ -41,14 +40,14 @@ def child_environment(env: Mapping[str, str]) -> dict[str, str]:
 
 
 def _python_path(given: str) -> str:
-    """Return the path with the shims before all else, wherever a shell has put them: a real rclpy may be there, too."""
+    """Return the path with the shims first, wherever a shell has put them, as it may also contain a real rclpy."""
     shims = str(shim_folder())
     rest = (each for each in given.split(os.pathsep) if each != shims)
     return _joined([shims, *source_folders()], os.pathsep.join(rest))
 
 
 def _venv() -> list[str]:
-    """Return the folder of `python3` if it was installed for this program alone."""
+    """Return the folder of `python3` if it was installed only for this program."""
     return [os.path.dirname(sys.executable)] if sys.prefix != sys.base_prefix else []
 
 

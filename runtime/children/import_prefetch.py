@@ -1,8 +1,7 @@
-"""The imports that the fork server makes for a program before it forks a process for it, judged by the program's own
-imports.
+"""Imports that the fork server makes before it forks a process for a program, chosen by the program's own imports.
 
-NumPy takes as long to import as all of rclpy. A program that does not need it starts without; if that is unknown, it is
-imported, as otherwise each process would do so itself.
+NumPy takes as long to import as all of rclpy. A program that does not need it starts without it; if that is unknown,
+the server imports it, as otherwise each process would do so.
 """
 
 from __future__ import annotations
@@ -21,21 +20,21 @@ from bot_console.runtime.importer import GENERATED, PACKAGES
 from bot_console.runtime.process.fork_server import Job
 
 UNKNOWN = "numpy"
-"""Imported for a program whose imports are unknown."""
+"""Imported for programs whose imports are unknown."""
 WITH_ARRAYS = ("rclpy.action",)
-"""Modules that use NumPy: goal IDs are arrays."""
+"""Modules that use NumPy, as goal IDs are arrays."""
 MAX_SOURCE_BYTES = 1_000_000
-"""The maximum number of bytes of source text that are read."""
+"""How many bytes of source text are read at most."""
 
 STEPPED = ("asyncio", "numpy.random", MEMBER_PROGRAM.partition(":")[0])
-"""Modules that a process of a stepped run needs: its time, messages and random numbers are those of the run."""
+"""Modules that a process of a stepped run needs for the run's time, messages and random numbers."""
 
 _seen: set[tuple[str | None, int]] = set()
 
 
 def import_needed(job: Job) -> None:
-    """Import what the program of a job will need; errors are left to the program."""
-    with contextlib.suppress(Exception):  # the program meets the error itself, and reports it
+    """Import the modules that a job's program will need; errors are left to the program."""
+    with contextlib.suppress(Exception):  # the program encounters the error itself, and reports it
         if job.program == MEMBER_PROGRAM:
             for name in STEPPED:
                 importlib.import_module(name)
@@ -49,7 +48,7 @@ def import_needed(job: Job) -> None:
 
 
 def _source(function: str, arguments: Sequence[Any]) -> str | None:
-    """Return the file of a program, see `workspace.launched`; None if it is not found."""
+    """Return the file of a program (see `workspace.launched`); None if it is not found."""
     kind = function.rpartition(":")[2]
     if kind == "python_file":
         return arguments[1]
@@ -72,7 +71,7 @@ def _needed(path: str) -> Iterator[str]:
             warnings.simplefilter("ignore")
             tree = ast.parse(text)
     except (SyntaxError, ValueError, MemoryError, RecursionError):
-        return  # it will not run
+        return  # the program will not run
     for each in ast.walk(tree):
         if isinstance(each, ast.Import):
             for alias in each.names:
@@ -93,7 +92,7 @@ def _of_module(module: str, names: Sequence[str] = ()) -> Iterator[str]:
 
 
 def _are_made(module: str, names: Sequence[str]) -> bool:
-    """Create one object of each interface, which imports NumPy for fixed-size arrays; return whether all are known."""
+    """Create an object of each interface, which imports NumPy for fixed-size arrays; return whether all are known."""
     for name in names:
         cls = getattr(importlib.import_module(module), name, None)
         if cls is None:

@@ -1,7 +1,7 @@
 """The fork server of this process, and the first steps of each process forked from it.
 
-It imports little: a program that will need processes starts the server first, which warms up while the rest is
-imported.
+It imports little: a program that will need processes starts the server first, and it warms up while the program imports
+the rest.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ CAN_FORK = hasattr(os, "fork")
 WARM_UP = "bot_console.runtime.children.warm_up:warm_up"
 PREPARE = "bot_console.runtime.children.import_prefetch:import_needed"
 MEMBER_PROGRAM = "bot_console.runtime.rmw.lockstep.member_program:member_program"
-"""The function of jobs whose process takes part in a stepped run; named only, as launch does not depend on rmw."""
+"""The function of jobs whose process takes part in a stepped run; not imported, as launch does not depend on rmw."""
 SHARE = "bot_console.runtime.rmw.zenoh.domain.domain_bus:share_domains"
-"""The first call of a process that joins the domain; named only, for the same reason."""
+"""The first function that a process calls to join the domain; not imported, for the same reason."""
 
 _guard = threading.Lock()
 _servers: list[ForkServer] = []
@@ -33,12 +33,12 @@ def fork_server() -> ForkServer:
 
 
 def fork_off_server() -> None:
-    """Start the fork server as a fork of this process, which has just begun: it has one thread and no session."""
-    _servers[:] = [ForkServer(WARM_UP, PREPARE, from_here=True)]  # without the lock, which would be held in the fork
+    """Start the fork server as a fork of this process, which has just begun: it has one thread and no session yet."""
+    _servers[:] = [ForkServer(WARM_UP, PREPARE, from_here=True)]  # without the lock: the fork would hold it for ever
 
 
 def close_fork_server() -> None:
-    """End the server and all its children; waits for that."""
+    """End the server and all its children, and wait for that."""
     with _guard:
         servers, _servers[:] = list(_servers), []
     for each in servers:
@@ -46,7 +46,7 @@ def close_fork_server() -> None:
 
 
 def begun(joins: bool, function: str, arguments: Sequence[object]) -> Callable[[], object]:
-    """In the child process: return what to run, after joining the domain if the program `joins` it."""
+    """In the child process, return the program to run, after joining the domain if the program `joins` it."""
     if joins:
         function_named(SHARE)()
     return function_named(function)(*arguments)

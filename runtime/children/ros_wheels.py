@@ -1,8 +1,8 @@
-"""The rclpy of PyPI: what its wheels put into the environment of each Python, and programs elsewhere must not get.
+"""The rclpy of PyPI: variables that its wheels set in the environment of each Python, and other programs must not get.
 
-Their `.pth` file runs every Python of an environment a second time, with the folders of their libraries in
-`LD_LIBRARY_PATH` and a variable against a third run. Another environment with such wheels would find the variable and
-not its libraries, and programs of an installed ROS would load those of the wheels.
+Their `.pth` file makes every Python of an environment start a second time, with the folders of their libraries in
+`LD_LIBRARY_PATH` and a variable that prevents a third start. Another environment with such wheels would find that
+variable but not its own libraries, and programs of an installed ROS would load the wheels' libraries.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ PATH_VARIABLE = "LD_LIBRARY_PATH"
 
 
 def clear_wheel_environment(environ: MutableMapping[str, str] = os.environ) -> None:
-    """Remove what the wheels have added, for all programs that this one starts.
+    """Remove the variables that the wheels have added, for all programs that this one starts.
 
-    This process keeps its libraries, since the loader has read the path at its start; a Python of this environment adds
-    them again. The folders that the user has set stay, in the order that the wheels have left.
+    This process keeps its libraries, since the loader read the path when it started; a Python of this environment adds
+    them again. Folders that the user has set stay, in the order in which the wheels left them.
     """
     if environ.pop(GUARD_VARIABLE, None) is None:
         return

@@ -1,4 +1,4 @@
-"""The imports and the work that the fork server does once, so that nodes forked from it need not."""
+"""The imports and other work that the fork server does once for all nodes forked from it."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from bot_console.runtime.rosidl.names import KINDS
 
 INTERFACES = ("action_msgs", "builtin_interfaces", "geometry_msgs", "nav_msgs", "rcl_interfaces", "sensor_msgs",
               "std_msgs", "std_srvs", "tf2_msgs")  # fmt: skip
-"""Packages whose messages, services and actions most nodes import."""
+"""Packages whose interfaces most nodes import."""
 MODULES = ("rclpy.executors", "rclpy.qos", "bot_console.runtime.children.own_fork_server",
            "bot_console.runtime.workspace.launched", "bot_console.runtime.rosidl.cdr_read",
            "bot_console.runtime.rosidl.cdr_write", "bot_console.runtime.rmw.zenoh.bus",
@@ -30,7 +30,7 @@ def import_shared() -> None:
 
 
 def warm_up() -> None:
-    """Import the runtime, and create and destroy one node. No thread and no middleware session remains."""
+    """Import the runtime, and create and destroy one node. No thread and no middleware session is left."""
     import contextlib
     import gc
     import importlib
@@ -45,10 +45,10 @@ def warm_up() -> None:
                 importlib.import_module(f"{package}.{kind}")
     for name in MODULES:
         importlib.import_module(name)
-    with contextlib.suppress(ImportError, MemoryError):  # if it does not fit into memory, the node reports it
+    with contextlib.suppress(ImportError, MemoryError):  # if memory is too small, the node reports that
         preload()
-    gid_of("warm_up")  # imports what is needed for hashes
-    gc.freeze()  # imported modules are no garbage: only what the node leaves behind has to be examined
+    gid_of("warm_up")  # imports the modules that hashes need
+    gc.freeze()  # imported modules are not garbage: only the remains of the node need examination
     _make_one_node()
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from cv_bridge.encodings import Encoding, encoding
 
 RED, GREEN, BLUE = 4899, 9617, 1868
-"""Weights of the colours in the brightness, in 1/16384, as in OpenCV."""
+"""Weights of the colours for the brightness, in 1/16384, as in OpenCV."""
 
 
 def cvtColor2(image: np.ndarray, encoding_in: str, encoding_out: str) -> np.ndarray:
@@ -63,7 +63,7 @@ def _gray(image: np.ndarray, kind: str) -> np.ndarray:
 
 
 def _from_yuv(image: np.ndarray, order: str) -> np.ndarray:
-    """Return red, green and blue of pairs of pixels that share their colour (ITU-R BT.601)."""
+    """Return red, green and blue of pairs of pixels that share their colour values (ITU-R BT.601)."""
     pairs = image.reshape(image.shape[0], -1, 4).astype(np.float32)
     at = {character: order.index(character) for character in "uv"}
     bright = pairs[..., [index for index, character in enumerate(order) if character == "y"]]
@@ -82,7 +82,7 @@ def _from_bayer(image: np.ndarray, have: Encoding) -> np.ndarray:
 
 
 def _with_depth(image: np.ndarray, dtype: np.dtype) -> np.ndarray:
-    """Convert to another number type: scaled between 8 and 16 bits, else rounded and clipped to its range."""
+    """Convert to another number type: scaled between 8 and 16 bits, otherwise rounded and clipped to its range."""
     have = image.dtype
     if have == dtype:
         return image
@@ -99,7 +99,7 @@ def _cut(values: np.ndarray, dtype: np.dtype) -> np.ndarray:
 
 
 def open_cv(what: str) -> Any:
-    """Return OpenCV; raises `ImportError` with instructions for its installation."""
+    """Return OpenCV; raises `ImportError` with installation instructions."""
     try:
         import cv2  # type: ignore[import-not-found] -- an optional dependency
     except ModuleNotFoundError:

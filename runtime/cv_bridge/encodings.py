@@ -26,7 +26,7 @@ class Encoding(NamedTuple):
 
 
 def encoding(name: str) -> Encoding:
-    """Return the encoding of this name; raises `ValueError` for an unknown one."""
+    """Return the encoding with this name; raises `ValueError` for an unknown name."""
     color = _COLOR.fullmatch(name)
     if color:
         return Encoding(f"uint{color[2]}", COLORS[color[1]], color[1])

@@ -1,1 +1,1 @@
-"""Files of the user and of servers that the runtime reads, and its log files."""
+"""Files that the runtime reads, from the user and from servers, and its log files."""

@@ -1,4 +1,4 @@
-"""Whether a parameter file is on a server; cheap to import, unlike the module that downloads it."""
+"""Whether a parameter file is on a server; cheap to import, unlike the module that downloads the file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Parameter files on a server: downloaded over `https://`, cached, and read from the cache while it is unreachable.
+"""Parameter files on a server: downloaded over `https://`, cached, and read from the cache while the server is
+unreachable.
 
 A server on this machine may use plain `http://`, since nobody can intercept it.
 """
@@ -26,13 +27,13 @@ from bot_console.runtime.files.user_folders import cache_folder
 
 SCHEME = "https://"
 MAX_FILE_BYTES = 1_000_000
-"""The maximum size of a parameter file in bytes."""
+"""Maximum size of a parameter file in bytes."""
 SILENCE_TIMEOUT_S = 5.0
-"""Seconds without data after which a server counts as unreachable."""
+"""Time (s) without data after which a server counts as unreachable."""
 FETCH_TIMEOUT_S = 15.0
 """The time limit (s) for a whole download."""
 READ_BYTES = 65_536
-"""How much is read at once."""
+"""How many bytes are read at once."""
 
 
 class RemoteError(OSError):
@@ -40,12 +41,12 @@ class RemoteError(OSError):
 
 
 def local_copy(address: str) -> Path:
-    """Return the path of the file now at an address; or, with a WARN on stderr, of the copy fetched last.
+    """Return the path of the current file at an address or, with a WARN on stderr, of the copy that was fetched last.
 
-    The server's certificate is verified, with `SSL_CERT_FILE` if that is set. Only valid YAML is kept. Raises
-    `RemoteError`: for `http://` from another machine and for invalid certificates, because anyone on the network could
-    have written the file; for a server that answers, but not with a parameter file; and for an unreachable one without
-    a cached copy.
+    The server's certificate is verified, with `SSL_CERT_FILE` if that is set. Only valid YAML is cached. Raises
+    `RemoteError` for `http://` from another machine and for invalid certificates, because anyone on the network could
+    have written the file; for an answer that is not a parameter file; and for an unreachable server if there is no
+    cached copy.
     """
     _check(address)
     kept = _Kept(address)
@@ -61,7 +62,7 @@ def local_copy(address: str) -> Path:
         )
         return kept.path
     if answer is None:
-        kept.path.touch()  # its time shows the age of a copy
+        kept.path.touch()  # the file's time shows the age of the copy
     else:
         _check_yaml(address, answer[0])
         kept.keep(*answer)
@@ -69,11 +70,11 @@ def local_copy(address: str) -> Path:
 
 
 class _OutOfReach(Exception):
-    """The server did not answer, or said that it cannot do so now."""
+    """The server did not answer, or answered that it is unavailable now."""
 
 
 class _Kept:
-    """The cached copy of one address, complete or absent: the text, and beside it the server's ETag."""
+    """The cached copy of one address, if there is one: the text, and beside it the server's ETag."""
 
     def __init__(self, address: str) -> None:
         name = hashlib.blake2b(address.encode(), digest_size=12).hexdigest()
@@ -84,7 +85,7 @@ class _Kept:
 
     @property
     def tag(self) -> str:
-        """The ETag of the cached copy; empty if there is none, or if the two files do not belong together."""
+        """Return the ETag of the cached copy; empty if there is none, or if the two files do not belong together."""
         try:
             about: Any = json.loads(self._about.read_bytes())
             fits = about["digest"] == _digest(self.path.read_bytes()) and about["address"] == self._address
@@ -138,12 +139,12 @@ def _check(address: str) -> None:
 
 
 def _is_here(address: str) -> bool:
-    """Whether an address is a server on this machine, without TLS."""
+    """Whether an address is on this machine and without TLS."""
     try:
         parts = urllib.parse.urlsplit(address)
         host = parts.hostname or ""
         return parts.scheme == "http" and (host == "localhost" or ipaddress.ip_address(host).is_loopback)
-    except ValueError:  # a name, or not an address
+    except ValueError:  # a host name, or not an address
         return False
 
 
@@ -159,14 +160,14 @@ class _SafePlaces(urllib.request.HTTPRedirectHandler):
 
 
 def _asked(address: str, tag: str) -> tuple[bytes, str] | None:
-    """Return content and ETag; None if it is unchanged."""
+    """Return content and ETag; None if the file is unchanged."""
     request = urllib.request.Request(address, headers={"User-Agent": "bot-console", "Accept-Encoding": "identity"})
     if tag:
         request.add_header("If-None-Match", tag)
     try:
         handlers = [urllib.request.HTTPSHandler(context=ssl.create_default_context()), _SafePlaces()]
         if _is_here(address):
-            handlers.append(urllib.request.ProxyHandler({}))  # a proxy would be in between, and is not on this machine
+            handlers.append(urllib.request.ProxyHandler({}))  # a proxy would be in between, and not on this machine
         with urllib.request.build_opener(*handlers).open(request, timeout=SILENCE_TIMEOUT_S) as answer:
             return _content(address, answer), answer.headers.get("ETag", "")
     except urllib.error.HTTPError as error:
@@ -204,7 +205,7 @@ def _content(address: str, answer: Any) -> bytes:
 
 
 def _check_yaml(address: str, content: bytes) -> None:
-    """Raise `RemoteError` for invalid YAML. Only its events are read: nothing is constructed from it."""
+    """Raise `RemoteError` for invalid YAML. Only its events are read; no objects are constructed from it."""
     loader: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
         for _ in yaml.parse(content.decode("utf-8-sig"), Loader=loader):

@@ -1,4 +1,4 @@
-"""Log files that cannot be written, as on a full disk: reported once, without stopping anything else."""
+"""Log files that cannot be written, for example on a full disk: reported once, without stopping anything else."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ _reported: set[str] = set()
 class UnwritableLog(logging.Handler):
     """Mixin for a handler of a log file.
 
-    The standard library would print a traceback for each record. If the standard error stream is logged, that ends in
-    the same file, and so never stops.
+    The standard library would print a traceback for each record. If the standard error stream is logged to the same
+    file, that would never stop.
     """
 
     def handleError(self, record: logging.LogRecord) -> None:
@@ -33,7 +33,7 @@ class UnwritableLog(logging.Handler):
 
 
 class LogFile(UnwritableLog, logging.FileHandler):
-    """The standard library's log file with this error handling, also for errors on opening it."""
+    """The standard library's log file handler with this error handling, also for errors on opening the file."""
 
     def emit(self, record: logging.LogRecord) -> None:
         """Write a record."""

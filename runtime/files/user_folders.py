@@ -1,4 +1,4 @@
-"""The runtime's files in the user's folders; those of the console are next to them."""
+"""The runtime's files in the user's folders; the console's files are beside them."""
 
 from __future__ import annotations
 
@@ -8,16 +8,14 @@ from functools import cache
 from pathlib import Path
 
 OVERRIDE = "BOT_CONSOLE_USER_DIR"
-"""Environment variable: one folder for all files, for instance on a borrowed account."""
+"""Environment variable that names one folder for all files, for instance on a borrowed account."""
 
 XDG = {
     "user_data_path": ("XDG_DATA_HOME", "~/.local/share"),
     "user_cache_path": ("XDG_CACHE_HOME", "~/.cache"),
     "user_state_path": ("XDG_STATE_HOME", "~/.local/state"),
 }
-"""The places on Linux. Importing platformdirs for these would take a thirtieth of the time to a launch's first
-node.
-"""
+"""The folders on Linux. Importing platformdirs for them would take a thirtieth of the time to a launch's first node."""
 
 
 def data_folder() -> Path:
@@ -33,7 +31,7 @@ def cache_folder() -> Path:
 
 
 def state_folder() -> Path:
-    """Return the folder for what outlives a run, such as stops (`~/.local/state/bot-console` on Linux)."""
+    """Return the folder for files that outlive a run, such as stops (`~/.local/state/bot-console` on Linux)."""
     given = os.environ.get(OVERRIDE)
     return Path(given) / "state" if given else _platform("user_state_path")
 

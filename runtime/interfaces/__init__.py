@@ -1,1 +1,1 @@
-"""Message packages found while a program runs: in folders, among the bundled ones, or sent by a node."""
+"""Message packages that are found while a program runs: in folders, among the included, or received from a node."""

@@ -1,6 +1,6 @@
-"""Interface packages beyond ROS 2's core: some are included, others are added by the user.
+"""Interface packages beyond ROS 2's core, either included or added by the user.
 
-Both kinds are generated when they are imported, and cost nothing before.
+Both kinds are generated when they are imported, and cost nothing until then.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from bot_console.runtime.rosidl.names import KINDS
 from bot_console.runtime.rosidl.sources import EXAMPLES
 
 UNVERIFIED = Path(__file__).resolve().parents[1] / "rosidl" / "unverified"
-"""Definitions whose fields come from public sources and whose hashes were not compared with ROS 2."""
+"""Definitions whose fields come from public sources, and whose hashes were not compared with ROS 2's."""
 
 
 class NotAdded(Exception):
@@ -43,7 +43,7 @@ def _kept() -> Path:
 def add(folder: Path) -> dict[str, list[str]]:
     """Keep the interfaces of each package in a folder or checkout; return their names by package. Raises `NotAdded`.
 
-    All definitions are read first, so that a mistake in one adds nothing.
+    All definitions are read first, so that nothing is added if one has a mistake.
     """
     from bot_console.runtime.rosidl.texts import standard_packages
 
@@ -66,7 +66,7 @@ def add(folder: Path) -> dict[str, list[str]]:
 
 
 def _packages(folder: Path) -> Iterator[tuple[str, Path]]:
-    """Yield names and folders of the packages at or below a folder that define interfaces."""
+    """Yield the names and folders of the packages, at or below a folder, that define interfaces."""
     from xml.etree import ElementTree
 
     for manifest in sorted(folder.rglob("package.xml")):
@@ -84,7 +84,7 @@ def _definitions(folder: Path) -> Iterator[Path]:
 
 
 def _checked(package: str, folder: Path) -> list[str]:
-    """Return names such as `msg/Num` of valid definitions; raises `NotAdded` with file and line of a mistake."""
+    """Return the names of valid definitions, such as `msg/Num`; raises `NotAdded` with file and line of a mistake."""
     from bot_console.runtime.rosidl.parse import DefinitionError, parse
 
     names: list[str] = []

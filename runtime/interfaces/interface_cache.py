@@ -22,7 +22,7 @@ GENERATOR = Path(__file__).resolve().parents[1] / "rosidl"
 def compiled(module: str, definition: str, source: Callable[[], str]) -> CodeType:
     """Return the code of a module that `source` generates from a definition, from the cache if it has it.
 
-    If the cache cannot be read or written, the code is generated each time, silently: a cache is no reason to fail.
+    If the cache cannot be read or written, the code is silently generated each time, as a cache is no reason to fail.
     """
     key = hashlib.sha256("\n".join((_generator(), module, definition)).encode()).hexdigest()
     place = cache_folder() / "interfaces" / f"{key}.{sys.implementation.cache_tag}"
@@ -38,14 +38,14 @@ def compiled(module: str, definition: str, source: Callable[[], str]) -> CodeTyp
 
 @cache
 def _generator() -> str:
-    """Return what distinguishes one generator from another: sizes and times of its files, and the bytecode format."""
+    """Return what distinguishes generators from each other: sizes and times of their files, and the bytecode format."""
     files = sorted(GENERATOR.glob("*.py"))
     states = [(path.name, path.stat().st_size, path.stat().st_mtime_ns) for path in files]
     return repr((sys.hexversion, states))
 
 
 def _keep(place: Path, content: bytes) -> None:
-    """Write a file so that a concurrent reader sees all or nothing."""
+    """Write a file so that a concurrent reader sees all of it or nothing."""
     try:
         place.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
         handle, name = tempfile.mkstemp(dir=place.parent)

@@ -15,16 +15,16 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 NEVER_OURS = sys.stdlib_module_names | {"org"}
-"""Names for which no workspace is searched; `org` is Jython's, which the standard library's `copy` imports."""
+"""Names for which no workspace is searched; `org` belongs to Jython, and the standard library's `copy` imports it."""
 
 DECIDES = "bot_console_shims.py"
-"""The module in a folder of shims that decides what they stand for."""
+"""The module in a folder of shims that decides what the shims stand for."""
 
 
 def interface_folders() -> Mapping[str, Path]:
     """Return the packages that define interfaces, with the folders that contain `msg`, `srv` and `action`.
 
-    Those of the workspace take precedence, then those added by the user, the included ones, and the learned ones.
+    The workspace's packages take precedence, then those added by the user, the included and the learned ones.
     """
     from bot_console.runtime.interfaces.further_interfaces import added_by_user, unverified_folders
     from bot_console.runtime.interfaces.learned_interfaces import learned_folders
@@ -35,7 +35,7 @@ def interface_folders() -> Mapping[str, Path]:
 
 
 def spec_on_path(fullname: str, path: Sequence[str] | None = None) -> ModuleSpec | None:
-    """Return what the path has under a name, other than a shim for it: see `shim_folder`."""
+    """Return the spec that the path has for a name, unless it is a shim; see `shim_folder`."""
     spec = PathFinder.find_spec(fullname, path)
     if path is None and spec is not None and is_shim(spec.origin):
         return PathFinder.find_spec(fullname, [each for each in sys.path if not is_shim_folder(each)])
@@ -48,12 +48,12 @@ def is_shim(file: str | None) -> bool:
 
 
 def is_shim_folder(folder: str) -> bool:
-    """Whether a folder of the path holds shims."""
+    """Whether a folder on the path contains shims."""
     return os.path.lexists(os.path.join(folder, DECIDES))
 
 
 class InterfaceFinder:
-    """A finder of `sys.meta_path`: interface packages that the path lacks, and `msg` modules of Python packages."""
+    """A finder for `sys.meta_path`: interface packages missing from the path, and `msg` modules of Python packages."""
 
     def __init__(self) -> None:
         self._modules: dict[str, ModuleType] = {}
@@ -61,7 +61,7 @@ class InterfaceFinder:
     def find_spec(
         self, fullname: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        """Return the spec of a generated module; None for every other name."""
+        """Return the spec of a generated module; None for any other name."""
         top, *inside = fullname.split(".")
         if top in NEVER_OURS or len(inside) > 2 or (inside and inside[0] not in KINDS):
             return None
@@ -91,7 +91,7 @@ def _definition(folder: Path, kind: str, module: str) -> Path | None:
 
 
 class InterfaceLoader:
-    """Generates a module when it is imported; all node processes share it, as they exchange its messages."""
+    """Generates a module when it is imported; all node processes share it, since they exchange its messages."""
 
     def __init__(self, folder: Path, modules: dict[str, ModuleType]) -> None:
         self._folder = folder
@@ -103,7 +103,7 @@ class InterfaceLoader:
         return fullname.count(".") < 2
 
     def get_source(self, fullname: str) -> str:
-        """Return the Python source; raises `ImportError` with file, line and mistake of a definition."""
+        """Return the Python source; raises `ImportError` with the file, line and mistake of a definition."""
         from bot_console.runtime.rosidl.emit import modules
         from bot_console.runtime.rosidl.emit_holder import package_module
         from bot_console.runtime.rosidl.parse import DefinitionError, parse
@@ -123,7 +123,7 @@ class InterfaceLoader:
             raise ImportError(str(error), name=fullname) from None
 
     def _classes(self, kind: str) -> dict[str, str]:
-        """Return the names provided by a folder's module, with the modules that define them."""
+        """Return the names that a folder's module provides, with the modules that define them."""
         from bot_console.runtime.rosidl.names import module_name
         from bot_console.runtime.rosidl.parse import PARTS
 
@@ -136,7 +136,7 @@ class InterfaceLoader:
         return found
 
     def _defining(self, fullname: str) -> str:
-        """Return what the source of a module depends on: a definition's text, or the list of definitions."""
+        """Return what a module's source depends on: a definition's text, or the list of definitions."""
         _, *inside = fullname.split(".")
         if len(inside) == 2:
             path = _definition(self._folder, *inside)
@@ -147,13 +147,13 @@ class InterfaceLoader:
         return repr(sorted(self._classes(inside[0]).items())) if inside else ""
 
     def create_module(self, spec: ModuleSpec) -> ModuleType | None:
-        """Return the module already imported by another node process, or a new one."""
+        """Return the module that another node process has already imported, or a new one."""
         module = self._modules.get(spec.name)
         self._kept = module.__spec__ if module is not None else None
         return module
 
     def exec_module(self, module: ModuleType) -> None:
-        """Run a new module; an existing one is unchanged."""
+        """Run a new module; an existing one stays unchanged."""
         if self._kept is not None:
             module.__spec__ = self._kept
             return

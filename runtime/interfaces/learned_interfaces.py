@@ -1,7 +1,7 @@
 """Interfaces that are not installed here: definitions received from nodes, kept for the lifetime of this process.
 
-Only packages that are missing entirely are learned, so that nothing installed is shadowed, and only definitions whose
-hash matches the type in the graph.
+Only packages that are missing entirely are learned, so that nothing installed is hidden, and only definitions whose
+hash matches the type's in the graph.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 TYPE_NAME = rf"[a-z][a-z0-9_]*/(?:{'|'.join(KINDS)})/[A-Z][A-Za-z0-9]*"
-"""The pattern, compiled when needed, of valid names of folders and files: they come from another program or machine."""
+"""The pattern of valid names of folders and files, which come from another program or machine; compiled when needed."""
 FALSE = "describes it by a definition that does not have the hash"
 UNREADABLE = "sent a description of it that is invalid"
 
@@ -33,7 +33,7 @@ def learned_folders() -> Mapping[str, Path]:
 
 
 def learn(type_name: str, type_hash: str, response: Any) -> str:
-    """Learn from the response of a node's `get_type_description`; the type can be imported afterwards.
+    """Learn from the response of a node's `get_type_description`, so that the type can be imported.
 
     Returns why it cannot be learned, as a sentence whose omitted subject is the node; empty on success.
     """
@@ -56,7 +56,7 @@ def learn(type_name: str, type_hash: str, response: Any) -> str:
 
 
 def refusal(response: Any) -> str:
-    """Return why a response of `get_type_description` is useless; empty if it is not."""
+    """Return why a response of `get_type_description` is useless; empty if it is usable."""
     if response is None:
         return "has not described it"
     return "" if response.successful else f"does not describe it: {response.failure_reason}"
@@ -70,7 +70,7 @@ def _has_hash(type_name: str, type_hash: str, texts: Mapping[str, str]) -> bool:
 
 
 def _hash_here(type_name: str) -> str:
-    """Return the hash of the class imported under this name."""
+    """Return the hash of the class that is imported under this name."""
     from bot_console.runtime.rosidl.type_hash import text
 
     package, kind, short = type_name.split("/")
@@ -78,7 +78,7 @@ def _hash_here(type_name: str) -> str:
 
 
 def _keep(texts: Mapping[str, str]) -> None:
-    """Write the definitions where imports find them; an existing package is unchanged."""
+    """Write the definitions to where imports find them; an existing package stays unchanged."""
     import importlib.util
 
     new: list[str] = []
@@ -97,7 +97,7 @@ def _keep(texts: Mapping[str, str]) -> None:
 
 
 def _report_more(modules: Iterable[str]) -> None:
-    """Let modules that were imported before they had all their classes list them again."""
+    """Make modules that were imported before they had all their classes list them again."""
     for name in dict.fromkeys(modules):
         if name in sys.modules:
             importlib.reload(sys.modules[name])

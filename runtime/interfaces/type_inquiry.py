@@ -12,11 +12,11 @@ from bot_console.runtime.rosidl.received_descriptions import ACTION_TYPES, descr
 from bot_console.runtime.rosidl.type_hash import text_of_description
 
 Question = tuple[str, str]
-"""A type and its hash, for a request to `get_type_description`."""
+"""A type and its hash, to be requested from `get_type_description`."""
 
 
 def whole(type_name: str) -> str:
-    """Return the action that a type is a part of, as `pkg/action/Name_Feedback` is; any other type unchanged."""
+    """Return the action to which a type such as `pkg/action/Name_Feedback` belongs; any other type unchanged."""
     package, kind, name = type_name.split("/")
     return f"{package}/{kind}/{name.partition('_')[0]}" if kind == "action" else type_name
 
@@ -33,15 +33,15 @@ def inquiries(domain: int, type_name: str) -> Mapping[str, Generator[Question, A
 
 
 def _types_in_graph(type_name: str) -> Sequence[str]:
-    """Return the types whose hashes are in the graph: for an action its services and feedback, else the type itself."""
+    """Return the types whose hashes are in the graph: an action's services and feedback, or the type itself."""
     return [f"{type_name}_{part}" for _, part in ACTION_TYPES] if "/action/" in type_name else [type_name]
 
 
 def inquiry(type_name: str, hashes: Mapping[str, str]) -> Generator[Question, Any, str]:
     """Ask one node: yields requests and receives the responses, after which the type can be imported.
 
-    `hashes` are from the graph: of the type, or of an action's services and feedback, from which the action's own
-    follows. Returns why the type is unavailable, as a sentence whose omitted subject is the node; empty on success.
+    `hashes` are from the graph: those of the type, or of an action's services and feedback, which determine its own.
+    Returns why the type is unavailable, as a sentence whose omitted subject is the node; empty on success.
     """
     if "/action/" not in type_name:
         return learn(type_name, hashes[type_name], (yield type_name, hashes[type_name]))

@@ -1,1 +1,1 @@
-"""One program that runs nodes: how it is run, hints about common mistakes, and how it ends."""
+"""A program that runs nodes: how it is started, hints about common mistakes, and how it ends."""

@@ -1,5 +1,5 @@
-"""How a command that cannot continue ends: a one-line message for faults of its environment, silence after an
-interrupt.
+"""How a command that cannot continue ends: with a one-line message for a fault of its environment, silently after
+Ctrl-C.
 """
 
 from __future__ import annotations
@@ -14,30 +14,30 @@ from typing import Any
 
 DELETED = "the folder you are in was deleted; go to another one (cd) and try again"
 MAX_NAME_CHARACTERS = 60
-"""Characters shown of a name that is too long."""
+"""How many characters of a name that is too long are shown."""
 ENDED = "ExternalShutdownException"
-"""The exception raised by a wait when SIGTERM has ended the context; by name, as not every command imports rclpy."""
+"""The exception that a wait raises when SIGTERM has ended the context; by name, as not every command imports rclpy."""
 NO_THREAD = "can't start new thread"
-"""Python's message for this in a RuntimeError."""
+"""Python's message in the RuntimeError for this."""
 UNMAPPED = "failed to map segment"
-"""The message in an ImportError for a library that does not fit into memory."""
+"""The message in the ImportError for a library that does not fit into memory."""
 NO_TEMPORARY = "No usable temporary directory"
-"""Python's message for this in a FileNotFoundError."""
+"""Python's message in the FileNotFoundError for this."""
 RAISING = ("strict", "surrogateescape")
-"""Error handlers of streams that raise for characters they cannot encode; the second is that of the C locale."""
+"""Error handlers of streams that raise for characters that cannot be encoded; the second is the C locale's."""
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG)
 
 
 class Interrupted(int):
-    """The exit code of a program that Ctrl-C has ended, where a fault has the same: of `ros2`, 2."""
+    """The exit code of a program ended by Ctrl-C, where a fault may have the same code: with `ros2`, 2."""
 
 
 def place_fault(error: BaseException) -> str:
-    """Return the message for an error that names no file: of standard output, or the working directory; else empty.
+    """Return the message for an error that names no file, about standard output or the working directory; else empty.
 
     Also covers a file name that is too long, which fails before the lookup, and limits of this process.
     """
-    if isinstance(error, SystemError) and not _has_folder():  # raised by an import of Python 3.13.0 in a deleted folder
+    if isinstance(error, SystemError) and not _has_folder():  # Python 3.13.0 raises it on import in a deleted folder
         return DELETED
     if reached := limit_fault(error):
         return reached
@@ -53,7 +53,7 @@ def place_fault(error: BaseException) -> str:
 
 
 def limit_fault(error: BaseException | None) -> str:
-    """Return the message for an error raised by a limit of this process or machine, or by an error it caused."""
+    """Return the message for an error caused, directly or indirectly, by a limit of this process or machine."""
     if error is None:
         return ""
     unloaded = isinstance(error, ImportError) and UNMAPPED in str(error)
@@ -83,7 +83,7 @@ def _has_folder() -> bool:
 
 
 def report_help_errors() -> None:
-    """Make the help of every parser fail if it cannot be written: argparse would ignore the error and end with 0."""
+    """Make printing a parser's help fail if it cannot be written: argparse would ignore the error and end with 0."""
     import argparse
 
     def write(self: argparse.ArgumentParser, message: str, file: Any = None) -> None:
@@ -94,9 +94,9 @@ def report_help_errors() -> None:
 
 
 def help_is_english() -> None:
-    """Make parsers use their texts unchanged: they would search for translations, of which Python has none.
+    """Make parsers use their texts unchanged instead of searching for translations, of which Python has none.
 
-    That takes a thirtieth of a short verb's time.
+    That search takes a thirtieth of a short verb's time.
     """
     import argparse
 
@@ -104,7 +104,7 @@ def help_is_english() -> None:
 
 
 def stderr_is_terminal() -> bool:
-    """Whether a person reads stderr: anything beyond the output of ROS 2 is only for people."""
+    """Whether a person reads stderr: output beyond that of ROS 2 is only for people."""
     return sys.stderr is not None and sys.stderr.isatty()
 
 
@@ -116,22 +116,22 @@ def ended_code(error: BaseException) -> int:
 
 
 def run_and_report(run: Callable[[], int]) -> int:
-    """Run a command and flush its output; a fault of its environment is reported on one line, with exit code 1.
+    """Run a command and flush its output; a fault of its environment is reported in one line, with exit code 1.
 
-    After Ctrl-C or SIGTERM the exit code is the one that shells use.
+    After Ctrl-C or SIGTERM, the exit code is the one that shells use.
     """
     code = 0
     _make_streams_usable()
     try:
         try:
             code = run()
-        except SystemExit as end:  # as a parser ends after its help
+        except SystemExit as end:  # as a parser does after its help
             code = end.code if isinstance(end.code, int) else 1 if end.code else 0
             if isinstance(end.code, str):
                 print(end.code, file=sys.stderr)
         sys.stdout.flush()
         return code
-    except BrokenPipeError:  # as with `head`, which has read enough
+    except BrokenPipeError:  # such as `head`, which has read enough
         _give_up_output()
         return code or 1
     except (OSError, SystemError, RuntimeError, MemoryError, ImportError) as error:
@@ -144,29 +144,29 @@ def run_and_report(run: Callable[[], int]) -> int:
         if not (code := ended_code(error)):
             raise
         return code
-    if not code:  # otherwise the command has said why
+    if not code:  # otherwise the command has already said why
         print(f"{os.path.basename(sys.argv[0])}: {text}", file=sys.stderr)
     _give_up_output()
     return code or 1
 
 
 def _make_streams_usable() -> None:
-    """Open closed standard streams on the null device, and let no character fail that a terminal cannot show.
+    """Open closed standard streams on the null device, and replace characters that a terminal cannot show.
 
-    A free descriptor from 0 to 2 would be given to the next file or socket, which would then receive the output.
+    The next file or socket would get a free descriptor from 0 to 2, and then receive the output.
     """
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
         stream = getattr(sys, name)
         if stream is None:
-            # Like the interpreter's own streams, it does not close its descriptor: in a fork that may be a node's by
-            # then.
+            # Like the interpreter's own streams, it does not close its descriptor, which in a fork may by then belong
+            # to a node.
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), mode, closefd=False))
         elif isinstance(stream, io.TextIOWrapper) and mode == "w" and stream.errors in RAISING:
             stream.reconfigure(errors="replace")
 
 
 def _give_up_output() -> None:
-    """Discard unwritten output, which would fail once more at exit."""
+    """Discard unwritten output, which would fail again at exit."""
     try:
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, sys.stdout.fileno())

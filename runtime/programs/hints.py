@@ -1,7 +1,7 @@
-"""The texts of hints about common mistakes, with their rules: what `lint`, `run`, `launch` and the verbs say alike.
+"""The texts of hints about common mistakes, and their rules, shared by `lint`, `run`, `launch` and the verbs.
 
-A hint goes beyond the words of ROS 2, and never changes what happens. Modules that notice a mistake call these
-functions; where the mistake was made is put before the text, as `file:line: text`.
+A hint adds to the messages of ROS 2, and never changes what happens. Modules that notice a mistake call these
+functions; the text begins with the place of the mistake, as `file:line: text`.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from collections.abc import Iterable, Sequence
 from bot_console.runtime.programs.exit_messages import stderr_is_terminal
 
 SHOW = "BOT_CONSOLE_HINTS"
-"""Set for processes of a launch whose output a person reads: in a terminal, or in the console's log."""
+"""Environment variable set for a launch's processes whose output a person reads, in a terminal or the console's log."""
 
 UNDERSCORE = "ros_parameters has one underscore, ros__parameters has two"
 TAB = "it is indented by a tab, and YAML takes spaces alone"
@@ -21,35 +21,35 @@ _UNSPACED = re.compile(r"^\s*(?:- )?([A-Za-z_/][\w./]*):([^\s:/#][^:#]*?)\s*(?:#
 
 
 def is_read() -> bool:
-    """Whether a person reads what this process prints: hints are for people alone."""
+    """Whether a person reads what this process prints, as hints are only for people."""
     return SHOW in os.environ or stderr_is_terminal()
 
 
 def for_children() -> dict[str, str]:
-    """The variables that a child's environment needs, so that its hints are shown where those of this process are."""
+    """Return the variables with which a child shows its hints if this process shows its own."""
     return {SHOW: "1"} if is_read() else {}
 
 
 def at(place: str, text: str) -> str:
-    """A hint after the place, `file:line`, that has to change; without one if that is unknown."""
+    """Return a hint after the place (`file:line`) that has to change; without the place if it is unknown."""
     return f"{place}: {text}" if place and text else text
 
 
 def did_you_mean(word: str, known: Iterable[str], quote: str = "", similarity: float = 0.6) -> str:
-    """`; did you mean NAME?` with the most similar known name; empty if none is at least so similar, from 0 to 1."""
+    """Return `; did you mean NAME?` with the most similar known name; empty if none has that similarity (0 to 1)."""
     near = nearest(word, sorted(known), similarity)
     return f"; did you mean {quote}{near}{quote}?" if near else ""
 
 
 def nearest(word: str, known: Iterable[str], similarity: float = 0.6) -> str:
-    """The most similar known name; empty if none is at least so similar, from 0 to 1."""
-    from difflib import get_close_matches  # imported late: only a mistyped name needs it
+    """Return the most similar known name; empty if none has at least that similarity (0 to 1)."""
+    from difflib import get_close_matches  # imported here, as only a mistyped name needs it
 
     return next(iter(get_close_matches(word, list(known), 1, similarity)), "")
 
 
 def wrong_type(name: str, value: str, expected: str, given: str) -> str:
-    """How to write a value of the expected type; type names as in `rclpy.Parameter.Type`."""
+    """Return how to write a value of the expected type; type names are those of `rclpy.Parameter.Type`."""
     if (expected, given) == ("DOUBLE", "INTEGER"):
         point = f"{value}.0" if value.lstrip("+-").isdecimal() else "it with a point"
         return f"{name} is a double, which takes no integer: write {point}"
@@ -61,13 +61,13 @@ def wrong_type(name: str, value: str, expected: str, given: str) -> str:
 
 
 def not_declared(nodes: Sequence[str], name: str, declared: Iterable[str]) -> str:
-    """The hint that a value sets nothing, as none of the nodes declares the parameter."""
+    """Return the hint that a value sets nothing, as none of the nodes declares the parameter."""
     who = f"{nodes[0]} declares" if len(nodes) == 1 else f"{', '.join(nodes)} declare"
     return f"sets nothing: {who} no parameter {name}{did_you_mean(name, declared)}"
 
 
 def read_before_declared(name: str, declared: Iterable[str]) -> str:
-    """The hint for a parameter that a node reads or sets, and has not declared."""
+    """Return the hint for a parameter that a node reads or sets without having declared it."""
     meant = did_you_mean(name, declared)
     return f"the parameter {name} is not declared" + (
         meant or f": a node declares each of its parameters first, as in self.declare_parameter('{name}', DEFAULT)"
@@ -75,18 +75,18 @@ def read_before_declared(name: str, declared: Iterable[str]) -> str:
 
 
 def key_of_another_node(node: str, key: str) -> str:
-    """The hint for a parameter file without a section for the node."""
+    """Return the hint for a parameter file that has no section for the node."""
     return f"{node} gets no parameter of this file: its key '{key}' does not mean it; did you mean '{node}'?"
 
 
 def unspaced_colon(line: str) -> str:
-    """The hint for a line of YAML such as `max_speed:2.0`, which is one word there; empty for other lines."""
+    """Return the hint for a line of YAML such as `max_speed:2.0`, which is a single word; empty for other lines."""
     found = _UNSPACED.match(line)
     return f"YAML needs a blank after the colon: write {found[1]}: {found[2]}" if found else ""
 
 
 def assignment(flag: str, value: str) -> str:
-    """How to write the assignment of a parameter on the command line; empty if its form is not the mistake."""
+    """Return how to write a parameter assignment on the command line; empty if its form is not the mistake."""
     if value.endswith(":="):
         return f"the value follows without a blank: {flag} {value}VALUE"
     for sign in ("=", ":"):
@@ -96,6 +96,6 @@ def assignment(flag: str, value: str) -> str:
 
 
 def no_package(package: str, packages: Iterable[str]) -> str:
-    """The hint for a package that is nowhere: a similar one; empty if there is none."""
+    """Return the hint for a missing package: a similar one; empty if there is none."""
     meant = did_you_mean(package, packages, "'")
     return f"there is no package '{package}'{meant}" if meant else ""

@@ -1,4 +1,4 @@
-"""Explains the import of a missing ROS 2 package: what provides it, or why nothing does."""
+"""Explains the import of a missing ROS 2 package: what provides the package, or why nothing does."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ NO_INTERFACES = (
 )
 ROS_1 = "{0} belongs to ROS 1, and this is ROS 2: {1}."
 INTERFACES = ("_actions", "_interfaces", "_msg", "_msgs", "_srvs")
-"""Usual endings of names of interface packages."""
+"""Usual suffixes of interface packages."""
 
 KNOWN: dict[str, tuple[str, str]] = {
     "PyKDL": (
@@ -62,7 +62,7 @@ KNOWN: dict[str, tuple[str, str]] = {
         "urdf_parser_py",
     )
 }
-"""How to get a package, by its import name: where it comes from, and the name to install."""
+"""How to get a package, by its import name: its origin, and the name to install."""
 
 
 GAZEBO = "It starts Gazebo; the simulated robot stands in for it: bot_console_robot simulator.launch.py."
@@ -86,7 +86,7 @@ NO_EXECUTABLE = (
 
 
 def what_brings(package: str) -> str:
-    """Return a sentence saying what provides the executables of a package, or an equivalent here."""
+    """Return a sentence about what provides a package's executables, or an equivalent here."""
     if package in EXECUTABLES:
         return EXECUTABLES[package]
     if package in KNOWN:
@@ -96,7 +96,7 @@ def what_brings(package: str) -> str:
 
 
 def explain_missing_package(exception: BaseException) -> str | None:
-    """Explain why a package cannot be imported, and what to do; None for every other exception."""
+    """Explain why a package cannot be imported, and what to do; None for any other exception."""
     if not isinstance(exception, ModuleNotFoundError) or exception.name is None:
         return None
     package = exception.name.partition(".")[0]

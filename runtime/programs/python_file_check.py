@@ -21,14 +21,12 @@ QT_PLUGIN = (
 
 
 class PlainFile(NamedTuple):
-    """`problem` says why a file cannot be run, `hint` what the user should know; both empty if there is nothing to
-    say.
-    """
+    """`problem` says why a file cannot be run, `hint` what the user should know; empty if there is nothing to say."""
 
     problem: str = ""
     hint: str = ""
     calls_main: bool = False
-    """Whether `main()` has to be called because the file itself does not."""
+    """Whether `main()` has to be called because the file does not call it."""
 
 
 def examine(path: Path) -> PlainFile:
@@ -57,7 +55,7 @@ def examine(path: Path) -> PlainFile:
 
 
 def then_main(runs: Callable[[], object]) -> Callable[[], None]:
-    """Return a function that runs a file and then the `main()` defined in it, as `ros2 run` would."""
+    """Return a function that runs a file and then the `main()` it defines, as `ros2 run` would."""
 
     def run() -> None:
         runs()

@@ -1,6 +1,6 @@
-"""Runs one node as the main program of this process, as `bot-console run` does without an option.
+"""Runs one node as the main program of this process, as `bot-console run` does without options.
 
-Its arguments are `FILE.py`, `-m MODULE`, `-c CODE` or `PACKAGE EXECUTABLE`, and those of the node. Nothing is virtual
+The arguments are `FILE.py`, `-m MODULE`, `-c CODE` or `PACKAGE EXECUTABLE`, followed by the node's. Nothing is virtual
 here: the node has the real main thread, signals and standard streams.
 """
 
@@ -28,7 +28,7 @@ INTERRUPTED = 130
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run what the arguments name and return its exit code."""
+    """Run the program that the arguments name and return its exit code."""
     words = list(sys.argv[1:] if argv is None else argv)
     install()
     find_with(hint_for)
@@ -43,7 +43,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def run_as_python(words: Sequence[str]) -> int:
-    """Run `-m MODULE` or `-c CODE` with arguments as the interpreter does."""
+    """Run `-m MODULE` or `-c CODE` with arguments, as the interpreter does."""
     option, joined = words[0][:2], words[0][2:]
     rest = [joined, *words[1:]] if joined else [*words[1:]]
     if not rest:
@@ -54,14 +54,14 @@ def run_as_python(words: Sequence[str]) -> int:
 
 
 def _let_children_import() -> None:
-    """Let the programs that this one starts import rclpy, those of `multiprocessing` included."""
+    """Make rclpy importable for the programs that this one starts, including those of `multiprocessing`."""
     os.environ.update(child_environment(os.environ))
     if os.name == "posix":
-        sys.path.append(str(shim_folder()))  # a spawned process takes over this path
+        sys.path.append(str(shim_folder()))  # a spawned process inherits this path
 
 
 def run_package(package: str, words: Sequence[str]) -> int:
-    """Run an executable of a package; `words` are its name and its arguments."""
+    """Run a package's executable; `words` are its name and its arguments."""
     from ament_index_python.packages import PackageNotFoundError
     from bot_console.runtime.workspace.not_found import no_executable, no_package
 
@@ -99,13 +99,13 @@ def run_file(path: Path, words: Sequence[str]) -> int:
 
 
 def _run(runs: Program, argv: Sequence[str]) -> int:
-    """Run to the end; an uncaught exception prints a traceback that begins in the user's own file."""
+    """Run a program to its end; the traceback of an uncaught exception begins in the user's own file."""
     from bot_console.runtime.process.ending import wait_for_threads
     from bot_console.runtime.process.node.main_thread import SIGINT_EXIT, exit_code_of
 
     sys.argv = list(argv)
     code = exit_code_of(runs)
-    if current() is MAIN:  # otherwise the node process does so at its end
+    if current() is MAIN:  # otherwise the node process does so when it ends
         wait_for_threads()
     return INTERRUPTED if code == SIGINT_EXIT else code
 

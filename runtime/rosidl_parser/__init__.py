@@ -1,1 +1,1 @@
-"""ROS 2's model of interface types, as far as `SLOT_TYPES` of message classes needs it."""
+"""ROS 2's model of interface types, to the extent that `SLOT_TYPES` of message classes needs it."""

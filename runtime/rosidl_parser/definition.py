@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 
 class AbstractType:
-    """Any type; two are equal if class and attributes are."""
+    """Base of all types; two are equal if their classes and attributes are."""
 
     __slots__ = ()
     __hash__ = None  # type: ignore[assignment] -- not hashable, as upstream
@@ -23,7 +23,7 @@ class AbstractType:
 
 
 class AbstractNestableType(AbstractType):
-    """A type that arrays and sequences can have as elements."""
+    """Base of the types that arrays and sequences can have as elements."""
 
     __slots__ = ()
 
@@ -38,7 +38,7 @@ class BasicType(AbstractNestableType):
 
 
 class NamedType(AbstractNestableType):
-    """A type known by a name that is not resolved yet."""
+    """A type that is known by a name, not yet resolved."""
 
     __slots__ = ("name",)
 
@@ -61,7 +61,7 @@ class NamespacedType(AbstractNestableType):
 
 
 class AbstractGenericString(AbstractNestableType):
-    """Any string."""
+    """Base of all strings."""
 
     __slots__ = ()
 
@@ -136,7 +136,7 @@ class Array(AbstractNestedType):
 
 
 class AbstractSequence(AbstractNestedType):
-    """Any sequence."""
+    """Base of all sequences."""
 
     __slots__ = ()
 

@@ -1,4 +1,4 @@
-"""Messages from and to YAML, CSV and dictionaries; interface classes by name."""
+"""Converts messages to and from YAML, CSV and dictionaries; finds interface classes by name."""
 
 from rosidl_runtime_py.convert import (
     get_message_slot_types,

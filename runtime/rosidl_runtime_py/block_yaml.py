@@ -1,6 +1,6 @@
-"""YAML of most messages without the YAML library, whose import takes longer than a short verb.
+"""Writes most messages as YAML without the YAML library, whose import takes longer than a short verb.
 
-Writes the same as PyYAML, or nothing: strings that might need quotes, and other rare cases, are left to the library.
+The output is PyYAML's, or none: strings that might need quotes, and other rare cases, are left to the library.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def _scalar(value: Any) -> str:
 
 
 def _is_plain(text: str) -> bool:
-    """Whether a string needs no quotes: ASCII words, a letter first, or empty."""
+    """Whether a string needs no quotes: it is empty, or ASCII words that begin with a letter."""
     if not text:
         return True
     words = text.replace("_", "a").split(" ")

@@ -1,4 +1,4 @@
-"""Messages as YAML, CSV and dictionaries; the output is that of `ros2 topic echo`."""
+"""Messages as YAML, CSV and dictionaries, in the form that `ros2 topic echo` prints."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Shortening(NamedTuple):
-    """The limits beyond which output is omitted: elements and characters beyond `length`, arrays, strings."""
+    """What is omitted from the output: elements and characters beyond `length`, arrays, strings."""
 
     length: int | None = None
     no_arrays: bool = False
@@ -42,7 +42,7 @@ def message_to_yaml(
 
 
 def ordereddict_to_yaml(values: OrderedDict[str, Any], *, flow_style: bool = False) -> str:
-    """Return fields as YAML in their order; sequences in brackets if `flow_style`."""
+    """Return fields as YAML in their order; if `flow_style`, with sequences in brackets."""
     quick = None if flow_style else block_yaml(values)
     if quick is not None:
         return quick
@@ -56,7 +56,7 @@ def _dumper() -> Any:
     import yaml
 
     class Dumper(yaml.Dumper):
-        """Writes fields in their order."""
+        """Writes fields in their original order."""
 
     def in_order(dumper: Any, data: OrderedDict[str, Any]) -> Any:
         rows = [(dumper.represent_data(key), dumper.represent_data(value)) for key, value in data.items()]
@@ -107,7 +107,7 @@ def _csv_value(value: Any, kind: Any, short: Shortening) -> str:
 def message_to_ordereddict(
     msg: Message, *, truncate_length: int | None = None, no_arr: bool = False, no_str: bool = False
 ) -> OrderedDict[str, Any]:
-    """Return the fields of a message in their order, nested ones as dictionaries, too."""
+    """Return the fields of a message in order; nested messages are dictionaries, too."""
     return _ordered(msg, Shortening(truncate_length, no_arr, no_str))
 
 
@@ -171,5 +171,5 @@ def _item_words(kind: Any) -> str:
 
 
 def get_message_slot_types(msg: Message) -> OrderedDict[str, Any]:
-    """Return the types of a message's fields by name, as in `rosidl_parser.definition`."""
+    """Return the types of a message's fields by name, as defined in `rosidl_parser.definition`."""
     return OrderedDict(zip((slot[1:] for slot in msg.__slots__), msg.SLOT_TYPES, strict=False))

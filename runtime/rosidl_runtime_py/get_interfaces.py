@@ -16,7 +16,7 @@ def get_interface_packages() -> list[str]:
 
 
 def get_interfaces(package_names: Iterable[str] = ()) -> Interfaces:
-    """Return interfaces such as `msg/String` by package, of all packages by default.
+    """Return interfaces such as `msg/String` by package; by default of all packages.
 
     Raises `LookupError` for an unknown package.
     """
@@ -24,17 +24,17 @@ def get_interfaces(package_names: Iterable[str] = ()) -> Interfaces:
 
 
 def get_message_interfaces(package_names: Iterable[str] = ()) -> Interfaces:
-    """Messages such as `msg/String` by package; raises `LookupError` for an unknown package."""
+    """Return messages such as `msg/String` by package; raises `LookupError` for an unknown package."""
     return _of("msg/", package_names)
 
 
 def get_service_interfaces(package_names: Iterable[str] = ()) -> Interfaces:
-    """Services such as `srv/Trigger` by package; raises `LookupError` for an unknown package."""
+    """Return services such as `srv/Trigger` by package; raises `LookupError` for an unknown package."""
     return _of("srv/", package_names)
 
 
 def get_action_interfaces(package_names: Iterable[str] = ()) -> Interfaces:
-    """Actions such as `action/Fibonacci` by package; raises `LookupError` for an unknown package."""
+    """Return actions such as `action/Fibonacci` by package; raises `LookupError` for an unknown package."""
     return _of("action/", package_names)
 
 

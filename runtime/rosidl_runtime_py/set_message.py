@@ -21,7 +21,7 @@ Setter = Callable[[Any], None]
 def set_message_fields(
     msg: Message, values: dict[str, Any], expand_header_auto: bool = False, expand_time_now: bool = False
 ) -> list[Setter]:
-    """Set fields by name; return functions that set the times given as `auto` or `now`.
+    """Set fields by name; return functions that set the times that were given as `auto` or `now`.
 
     Raises `AttributeError` for an unknown field, `TypeError` or `ValueError` for an invalid value.
     """
@@ -46,7 +46,7 @@ class _Filling:
                 self._set(msg, name, field, value)
 
     def _is_time(self, msg: Message, name: str, field: object, value: object) -> bool:
-        """Whether the value means the current time; then it is set later."""
+        """Whether the value means the current time, which is set later."""
         kind = f"{type(field).__module__}.{type(field).__name__}"
         if self._auto and value == "auto" and kind == "std_msgs.msg._header.Header":
             self.times.append(partial(setattr, field, "stamp"))
@@ -68,7 +68,7 @@ class _Filling:
         setattr(msg, name, value)
 
     def _converted(self, field: Any, value: Any) -> Any:
-        """Return the value converted to the type of the field's present value."""
+        """Return the value converted to the type of the field's current value."""
         kind = type(field)
         if kind is array:
             return array(field.typecode, value)

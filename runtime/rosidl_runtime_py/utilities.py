@@ -14,7 +14,7 @@ def get_interface(identifier: str) -> Any:
 
 
 def get_message(identifier: str) -> Any:
-    """Return the class of a message, also by `std_msgs/String`; raises `ValueError` for a service or action."""
+    """Return the class of a message, also for `std_msgs/String`; raises `ValueError` for a service or action."""
     interface = import_message_from_namespaced_type(get_message_namespaced_type(identifier))
     if not is_message(interface):
         raise ValueError(f"Expected the full name of a message, got '{identifier}'")
@@ -22,7 +22,7 @@ def get_message(identifier: str) -> Any:
 
 
 def get_service(identifier: str) -> Any:
-    """Return the class of a service, also by `std_srvs/Trigger`; raises `ValueError` for a message or action."""
+    """Return the class of a service, also for `std_srvs/Trigger`; raises `ValueError` for a message or action."""
     interface = import_message_from_namespaced_type(get_service_namespaced_type(identifier))
     if not is_service(interface):
         raise ValueError(f"Expected the full name of a service, got '{identifier}'")
@@ -30,7 +30,7 @@ def get_service(identifier: str) -> Any:
 
 
 def get_action(identifier: str) -> Any:
-    """Return the class of an action, also by `example_interfaces/Fibonacci`; raises `ValueError` for anything else."""
+    """Return the class of an action, also for `example_interfaces/Fibonacci`; raises `ValueError` for anything else."""
     interface = import_message_from_namespaced_type(get_action_namespaced_type(identifier))
     if not is_action(interface):
         raise ValueError(f"Expected the full name of an action, got '{identifier}'")
@@ -38,22 +38,22 @@ def get_action(identifier: str) -> Any:
 
 
 def get_namespaced_type(identifier: str) -> NamespacedType:
-    """The type of a full name."""
+    """Return the type with a full name."""
     return _namespaced(identifier)
 
 
 def get_message_namespaced_type(identifier: str) -> NamespacedType:
-    """Return the type of a message's name, which may lack `msg`."""
+    """Return the type with a message's name, which may lack `msg`."""
     return _namespaced(identifier, "msg")
 
 
 def get_service_namespaced_type(identifier: str) -> NamespacedType:
-    """Return the type of a service's name, which may lack `srv`."""
+    """Return the type with a service's name, which may lack `srv`."""
     return _namespaced(identifier, "srv")
 
 
 def get_action_namespaced_type(identifier: str) -> NamespacedType:
-    """Return the type of an action's name, which may lack `action`."""
+    """Return the type with an action's name, which may lack `action`."""
     return _namespaced(identifier, "action")
 
 

@@ -33,7 +33,7 @@ def read_points(
     uvs: Iterable[Any] | None = None,
     reshape_organized_cloud: bool = False,
 ) -> np.ndarray:
-    """Return the points as a structured array: all or some fields, without NaN, and of those by number."""
+    """Return the points as a structured array; optionally only some fields, no NaN, only points by index."""
     assert isinstance(cloud, PointCloud2), "Cloud is not a sensor_msgs.msg.PointCloud2"
     points = _points(cloud)
     if field_names is not None:
@@ -50,7 +50,7 @@ def read_points(
 
 
 def _points(cloud: PointCloud2) -> np.ndarray:
-    """Return all points in a row; rows of the image may be padded."""
+    """Return all points in one row; the rows of the image may have padding."""
     dtype = dtype_from_fields(cloud.fields, cloud.point_step)
     if bool(sys.byteorder != "little") != bool(cloud.is_bigendian):
         dtype = dtype.newbyteorder()
@@ -62,7 +62,7 @@ def _points(cloud: PointCloud2) -> np.ndarray:
 
 
 def _with_nan(points: np.ndarray) -> np.ndarray:
-    """Return which points have a NaN in any field."""
+    """Return which points have NaN in any field."""
     found = np.zeros(points.shape, dtype=bool)
     for name in points.dtype.names or ():
         values = points[name]
@@ -79,7 +79,7 @@ def read_points_numpy(
     uvs: Iterable[Any] | None = None,
     reshape_organized_cloud: bool = False,
 ) -> np.ndarray:
-    """Return the points as rows of a plain array; all selected fields must have one type."""
+    """Return the points as rows of a plain array; all selected fields must have the same type."""
     fields = [each for each in cloud.fields if field_names is None or each.name in field_names]
     assert all(each.datatype == fields[0].datatype for each in fields[1:]), (
         "All fields need to have the same datatype. Use `read_points()` otherwise."
@@ -130,7 +130,7 @@ def create_cloud(
 ) -> PointCloud2:
     """Return a cloud of points given as rows of an array, a list of tuples, or a structured array.
 
-    A point takes `step` bytes; by default as many as in a structured array, else what its fields need.
+    A point takes `step` bytes; by default as many as in the structured array, or as its fields need.
     """
     fields = list(fields)
     step = step or point_step
@@ -157,7 +157,7 @@ def create_cloud(
 
 
 def _structured(points: Any, dtype: np.dtype) -> np.ndarray:
-    """Return points as a structured array of a type."""
+    """Return points as a structured array with a type."""
     if isinstance(points, np.ndarray) and points.dtype.names is not None:
         return points
     if isinstance(points, np.ndarray):

@@ -1,19 +1,19 @@
-"""Decides to what the ROS names refer in this interpreter: to a real ROS 2 on its path, or to the embedded runtime.
+"""Decides what the ROS names refer to in this interpreter: a real ROS 2 on its path, or the embedded runtime.
 
-Decided once, when the first of these names is imported; all of them follow. Linked into the folder of shims; see
-`runtime/shim_folder.py`.
+The decision is made once, when the first of these names is imported, and applies to all. This file is linked into the
+folder of shims; see `runtime/shim_folder.py`.
 """
 
 import os
 import sys
 
 try:
-    from _thread import allocate_lock  # not `threading`, which every start of an interpreter would import
+    from _thread import allocate_lock  # not `threading`, which would then be imported at every start of an interpreter
 except ImportError:
     allocate_lock = __import__("thread").allocate_lock  # Python 2
 
 RUNTIME_VARIABLE = "BOT_CONSOLE_RUNTIME"
-"""`embedded`: the embedded runtime is used even if there is a real ROS 2. Set for children of `bot-console run`."""
+"""`embedded` selects the embedded runtime even beside a real ROS 2; `bot-console run` sets it for its children."""
 WORKSPACE_VARIABLE = "BOT_CONSOLE_WORKSPACE"
 REAL = "real"
 EMBEDDED = "embedded"
@@ -25,17 +25,17 @@ _choices = []  # type: list[str]
 
 
 class OtherPythonError(ImportError):
-    """A ROS package is imported by a Python of another version than the embedded runtime is installed for."""
+    """A ROS package is imported by a Python of another version than the embedded runtime is installed in."""
 
 
 def replace(name):
-    """Replace a shim, which is just being imported, by the package of that name; raises what importing it raises."""
+    """Replace a shim that is just being imported by the package of that name; raises what the import raises."""
     _decide(name)
     _import_again(name)
 
 
 def choose_embedded(name):
-    """Put the embedded runtime in place for a module that needs it; raises `ImportError` if a real `rclpy` is used."""
+    """Install the embedded runtime for a module that needs it; raises `ImportError` if a real `rclpy` is in use."""
     if _decide(name) != EMBEDDED:
         raise ImportError(ONLY_EMBEDDED.format(name))
 
@@ -52,7 +52,7 @@ def real_rclpy():
 
 
 def is_shim_folder(folder):
-    """Whether a folder of the path holds shims, of this or another installation of bot-console."""
+    """Whether a folder on the path contains shims, of this or another installation of bot-console."""
     return os.path.lexists(os.path.join(folder, "bot_console_shims.py"))
 
 
@@ -79,7 +79,7 @@ def _chosen(name):
 
 
 def _refuse(name, installed):
-    """Raise an error that is printed as one line if nobody catches it."""
+    """Raise an error that prints as one line if it is not caught."""
     text = NEEDED.format(
         name=name,
         wanted=".".join(str(each) for each in installed.VERSION),
@@ -105,19 +105,19 @@ def _import_again(name):
     try:
         importlib.import_module(name)
     except BaseException:
-        sys.modules.setdefault(name, shim)  # which the interpreter removes, as after any failed import
+        sys.modules.setdefault(name, shim)  # the interpreter removes it, as after any failed import
         raise
 
 
 def watch():
-    """Make packages of the workspace importable, even if they are the first of a ROS program that is imported."""
+    """Make a workspace's packages importable, even if a program imports one of them before any ROS package."""
     if not any(isinstance(each, _WorkspaceFinder) for each in sys.meta_path):
         sys.meta_path.insert(0, _WorkspaceFinder(_is_package_folder))
         sys.meta_path.append(_WorkspaceFinder(_may_be_in_workspace))
 
 
 class _WorkspaceFinder:
-    """Lets the runtime find a package of a workspace: comes first for what would be taken for a namespace package, and
+    """Lets the runtime find packages of a workspace: first for names that would be taken for namespace packages, and
     last for names that nothing else provides.
     """
 
@@ -125,7 +125,7 @@ class _WorkspaceFinder:
         self._may_be = may_be
 
     def find_spec(self, name, path=None, target=None):
-        """Return the spec of a workspace's package; None for every other name, after a look at a few files."""
+        """Return the spec of a workspace's package; None for any other name, after a look at a few files."""
         if path is not None or _choices or not self._may_be(name) or _decide(name) != EMBEDDED:
             return None
         specs = (each.find_spec(name, None) for each in sys.meta_path if not isinstance(each, _WorkspaceFinder))
@@ -133,7 +133,7 @@ class _WorkspaceFinder:
 
 
 def _is_package_folder(name):
-    """Whether the working directory has a folder with the sources of a package of this name."""
+    """Whether the working directory has a folder with the sources of a package with this name."""
     return os.path.isfile(os.path.join(name, "package.xml"))
 
 
@@ -156,7 +156,7 @@ def _may_contain(root, name):
 
 
 def run_hidden(name):
-    """Import the module of this name that the shims' own hides, in place of it."""
+    """Import the module that the shims' module of this name hides, in its place."""
     own = sys.modules.pop(name)
     left_out = [(place, each) for place, each in enumerate(sys.path) if is_shim_folder(each)]
     sys.path[:] = [each for each in sys.path if not is_shim_folder(each)]
@@ -172,7 +172,7 @@ def run_hidden(name):
                 sys.path.insert(place, each)
 
 
-if __name__ == "__main__":  # asked by `bot-console doctor` and `setup`
+if __name__ == "__main__":  # for `bot-console doctor` and `setup`
     import json
 
     set_up = any(is_shim_folder(each) for each in sys.path[1:])

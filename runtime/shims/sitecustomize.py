@@ -1,4 +1,4 @@
-"""Makes the packages of a workspace importable before any ROS package is; then runs the `sitecustomize` it hides."""
+"""Makes a workspace's packages importable before any ROS package is; then runs the `sitecustomize` it hides."""
 
 import sys
 

@@ -1,4 +1,4 @@
-"""Transforms geometry messages, as upstream; once imported, `Buffer.transform` accepts them."""
+"""Transforms geometry messages, as upstream; after its import, `Buffer.transform` accepts them."""
 
 from geometry_msgs.msg import (
     PointStamped,

@@ -1,4 +1,4 @@
-"""One function per kind of geometry message: its value in the transform's frame."""
+"""One function per kind of geometry message, which returns the message in the transform's frame."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ from tf2_py.rigid import IDENTITY, Rigid, compose, unit_quaternion
 
 DEFAULT_CACHE_TIME = Duration(seconds=10)
 NORM_TOLERANCE = 1e-2
-"""How far the length of a rotation quaternion may be from 1."""
+"""How much the length of a rotation quaternion may differ from 1."""
 OLD_DATA = (
     "TF_OLD_DATA ignoring data from the past for frame {child} at time {time:.6f} according to authority {authority}\n"
     "Possible reasons are listed at http://wiki.ros.org/tf/Errors%20explained"
@@ -37,15 +37,15 @@ class BufferCore:
     def __init__(self, cache_time: Duration | None = None) -> None:
         self._keep = (cache_time or DEFAULT_CACHE_TIME).nanoseconds
         self._histories: dict[str, FrameHistory] = {}
-        self._names: dict[str, None] = {}  # all frames in the order in which they became known
+        self._names: dict[str, None] = {}  # all frames, in the order in which they became known
 
     def clear(self) -> None:
-        """Forget all transforms that are not static; their frames stay known."""
+        """Forget all transforms that are not static; their frames remain known."""
         for each in list(self._histories.values()):
             each.clear()
 
     def set_transform(self, transform: TransformStamped, authority: str) -> None:
-        """Add a transform; an invalid one is ignored, and the log says why."""
+        """Add a transform; an invalid one is ignored, and logged with the reason."""
         self._insert(transform, authority, is_static=False)
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
@@ -53,14 +53,14 @@ class BufferCore:
         self._insert(transform, authority, is_static=True)
 
     def _take_later(self, messages: list[TransformStamped]) -> None:
-        """Keep received messages unread; they are read when their frame is looked up."""
+        """Keep received messages unread until their frames are looked up."""
         histories = self._histories
         for each in messages:
             history = histories.get(each.child_frame_id)
             if history is None or history.is_static:
                 self._insert(each, "default_authority", is_static=False)
                 continue
-            header, transform = each._header, each._transform  # bypassing the properties takes half the time
+            header, transform = each._header, each._transform  # bypassing the properties halves the time
             stamp, move, turn = header._stamp, transform._translation, transform._rotation
             when = stamp._sec * S_TO_NS + stamp._nanosec
             waiting = history.waiting
@@ -75,11 +75,11 @@ class BufferCore:
         entry = stamp.sec * S_TO_NS + stamp.nanosec, message.header.frame_id.removeprefix("/"), place, authority
         child = message.child_frame_id.removeprefix("/")
         if child in self._histories:
-            self._histories[child].digest()  # read earlier ones first: of two with the same time the first counts
+            self._histories[child].digest()  # read earlier ones first: of two with the same time, the first counts
         self._keep_entry(child, entry, is_static)
 
     def _keep_entry(self, child: str, entry: Entry, is_static: bool) -> None:
-        """Add a valid transform; for an invalid one the log says why not."""
+        """Add a valid transform; an invalid one is logged with the reason."""
         stamp, parent, place, authority = entry
         problem = _problem(child, parent, place, authority)
         if problem is None:
@@ -99,16 +99,14 @@ class BufferCore:
         self._keep_entry(child, entry, is_static=False)
 
     def lookup_transform_core(self, target_frame: str, source_frame: str, time: Time) -> TransformStamped:
-        """Return the transform that takes points of `source_frame` to `target_frame` at a time."""
+        """Return the transform that maps points from `source_frame` to `target_frame` at a time."""
         stamp, place = self._look_up(target_frame, source_frame, nanoseconds_of(time))
         return _message(target_frame, source_frame, stamp, place)
 
     def lookup_transform_full_core(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> TransformStamped:
-        """Return the transform from `source_frame` at one time to `target_frame` at another, via a frame that is
-        fixed.
-        """
+        """Return the transform from `source_frame` at one time to `target_frame` at another, via a fixed frame."""
         self._check(target_frame, "lookupTransform argument target_frame")
         self._check(source_frame, "lookupTransform argument source_frame")
         self._check(fixed_frame, "lookupTransform argument fixed_frame")
@@ -117,7 +115,7 @@ class BufferCore:
         return _message(target_frame, source_frame, stamp, compose(second, first))
 
     def can_transform_core(self, target_frame: str, source_frame: str, time: Time) -> tuple[int, str]:
-        """Return 1 if `lookup_transform_core` would succeed, else 0, and why not."""
+        """Return 1 if `lookup_transform_core` would succeed, or 0 and the reason why not."""
         stamp = nanoseconds_of(time)
         if target_frame == source_frame:
             return 1, ""
@@ -126,13 +124,13 @@ class BufferCore:
     def can_transform_full_core(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> tuple[int, str]:
-        """Return 1 if `lookup_transform_full_core` would succeed, else 0, and why not."""
+        """Return 1 if `lookup_transform_full_core` would succeed, or 0 and the reason why not."""
         frames = {"target": target_frame, "source": source_frame, "fixed": fixed_frame}
         to_target = target_frame, fixed_frame, nanoseconds_of(target_time)
         return self._possible(frames, to_target, (fixed_frame, source_frame, nanoseconds_of(source_time)))
 
     def _possible(self, frames: dict[str, str], *lookups: tuple[str, str, int]) -> tuple[int, str]:
-        """Check frames by their roles, then lookups; upstream answers with 1 and 0 where a truth value is expected."""
+        """Check frames by their roles, then lookups; upstream returns 1 and 0 where a truth value is expected."""
         for role, frame in frames.items():
             if problem := self._flaw(frame):
                 return 0, f'Invalid frame ID "{frame}" passed to canTransform argument {role}_frame - {problem}'
@@ -152,14 +150,14 @@ class BufferCore:
         try:
             return Time(nanoseconds=latest_common_time(self._histories.get, target_frame, source_frame))
         except TransformException as error:
-            raise TransformException(str(error)) from None  # upstream's is of no particular class
+            raise TransformException(str(error)) from None  # upstream's exception has no particular class
 
     def all_frames_as_string(self) -> str:
         """Return all frames with their parents, one per line."""
         return descriptions.as_string(self._in_order())
 
     def all_frames_as_yaml(self) -> str:
-        """Return all frames with parent, broadcaster, rate and times, as YAML."""
+        """Return all frames with parent, broadcaster, rate and times as YAML."""
         return descriptions.as_yaml(self._in_order())
 
     def _in_order(self) -> dict[str, FrameHistory]:
@@ -177,7 +175,7 @@ class BufferCore:
         return descriptions.as_dot(self._in_order(), list(self._names), now)
 
     def _flaw(self, frame: str) -> str:
-        """Return what is wrong with a frame's name, in upstream's words; nothing for a known frame."""
+        """Return what is wrong with a frame's name, in upstream's words; empty for a known frame."""
         if not frame:
             return "in tf2 frame_ids cannot be empty"
         if frame[0] == "/":
@@ -185,7 +183,7 @@ class BufferCore:
         return "" if frame in self._names else "frame does not exist"
 
     def _check(self, frame: str, where: str) -> None:
-        """Raise for an invalid or unknown frame name."""
+        """Raise an exception for an invalid or unknown frame name."""
         problem = self._flaw(frame)
         if problem.startswith("in"):
             raise InvalidArgumentException(f'Invalid argument "{frame}" passed to {where} - {problem}')
@@ -199,7 +197,7 @@ class BufferCore:
         return latest[0] if latest else 0
 
     def _look_up(self, target: str, source: str, time: int) -> tuple[int, Rigid]:
-        """Return time (ns) and transform; a frame relative to itself need not be known."""
+        """Return time (ns) and transform; a frame need not be known for a lookup relative to itself."""
         if target == source:
             return time or self._latest(target), IDENTITY
         histories = self._histories
@@ -254,8 +252,8 @@ def _problem(child: str, parent: str, place: Rigid, authority: str) -> str | Non
 
 
 def _message(target: str, source: str, time: int, place: Rigid) -> TransformStamped:
-    message = _EMPTY._copy_()  # takes less time than a new one
-    header, transform = message._header, message._transform  # bypassing the properties takes half the time
+    message = _EMPTY._copy_()  # faster than creating a new one
+    header, transform = message._header, message._transform  # bypassing the properties halves the time
     header._frame_id = target
     message._child_frame_id = source
     stamp = header._stamp

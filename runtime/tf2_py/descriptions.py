@@ -38,7 +38,7 @@ def as_yaml(frames: Mapping[str, FrameHistory]) -> str:
 
 
 def span(history: FrameHistory) -> tuple[int, int]:
-    """Return the newest and the oldest time (ns) of a frame with transforms; 0 for a static one."""
+    """Return the newest and the oldest time (ns) of a frame that has transforms; 0 for a static frame."""
     return (0, 0) if history.is_static else (history.entries[-1][0], history.entries[history.first][0])
 
 
@@ -52,7 +52,7 @@ def rate(history: FrameHistory) -> float:
 
 
 def as_dot(frames: Mapping[str, FrameHistory], names: Sequence[str] = (), now: int = 0) -> str:
-    """Return a Graphviz graph with an arrow from each parent; with a time (ns), also how old the transforms are."""
+    """Return a Graphviz graph with an arrow from each parent and, given a time (ns), the ages of transforms."""
     lines = [] if names or frames else ['"no tf data recieved"']
     roots: list[str] = []
     for name in names or frames:

@@ -6,7 +6,7 @@ class TransformException(Exception):
 
 
 class ConnectivityException(TransformException):
-    """Two frames are not in one tree."""
+    """Two frames are not in the same tree."""
 
 
 class LookupException(TransformException):

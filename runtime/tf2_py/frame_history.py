@@ -10,7 +10,7 @@ from rclpy.constants import S_TO_NS
 from tf2_py.rigid import Rigid, interpolate
 
 DIGEST_AFTER = 256
-"""The number of entries after which old ones are dropped."""
+"""How many entries may accumulate before old ones are dropped."""
 
 Entry = tuple[int, str, Rigid, str]
 """Time (ns), parent, transform, and authority."""
@@ -19,7 +19,7 @@ Unread = tuple[int, str, float, float, float, float, float, float, float]
 
 
 class FrameHistory:
-    """Transforms of one frame by time; most stay unread, as nobody asks for them."""
+    """The transforms of one frame by time; most stay unread, as nobody looks them up."""
 
     __slots__ = ("_keep", "_read", "_stamps", "entries", "is_static", "waiting")
 
@@ -33,7 +33,7 @@ class FrameHistory:
         self.entries: list[Entry] = []
 
     def drop_old(self) -> None:
-        """Drop unread transforms that are too old, if they came in order."""
+        """Drop unread transforms that are too old, if they arrived in order."""
         waiting = self.waiting
         limit = waiting[-1][0] - self._keep
         old = bisect_left(waiting, limit, key=itemgetter(0))
@@ -52,7 +52,7 @@ class FrameHistory:
             self._stamps, self.waiting, self.entries = [], [], []
 
     def insert(self, entry: Entry) -> bool:
-        """Add a transform; return whether it is recent enough. Different ones with one time are all kept."""
+        """Add a transform; return whether it is recent enough. Different ones with the same time are all kept."""
         if self.is_static:
             self.entries, self._stamps = [entry], [0]
             return True
@@ -72,7 +72,7 @@ class FrameHistory:
         return True
 
     def _prune(self) -> None:
-        """Drop many old entries at once, as removing from the front of a list takes time proportional to its length."""
+        """Drop many old entries at once, as removing one from the front takes time proportional to the length."""
         limit = self._stamps[-1] - self._keep
         if self._stamps[0] >= limit:
             return
@@ -87,7 +87,7 @@ class FrameHistory:
         return bisect_left(self._stamps, self._stamps[-1] - self._keep) if self._stamps else 0
 
     def latest(self) -> tuple[int, str] | None:
-        """Return the newest time (ns; 0 for a static frame) and the parent then; None if nothing is known."""
+        """Return the newest time (ns; 0 for a static frame) and the parent then; None if there are no transforms."""
         if self.waiting:
             self.digest()
         if not self.entries:
@@ -95,7 +95,7 @@ class FrameHistory:
         return (0 if self.is_static else self._stamps[-1]), self.entries[-1][1]
 
     def at(self, time: int) -> tuple[str, Rigid]:
-        """Return parent and transform at a time (ns; 0 is the newest); raises `LookupError` with upstream's message."""
+        """Return parent and transform at a time (ns; 0 means the newest); `LookupError` with upstream's message."""
         if self.waiting:
             self.digest()
         entries, stamps = self.entries, self._stamps
@@ -111,7 +111,7 @@ class FrameHistory:
         stamp, parent, place, _ = entries[after - 1]
         if stamp == time:
             first = self.first
-            if stamps[first] == time:  # of several with the oldest time, tf2 returns the one that came first
+            if stamps[first] == time:  # of several with the oldest time, tf2 returns the one that arrived first
                 _, parent, place, _ = entries[first]
             return parent, place
         later, other_parent, other_place, _ = entries[after]

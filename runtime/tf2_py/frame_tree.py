@@ -9,7 +9,7 @@ from tf2_py.frame_history import FrameHistory
 from tf2_py.rigid import IDENTITY, Rigid, compose, inverse
 
 MAX_DEPTH = 1000
-"""Frames between a frame and the root of its tree; more are taken for a loop."""
+"""How many frames may be between a frame and the root of its tree; more count as a loop."""
 LOOP = "The tf tree is invalid because it contains a loop."
 
 
@@ -18,11 +18,11 @@ class LoopError(LookupException):
 
 
 Find = Callable[[str], FrameHistory | None]
-"""Returns the history of a frame; None for one that is nobody's child."""
+"""Returns the history of a frame; None if it is not the child of any frame."""
 
 
 def transform(find: Find, target: str, source: str, time: int) -> Rigid:
-    """Return the transform that takes points of `source` to `target` at a time (ns; 0 is the newest).
+    """Return the transform that maps points from `source` to `target` at a time (ns; 0 means the newest).
 
     Raises `ConnectivityException`, `ExtrapolationException` and, for a loop, `LookupException`.
     """
@@ -63,9 +63,9 @@ def _down(find: Find, above: dict[str, Rigid], target: str, source: str, time: i
 
 
 def latest_common_time(find: Find, target: str, source: str) -> int:
-    """Return the newest time (ns) at which all frames between two are known, 0 if all are static.
+    """Return the newest time (ns) at which all frames between the two are known; 0 if all are static.
 
-    Raises `ConnectivityException`, for a loop `LookupException`.
+    Raises `ConnectivityException`, or `LookupException` for a loop.
     """
     above = _ancestors(find, source, target)
     if target in above:
@@ -85,7 +85,7 @@ def latest_common_time(find: Find, target: str, source: str) -> int:
 
 
 def _ancestors(find: Find, frame: str, up_to: str) -> dict[str, int]:
-    """Return the frames above one, up to another, each with the newest time at which the path to it is known."""
+    """Return the frames above a frame, up to another, each with the newest time at which the path to it is known."""
     newest = 0
     above = {frame: 0}
     while frame != up_to and (history := find(frame)) is not None and (latest := history.latest()) is not None:

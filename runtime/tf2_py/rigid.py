@@ -9,14 +9,14 @@ Rigid = tuple[float, float, float, float, float, float, float]
 
 IDENTITY: Rigid = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 SMALL = 1e-5
-"""The square of the sine of an angle (between quaternions) below which its series is exact to 1e-11."""
+"""Square of the sine of an angle (between quaternions) below which the series is exact to 1e-11."""
 
 
 def compose(first: Rigid, second: Rigid) -> Rigid:
-    """Return `first` after `second`: takes a point through `second`, then through `first`."""
+    """Return the composition of `first` after `second`: it maps a point by `second`, then by `first`."""
     px, py, pz, ax, ay, az, aw = first
     vx, vy, vz, bx, by, bz, bw = second
-    if not (ax or ay or bx or by):  # both rotate about z only, as most moving frames do: half the time
+    if not (ax or ay or bx or by):  # both rotate about z only, as most moving frames do: takes half the time
         cx, cy = -2.0 * az * vy, 2.0 * az * vx
         return (
             px + vx + aw * cx - az * cy,
@@ -83,8 +83,8 @@ def interpolate(first: Rigid, second: Rigid, ratio: float) -> Rigid:
 
 
 def unit_quaternion(x: float, y: float, z: float, w: float) -> tuple[float, float, float, float]:
-    """Return a rotation as upstream's lookups do, which pass it through a matrix: of unit length, and with that sign
-    for which `w` is positive, or in a turn of more than 120 degrees the greatest of the others.
+    """Return a rotation as upstream's lookups do, which convert it to a matrix and back: with unit length, and with the
+    sign that makes `w` positive, or for a turn of more than 120 degrees, the largest other component.
     """
     scale = 2.0 / (x * x + y * y + z * z + w * w)
     xs, ys, zs = x * scale, y * scale, z * scale

@@ -24,8 +24,8 @@ TRANSFORM_POLL_S = 0.02
 class Buffer(BufferCore, BufferInterface):
     """Keeps transforms and answers lookups; with a node it also offers the service `tf2_frames`.
 
-    When the clock of the node, or of the listener that fills the buffer, jumps back or changes its source, transforms
-    that are not static are forgotten. Lookups raise `LookupException`, `ConnectivityException`,
+    When the clock of the node, or of the listener that fills the buffer, jumps back or changes its source, all
+    transforms except static ones are forgotten. Lookups raise `LookupException`, `ConnectivityException`,
     `ExtrapolationException`, `InvalidArgumentException`.
     """
 
@@ -41,14 +41,14 @@ class Buffer(BufferCore, BufferInterface):
             self.srv = node.create_service(FrameGraph, "tf2_frames", self.__get_frames)
 
     def follow_clock(self, node: Node) -> None:
-        """Forget transforms when the node's clock jumps back; the first node counts."""
+        """Forget transforms when the node's clock jumps back; only the first node is followed."""
         if self._jump_handle is None:
             threshold = JumpThreshold(min_forward=None, min_backward=Duration(nanoseconds=-1), on_clock_change=True)
             clock = node.get_clock()
             self._jump_handle = clock.create_jump_callback(threshold, post_callback=self.time_jump_callback)
 
     def time_jump_callback(self, time_jump: TimeJump) -> None:
-        """Forget all transforms that are not static, as those of another time."""
+        """Forget all transforms that are not static, as they belong to another time."""
         changed = time_jump.clock_change is not ClockChange.ROS_TIME_NO_CHANGE
         what = "time source change" if changed else "jump back in time"
         get_logger("tf2_buffer").warning(f"Detected {what}. Clearing tf buffer.")
@@ -59,12 +59,12 @@ class Buffer(BufferCore, BufferInterface):
         return response
 
     def set_transform(self, transform: TransformStamped, authority: str) -> None:
-        """Add a transform, and notify those who wait for one."""
+        """Add a transform, and notify the waiting callers."""
         super().set_transform(transform, authority)
         self._call_new_data_callbacks()
 
     def set_transform_static(self, transform: TransformStamped, authority: str) -> None:
-        """Add a transform that is valid at any time, and notify those who wait for one."""
+        """Add a transform that is valid at any time, and notify the waiting callers."""
         super().set_transform_static(transform, authority)
         self._call_new_data_callbacks()
 
@@ -91,15 +91,13 @@ class Buffer(BufferCore, BufferInterface):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time, timeout: Duration = NOW
     ) -> TransformStamped:
-        """Return the transform that takes points of `source_frame` to `target_frame` at a time; waits up to
-        `timeout`.
-        """
+        """Return the transform that maps points from `source_frame` to `target_frame`; waits up to `timeout`."""
         if timeout is not NOW and timeout != NOW:
             self.can_transform(target_frame, source_frame, time, timeout)
         return self.lookup_transform_core(target_frame, source_frame, time)
 
     async def lookup_transform_async(self, target_frame: str, source_frame: str, time: Time) -> TransformStamped:
-        """Return the same in a coroutine, waiting without a limit."""
+        """Return the transform of `lookup_transform` in a coroutine, which waits without a limit."""
         await self.wait_for_transform_async(target_frame, source_frame, time)
         return self.lookup_transform_core(target_frame, source_frame, time)
 
@@ -112,9 +110,7 @@ class Buffer(BufferCore, BufferInterface):
         fixed_frame: str,
         timeout: Duration = NOW,
     ) -> TransformStamped:
-        """Return the transform from `source_frame` at one time to `target_frame` at another, via a frame that is
-        fixed.
-        """
+        """Return the transform from `source_frame` at one time to `target_frame` at another, via a fixed frame."""
         if timeout != NOW:
             self.can_transform_full(target_frame, target_time, source_frame, source_time, fixed_frame, timeout)
         return self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
@@ -122,7 +118,7 @@ class Buffer(BufferCore, BufferInterface):
     async def lookup_transform_full_async(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> TransformStamped:
-        """Return the same in a coroutine, waiting without a limit."""
+        """Return the transform of `lookup_transform_full` in a coroutine, which waits without a limit."""
         await self.wait_for_transform_full_async(target_frame, target_time, source_frame, source_time, fixed_frame)
         return self.lookup_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame)
 
@@ -134,9 +130,7 @@ class Buffer(BufferCore, BufferInterface):
         timeout: Duration = NOW,
         return_debug_tuple: bool = False,
     ) -> int | tuple[int, str]:
-        """Return whether `lookup_transform` would succeed within the timeout, as 1 or 0; with the reason, if that is
-        requested.
-        """
+        """Return whether `lookup_transform` would succeed within the timeout, as 1 or 0; with the reason on request."""
         answer = _waited(lambda: self.can_transform_core(target_frame, source_frame, time), timeout)
         return answer if return_debug_tuple else answer[0]
 
@@ -158,7 +152,7 @@ class Buffer(BufferCore, BufferInterface):
         return answer if return_debug_tuple else answer[0]
 
     def wait_for_transform_async(self, target_frame: str, source_frame: str, time: Time) -> Future[TransformStamped]:
-        """Return a future with the transform, done when it is known."""
+        """Return a future for the transform, which is done when the transform is known."""
         return self._when(
             lambda: self.can_transform_core(target_frame, source_frame, time),
             lambda: self.lookup_transform_core(target_frame, source_frame, time),
@@ -167,7 +161,7 @@ class Buffer(BufferCore, BufferInterface):
     def wait_for_transform_full_async(
         self, target_frame: str, target_time: Time, source_frame: str, source_time: Time, fixed_frame: str
     ) -> Future[TransformStamped]:
-        """Return a future with the transform between two times, done when it is known."""
+        """Return a future for the transform between two times, which is done when the transform is known."""
         arguments = target_frame, target_time, source_frame, source_time, fixed_frame
         return self._when(
             lambda: self.can_transform_full_core(*arguments), lambda: self.lookup_transform_full_core(*arguments)
@@ -195,7 +189,7 @@ class Buffer(BufferCore, BufferInterface):
 
 
 def _waited(ask: Callable[[], tuple[int, str]], timeout: Duration) -> tuple[int, str]:
-    """Poll until the answer is positive or the time is over, and return the answer."""
+    """Poll until the answer is positive or the time has expired; return the last answer."""
     answer = ask()
     if not answer[0] and timeout != NOW:
         clock = Clock()

@@ -42,7 +42,7 @@ ERRORS: dict[int, type[TransformException]] = {
 
 
 class BufferClient(BufferInterface):
-    """Queries the action `ns` of a server. The node has to be spun in another thread than the calling one.
+    """Queries a server's action `ns`. The node must be spun in a thread other than the calling one.
 
     Lookups raise the server's exception, or `TimeoutException` if there is no server or it does not answer.
     """
@@ -57,7 +57,7 @@ class BufferClient(BufferInterface):
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time, timeout: Duration = NOW
     ) -> TransformStamped:
-        """Return the transform that takes points of `source_frame` to `target_frame` at a time; the server waits up to
+        """Return the transform that maps points from `source_frame` to `target_frame`; the server waits up to
         `timeout`.
         """
         if isinstance(time, TimeMessage):
@@ -77,9 +77,7 @@ class BufferClient(BufferInterface):
         fixed_frame: str,
         timeout: Duration = NOW,
     ) -> TransformStamped:
-        """Return the transform from `source_frame` at one time to `target_frame` at another, via a frame that is
-        fixed.
-        """
+        """Return the transform from `source_frame` at one time to `target_frame` at another, via a fixed frame."""
         goal = LookupTransform.Goal(target_frame=target_frame, source_frame=source_frame, advanced=True)
         goal.source_time, goal.timeout = _stamp(source_time), timeout.to_msg()
         goal.target_time, goal.fixed_frame = _stamp(target_time), fixed_frame
@@ -125,7 +123,7 @@ class BufferClient(BufferInterface):
 
 
 def _settled(future: Future[Any], deadline: int) -> Any:
-    """Return the result of a future; raises `TimeoutException` at a steady time in ns."""
+    """Return the result of a future; raises `TimeoutException` at a steady time (ns)."""
     wakeup = current().clock.wakeup()
     future.add_done_callback(lambda _: wakeup.set())
     if not future.done():
@@ -136,5 +134,5 @@ def _settled(future: Future[Any], deadline: int) -> Any:
 
 
 def _stamp(time: object) -> Any:
-    """Return a time as a message; it may be one already."""
+    """Return a time as a message; it may already be one."""
     return time.to_msg() if isinstance(time, Time) else time

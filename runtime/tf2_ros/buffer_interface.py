@@ -1,4 +1,4 @@
-"""Transforms data of any type for which a function is registered."""
+"""Transforms data of every type for which a function is registered."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from std_msgs.msg import Header
 
 Transforms = Callable[[Any, TransformStamped], Any]
 NOW = Duration()
-"""No waiting."""
+"""Do not wait."""
 
 
 class Stamped:
@@ -39,38 +39,38 @@ class NotImplementedException(Exception):
 
 
 class TransformRegistration:
-    """Functions that transform data, by its type; packages such as `tf2_geometry_msgs` add theirs when imported."""
+    """Functions that transform data, by type; packages such as `tf2_geometry_msgs` add theirs on import."""
 
     __type_map: ClassVar[dict[type, Transforms]] = {}
 
     def add(self, key: type, callback: Transforms) -> None:
-        """Transform data of a type by `callback(data, transform)`."""
+        """Register `callback(data, transform)` for transforming data of a type."""
         self.__type_map[key] = callback
 
     def print_me(self) -> None:
-        """Print what is registered."""
+        """Print the registered functions."""
         print(self.__type_map)
 
     def get(self, key: type) -> Transforms:
-        """Return the function of a type; raises `TypeException`."""
+        """Return the function for a type; raises `TypeException`."""
         if key not in self.__type_map:
             raise TypeException(f"Type {key} if not loaded or supported")
         return self.__type_map[key]
 
 
 class ConvertRegistration:
-    """Functions between types: to a message, from one, and directly."""
+    """Functions that convert types: to a message, from a message, and directly."""
 
     __to_msg_map: ClassVar[dict[type, Callable[[Any], Any]]] = {}
     __from_msg_map: ClassVar[dict[type, Callable[[Any], Any]]] = {}
     __convert_map: ClassVar[dict[tuple[type, type], Callable[[Any], Any]]] = {}
 
     def add_from_msg(self, key: type, callback: Callable[[Any], Any]) -> None:
-        """Register how a type is created from its message."""
+        """Register the function that creates a type from its message."""
         self.__from_msg_map[key] = callback
 
     def add_to_msg(self, key: type, callback: Callable[[Any], Any]) -> None:
-        """Register how the message of a type is created."""
+        """Register the function that creates the message of a type."""
         self.__to_msg_map[key] = callback
 
     def add_convert(self, key: tuple[type, type], callback: Callable[[Any], Any]) -> None:
@@ -97,7 +97,7 @@ def _registered(known: Any, key: Any) -> Any:
 
 
 def convert(a: object, b_type: type) -> Any:
-    """Convert data to another type, directly or via its message; raises `TypeException`."""
+    """Convert data to another type, directly or through its message; raises `TypeException`."""
     conversions = ConvertRegistration()
     try:
         return conversions.get_convert((type(a), b_type))(a)
@@ -116,7 +116,7 @@ class BufferInterface:
     def transform(
         self, object_stamped: Any, target_frame: str, timeout: Duration = NOW, new_type: type | None = None
     ) -> Any:
-        """Return data in another frame at its own time, waiting for the transform up to `timeout`."""
+        """Return data in another frame at the data's own time; waits for the transform up to `timeout`."""
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
         stamp = Time.from_msg(header.stamp)
@@ -132,7 +132,7 @@ class BufferInterface:
         timeout: Duration = NOW,
         new_type: type | None = None,
     ) -> Any:
-        """Return data in another frame at another time, via a frame that is fixed."""
+        """Return data in another frame at another time, via a fixed frame."""
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header
         transform = self.lookup_transform_full(
@@ -144,7 +144,7 @@ class BufferInterface:
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: Time, timeout: Duration = NOW
     ) -> TransformStamped:
-        """Return the transform that takes points of one frame to another."""
+        """Return the transform that maps points from one frame to another."""
         raise NotImplementedException
 
     def lookup_transform_full(
@@ -156,7 +156,7 @@ class BufferInterface:
         fixed_frame: str,
         timeout: Duration = NOW,
     ) -> TransformStamped:
-        """Return the same between two times."""
+        """Return the transform between two frames at two times."""
         raise NotImplementedException
 
     def can_transform(

@@ -11,9 +11,7 @@ from tf2_msgs.msg import TFMessage
 
 
 class StaticTransformBroadcaster:
-    """Publishes static transforms on `/tf_static`: each message has all of them so far, and late subscribers get it,
-    too.
-    """
+    """Publishes static transforms on `/tf_static`; each message contains all so far, and late subscribers get it."""
 
     def __init__(self, node: Node, qos: QoSProfile | int | None = None) -> None:
         if qos is None:
@@ -22,7 +20,7 @@ class StaticTransformBroadcaster:
         self.net_message = TFMessage()
 
     def sendTransform(self, transform: TransformStamped | Iterable[TransformStamped]) -> None:
-        """Publish one transform or several; a later one of a frame replaces the earlier one."""
+        """Publish one transform or several; a later one for a frame replaces the earlier one."""
         several = [transform] if isinstance(transform, TransformStamped) else list(transform)
         known = {each.child_frame_id: each for each in self.net_message.transforms}
         known.update({each.child_frame_id: each for each in several})

@@ -17,7 +17,7 @@ DEFAULT_STATIC_TF_TOPIC = "/tf_static"
 
 
 class StaticTransformListener:
-    """Subscribes to `/tf_static`; the node has to be spun, unless `spin_thread` does that."""
+    """Subscribes to `/tf_static`; the node must be spun, unless `spin_thread` is set."""
 
     def __init__(
         self,

@@ -12,7 +12,7 @@ DEFAULT_TF_TOPIC = "/tf"
 
 
 class TransformListener(StaticTransformListener):
-    """Subscribes to `/tf` and `/tf_static`; the node has to be spun, unless `spin_thread` does that."""
+    """Subscribes to `/tf` and `/tf_static`; the node must be spun, unless `spin_thread` is set."""
 
     def __init__(
         self,

@@ -1,4 +1,4 @@
-"""Transforms point clouds between frames. Once imported, `Buffer.transform` accepts them."""
+"""Transforms point clouds between frames. After its import, `Buffer.transform` accepts them."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def transform_points(point_cloud: np.ndarray, transform: Transform) -> np.ndarra
 
 
 def do_transform_cloud(cloud: PointCloud2, transform: TransformStamped) -> PointCloud2:
-    """Return the cloud in the transform's frame; all fields except x, y, z are unchanged."""
+    """Return the cloud in the transform's frame; all fields other than x, y and z are unchanged."""
     points = read_points(cloud)
     moved = transform_points(np.stack([points[name] for name in XYZ], axis=-1), transform.transform)
     result = points.copy()

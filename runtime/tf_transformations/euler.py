@@ -25,7 +25,7 @@ def axes_of(axes: str) -> tuple[tuple[int, int, int], bool]:
 
 
 def _tuple(axes: str) -> tuple[int, int, int, int]:
-    """Return inner axis, parity, repetition and frame, which identify an order in upstream's functions, too."""
+    """Return inner axis, parity, repetition and frame, which also identify an order in upstream's functions."""
     order, turning = axes_of(axes)
     inner = order[::-1] if turning else order
     return inner[0], int((inner[1] - inner[0]) % 3 != 1), int(order[0] == order[2]), int(turning)
@@ -49,7 +49,7 @@ _NAMES = {_tuple(frame + order): frame + order for frame in "sr" for order in _O
 
 
 def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> np.ndarray:
-    """Return three angles (rad) as a quaternion."""
+    """Return the quaternion of three angles (rad)."""
     order, turning = axes_of(axes)
     found = np.array([0.0, 0.0, 0.0, 1.0])
     for angle, axis in zip((ai, aj, ak), order, strict=True):
@@ -59,17 +59,17 @@ def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -
 
 
 def euler_matrix(ai: float, aj: float, ak: float, axes: str = "sxyz") -> np.ndarray:
-    """Return three angles (rad) as a 4x4 matrix."""
+    """Return the 4x4 matrix of three angles (rad)."""
     return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
 
 
 def euler_from_quaternion(quaternion: Sequence[float] | np.ndarray, axes: str = "sxyz") -> tuple[float, float, float]:
-    """Return a quaternion as three angles (rad)."""
+    """Return the three angles (rad) of a quaternion."""
     return euler_from_matrix(quaternion_matrix(quaternion), axes)
 
 
 def euler_from_matrix(matrix: object, axes: str = "sxyz") -> tuple[float, float, float]:
-    """Return a rotation as three angles (rad); in gimbal lock the last angle of static axes is 0."""
+    """Return the three angles (rad) of a rotation; in gimbal lock, the last angle of static axes is 0."""
     order, turning = axes_of(axes)
     i, j, k = order[::-1] if turning else order
     odd = (j - i) % 3 != 1

@@ -13,7 +13,7 @@ from tf_transformations.vectors import unit_vector
 
 
 def identity_matrix() -> np.ndarray:
-    """Return the identity."""
+    """Return the identity matrix."""
     return np.identity(4)
 
 
@@ -30,7 +30,7 @@ def translation_from_matrix(matrix: object) -> np.ndarray:
 
 
 def _about(matrix: np.ndarray, point: Sequence[float] | np.ndarray | None) -> np.ndarray:
-    """Return the same with a fixed point."""
+    """Return the matrix changed so that it leaves a point fixed."""
     if point is not None:
         place = np.asarray(point[:3], dtype=np.float64)
         matrix[:3, 3] = place - matrix[:3, :3] @ place
@@ -56,7 +56,7 @@ def rotation_from_matrix(matrix: object) -> tuple[float, np.ndarray, np.ndarray]
 
 
 def _fixed_vector(m: np.ndarray, name: str) -> np.ndarray:
-    """Return a vector that a matrix maps to itself; raises `ValueError`, with upstream's name of it, without one."""
+    """Return a vector that a matrix maps to itself; raises `ValueError`, with upstream's name for it, without one."""
     values, vectors = np.linalg.eig(m)
     fixed = np.where(abs(np.real(values) - 1.0) < 1e-8)[0]
     if not len(fixed):
@@ -65,7 +65,7 @@ def _fixed_vector(m: np.ndarray, name: str) -> np.ndarray:
 
 
 def _fixed_point(m: np.ndarray, name: str) -> np.ndarray:
-    """Return the same as a point with homogeneous coordinate 1, unless it is at infinity."""
+    """Return such a vector as a point with the homogeneous coordinate 1, unless the point is at infinity."""
     point = _fixed_vector(m, name)
     return point / point[3] if point[3] else point
 
@@ -108,7 +108,7 @@ def scale_matrix(
 
 
 def scale_from_matrix(matrix: object) -> tuple[float, np.ndarray, np.ndarray | None]:
-    """Return factor, fixed point (homogeneous), and direction, None for all."""
+    """Return factor, fixed point (homogeneous) and direction; the direction is None if all are scaled."""
     m = np.asarray(matrix, dtype=np.float64)
     factor = float(np.trace(m[:3, :3])) - 2.0
     values, vectors = np.linalg.eig(m[:3, :3])
@@ -191,6 +191,6 @@ def concatenate_matrices(*matrices: Any) -> np.ndarray:
 
 
 def is_same_transform(matrix0: object, matrix1: object) -> bool:
-    """Return whether two matrices are equal, except for a common factor."""
+    """Return whether two matrices are equal up to a common factor."""
     first, second = (np.array(each, dtype=np.float64) for each in (matrix0, matrix1))
     return bool(np.allclose(first / first[3, 3], second / second[3, 3]))

@@ -23,7 +23,7 @@ def quaternion_about_axis(angle: float, axis: Sequence[float] | np.ndarray) -> n
 def quaternion_multiply(
     quaternion1: Sequence[float] | np.ndarray, quaternion0: Sequence[float] | np.ndarray
 ) -> np.ndarray:
-    """Return the second rotation followed by the first."""
+    """Return the rotation `quaternion0` followed by `quaternion1`."""
     x1, y1, z1, w1 = quaternion1
     x0, y0, z0, w0 = quaternion0
     return np.array(
@@ -43,7 +43,7 @@ def quaternion_conjugate(quaternion: Sequence[float] | np.ndarray) -> np.ndarray
 
 
 def quaternion_inverse(quaternion: Sequence[float] | np.ndarray) -> np.ndarray:
-    """Return the inverse."""
+    """Return the inverse quaternion."""
     return quaternion_conjugate(quaternion) / np.dot(quaternion, quaternion)
 
 
@@ -64,9 +64,7 @@ def quaternion_matrix(quaternion: Sequence[float] | np.ndarray) -> np.ndarray:
 
 
 def quaternion_from_matrix(matrix: object) -> np.ndarray:
-    """Return the rotation of a matrix, w not negative; for a matrix that is not quite a rotation the nearest
-    (Bar-Itzhack).
-    """
+    """Return the rotation of a matrix, with w not negative; for an inexact rotation, the nearest one (Bar-Itzhack)."""
     m = np.asarray(matrix, dtype=np.float64)[:3, :3]
     k = np.array(
         [
@@ -120,5 +118,5 @@ def random_quaternion(rand: Any = None) -> np.ndarray:
 
 
 def random_rotation_matrix(rand: object = None) -> np.ndarray:
-    """Return the same as a 4x4 matrix."""
+    """Return a uniformly distributed random rotation as a 4x4 matrix."""
     return quaternion_matrix(random_quaternion(rand))

@@ -8,7 +8,7 @@ import numpy as np
 
 
 def vector_norm(data: object, axis: int | None = None, out: np.ndarray | None = None) -> Any:
-    """Return the length, along an axis if one is given; into `out` if that is given."""
+    """Return the length, along an axis if one is given; the result is written into `out` if that is given."""
     norm = np.sqrt(np.sum(np.square(np.asarray(data, dtype=np.float64)), axis=axis))
     if out is None:
         return norm
@@ -17,7 +17,7 @@ def vector_norm(data: object, axis: int | None = None, out: np.ndarray | None = 
 
 
 def unit_vector(data: object, axis: int | None = None, out: np.ndarray | None = None) -> Any:
-    """Return the vector divided by its length, along an axis if one is given; into `out` if that is given."""
+    """Return the vector divided by its length, along an axis if one is given; written into `out` if that is given."""
     values = np.array(data, dtype=np.float64)
     length = np.sqrt(np.sum(np.square(values), axis=axis, keepdims=axis is not None))
     values /= length
