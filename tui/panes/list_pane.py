@@ -7,7 +7,7 @@ from typing import ClassVar
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.keys.key import NO_MODE, Mode
 from bot_console.tui.panes.pane import Pane
-from bot_console.tui.widgets.prompt.filtered import Narrowed
+from bot_console.tui.widgets.prompt.filtered import Filterable
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Line
 from bot_console.tui.widgets.row_list import RowList
@@ -18,7 +18,7 @@ FILTERED = Mode(
 )
 
 
-class ListPane(Pane, Narrowed):
+class ListPane(Pane, Filterable):
     """A pane whose first `RowList` has a filter. Subclasses define `_arrange` and compose a `Prompt`."""
 
     SCOPES: ClassVar[tuple[str, ...]] = ("find", "narrowed", "list")

@@ -13,7 +13,7 @@ from bot_console.tui.format import element_text, parse_element
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.text.sanitize import counted, sanitize
 from bot_console.tui.widgets.box import Box
-from bot_console.tui.widgets.prompt.filtered import Findable
+from bot_console.tui.widgets.prompt.filtered import Searchable
 from bot_console.tui.widgets.prompt.line import Prompt, find_open_prompt
 from bot_console.tui.widgets.prompt.question import Elements, Line
 from bot_console.tui.widgets.row_list import RowList
@@ -50,7 +50,7 @@ class ElementRows(RowList):
         return [Segment(f" {index:>{digits}}  ", dim), Segment(sanitize(element_text(self.elements[index])))]
 
 
-class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
+class ElementsScreen(QuestionScreen[Value], Searchable):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
     """Asks for the elements of an array; nothing is set until the user confirms."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("elements")]
@@ -105,7 +105,7 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
             self._list.rows_changed()
             self._report()
 
-        self.query_one(Prompt).ask(Line(label, answered, text=text, check=partial(_wrong, self._asked.kind)))
+        self.query_one(Prompt).ask(Line(label, answered, text=text, check=partial(_element_problem, self._asked.kind)))
 
     def ask_words(self, line: Line) -> None:
         """Ask for search words below the list."""
@@ -189,7 +189,7 @@ class ElementsScreen(QuestionScreen[Value], Findable):  # pyright: ignore[report
         self._leaving = True
 
 
-def _wrong(kind: Kind, text: str) -> str:
+def _element_problem(kind: Kind, text: str) -> str:
     try:
         parse_element(text, kind)
     except ValueError as error:

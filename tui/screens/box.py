@@ -10,7 +10,7 @@ from textual.containers import VerticalScroll
 from textual.widget import Widget
 
 
-class Boxed(Widget):
+class WithScrollBox(Widget):
     """A screen around one box. The box never has the focus, which would bring its own keys."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("box")]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.screens.box import Boxed
+from bot_console.tui.screens.box import WithScrollBox
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.prompt.question import Confirmation
@@ -24,7 +24,7 @@ MAX_TITLE_CELLS = 56
 """Maximum cells of a question that fits into the border at 80 columns; a longer one is repeated inside the box."""
 
 
-class ConfirmScreen(QuestionScreen[None], Boxed):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
+class ConfirmScreen(QuestionScreen[None], WithScrollBox):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
     """Asks for confirmation of an action, which the title names."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("confirm")]

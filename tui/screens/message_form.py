@@ -239,7 +239,7 @@ class FillScreen(QuestionScreen[None]):
     def action_repeat(self) -> None:
         """Ask for a rate (Hz), and publish the message repeatedly."""
         if self._asked.payload is Payload.MESSAGE:
-            line = Line("rate (Hz)", self._repeat, text=USUAL_RATE, check=_wrong_rate)
+            line = Line("rate (Hz)", self._repeat, text=USUAL_RATE, check=_rate_problem)
             self.query_one(Prompt).ask(line)
 
     def _repeat(self, typed: str) -> None:
@@ -266,7 +266,7 @@ class FillScreen(QuestionScreen[None]):
         self._show_text(f"copied: {text}")
 
 
-def _wrong_rate(text: str) -> str:
+def _rate_problem(text: str) -> str:
     try:
         rate = parse_number(text)
     except ValueError as error:

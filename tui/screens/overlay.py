@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.screens.box import Boxed
+from bot_console.tui.screens.box import WithScrollBox
 from bot_console.tui.terminal.dimmed_screen import DimmedScreen
 from bot_console.tui.text.sanitize import sanitize
 from rich.console import RenderableType
@@ -19,7 +19,7 @@ from textual.widget import Widget
 from textual.widgets import Static
 
 
-class Overlay(DimmedScreen, Boxed):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
+class Overlay(DimmedScreen, WithScrollBox):  # pyright: ignore[reportIncompatibleMethodOverride] # of Textual
     """A box with a title and text to read."""
 
     BINDINGS: ClassVar[list[BindingType]] = [*keymap.bindings("overlay")]

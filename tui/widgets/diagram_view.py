@@ -14,7 +14,7 @@ from bot_console.tui.widgets.diagram.flow_chart.drawing import draw_chart
 from bot_console.tui.widgets.diagram.flow_chart.model import Chart
 from bot_console.tui.widgets.diagram.graph import Digraph
 from bot_console.tui.widgets.diagram.listing import Listing, draw_listing
-from bot_console.tui.widgets.diagram.overview_map import Window, map_lines, map_size, seen
+from bot_console.tui.widgets.diagram.overview_map import Window, map_lines, map_size, visible_part
 from bot_console.tui.widgets.placeholder import WithPlaceholder, placeholder_lines
 from rich.cells import cell_len
 from rich.segment import Segment
@@ -294,7 +294,7 @@ class DiagramView(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  #
         if self._map is None or self._map[0] != key:
             self._map = key, map_lines(self.places, extent, size, self.selected)
         characters = self._map[1][line]
-        columns, lines = seen(extent, size, window)
+        columns, lines = visible_part(extent, size, window)
         inside = line in lines
         first, last = (columns.start, columns.stop) if inside else (0, 0)
         parts = ((characters[:first], "map"), (characters[first:last], "seen"), (characters[last:], "map"))

@@ -50,7 +50,7 @@ class LazyParts(Container):
         """Make the parts now, unless they exist; the next query finds all of them."""
         if self._missing and self.is_attached and not self._is_closing:
             self._missing = False
-            put(self, compose(self))
+            mount_without_layout(self, compose(self))
 
     async def _compose(self) -> None:
         if not self._late:
@@ -69,7 +69,7 @@ class LazyParts(Container):
             return super().query_one(*what, **how)
 
 
-def put(parent: Widget, widgets: Sequence[Widget]) -> None:
+def mount_without_layout(parent: Widget, widgets: Sequence[Widget]) -> None:
     """Mount widgets and their children in a parent that is not displayed yet, without a layout.
 
     Textual's own mount would lay out the screen again, and mount nested parts only later.
@@ -83,4 +83,4 @@ def put(parent: Widget, widgets: Sequence[Widget]) -> None:
     for each in widgets:
         given: list[Widget] = cast(Any, each)._pending_children
         within, given[:] = [*given], []
-        put(each, within)
+        mount_without_layout(each, within)

@@ -76,7 +76,7 @@ class Picture(StyledByPart, WithPlaceholder):
             Region(start, y, end - start, 1)
             for y, (before, after) in enumerate(zip(old, lines, strict=True))
             if before != after
-            for start, end in changes(before, after, self.size.width)
+            for start, end in changed_intervals(before, after, self.size.width)
         ]
         if changed:
             self.refresh(*changed)
@@ -102,7 +102,7 @@ def _colors(name: str) -> Style:
     return Style.parse(name)
 
 
-def changes(before: Line, after: Line, width: int) -> list[tuple[int, int]]:
+def changed_intervals(before: Line, after: Line, width: int) -> list[tuple[int, int]]:
     """The cells in which two lines differ, as intervals; nearby intervals are merged."""
     old, new = _cells(before, width), _cells(after, width)
     if old is None or new is None:

@@ -115,8 +115,8 @@ class RowList(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  # pyr
         if index == self.cursor and self.has_focus:
             cursor = self.get_component_rich_style("row-list--cursor")
             strip = Strip(Segment(text, self._chosen(style, cursor)) for text, style, _ in self.row(index, width))
-            return _fitted(strip, width, cursor)
-        return _on(_fitted(Strip(self.row(index, width)), width, base), base)
+            return _fit(strip, width, cursor)
+        return _with_background(_fit(Strip(self.row(index, width)), width, base), base)
 
     def _below_rows(self, y: int, width: int, base: Style) -> Strip:
         """A line without a row: blank, or part of the placeholder if there are no rows at all."""
@@ -208,7 +208,7 @@ class RowList(ScrollView, StyledByPart, WithPlaceholder, can_focus=True):  # pyr
         self.post_message(self.Resized())
 
 
-def _fitted(strip: Strip, width: int, style: Style) -> Strip:
+def _fit(strip: Strip, width: int, style: Style) -> Strip:
     """A row padded or truncated to a width (cells); a truncated row ends with an ellipsis."""
     if strip.cell_length <= width or width < 1:
         return strip.adjust_cell_length(width, style)
@@ -217,6 +217,6 @@ def _fitted(strip: Strip, width: int, style: Style) -> Strip:
     return Strip([*kept.adjust_cell_length(width - 1, style), Segment("…", last)])
 
 
-def _on(strip: Strip, base: Style) -> Strip:
+def _with_background(strip: Strip, base: Style) -> Strip:
     """Draw segments that have no background on the background of the list."""
     return Strip([Segment(text, base + style if style else base) for text, style, _ in strip], strip.cell_length)

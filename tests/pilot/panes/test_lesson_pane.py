@@ -16,7 +16,7 @@ from bot_console.tui.learn.course import read_course
 from bot_console.tui.learn.layout import NAME, LessonLayoutStore
 from bot_console.tui.learn.lesson import CourseLesson
 from bot_console.tui.learn.lesson_view import LessonView
-from bot_console.tui.panes.lesson.pane import LessonPane, lines_of, text_of, wrapped
+from bot_console.tui.panes.lesson.pane import LessonPane, step_lines, step_text, wrapped
 from bot_console.tui.settings.appearance import Appearance
 from fakes.command_line import FakeCommandLine
 from piloting import Session
@@ -138,12 +138,12 @@ def test_listing_leaves_room_for_what_follows_and_long_lines_are_marked() -> Non
     line = '        self.create_service(AddTwoInts, "add", self.add)'
     body = "\n".join([line, *(f"line {number}" for number in range(30))])
     view = LessonView("C", "S", 1, 1, 0, snippets=(("a.py", body), ("", "bot-console run a.py")))
-    text = text_of(view, 47, 30).plain
+    text = step_text(view, 47, 30).plain
     assert "  " + "\n  ".join(wrapped(line, 45)) in text
     assert wrapped(line, 45) == ["        self.create_service(AddTwoInts, …", '            "add", self.add)']
     assert "… 21 more lines: enter shows them, y copies all" in text
     assert text.endswith("In a terminal:\n  bot-console run a.py\n\n")
-    assert body.replace("\n", "\n  ") in text_of(view).plain
+    assert body.replace("\n", "\n  ") in step_text(view).plain
 
 
 @pytest.mark.parametrize(
@@ -171,7 +171,7 @@ def test_two_line_lesson_shows_first_what_the_step_waits_for(waiting: str, lines
     view = LessonView(
         "C", "Set the speed", 1, 2, 0, snippets=(("a.py", "x"), ("", "ls\npwd")), waits=((False, waiting),)
     )
-    assert lines_of(view, 48).plain.splitlines() == lines
+    assert step_lines(view, 48).plain.splitlines() == lines
 
 
 @pytest.mark.slow

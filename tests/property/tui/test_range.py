@@ -8,7 +8,7 @@ from typing import Any
 from bot_console.runtime.rclpy.node_parts.parameter_setting import refusal
 from bot_console.tui.console.model import Kind, ParameterInfo
 from bot_console.tui.console.values import info
-from bot_console.tui.panes.parameters.editing import at_share, stepped
+from bot_console.tui.panes.parameters.editing import at_share, moved_by_steps
 from bot_console.tui.panes.parameters.table import slider_text
 from hypothesis import example, given
 from hypothesis import strategies as st
@@ -71,7 +71,9 @@ def test_every_value_that_keys_and_slider_send_is_accepted(allowed: Any, moves: 
     parameter, descriptor = parameter_and_descriptor(allowed, first)
     for move in moves:
         assert len(slider_text(parameter, 12)) in (0, 12)
-        value = at_share(parameter, move) if isinstance(move, float) else stepped(parameter, parameter.value, move)
+        value = (
+            at_share(parameter, move) if isinstance(move, float) else moved_by_steps(parameter, parameter.value, move)
+        )
         if value is not None:
             assert type(value) is type(parameter.value) and math.isfinite(value)
             assert reason(value, descriptor) is None, f"{value} in {allowed} after {move}"
@@ -101,7 +103,7 @@ def test_all_points_of_a_grid_can_be_reached_upwards_and_downwards(allowed: Any,
     for _ in range(points):
         for path, way in ((walked, 1), (back, -1)):
             parameter, _ = parameter_and_descriptor(allowed, path[-1])
-            path.append(stepped(parameter, parameter.value, way))
+            path.append(moved_by_steps(parameter, parameter.value, way))
     assert (walked[-1], back[-1]) == (allowed.to_value, low)
     assert all(map(math.isclose, back[::-1], walked))
     assert (
@@ -117,7 +119,7 @@ def test_all_points_of_a_grid_can_be_reached_upwards_and_downwards(allowed: Any,
 @given(st.one_of(st.integers(INT64_MIN, INT64_MAX), st.floats()), st.sampled_from(KEYS))
 def test_a_number_without_a_range_stays_a_number_that_a_parameter_can_hold(value: Any, steps: int) -> None:
     kind = Kind.DOUBLE if isinstance(value, float) else Kind.INTEGER
-    moved = stepped(ParameterInfo("/node", "it", kind, value), value, steps)
+    moved = moved_by_steps(ParameterInfo("/node", "it", kind, value), value, steps)
     if kind is Kind.INTEGER:
         assert isinstance(moved, int) and INT64_MIN <= moved <= INT64_MAX
     else:

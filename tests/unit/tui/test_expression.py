@@ -6,7 +6,7 @@ import math
 
 import pytest
 from bot_console.tui.console.model import Kind, ParameterInfo, Range, Value
-from bot_console.tui.panes.parameters.editing import at_share, stepped, typed_value
+from bot_console.tui.panes.parameters.editing import at_share, moved_by_steps, typed_value
 from bot_console.tui.text.expression.numbers import evaluate
 
 
@@ -135,8 +135,8 @@ def test_integers_stay_whole() -> None:
 
 def test_steps_and_shares_stay_in_the_range() -> None:
     speed = of(Kind.DOUBLE, "m/s", Range(0.1, 5.0))
-    assert stepped(speed, 4.9, 10) == 5.0 and stepped(speed, 1.0, 1) == 1.05
+    assert moved_by_steps(speed, 4.9, 10) == 5.0 and moved_by_steps(speed, 1.0, 1) == 1.05
     assert (at_share(speed, 0), at_share(speed, 1), at_share(speed, 2)) == (0.1, 5.0, 5.0)
     beams = of(Kind.INTEGER, "", Range(3, 3600, 3), 360)
-    assert at_share(beams, 0.5) == 1803 and stepped(beams, 360, -1) == 357
-    assert at_share(of(Kind.DOUBLE, "m"), 0.5) is None and stepped(speed, True, 1) is None
+    assert at_share(beams, 0.5) == 1803 and moved_by_steps(beams, 360, -1) == 357
+    assert at_share(of(Kind.DOUBLE, "m"), 0.5) is None and moved_by_steps(speed, True, 1) is None

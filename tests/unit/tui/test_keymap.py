@@ -20,7 +20,7 @@ from bot_console.tui.panes.logs.levels_screen import LevelsScreen
 from bot_console.tui.panes.logs.rules_screen import RulesScreen
 from bot_console.tui.screens.arrange_mode import ArrangeScreen
 from bot_console.tui.screens.array_editor import ElementsScreen
-from bot_console.tui.screens.box import Boxed
+from bot_console.tui.screens.box import WithScrollBox
 from bot_console.tui.screens.confirm import ConfirmScreen
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.screens.launch_arguments import ArgumentsScreen
@@ -31,7 +31,7 @@ from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.screens.tuning_progress import TuningScreen
 from bot_console.tui.widgets.command_line import CommandField
 from bot_console.tui.widgets.diagram_view import DiagramView
-from bot_console.tui.widgets.prompt.filtered import Findable, Narrowed
+from bot_console.tui.widgets.prompt.filtered import Filterable, Searchable
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.row_list import RowList
 from textual.keys import Keys
@@ -43,7 +43,7 @@ SCREENS = {
     "question": QuestionScreen,
     "confirm": ConfirmScreen,
     "elements": ElementsScreen,
-    "box": Boxed,
+    "box": WithScrollBox,
     "picker": PickerScreen,
     "form": ArgumentsScreen,
     "fill": FillScreen,
@@ -56,8 +56,8 @@ OWNERS = {
     "player": BagApp,
     "list": RowList,
     "diagram": DiagramView,
-    "find": Findable,
-    "narrowed": Narrowed,
+    "find": Searchable,
+    "narrowed": Filterable,
     "prompt": Prompt,
     "command": CommandField,
     "broken": BrokenPane,

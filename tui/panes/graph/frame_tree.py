@@ -31,8 +31,8 @@ def rows(info: Frames, clock: float, query: Query) -> list[FrameRow]:
     for each in info.frames:
         below.setdefault(each.parent, []).append(each)
     parents = {each.name: each.parent for each in info.frames}
-    wanted = _wanted(parents, query)
-    wrong = _wrong(info, clock)
+    wanted = _visible_names(parents, query)
+    wrong = _problems(info, clock)
     found: list[FrameRow] = []
     seen: set[str] = set()
 
@@ -53,7 +53,7 @@ def rows(info: Frames, clock: float, query: Query) -> list[FrameRow]:
     return found
 
 
-def _wanted(parents: dict[str, str], query: Query) -> set[str]:
+def _visible_names(parents: dict[str, str], query: Query) -> set[str]:
     every = {*parents, *parents.values()}
     if not query.terms:
         return every
@@ -65,7 +65,7 @@ def _wanted(parents: dict[str, str], query: Query) -> set[str]:
     return wanted
 
 
-def _wrong(info: Frames, clock: float) -> dict[str, str]:
+def _problems(info: Frames, clock: float) -> dict[str, str]:
     """The problem of each frame in a few words."""
     parents = {each.name: each.parent for each in info.frames}
     wrong: dict[str, str] = {}
@@ -100,7 +100,7 @@ def facts(row: FrameRow, info: Frames, clock: float) -> list[Section]:
     if frame is None:
         return [("Frame", ["has no parent: no transform leads to it"]), ("Findings", reported)]
     where = summary(row, info).partition("  ")[2].replace("  ", ", ")
-    how = ["static, published on /tf_static"] if frame.fixed else list(_how(frame, clock))
+    how = ["static, published on /tf_static"] if frame.fixed else list(_publishing_facts(frame, clock))
     by = info.publishers(frame)
     several = ["one of them; messages do not say which"] if len(by) > 1 else []
     return [
@@ -111,7 +111,7 @@ def facts(row: FrameRow, info: Frames, clock: float) -> list[Section]:
     ]
 
 
-def _how(frame: Frame, clock: float) -> Iterator[str]:
+def _publishing_facts(frame: Frame, clock: float) -> Iterator[str]:
     yield f"{frame.rate:.1f} times a second" if frame.rate is not None else "rate not known yet"
     yield f"{clock - frame.heard:.1f} s ago"
     if frame.late is not None:

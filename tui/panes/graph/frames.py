@@ -77,7 +77,7 @@ class FramesView(Container):
         """Go to the next matching frame; returns whether there is one."""
         return self._rows.find(query, step)
 
-    def stands_on(self, query: Query) -> bool:
+    def is_on_match(self, query: Query) -> bool:
         """Whether the frame at the cursor matches."""
         row = self._rows.current
         return row is not None and query.matches(row.name)

@@ -49,7 +49,7 @@ from bot_console.tui.panes.transitions import ask_transition
 from bot_console.tui.text.namespaces import foldable_namespaces
 from bot_console.tui.widgets.diagram.flow_chart.drawing import MIN_WIDE_COLUMNS
 from bot_console.tui.widgets.diagram_view import MIN_THREADED_ITEMS, DiagramView
-from bot_console.tui.widgets.prompt.filtered import Narrowed
+from bot_console.tui.widgets.prompt.filtered import Filterable
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Line, Option, matching_options
 from bot_console.tui.widgets.row_list import RowList
@@ -58,7 +58,7 @@ from rich.text import Text
 from textual.app import ComposeResult
 
 
-class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOverride] # Textual's HELP
+class GraphPane(Pane, Filterable):  # pyright: ignore[reportIncompatibleVariableOverride] # Textual's HELP
     """The nodes, and the topics, services and actions between them."""
 
     TITLE = "Graph"
@@ -261,7 +261,7 @@ class GraphPane(Pane, Narrowed):  # pyright: ignore[reportIncompatibleVariableOv
     def is_on_match(self, words: str) -> bool:
         """Whether the selected item matches."""
         if self._frames.open:
-            return self._frames.stands_on(parse(words))
+            return self._frames.is_on_match(parse(words))
         return bool(self._picture.selected) and self._matches(self._picture.selected, parse(words, lists=True))
 
     def _matches(self, item: str, query: Query) -> bool:

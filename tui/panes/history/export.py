@@ -11,7 +11,7 @@ from pathlib import Path
 
 from bot_console.tui.console.model import Change, Value
 from bot_console.tui.files.save_file import NotSaved, save_file
-from bot_console.tui.panes.history.rows import set_command, source_text
+from bot_console.tui.panes.history.rows import param_set_line, source_text
 from bot_console.tui.text.refusals import verdict_of_change
 from bot_console.tui.text.value_text import value_text
 from bot_console.tui.text.yaml_flow import quoted
@@ -72,7 +72,7 @@ def as_script(changes: Sequence[Change]) -> str:
     lines = ["#!/bin/sh", "# Parameter changes, oldest first, as they were made."]
     for each in changes:
         lines.append(f"# {moment(each.stamp)} {_one_line(source_text(each))}")
-        line = set_command(each, each.new)
+        line = param_set_line(each, each.new)
         lines.append(
             line if each.accepted else f"# {verdict_of_change(each)}: {_one_line(each.reason)}: {_one_line(line)}"
         )

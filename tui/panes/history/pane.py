@@ -23,7 +23,7 @@ from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.panes.history.effect import Effects
 from bot_console.tui.panes.history.export import FORMS, export
 from bot_console.tui.panes.history.revert import Restoration, restorations, values_at
-from bot_console.tui.panes.history.rows import ChangeRows, day_text, details, searched_text, set_command, set_details
+from bot_console.tui.panes.history.rows import ChangeRows, day_text, details, param_set_line, searched_text, set_details
 from bot_console.tui.panes.history.sets import ChangeSet, changes_of, group_changes
 from bot_console.tui.panes.history.strip import time_strip
 from bot_console.tui.panes.list_pane import ListPane
@@ -281,7 +281,7 @@ class HistoryPane(ListPane):
         change = self._current
         if change is not None:
             row = self._list.current
-            text = "\n".join(set_command(each, each.new) for each in reversed(changes_of(row))) if row else ""
+            text = "\n".join(param_set_line(each, each.new) for each in reversed(changes_of(row))) if row else ""
             self.host.copy_to_clipboard(text)
             self.notify(text, title="Copied")
 

@@ -74,7 +74,7 @@ def changed_text(change: Change) -> str:
     return f"{sanitize(value_text(change.old))} → {sanitize(value_text(change.new))}"
 
 
-def set_command(change: Change, value: Value) -> str:
+def param_set_line(change: Change, value: Value) -> str:
     """The `ros2` command line that sets the parameter of a change to a value."""
     of_bytes = isinstance(value, tuple) and any(isinstance(each, bytes) for each in value)
     kind = Kind.BYTE_ARRAY if of_bytes else Kind.NOT_SET
@@ -91,7 +91,7 @@ def details(change: Change, effect: str) -> Text:
     text.append(f"{sanitize(change.node)} {sanitize(change.name)}  {changed_text(change)}\n")
     text.append(f"{at} · {sanitize(source_text(change))}{' · an earlier run' if change.seq < 0 else ''}", "dim")
     text.append(f" · after it {effect}\n" if effect else "\n", "dim")
-    text.append(sanitize(set_command(change, change.new)), "dim italic")
+    text.append(sanitize(param_set_line(change, change.new)), "dim italic")
     return text
 
 

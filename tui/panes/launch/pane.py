@@ -376,7 +376,7 @@ class LaunchPane(ListPane):
             Choice(
                 "Open a launch file",
                 self._chosen,
-                attempt=partial(_why_no_file, files),
+                attempt=partial(_file_problem, files),
                 find=partial(files_for, files),
                 hint="type part of a name, or a path",
                 empty="No launch files in the workspace; type a path.",
@@ -414,7 +414,7 @@ class LaunchPane(ListPane):
             self._answered(done)
 
 
-def _why_no_file(files: Sequence[str], path: str) -> str:
+def _file_problem(files: Sequence[str], path: str) -> str:
     """Why a typed path is no launch file; empty if it is an existing file or one of the known ones."""
     return "" if path in files or Path(path).is_file() else f"There is no file {sanitize(path)}."
 

@@ -126,9 +126,9 @@ class LessonPane(Pane):
         wanted = view, self.size.width - FRAME_COLUMNS, self.size.height
         if wanted != self._shown:
             self._shown = wanted
-            self.query_one("#lesson-text", StaticText).update(text_of(*wanted))
+            self.query_one("#lesson-text", StaticText).update(step_text(*wanted))
             self.query_one(VerticalScroll).scroll_home(animate=False)
-            self.query_one("#lesson-line", StaticText).show_text(lines_of(*wanted[:2]))
+            self.query_one("#lesson-line", StaticText).show_text(step_lines(*wanted[:2]))
         way = "" if self.has_focus_within else " · Tab: its keys"
         self.caption(view.problem or f"{view.done} of {view.total} done{way}")
 
@@ -160,7 +160,7 @@ class LessonPane(Pane):
         self.host.push_screen(FactsScreen(sanitize(f"{view.chapter}, step {view.number} of {view.total}"), parts))
 
 
-def text_of(view: LessonView, columns: int = 0, rows: int = 0) -> Text:
+def step_text(view: LessonView, columns: int = 0, rows: int = 0) -> Text:
     """The whole step; with `columns`, long lines are wrapped, and with `rows`, long listings are shortened."""
     text = Text()
     text.append(f"{sanitize(view.chapter)}\n", "dim")
@@ -198,7 +198,7 @@ def wrapped(line: str, columns: int) -> list[str]:
     return [*(f"{each} …" for each in found[:-1]), found[-1]]
 
 
-def lines_of(view: LessonView, columns: int = 0) -> Text:
+def step_lines(view: LessonView, columns: int = 0) -> Text:
     """The step on two lines: its title and the condition it waits for, then what to type or write.
 
     The condition matters most: if it does not fit into the columns, the title is left out, and if it then needs two

@@ -122,7 +122,7 @@ class LogsPane(LinePane):
         if state is self._state:
             return
         self._state = state
-        self._take_in()
+        self._show_found()
         self._report()
 
     def tick(self) -> None:
@@ -134,10 +134,10 @@ class LogsPane(LinePane):
         if self._source.name:  # the log of the system comes with the snapshot
             state = self._source.state
             changed, self._state = state is not self._state, state
-        if self._take_in() or self._go_on() or changed:
+        if self._show_found() or self._finish_seek() or changed:
             self._report()
 
-    def _take_in(self) -> bool:
+    def _show_found(self) -> bool:
         """Show the lines found; the lines of the previous filter stay until there is something to show."""
         if self._view is None:
             self._view = self._source.view(self._filtering.log_filter())
@@ -181,7 +181,7 @@ class LogsPane(LinePane):
         """Search all stored lines with the current filter."""
         self._view = self._source.view(self._filtering.log_filter(), self._view)
         self._found = None
-        self._take_in()
+        self._show_found()
         self._list.refresh()
         self._report()
 
@@ -360,11 +360,11 @@ class LogsPane(LinePane):
         at = rows.number(rows.cursor) + whole if step > 0 or whole else rows.first_of_row()
         self._sought_for = words or "errors"
         self._match_search.seek(self._filtering.narrowed_to(words, minimum), at, step)
-        self._go_on()
+        self._finish_seek()
         self._report()
         return True
 
-    def _go_on(self) -> bool:
+    def _finish_seek(self) -> bool:
         """Go to the line that the search has found; returns whether the search has ended."""
         target = self._match_search.poll()
         if target is None:

@@ -57,7 +57,7 @@ class RuleBook:
         self.path = path or config_folder() / "log-rules.txt"
         self.rules: tuple[Rule, ...] = ()
         self.problems: list[str] = []
-        self._strange: list[str] = []
+        self._invalid_lines: list[str] = []
         """Invalid lines of the file; they are written back, so that a typo does not lose a rule."""
         self._marks: tuple[tuple[Query, str], ...] = ()
 
@@ -76,14 +76,14 @@ class RuleBook:
                 try:
                     found.append(rule_of(line))
                 except ValueError as error:
-                    self._strange.append(line)
+                    self._invalid_lines.append(line)
                     self.problems.append(f"{self.path}:{number}: {error}")
         self._take(found)
 
     def change(self, rules: Sequence[Rule]) -> str:
         """Replace and store the rules; returns why they could not be stored, or an empty text."""
         self._take(rules)
-        lines = [HEAD, *(f"{each.text}\n" for each in rules), *(f"{each}\n" for each in self._strange)]
+        lines = [HEAD, *(f"{each.text}\n" for each in rules), *(f"{each}\n" for each in self._invalid_lines)]
         try:
             save_file(self.path, "".join(lines))
         except NotSaved as error:

@@ -129,9 +129,11 @@ class RulesScreen(DimmedScreen):
 
     def _ask(self, label: str, words: str, then: Callable[[str], object]) -> None:
         self.query_one(Prompt).ask(
-            Line(label, lambda typed: then(typed.strip()), text=words, check=lambda typed: _wrong(typed.strip()))
+            Line(
+                label, lambda typed: then(typed.strip()), text=words, check=lambda typed: _words_problem(typed.strip())
+            )
         )
 
 
-def _wrong(words: str) -> str:
+def _words_problem(words: str) -> str:
     return filter_problem(words) if words else "type the words of a filter"

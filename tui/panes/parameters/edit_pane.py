@@ -106,7 +106,7 @@ class EditPane(ListPane):
                 partial(self._set_text, parameter),
                 partial(self._gone, parameter),
                 text=field_text(now),
-                check=partial(editing.wrong, parameter),
+                check=partial(editing.value_problem, parameter),
                 preview=partial(_preview, parameter),
             )
         )
@@ -168,7 +168,7 @@ class EditPane(ListPane):
     def action_nudge(self, steps: int) -> None:
         """Move a number by `steps` steps: its own step, or a hundredth of its range."""
         parameter = self._at()
-        value = editing.stepped(parameter, self.edits.now(parameter), steps) if parameter else None
+        value = editing.moved_by_steps(parameter, self.edits.now(parameter), steps) if parameter else None
         if parameter is not None and value is not None:
             self.edits.step(parameter, value)
 
@@ -243,7 +243,7 @@ class EditPane(ListPane):
         if not tunables:
             self.notify("Nothing to tune here: T tunes a number or boolean that can be set, or all that are marked.")
             return
-        check = partial(tuning_questions.wrong_ranges, known)
+        check = partial(tuning_questions.ranges_problem, known)
         text = tuning_questions.ranges_text(tunables)
         self.ask(Line("tune within", partial(self._ask_score, known), text=text, check=check))
 

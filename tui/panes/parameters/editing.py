@@ -53,7 +53,7 @@ def _calculated(text: str, parameter: ParameterInfo) -> Value:
     return nearest
 
 
-def wrong(parameter: ParameterInfo, text: str) -> str:
+def value_problem(parameter: ParameterInfo, text: str) -> str:
     """The problem with a typed value; empty if there is none."""
     try:
         typed_value(text, parameter)
@@ -67,7 +67,7 @@ def is_number(value: Value) -> bool:
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
-def stepped(parameter: ParameterInfo, value: Value, steps: int) -> Value:
+def moved_by_steps(parameter: ParameterInfo, value: Value, steps: int) -> Value:
     """A number moved by steps of its descriptor, or by hundredths of its range; without either, by about a tenth of
     itself. None if it cannot be moved.
     """

@@ -88,14 +88,14 @@ class ParametersPane(EditPane):
         self._shown: Mapping[str, ParameterTree] = {}
         """The parameter trees from which the rows were made."""
         self._asking_by: object = None
-        self._left: RowKey | None = None
+        self._restored_row: RowKey | None = None
         """The row at the cursor at the end of the last run, until it reappears or the user moves the cursor."""
 
     def on_mount(self) -> None:
         """Restore folds, filter and cursor of the last run, unless a node was preselected."""
         left = view_state_of(self.state_store.get(STATE_NAME))
         if left is not None and not self._expected:
-            self._left = left.at
+            self._restored_row = left.at
             self.words, self._view, self._table.split = left.words, left.view, left.split
             self._folds_itself = not (left.view.folded or left.view.filtering)
             self._sought = left.words
@@ -103,7 +103,7 @@ class ParametersPane(EditPane):
 
     def on_unmount(self) -> None:
         """Save folds, filter and cursor for the next run."""
-        at = self._left or self._at_cursor
+        at = self._restored_row or self._at_cursor
         self.state_store.put(STATE_NAME, ViewState(self.words, self._view, at, self._table.split).data)
 
     def compose(self) -> ComposeResult:
@@ -172,7 +172,7 @@ class ParametersPane(EditPane):
         """Go to a node as soon as it exists; this overrides the folds and the filter restored from the last run."""
         self._expected = name
         if not self._chosen:
-            self._left, self.words, self._view = None, "", View()
+            self._restored_row, self.words, self._view = None, "", View()
         self._arrange()
 
     def _go_to_expected(self) -> None:
@@ -198,7 +198,7 @@ class ParametersPane(EditPane):
         shown.exchange(new, stay=self._chosen)
         if not self._chosen:
             shown.begin_at(most_important_row(new))
-        self._go_to_left()
+        self._go_to_restored_row()
         self._report_counts()
         if self._expected and not view.essential:  # the short list has no rows of nodes
             self._go_to_expected()
@@ -207,16 +207,19 @@ class ParametersPane(EditPane):
     def _fold_at_start(self) -> None:
         """Fold a large tree, except around the row where the cursor was and the node that is expected."""
         folded = initial_folds(self._shown)
-        for node, name in ((self._left[0], self._left[1]) if self._left else ("", ""), (self._expected, "")):
+        for node, name in (
+            (self._restored_row[0], self._restored_row[1]) if self._restored_row else ("", ""),
+            (self._expected, ""),
+        ):
             folded = unfold_to(folded, node, name) if node else folded
         if folded != self._view.folded:
             self._view = replace(self._view, folded=folded)
 
-    def _go_to_left(self) -> None:
-        rows = self._list.rows if self._left else ()
-        found = next((index for index, row in enumerate(rows) if self._list.key(row) == self._left), None)
+    def _go_to_restored_row(self) -> None:
+        rows = self._list.rows if self._restored_row else ()
+        found = next((index for index, row in enumerate(rows) if self._list.key(row) == self._restored_row), None)
         if found is not None:
-            self._left, self._chosen = None, True
+            self._restored_row, self._chosen = None, True
             self._list.cursor = found
 
     def _report_counts(self) -> None:
@@ -241,7 +244,7 @@ class ParametersPane(EditPane):
         """Describe the parameter at the cursor."""
         event.stop()
         self._chosen = self._chosen or event.by_person
-        self._left = None if event.by_person else self._left
+        self._restored_row = None if event.by_person else self._restored_row
         self._at_cursor = self._list.key_at_cursor
         self._describe()
 

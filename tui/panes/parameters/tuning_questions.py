@@ -38,7 +38,7 @@ def ranges_text(tunables: Sequence[Tunable]) -> str:
     )
 
 
-def wrong_ranges(known: Sequence[Tunable], text: str) -> str:
+def ranges_problem(known: Sequence[Tunable], text: str) -> str:
     """The problem with typed ranges; empty if there is none."""
     try:
         find_tunables(text.split(), [*known])

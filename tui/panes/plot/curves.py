@@ -107,13 +107,13 @@ class Curve:
         times, values = self.samples()
         values = np.where(np.isfinite(values), values, np.nan)
         if self.steps and len(times):
-            times, values = stepped(times, values, end)
+            times, values = as_steps(times, values, end)
         first = max(0, int(np.searchsorted(times, start)) - 1)
         last = int(np.searchsorted(times, end, side="right")) + 1
         return times[first:last], values[first:last]
 
 
-def stepped(times: Array, values: Array, end: float) -> tuple[Array, Array]:
+def as_steps(times: Array, values: Array, end: float) -> tuple[Array, Array]:
     """Turn samples into steps: each value holds until the next one, the last one until `end`."""
     moments = np.repeat(times, 2)[1:]
     held = np.repeat(values, 2)[:-1]
@@ -121,18 +121,18 @@ def stepped(times: Array, values: Array, end: float) -> tuple[Array, Array]:
 
 
 @dataclass(frozen=True)
-class Reach:
+class ColumnRanges:
     """The lowest and highest value in each column of dots; NaN where there is none."""
 
     low: Array
     high: Array
 
 
-def reach(times: Array, values: Array, start: float, end: float, columns: int) -> Reach:
+def column_ranges(times: Array, values: Array, start: float, end: float, columns: int) -> ColumnRanges:
     """Reduce a polyline to the range of each column of dots, so that drawing costs the same for any length."""
     low, high = np.full(columns, np.nan), np.full(columns, np.nan)
     if len(times) == 0 or end <= start:
-        return Reach(low, high)
+        return ColumnRanges(low, high)
     borders = np.linspace(start, end, columns + 1)
     at = np.interp(borders, times, values, left=np.nan, right=np.nan)
     low, high = np.fmin(at[:-1], at[1:]), np.fmax(at[:-1], at[1:])
@@ -141,4 +141,4 @@ def reach(times: Array, values: Array, start: float, end: float, columns: int) -
     if len(column):
         np.fmin.at(low, column, values[inside])
         np.fmax.at(high, column, values[inside])
-    return Reach(low, high)
+    return ColumnRanges(low, high)

@@ -13,7 +13,7 @@ from bot_console.tui.panes.plot import view as plot_view
 from bot_console.tui.panes.plot.formulas.formula import Formula, parse_formula
 from bot_console.tui.panes.plot.pictures import sparklines, xy_plot
 from bot_console.tui.panes.plot.questions import PlotQuestions
-from bot_console.tui.panes.plot.responses import Responses, wrong_formula
+from bot_console.tui.panes.plot.responses import Responses, formula_problem
 from bot_console.tui.panes.plot.time_window import DEFAULTS, WINDOWS_S, Timeline
 from bot_console.tui.widgets.picture import Line, Picture
 from bot_console.tui.widgets.placeholder import Placeholder
@@ -236,7 +236,7 @@ class PlotPane(PlotQuestions):
     def action_score(self) -> None:
         """Ask for a formula that scores responses."""
         label = f"score, of {', '.join(SCORED)} (such as overshoot + 0.5*settling)"
-        self.ask(Asked(label, self._score_is, text=self._responses.formula, check=wrong_formula))
+        self.ask(Asked(label, self._score_is, text=self._responses.formula, check=formula_problem))
 
     def _score_is(self, formula: str) -> None:
         self._responses.formula = formula.strip()

@@ -12,8 +12,8 @@ from bot_console.tui.files.plot_presets import PlotPresetError, Preset, SavedCur
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.panes.plot.formulas.formula import split_expressions
-from bot_console.tui.panes.plot.thresholds import thresholds_of, thresholds_text, wrong_thresholds
-from bot_console.tui.panes.plot.time_window import Timeline, limits_of, wrong_limits, zoom_limits
+from bot_console.tui.panes.plot.thresholds import thresholds_of, thresholds_problem, thresholds_text
+from bot_console.tui.panes.plot.time_window import Timeline, limits_of, limits_problem, zoom_limits
 from bot_console.tui.widgets.prompt.question import Choice, Option, matching_options
 from bot_console.tui.widgets.prompt.question import Line as Asked
 
@@ -103,18 +103,18 @@ class PlotQuestions(Pane):
     def action_limits(self) -> None:
         """Ask for the limits of the value axis."""
         label = "minimum and maximum (empty: automatic)"
-        self.ask(Asked(label, self._limit, text=self._limits_text(), check=wrong_limits))
+        self.ask(Asked(label, self._limit, text=self._limits_text(), check=limits_problem))
 
     def action_zoom_values(self, factor: float) -> None:
         """Zoom the value axis around the value of the chosen curve at the cursor, or its newest one."""
-        from bot_console.tui.panes.plot.view import limits, reach_of
+        from bot_console.tui.panes.plot.view import limits, visible_ranges
 
         timeline = self._timeline
         axes = timeline.axes(WIDTH_CELLS)
         shown = [each for each in timeline.curves if not each.right] or timeline.curves
         if not shown:
             return
-        now = timeline.limits or limits([reach_of(each, axes, WIDTH_CELLS) for each in shown])
+        now = timeline.limits or limits([visible_ranges(each, axes, WIDTH_CELLS) for each in shown])
         chosen = timeline.curves[self._chosen]
         value = chosen.latest if axes.cursor is None else chosen.at(axes.cursor)
         timeline.limits = zoom_limits(now, value if chosen in shown else None, factor)
@@ -139,7 +139,7 @@ class PlotQuestions(Pane):
             self.draw()
 
         text = thresholds_text(curve.thresholds)
-        self.ask(Asked("threshold, e.g. > 1.5 or < 0.2 (empty: none)", take, text=text, check=wrong_thresholds))
+        self.ask(Asked("threshold, e.g. > 1.5 or < 0.2 (empty: none)", take, text=text, check=thresholds_problem))
 
     def action_export(self) -> None:
         """Ask for the file to save the samples to."""

@@ -72,7 +72,7 @@ class Responses:
         return sanitize(" · ".join([*parts, f"score {self.formula}" if self.formula else "s: a score"]))
 
 
-def wrong_formula(text: str) -> str:
+def formula_problem(text: str) -> str:
     """The problem with a score's formula; empty if there is none."""
     try:
         if text.strip():

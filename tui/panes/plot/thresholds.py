@@ -37,7 +37,7 @@ def thresholds_of(text: str) -> tuple[Threshold, ...]:
     return tuple(found)
 
 
-def wrong_thresholds(text: str) -> str:
+def thresholds_problem(text: str) -> str:
     """The problem with typed thresholds; empty if there is none."""
     try:
         thresholds_of(text)

@@ -254,7 +254,7 @@ def zoom_limits(limits: tuple[float, float], value: float | None, factor: float)
     return found if MIN_SPAN * max(1.0, abs(at)) <= span <= MAX_SPAN else limits
 
 
-def wrong_limits(text: str) -> str:
+def limits_problem(text: str) -> str:
     """The problem with typed limits; empty if there is none."""
     try:
         limits_of(text)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from bot_console.tui.panes.plot.curves import Curve, Reach, reach
+from bot_console.tui.panes.plot.curves import ColumnRanges, Curve, column_ranges
 from bot_console.tui.panes.plot.thresholds import first_crossed
 from bot_console.tui.panes.plot.window_facts import window_facts
 from bot_console.tui.text.sanitize import sanitize
@@ -69,13 +69,13 @@ def framed_plot(curves: Sequence[Curve], marks: Sequence[Mark], axes: Axes, widt
     right = [each.right for each in curves]
     both = any(right) and not all(right)
     across, down = max(4, width - LABEL_CELLS * (2 if both else 1)), max(2, height - 2)
-    reaches = [reach_of(curve, axes, across) for curve in curves]
+    ranges = [visible_ranges(curve, axes, across) for curve in curves]
     left_limits = axes.limits or limits(
-        [each for each, other in zip(reaches, right, strict=True) if not (both and other)]
+        [each for each, other in zip(ranges, right, strict=True) if not (both and other)]
     )
-    right_limits = limits([each for each, other in zip(reaches, right, strict=True) if other]) if both else left_limits
+    right_limits = limits([each for each, other in zip(ranges, right, strict=True) if other]) if both else left_limits
     spans = [right_limits if other else left_limits for other in right]
-    layers = [trace_codes(each, *span, across, down) for each, span in zip(reaches, spans, strict=True)]
+    layers = [trace_codes(each, *span, across, down) for each, span in zip(ranges, spans, strict=True)]
     watched = [(curve, span) for curve, span in zip(curves, spans, strict=True) if curve.thresholds]
     layers += [_dotted(curve, *span, across, down) for curve, span in watched]
     styles = [style_of(curve) for curve in (*curves, *(each for each, _ in watched))]
@@ -88,7 +88,7 @@ def framed_plot(curves: Sequence[Curve], marks: Sequence[Mark], axes: Axes, widt
         if both:
             line = (*line, (f"{'├' if row in others else '│'} {others.get(row, ''):<{LABEL_CELLS - 2}}", "dim"))
         lines.append(line)
-    return [*lines, *_time_axis(marks, axes, across, _excursions(curves, reaches))]
+    return [*lines, *_time_axis(marks, axes, across, _excursions(curves, ranges))]
 
 
 def _dotted(curve: Curve, low: float, high: float, across: int, down: int) -> npt.NDArray[np.uint8]:
@@ -101,10 +101,10 @@ def _dotted(curve: Curve, low: float, high: float, across: int, down: int) -> np
     return dots.codes()
 
 
-def _excursions(curves: Sequence[Curve], reaches: Sequence[Reach]) -> list[int]:
+def _excursions(curves: Sequence[Curve], ranges: Sequence[ColumnRanges]) -> list[int]:
     """The cells in which a curve crosses one of its thresholds."""
     begins: set[int] = set()
-    for curve, seen in zip(curves, reaches, strict=True):
+    for curve, seen in zip(curves, ranges, strict=True):
         for each in curve.thresholds:
             with np.errstate(invalid="ignore"):
                 beyond = seen.high > each.value if each.above else seen.low < each.value
@@ -117,7 +117,7 @@ def strips(curves: Sequence[Curve], axes: Axes, width: int, height: int, chosen:
     lines: list[Line] = []
     room = max(2, height // max(1, len(curves)))
     for at, curve in enumerate(curves):
-        seen = reach_of(curve, axes, width)
+        seen = visible_ranges(curve, axes, width)
         low, high = axes.limits or limits([seen])
         lines.append(legend(curve, axes, width, at == chosen))
         rows = layered([trace_codes(seen, low, high, width, room - 1)], [style_of(curve)], width, room - 1)
@@ -130,21 +130,23 @@ def style_of(curve: Curve) -> str:
     return f"curve-{curve.colour % 6}"
 
 
-def reach_of(curve: Curve, axes: Axes, across: int) -> Reach:
+def visible_ranges(curve: Curve, axes: Axes, across: int) -> ColumnRanges:
     """The visible part of a curve, reduced to the columns of dots in `across` cells."""
     times, values = curve.between(axes.start, axes.end)
-    return reach(times, values.clip(-MAX_VALUE, MAX_VALUE), axes.start, axes.end, across * 2)
+    return column_ranges(times, values.clip(-MAX_VALUE, MAX_VALUE), axes.start, axes.end, across * 2)
 
 
 def limits_of_values(several: Sequence[npt.NDArray[np.float64]]) -> tuple[float, float]:
     """Limits of the value axis at round numbers that contain all of these values."""
-    return limits([Reach(each.clip(-MAX_VALUE, MAX_VALUE), each.clip(-MAX_VALUE, MAX_VALUE)) for each in several])
+    return limits(
+        [ColumnRanges(each.clip(-MAX_VALUE, MAX_VALUE), each.clip(-MAX_VALUE, MAX_VALUE)) for each in several]
+    )
 
 
-def limits(reaches: Sequence[Reach]) -> tuple[float, float]:
+def limits(ranges: Sequence[ColumnRanges]) -> tuple[float, float]:
     """Limits of the value axis at round numbers that contain all visible values, with headroom above the highest."""
-    low = min((float(np.nanmin(each.low)) for each in reaches if np.isfinite(each.low).any()), default=0.0)
-    high = max((float(np.nanmax(each.high)) for each in reaches if np.isfinite(each.high).any()), default=1.0)
+    low = min((float(np.nanmin(each.low)) for each in ranges if np.isfinite(each.low).any()), default=0.0)
+    high = max((float(np.nanmax(each.high)) for each in ranges if np.isfinite(each.high).any()), default=1.0)
     if high - low < 1e-12 * max(1.0, abs(high)):
         pad = abs(high) * 0.1 or 0.5
         low, high = low - pad, high + pad
@@ -165,7 +167,7 @@ def tick_step(span: float, maximum: int) -> float:
     return next((each * power for each in (1, 2, 5) if each * power >= raw), 10 * power)
 
 
-def trace_codes(seen: Reach, low: float, high: float, across: int, down: int) -> npt.NDArray[np.uint8]:
+def trace_codes(seen: ColumnRanges, low: float, high: float, across: int, down: int) -> npt.NDArray[np.uint8]:
     """Braille codes of one trace, by row and column of cells."""
     canvas = BrailleCanvas(across, down)
     dots = down * 4

@@ -104,12 +104,12 @@ class PresetMenu:
 
     def _ask_save(self, keeper: str) -> None:
         label = f"save the running values as a preset of {keeper}"
-        self.ask(Line(label, partial(self._change, keeper, "save"), check=_unnamed))
+        self.ask(Line(label, partial(self._change, keeper, "save"), check=_name_problem))
 
     def _change(self, keeper: str, verb: str, name: str) -> None:
         answer = self.console.topics.call_service(f"{keeper}/{verb}", CHANGE, {"load_namespace": name.strip()})
         answer.add_done_callback(lambda done: self.later(self.report, answer_of(done)))
 
 
-def _unnamed(text: str) -> str:
+def _name_problem(text: str) -> str:
     return "" if text.strip() else "a preset needs a name"

@@ -143,7 +143,7 @@ class SteeringPane(Pane):
     def action_rate(self) -> None:
         """Ask for the rate of the commands."""
         text = f"{self.state.rate:g}"
-        self.ask(Line("commands per second, Hz (empty: 10)", self._rate_typed, text=text, check=_wrong_rate))
+        self.ask(Line("commands per second, Hz (empty: 10)", self._rate_typed, text=text, check=_rate_problem))
 
     def _rate_typed(self, text: str) -> None:
         self.state.rate = parse_rate(text)
@@ -184,7 +184,7 @@ class SteeringPane(Pane):
         now = self.state.typed
         text = f"{now[0]:g} {now[1]:g}" if now else ""
         label = "limits m/s rad/s (empty: from the parameters)"
-        self.ask(Line(label, self._limits_typed, text=text, check=_wrong_limits))
+        self.ask(Line(label, self._limits_typed, text=text, check=_limits_problem))
 
     def _limits_typed(self, text: str) -> None:
         self.state.typed = parse_limits(text)
@@ -402,7 +402,7 @@ class SteeringPane(Pane):
         self._draw()
 
 
-def _wrong_rate(text: str) -> str:
+def _rate_problem(text: str) -> str:
     try:
         parse_rate(text)
     except ValueError as error:
@@ -410,7 +410,7 @@ def _wrong_rate(text: str) -> str:
     return ""
 
 
-def _wrong_limits(text: str) -> str:
+def _limits_problem(text: str) -> str:
     try:
         parse_limits(text)
     except ValueError as error:

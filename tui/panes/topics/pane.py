@@ -13,7 +13,7 @@ from bot_console.tui.console.topics.port import LiveMessage, RequestedQos
 from bot_console.tui.files.save_file import typed_path
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.topics.message import MessageRows
-from bot_console.tui.panes.topics.qos_form import changed_qos, qos_fields, silence_reason, wrong_qos
+from bot_console.tui.panes.topics.qos_form import changed_qos, qos_fields, qos_problem, silence_reason
 from bot_console.tui.panes.topics.rows import Kind, Row, group_by_namespace, initial_folds, matches, rows
 from bot_console.tui.panes.topics.table import TopicRows, heading
 from bot_console.tui.text.cadence import is_due
@@ -368,7 +368,7 @@ class TopicsPane(ListPane):
         if topic:
             fields = qos_fields(self._qos.get(topic) or RequestedQos())
             then = partial(self._hear, topic)
-            self.ask(Form(f"QoS of {topic}", then, arguments=fields, verb="Subscribe", check=wrong_qos))
+            self.ask(Form(f"QoS of {topic}", then, arguments=fields, verb="Subscribe", check=qos_problem))
 
     def _hear(self, topic: str, changed: Mapping[str, str]) -> None:
         qos = changed_qos(self._qos.get(topic) or RequestedQos(), changed)
@@ -444,7 +444,7 @@ class TopicsPane(ListPane):
         """Ask for a file of expected rates, suggesting the last one; an empty name ends the checks."""
         last = self.state_store.get(EXPECTED_FILE)
         text = last if isinstance(last, str) else ""
-        self.ask(Line("file of expected rates", self._expect, text=text, check=_wrong_or_none))
+        self.ask(Line("file of expected rates", self._expect, text=text, check=_optional_path_problem))
 
     def _expect(self, path: str) -> None:
         path = str(typed_path(path).absolute()) if path.strip() else ""
@@ -472,7 +472,7 @@ class TopicsPane(ListPane):
         )
 
 
-def _wrong_or_none(text: str) -> str:
+def _optional_path_problem(text: str) -> str:
     return path_problem(text) if text.strip() else ""
 
 

@@ -31,7 +31,7 @@ def qos_fields(now: RequestedQos) -> Sequence[LaunchArgument]:
     return (*policies, depth)
 
 
-def wrong_qos(changed: Mapping[str, str]) -> str:
+def qos_problem(changed: Mapping[str, str]) -> str:
     """The problem with the typed values; empty if there is none."""
     depth = changed.get(DEPTH, OFFERED)
     if depth == OFFERED or (depth.isascii() and depth.isdigit() and len(depth) < 8 and 1 <= int(depth) <= MAX_DEPTH):

@@ -11,7 +11,7 @@ from bot_console.tui.widgets.diagram.columns import Edge, Layers, layers
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
 from bot_console.tui.widgets.diagram.lines import Lines
 from bot_console.tui.widgets.diagram.ordering import ITEM, Columns, Key, order_columns
-from bot_console.tui.widgets.diagram.placing import Placed, place_items
+from bot_console.tui.widgets.diagram.placing import Placement, place_items
 from bot_console.tui.widgets.diagram.routing import Channel, Trunk, channel
 from rich.cells import cell_len
 
@@ -85,7 +85,7 @@ class _Plan:
     """The rows, ports, tracks and lanes of one attempt."""
 
     def __init__(
-        self, items: Mapping[str, Item], found: Layers, columns: Columns, at: Placed, direction: ArrowDirection
+        self, items: Mapping[str, Item], found: Layers, columns: Columns, at: Placement, direction: ArrowDirection
     ) -> None:
         self.items = items
         self.found = found

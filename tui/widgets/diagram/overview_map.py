@@ -47,7 +47,7 @@ def map_lines(places: Mapping[str, Place], extent: tuple[int, int], size: tuple[
     return ["".join(each) for each in cells]
 
 
-def seen(extent: tuple[int, int], size: tuple[int, int], window: Window) -> tuple[range, range]:
+def visible_part(extent: tuple[int, int], size: tuple[int, int], window: Window) -> tuple[range, range]:
     """The columns and lines of the map that represent the visible part."""
     columns, lines = size
     first = window.x * columns // max(1, extent[0])

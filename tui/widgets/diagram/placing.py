@@ -21,7 +21,7 @@ MAX_BEND_CELLS = 6
 
 
 @dataclass
-class Placed:
+class Placement:
     """The first row and the height of each key; `middle` is the row of its outgoing arrow."""
 
     top: dict[Key, int] = field(default_factory=lambda: {})
@@ -43,9 +43,9 @@ def place_items(
     arrows_in: Mapping[str, int],
     pushed: Mapping[Key, int],
     direction: ArrowDirection,
-) -> Placed:
+) -> Placement:
     """Assign rows; `arrows_in` is the number of arrows into an item, `pushed` adds free rows above a key."""
-    result = Placed()
+    result = Placement()
     for column in columns.columns:
         for key in column:
             across = direction.across(items[key[0]], arrows_in.get(key[0], 0)) if key[1] == ITEM else 1
@@ -71,7 +71,11 @@ def place_items(
 
 
 def _settle(
-    column: Sequence[Key], neighbours: Mapping[Key, Sequence[Key]], result: Placed, pushed: Mapping[Key, int], gap: int
+    column: Sequence[Key],
+    neighbours: Mapping[Key, Sequence[Key]],
+    result: Placement,
+    pushed: Mapping[Key, int],
+    gap: int,
 ) -> None:
     wanted: list[float] = []
     offsets: list[int] = []
@@ -91,7 +95,7 @@ def _settle(
 
 
 def _straighten(
-    columns: Sequence[Sequence[Key]], neighbours: Mapping[Key, Sequence[Key]], result: Placed, gap: int
+    columns: Sequence[Sequence[Key]], neighbours: Mapping[Key, Sequence[Key]], result: Placement, gap: int
 ) -> None:
     """Remove small bends: a key with a single neighbour moves to its row, if there is room."""
     for column in columns:

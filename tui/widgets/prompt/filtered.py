@@ -11,7 +11,7 @@ from textual.binding import BindingType
 from textual.widget import Widget
 
 
-class Findable(Widget):
+class Searchable(Widget):
     """A widget that can be searched: `/` asks for words, n and N go to the next and the previous match."""
 
     BINDINGS: ClassVar[list[BindingType]] = keymap.bindings("find")
@@ -61,7 +61,7 @@ class Findable(Widget):
             self.notify(f"Nothing here matches {self._sought}", severity="warning", markup=False)
 
 
-class Narrowed(Findable):
+class Filterable(Searchable):
     """A widget that shows only what passes the filter; Escape shows everything again."""
 
     BINDINGS: ClassVar[list[BindingType]] = keymap.bindings("narrowed")

@@ -50,7 +50,7 @@ class StreamPanel(Static):
         """Whether the stream has ended."""
         return self._stream.ended
 
-    def call(self, number: int, key: str) -> None:
+    def set_title(self, number: int, key: str) -> None:
         """Set the title to the command and its state; `number` is the number among several panels, or 0."""
         named = self.line.removeprefix("ros2 ") if number else self.line
         title = f"{number} {named}" if number else f"{named} · {self.state} · {key} closes"

@@ -111,7 +111,7 @@ class StreamPanels(Container):
         seen = self._panels[-room(size) :]
         for number, each in enumerate(self._panels, 1):
             each.display = each in seen
-            each.call(number if len(self._panels) > 1 else 0, self._key)
+            each.set_title(number if len(self._panels) > 1 else 0, self._key)
             each.styles.column_span = 1
         if not seen:
             return

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.widgets.diagram.drawing import Place
-from bot_console.tui.widgets.diagram.overview_map import Window, map_lines, map_size, seen
+from bot_console.tui.widgets.diagram.overview_map import Window, map_lines, map_size, visible_part
 
 PLACES = {
     "link": Place(0, 0, 10, 1, boxed=False),
@@ -37,5 +37,5 @@ def test_chosen_item_hides_a_box_and_a_box_hides_a_link(names: tuple[str, ...]) 
 
 
 def test_visible_part_is_rounded_outwards_and_never_empty() -> None:
-    assert seen((100, 50), (10, 5), Window(15, 5, 50, 20)) == (range(1, 7), range(0, 3))
-    assert seen((1000, 500), (10, 5), Window(0, 0, 1, 1)) == (range(0, 1), range(0, 1))
+    assert visible_part((100, 50), (10, 5), Window(15, 5, 50, 20)) == (range(1, 7), range(0, 3))
+    assert visible_part((1000, 500), (10, 5), Window(0, 0, 1, 1)) == (range(0, 1), range(0, 1))

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 from bot_console.tui.console.plot.port import Plots
-from bot_console.tui.panes.plot.curves import Array, Curve, stepped
+from bot_console.tui.panes.plot.curves import Array, Curve, as_steps
 from bot_console.tui.panes.plot.formulas.formula import Formula, HeldValues
 
 
@@ -61,7 +61,7 @@ class ComputedCurve(Curve):
         """The polyline from `start` to `end` (s)."""
         times, values = self._formula.values(self._known(), start, end)
         values = np.where(np.isfinite(values), values, np.nan)
-        return stepped(times, values, end) if self.steps and len(times) else (times, values)
+        return as_steps(times, values, end) if self.steps and len(times) else (times, values)
 
     def _known(self) -> Mapping[str, HeldValues]:
         return {path: HeldValues(*each.samples(), each.steps) for path, each in self._parts.items()}

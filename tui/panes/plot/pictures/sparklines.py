@@ -5,7 +5,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from bot_console.tui.panes.plot.curves import Curve
-from bot_console.tui.panes.plot.view import Axes, legend_value, limits, reach_of, short_number, style_of, trace_codes
+from bot_console.tui.panes.plot.view import (
+    Axes,
+    legend_value,
+    limits,
+    short_number,
+    style_of,
+    trace_codes,
+    visible_ranges,
+)
 from bot_console.tui.panes.plot.window_facts import WindowFacts, window_facts
 from bot_console.tui.text.sanitize import cut, sanitize
 from bot_console.tui.widgets.braille import layered
@@ -32,7 +40,7 @@ def sparklines(curves: Sequence[Curve], axes: Axes, width: int, height: int, cho
     for at, curve in enumerate(curves[first : first + rows], first):
         facts = window_facts(curve, axes.start, axes.end)
         figures = _figures(curve, facts, axes)
-        seen = reach_of(curve, axes, across)
+        seen = visible_ranges(curve, axes, across)
         trace = layered([trace_codes(seen, *limits([seen]), across, 1)], [style_of(curve)], across, 1)[0]
         mark = "▸ " if at == chosen else "  "
         text = "".join(f"{figures[each]:>{FIGURE_CELLS}}" for each in columns)

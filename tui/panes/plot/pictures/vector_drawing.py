@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from datetime import datetime
 
 import numpy as np
-from bot_console.tui.panes.plot.curves import Curve, Reach
-from bot_console.tui.panes.plot.view import Axes, Mark, limits, reach_of, short_number, tick_step
+from bot_console.tui.panes.plot.curves import ColumnRanges, Curve
+from bot_console.tui.panes.plot.view import Axes, Mark, limits, short_number, tick_step, visible_ranges
 from bot_console.tui.text.sanitize import sanitize
 
 WIDTH_PX, HEIGHT_PX = 1000, 560
@@ -58,7 +58,7 @@ def plot_drawing(
     page = VectorDrawing(height=HEIGHT_PX + ROW_PX * len(curves) + 12)
     right = [each.right for each in curves]
     both = any(right) and not all(right)
-    seen = [reach_of(each, axes, (WIDTH_PX - LEFT_PX - RIGHT_PX) // 2) for each in curves]
+    seen = [visible_ranges(each, axes, (WIDTH_PX - LEFT_PX - RIGHT_PX) // 2) for each in curves]
     spans = [axes.limits or limits([each for each, other in zip(seen, right, strict=True) if not (both and other)])]
     spans.append(limits([each for each, other in zip(seen, right, strict=True) if other]) if both else spans[0])
     _values(page, spans[0], LEFT_PX - 6, "end", grid=True)
@@ -122,7 +122,7 @@ def _times(page: VectorDrawing, marks: Sequence[Mark], axes: Axes, wall: Callabl
     page.words.append(Words(LEFT_PX, bottom + 34, f"{datetime.fromtimestamp(first):%Y-%m-%d %H:%M:%S}"))
 
 
-def _traces(seen: Reach, span: tuple[float, float]) -> list[tuple[tuple[float, float], ...]]:
+def _traces(seen: ColumnRanges, span: tuple[float, float]) -> list[tuple[tuple[float, float], ...]]:
     """Polylines through the lowest and highest value of each column, interrupted where there is none."""
     fine = np.flatnonzero(np.isfinite(seen.low))
     runs = np.split(fine, np.flatnonzero(np.diff(fine) > 1) + 1) if len(fine) else []

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from bot_console.tui.panes.plot.curves import Array, Curve, stepped
+from bot_console.tui.panes.plot.curves import Array, Curve, as_steps
 from bot_console.tui.panes.plot.formulas.formula import HeldValues, held_values
 from bot_console.tui.panes.plot.view import (
     LABEL_CELLS,
@@ -30,7 +30,7 @@ def pairs(across: Curve, curve: Curve, axes: Axes) -> tuple[Array, Array]:
     times, values = times[inside], values[inside]
     base_times, base = across.samples()
     if across.steps and len(base_times):
-        base_times, base = stepped(base_times, base, axes.end)
+        base_times, base = as_steps(base_times, base, axes.end)
     x = held_values(HeldValues(base_times, np.where(np.isfinite(base), base, np.nan)), times)
     return np.where(np.isnan(values), np.nan, x), np.where(np.isnan(x), np.nan, values)
 

@@ -10,7 +10,7 @@ from itertools import product
 from bot_console.tui.widgets.diagram.columns import Edge
 from bot_console.tui.widgets.diagram.drawing import Drawing, Place, Rows, Run
 from bot_console.tui.widgets.diagram.flow_chart.model import Chart, ChartLink
-from bot_console.tui.widgets.diagram.flow_chart.plan import Placed, Plan, Style, make_plan
+from bot_console.tui.widgets.diagram.flow_chart.plan import PlacedBox, Plan, Style, make_plan
 from bot_console.tui.widgets.diagram.flow_chart.spreading import spread
 from bot_console.tui.widgets.diagram.lines import LEFT, RIGHT, UP, Lines
 from rich.cells import cell_len
@@ -136,7 +136,7 @@ def _draw_back(lines: Lines, plan: Plan, link: ChartLink) -> None:
     _draw_bracket(lines, target, target.right + 1, port, edges, RIGHT)
 
 
-def _draw_bracket(lines: Lines, target: Placed, x: int, port: int, edges: frozenset[Edge], side: int) -> None:
+def _draw_bracket(lines: Lines, target: PlacedBox, x: int, port: int, edges: frozenset[Edge], side: int) -> None:
     """Split a line into an arrow to each member of a box; the lines of several sources join here."""
     owner = f"{target.box.id} {side}"
     rows = target.member_rows()
@@ -150,7 +150,7 @@ def _draw_bracket(lines: Lines, target: Placed, x: int, port: int, edges: frozen
             lines.arrow_back(x - 1, row, edges, owner)
 
 
-def _draw_box(placed: Placed, outgoing: bool, runs: dict[int, list[Run]], places: dict[str, Place]) -> None:
+def _draw_box(placed: PlacedBox, outgoing: bool, runs: dict[int, list[Run]], places: dict[str, Place]) -> None:
     rows = placed.member_rows()
     items = [item for item, _ in placed.box.members]
     for y in range(placed.y, placed.bottom + 1):
@@ -163,7 +163,7 @@ def _draw_box(placed: Placed, outgoing: bool, runs: dict[int, list[Run]], places
         places[item] = Place(placed.x, y, placed.width, height, True)
 
 
-def _framed_row(placed: Placed, y: int, outgoing: bool) -> str:
+def _framed_row(placed: PlacedBox, y: int, outgoing: bool) -> str:
     box, inside, rows = placed.box, placed.width - 2, placed.member_rows()
     if y == placed.y:
         loop = f" {box.loop} " if box.loop else ""
@@ -179,7 +179,7 @@ def _framed_row(placed: Placed, y: int, outgoing: bool) -> str:
     return "├" + "─" * inside + "┤" if rows[0] < y < rows[-1] else "│" + " " * inside + "│"
 
 
-def _bare_row(placed: Placed, y: int) -> str:
+def _bare_row(placed: PlacedBox, y: int) -> str:
     rows, texts = placed.member_rows(), placed.box.texts(framed=False)
     text = texts[rows.index(y)] if y in rows else ""
     return f"[{text}{' ' * (placed.width - 2 - cell_len(text))}]"

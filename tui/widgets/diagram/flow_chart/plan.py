@@ -48,7 +48,7 @@ class Style:
 
 
 @dataclass
-class Placed:
+class PlacedBox:
     """A box with its position; `trunk` is the column of its trunk, `out` the row on which that leaves the box."""
 
     box: ChartBox
@@ -100,7 +100,7 @@ class Label:
 class Plan:
     """The positions of boxes by id, the forward and the backward links, the lanes of the latter, and the labels."""
 
-    placed: dict[str, Placed] = field(default_factory=lambda: {})
+    placed: dict[str, PlacedBox] = field(default_factory=lambda: {})
     forward: list[ChartLink] = field(default_factory=lambda: [])
     back: list[ChartLink] = field(default_factory=lambda: [])
     lanes: dict[str, int] = field(default_factory=lambda: {})
@@ -250,7 +250,7 @@ class _Builder:
     def _settle(self, wants: _BoxNeeds, spot: tuple[int, int]) -> None:
         x, top = spot
         cells, box = self._cells, wants.box
-        found = Placed(box, x, top, wants.height, self._style.framed, rightward=wants.rightward)
+        found = PlacedBox(box, x, top, wants.height, self._style.framed, rightward=wants.rightward)
         several = len(box.members) > 1
         begin = x - (BRACKET if several and wants.ins else 0)
         end = x + wants.width + (BRACKET if several and wants.back_in else 0)
@@ -347,7 +347,7 @@ class _Builder:
             height = (1 + style.framed) * (len(box.members) - 1) + 1 + 2 * style.frame
             if x and x + width > room:
                 x, top, high = 0, top + high, 0
-            self.plan.placed[box.id] = Placed(box, x, top, height, style.framed)
+            self.plan.placed[box.id] = PlacedBox(box, x, top, height, style.framed)
             cells = ((at, y) for y in range(top, top + height) for at in range(x, x + width))
             self._cells.add(self._cells.boxes, cells)
             x, high = x + width + 1, max(high, height)

@@ -26,8 +26,8 @@ def test_offered_ranges_are_valid_or_name_what_is_missing() -> None:
     tunables = [each for each in map(tuning_questions.tunable_of, TREE.parameters) if each]
     text = tuning_questions.ranges_text(tunables)
     assert text == "/a:speed=0.1..5 /a:gain /a:safe"
-    assert "give one: /a:gain=LOW..HIGH" in tuning_questions.wrong_ranges(tunables, text)
-    assert tuning_questions.wrong_ranges(tunables, "speed=0.1..5 gain=0..1 safe") == ""
+    assert "give one: /a:gain=LOW..HIGH" in tuning_questions.ranges_problem(tunables, text)
+    assert tuning_questions.ranges_problem(tunables, "speed=0.1..5 gain=0..1 safe") == ""
 
 
 @pytest.mark.parametrize(

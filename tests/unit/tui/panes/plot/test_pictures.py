@@ -14,7 +14,7 @@ from bot_console.tui.panes.plot.curves import Curve
 from bot_console.tui.panes.plot.pictures.sparklines import sparklines
 from bot_console.tui.panes.plot.pictures.xy_plot import draw_xy, pairs
 from bot_console.tui.panes.plot.save import picture
-from bot_console.tui.panes.plot.thresholds import thresholds_of, thresholds_text, wrong_thresholds
+from bot_console.tui.panes.plot.thresholds import thresholds_of, thresholds_problem, thresholds_text
 from bot_console.tui.panes.plot.view import Axes, Mark, framed_plot, legend
 from bot_console.tui.panes.plot.window_facts import window_facts
 from rich.cells import cell_len
@@ -76,7 +76,7 @@ def test_a_crossed_threshold_is_marked_where_it_begins_and_beside_the_value() ->
 def test_thresholds_are_parsed_and_formatted() -> None:
     assert thresholds_text(thresholds_of("> 3/2,<= 0.2")) == "> 1.5, < 0.2"
     assert thresholds_of("") == ()
-    assert "such as" in wrong_thresholds("1.5") and "not a number" in wrong_thresholds("> a b")
+    assert "such as" in thresholds_problem("1.5") and "not a number" in thresholds_problem("> a b")
 
 
 def test_window_facts_are_computed() -> None:

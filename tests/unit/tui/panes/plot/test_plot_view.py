@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 import pytest
-from bot_console.tui.panes.plot.curves import Curve, reach
-from bot_console.tui.panes.plot.time_window import limits_of, wrong_limits, zoom_limits
+from bot_console.tui.panes.plot.curves import Curve, column_ranges
+from bot_console.tui.panes.plot.time_window import limits_of, limits_problem, zoom_limits
 from bot_console.tui.panes.plot.view import Axes, Mark, framed_plot, legend, limits, short_number, strips, tick_step
 from hypothesis import given
 from hypothesis import strategies as st
@@ -25,7 +25,7 @@ def width_of(line: tuple[tuple[str, str], ...]) -> int:
 @given(st.lists(st.floats(-1e6, 1e6), min_size=2, max_size=300), st.integers(4, 60))
 def test_peaks_are_drawn_with_many_samples_per_column(values: list[float], columns: int) -> None:
     shown = curve(values)
-    seen = reach(*shown.between(0.0, shown.times[-1]), 0.0, float(shown.times[-1]), columns)
+    seen = column_ranges(*shown.between(0.0, shown.times[-1]), 0.0, float(shown.times[-1]), columns)
     assert np.nanmax(seen.high) == pytest.approx(max(values), abs=1e-9)
     assert np.nanmin(seen.low) == pytest.approx(min(values), abs=1e-9)
     assert not np.isnan(seen.low).any()
@@ -33,7 +33,7 @@ def test_peaks_are_drawn_with_many_samples_per_column(values: list[float], colum
 
 def test_value_that_is_not_finite_leaves_only_a_gap() -> None:
     shown = curve([1.0] * 10 + [math.nan, math.inf, -math.inf] + [1.0] * 10)
-    seen = reach(*shown.between(0.0, 2.2), 0.0, 2.2, 22)
+    seen = column_ranges(*shown.between(0.0, 2.2), 0.0, 2.2, 22)
     gap = np.isnan(seen.low)
     assert gap[10:12].all() and not gap[:9].any() and not gap[14:].any()
 
@@ -46,7 +46,7 @@ def test_a_parameter_holds_its_value_until_the_next_change() -> None:
 
 def test_nothing_is_drawn_before_the_first_sample() -> None:
     shown = curve([1.0, 2.0])
-    seen = reach(*shown.between(-5.0, 0.1), -5.0, 0.1, 51)
+    seen = column_ranges(*shown.between(-5.0, 0.1), -5.0, 0.1, 51)
     assert np.isnan(seen.low[:49]).all()
 
 
@@ -59,14 +59,14 @@ def test_ticks_are_at_round_numbers(span: float, maximum: int, step: float) -> N
 
 @pytest.mark.parametrize(("low", "high"), [(0.0, 1.0), (-2.0, 0.0), (0.0, 0.99), (1000.0, 2000.0), (3.0, 7.3)])
 def test_a_curve_at_its_limit_has_head_room(low: float, high: float) -> None:
-    seen = reach(np.array([0.0, 1.0]), np.array([low, high]), 0.0, 1.0, 4)
+    seen = column_ranges(np.array([0.0, 1.0]), np.array([low, high]), 0.0, 1.0, 4)
     bottom, top = limits([seen])
     assert top - high >= 0.05 * (high - low) and bottom <= low
 
 
 @given(st.floats(-1e9, 1e9), st.floats(0, 1e6))
 def test_limits_enclose_all_values_and_never_coincide(low: float, span: float) -> None:
-    seen = reach(np.array([0.0, 1.0]), np.array([low, low + span]), 0.0, 1.0, 4)
+    seen = column_ranges(np.array([0.0, 1.0]), np.array([low, low + span]), 0.0, 1.0, 4)
     bottom, top = limits([seen])
     slack = 1e-9 * max(1.0, abs(low), abs(low + span))
     assert bottom <= low + slack and top >= low + span - slack and top > bottom
@@ -100,7 +100,7 @@ def test_legend_shows_the_newest_value_and_window_figures() -> None:
 
 @pytest.mark.parametrize("text", ["1", "a b", "2 1", "1 1", "nan 2", "1 2 3", "inf 3", "-1.7e308 1.7e308"])
 def test_invalid_limits_are_rejected(text: str) -> None:
-    assert wrong_limits(text)
+    assert limits_problem(text)
 
 
 def test_limits_are_two_numbers_or_none() -> None:
