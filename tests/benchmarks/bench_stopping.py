@@ -200,7 +200,7 @@ def presses(robot: LiveRobot, base: Base, load: str, count: int) -> dict[str, An
         if loading is not None:
             loading.kill()
             loading.wait()
-    robot.typed("release", "--all")
+    robot.run_cli("release", "--all")
     return summary(stops) | {"release": summary(releases), "lost": lost, "pressed again": again}
 
 
@@ -225,7 +225,7 @@ def press_behind_flood(robot: LiveRobot, base: Base, flood: str, count: int) -> 
                 times.append(taken)
             time.sleep(1.0)  # The key may still be waiting for its turn.
             while base.locked:
-                robot.typed("release", "--all")
+                robot.run_cli("release", "--all")
                 wait(lambda: not base.locked, 5.0)
     return summary(times) | {"lost": lost}
 

@@ -10,7 +10,7 @@ from typing import Any
 from course.page import Page, make_workspace
 from course.rows import Row
 from course.table import row
-from processes.typed import typed
+from processes.command_line import run_cli
 
 PROFILES = {"indoor": (1.0, 0.5), "outdoor": (2.0, 1.0), "warehouse": (1.4, 0.7), "competition": (3.0, 0.4)}
 """Speed (m/s) and safety distance (m) that a student may choose: the page asks for higher, medium and lowest."""
@@ -32,7 +32,7 @@ def drive_for_a_minute(folder: Path, config: Path) -> dict[str, Any]:
     """Drive for a minute."""
     launch = "src/intelligent_robot/launch/robot_system.launch.py"
     words = ["--headless", "--fast", "--duration", "60", "--launch", launch, f"config_file:={config}"]
-    done = typed(*words, cwd=folder, env={**os.environ, "ROS_HOME": str(folder)})
+    done = run_cli(*words, cwd=folder, env={**os.environ, "ROS_HOME": str(folder)})
     assert done.returncode == 0, done.stderr[-3000:]
     assert "the simulated robot runs beside it" in done.stderr
     assert all(f"[{each}-" in done.stderr for each in ("robot_node", "sensor_node", "safety_node", "telemetry_node"))

@@ -53,7 +53,7 @@ def run_group(group: str, ways: Sequence[str], runs: int, robot: LiveRobot) -> d
         except (AssertionError, subprocess.TimeoutExpired) as error:
             failed.append(f"run {number}, {way}: {str(error)[-1500:]}")
             traceback.print_exc()
-            robot.typed("release", "--all")
+            robot.run_cli("release", "--all")
         print(f"{group}: {number + 1} of {runs}, {len(failed)} failed", file=sys.stderr, flush=True)
     summary = {
         name: {"runs": len(each), "median": statistics.median(each), "longest": max(each)}

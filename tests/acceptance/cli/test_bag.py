@@ -17,7 +17,7 @@ import pytest
 import rclpy
 from bot_console.tui.cli.bags import common, record
 from bot_console.tui.cli.verbs.bag import run
-from processes.typed import Typed, typed
+from processes.command_line import CommandLine, run_cli
 from rclpy.node import Node
 
 pytest.importorskip("mcap")
@@ -30,10 +30,10 @@ def robot(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     """A robot in its own domain, and a folder for bags."""
     folder = tmp_path_factory.mktemp("bags")
     environment = os.environ | {"BOT_CONSOLE_SOCKET_DIR": SOCKETS, "BOT_CONSOLE_USER_DIR": f"{SOCKETS}-user"}
-    system = Typed("--headless", "--duration", "100000", env=environment)
+    system = CommandLine("--headless", "--duration", "100000", env=environment)
     seen = ("topic", "echo", "--once", "--timeout", "240", "/odom", "nav_msgs/msg/Odometry")
     try:
-        assert typed(*seen, env=environment).returncode == 0
+        assert run_cli(*seen, env=environment).returncode == 0
         yield folder
     finally:
         system.end(signal.SIGINT)
@@ -47,7 +47,7 @@ def domain(robot: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def bag(folder: Path, *words: str) -> subprocess.CompletedProcess[str]:
-    return typed("bag", *words, cwd=folder)
+    return run_cli("bag", *words, cwd=folder)
 
 
 def wait_for_size(file: Path, size: int) -> bool:
@@ -69,29 +69,29 @@ def test_topics_are_recorded_and_played(robot: Path) -> None:
     assert reported.returncode == 0 and "Topic: /odom | Type: nav_msgs/msg/Odometry | Count: 0" not in reported.stdout
     again = bag(robot, "record", "/odom", "-o", "mine", "--duration", "1")
     assert again.returncode == 1 and "exists already" in again.stderr
-    player = Typed("bag", "play", "mine", "-m", "/odom:=/copy", "-l", cwd=robot)
-    out = typed("topic", "echo", "--once", "/copy", "nav_msgs/msg/Odometry").stdout
+    player = CommandLine("bag", "play", "mine", "-m", "/odom:=/copy", "-l", cwd=robot)
+    out = run_cli("topic", "echo", "--once", "/copy", "nav_msgs/msg/Odometry").stdout
     played = player.end(signal.SIGINT)
     assert "pose:" in out and played.returncode == 0, played.stderr
 
 
 def call_service(name: str, kind: str, request: str = "{}") -> str:
     """Call a service of rosbag2; return its response."""
-    return typed("service", "call", name, f"rosbag2_interfaces/srv/{kind}", request).stdout
+    return run_cli("service", "call", name, f"rosbag2_interfaces/srv/{kind}", request).stdout
 
 
 def test_a_recorder_and_a_player_follow_options_and_services(robot: Path) -> None:
     words = ["record", "--topics", "/odom", "/scan", "-s", "sqlite3", "--max-bag-duration", "1", "-o", "options"]
     words += ["--compression-mode", "message", "--compression-format", "zstd", "--custom-data", "who=me"]
     words += ["--node-name", "mine", "--start-paused", "--duration", "1000"]
-    recorder = Typed("bag", *words, cwd=robot)
+    recorder = CommandLine("bag", *words, cwd=robot)
     assert "paused=True" in call_service("/mine/is_paused", "IsPaused")
     call_service("/mine/resume", "Resume")
     assert wait_for_size(robot / "options" / "options_2.db3", 1)
     recorder.end(signal.SIGINT)
     reported = bag(robot, "info", "options")
     assert reported.returncode == 0 and "who=me" in reported.stdout and "Storage id:        sqlite3" in reported.stdout
-    player = Typed("bag", "play", "options", "--start-paused", "--remap", "/odom:=/copy", cwd=robot)
+    player = CommandLine("bag", "play", "options", "--start-paused", "--remap", "/odom:=/copy", cwd=robot)
     assert "success=True" in call_service("/rosbag2_player/play_next", "PlayNext")
     assert "success=True" in call_service("/rosbag2_player/set_rate", "SetRate", "{rate: 100.0}")
     call_service("/rosbag2_player/resume", "Resume")
@@ -117,7 +117,7 @@ def test_a_recorder_of_a_launch_file_records(robot: Path) -> None:
 
 
 def test_killed_recorder_leaves_a_readable_bag(robot: Path) -> None:
-    recorder = Typed("bag", "record", "-a", "-o", "killed", cwd=robot)
+    recorder = CommandLine("bag", "record", "-a", "-o", "killed", cwd=robot)
     assert wait_for_size(robot / "killed" / "killed_0.mcap", 200_000)
     recorder.end(signal.SIGKILL)
     reported = bag(robot, "info", "killed")

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from bot_console.tui.cli.check.stepped import StartError, read_start
-from processes.typed import typed
+from processes.command_line import run_cli
 
 NAVIGATOR = "run bot_console_robot robot_node"
 SIMULATOR = "launch bot_console_robot simulator.launch.py seed:=3"
@@ -18,7 +18,7 @@ SIMULATOR = "launch bot_console_robot simulator.launch.py seed:=3"
 def run_check(folder: Path, steps: str, *starts: str) -> tuple[int, list[dict[str, Any]]]:
     (folder / "steps").write_text(steps, "utf-8")
     options = [word for each in starts for word in ("--start", each)]
-    done = typed("check", "steps", "--json", *options, cwd=folder, env={**os.environ, "ROS_HOME": str(folder)})
+    done = run_cli("check", "steps", "--json", *options, cwd=folder, env={**os.environ, "ROS_HOME": str(folder)})
     return done.returncode, json.loads(done.stdout)["steps"]
 
 

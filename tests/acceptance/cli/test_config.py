@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from processes.typed import typed
+from processes.command_line import run_cli
 
 
 @pytest.fixture
@@ -19,7 +19,7 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def config(*words: str) -> subprocess.CompletedProcess[str]:
-    return typed("config", *words)
+    return run_cli("config", *words)
 
 
 def test_settings_are_shown_created_edited_and_checked(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:

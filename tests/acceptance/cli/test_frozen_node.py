@@ -12,8 +12,8 @@ from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_sessi
 from bot_console.runtime.rmw.zenoh.settings import Serving
 from helpers.processes.mesh import eventually
 from helpers.processes.two_processes import DOMAIN, two_processes
+from processes.command_line import run_cli
 from processes.ports import free_port
-from processes.typed import typed
 
 if os.name == "nt":
     pytest.skip("needs SIGSTOP", allow_module_level=True)
@@ -39,7 +39,7 @@ def test_request_to_a_frozen_process_ends_and_names_it(tmp_path: Path, words: tu
         try:
             peer.send_signal(signal.SIGSTOP)
             assert eventually(lambda: list(client.stopped().values()) == [peer.pid])
-            asked = typed(*words, env=dict(os.environ, BOT_CONSOLE_CONNECT=place))
+            asked = run_cli(*words, env=dict(os.environ, BOT_CONSOLE_CONNECT=place))
         finally:
             client.close()
             router.close()

@@ -14,8 +14,8 @@ from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_sessi
 from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.settings import Serving
 from bot_console.runtime.rmw.zenoh.wire.tokens import TokenNode, entity_token, node_token
+from processes.command_line import run_cli
 from processes.ports import free_port
-from processes.typed import typed
 
 TIMEOUT_S = 240
 TALKER = """
@@ -60,7 +60,7 @@ def run(place: str, *words: str) -> subprocess.CompletedProcess[str]:
 
 
 def run_connected(place: str, *words: str) -> subprocess.CompletedProcess[str]:
-    return typed(*words, env=dict(os.environ, BOT_CONSOLE_CONNECT=place, ROS_DOMAIN_ID="0"))
+    return run_cli(*words, env=dict(os.environ, BOT_CONSOLE_CONNECT=place, ROS_DOMAIN_ID="0"))
 
 
 def test_program_with_a_session_exits_without_finalizing_the_interpreter(place: str) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from helpers.processes.mesh import eventually
 from helpers.recorded.commands import COURSE, Row, filled, normal, rows, usage_of_other_interpreter
-from processes.typed import Typed
+from processes.command_line import CommandLine
 
 ENDLESS = 30.0
 """Seconds after which a command that ends by itself counts as hanging."""
@@ -56,13 +56,13 @@ class Terminals:
         done = process.end(None if ends else signal.SIGINT)
         return done.stdout, done.stderr, done.returncode
 
-    def _start(self, words: Words) -> Typed:
+    def _start(self, words: Words) -> CommandLine:
         words = filled(words, self._folder)
         if words[1] == "-c":
             (self._folder / "program.py").write_text(words[2], "utf-8")
             words = ["python", str(self._folder / "program.py"), *words[3:]]
         arguments = words[1:] if words[0] == "ros2" else ["run", *words[1:]]
-        return Typed(*arguments, cwd=COURSE, env={**os.environ, "COLUMNS": "80"})
+        return CommandLine(*arguments, cwd=COURSE, env={**os.environ, "COLUMNS": "80"})
 
     def close(self) -> None:
         """End the programs."""

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 from processes.certificates import make_certificates
+from processes.command_line import run_cli
 from processes.ports import free_port
-from processes.typed import typed
 
 if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
@@ -28,14 +28,14 @@ def test_background_robot_is_reached_through_router_with_certificate_only(
     files = make_certificates(tmp_path)
     place = f"tls/localhost:{free_port()}"
     shown = ("--tls-certificate", files.certificate, "--tls-key", files.key)
-    started = typed("up", "--serve", place, "--tls-ca", files.ca, *shown)
+    started = run_cli("up", "--serve", place, "--tls-ca", files.ca, *shown)
     try:
         assert started.returncode == 0, started.stderr
         assert "WARNING" not in started.stderr  # The router listens on loopback.
         monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", f"{os.environ['BOT_CONSOLE_SOCKET_DIR']}x")
         capture = tmp_path / "robot.json"
         way = ("--connect", place, "--tls-ca", files.ca)
-        seen = typed("doctor", *way, *shown, "--capture", str(capture))
+        seen = run_cli("doctor", *way, *shown, "--capture", str(capture))
         assert seen.returncode == 0, seen.stdout
         assert "emergency stop that answers" in seen.stdout
         assert any("/simulator/" in each for each in json.loads(capture.read_text())["tokens"])
@@ -47,17 +47,17 @@ def test_background_robot_is_reached_through_router_with_certificate_only(
         }
         override = ("enable_mtls=true", *(f'{name}="{path}"' for name, path in names.items()))
         monkeypatch.setenv("ZENOH_CONFIG_OVERRIDE", ";".join(f"transport/link/tls/{each}" for each in override))
-        assert "/simulator" in typed("node", "list").stdout
-        assert typed("stop", "from afar").returncode == 0
+        assert "/simulator" in run_cli("node", "list").stdout
+        assert run_cli("stop", "from afar").returncode == 0
         monkeypatch.delenv("ZENOH_CONFIG_OVERRIDE")
         monkeypatch.delenv("BOT_CONSOLE_CONNECT")
-        refused = typed("doctor", *way)
+        refused = run_cli("doctor", *way)
         assert refused.returncode == 1 and "--tls-certificate" in refused.stdout
     finally:
         monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", os.environ["BOT_CONSOLE_SOCKET_DIR"].removesuffix("x"))
-        ended = typed("down")
+        ended = run_cli("down")
     assert ended.returncode == 0
-    assert typed("doctor", "--connect", place.replace("tls/", "tcp/")).returncode == 1
+    assert run_cli("doctor", "--connect", place.replace("tls/", "tcp/")).returncode == 1
 
 
 @pytest.mark.parametrize(
@@ -69,7 +69,7 @@ def test_background_robot_is_reached_through_router_with_certificate_only(
     ],
 )
 def test_invalid_endpoint_is_refused_and_open_one_warned_of(words: list[str], code: int, reported: str) -> None:
-    done = typed("router", *words)
+    done = run_cli("router", *words)
     assert done.returncode == code and reported in done.stderr
 
 

@@ -12,7 +12,7 @@ from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.console.topics.port import Payload, Slot, Topics
 from bot_console.tui.session.embedded.domain import take_part
 from bot_console.tui.session.embedded.hooks import DomainTypes
-from processes.typed import Typed, typed
+from processes.command_line import CommandLine, run_cli
 from rigs import until
 
 if os.name == "nt":
@@ -81,7 +81,7 @@ def other_workspace(tmp_path: Path) -> Iterator[Path]:
     (tmp_path / "elsewhere").mkdir()
     file = tmp_path / "here" / "painter.py"
     file.write_text(PAINTER)
-    painter = Typed("run", str(file), cwd=file.parent)
+    painter = CommandLine("run", str(file), cwd=file.parent)
     yield tmp_path / "elsewhere"
     painter.end(signal.SIGKILL)
 
@@ -95,12 +95,12 @@ def form_of(traffic: Topics, payload: Payload, type_name: str) -> Sequence[Slot]
 
 
 def test_verb_reads_messages_by_definition_from_their_node_unless_hash_differs(other_workspace: Path) -> None:
-    while "/spots" not in typed("topic", "list", cwd=other_workspace).stdout:
+    while "/spots" not in run_cli("topic", "list", cwd=other_workspace).stdout:
         pass
-    echo = typed("topic", "echo", "--once", "/spots", cwd=other_workspace)
+    echo = run_cli("topic", "echo", "--once", "/spots", cwd=other_workspace)
     assert echo.stdout.startswith("spots:\n- x: 1.5\n  y: 0.0\nheader:\n") and "tag: abc" in echo.stdout
     assert echo.returncode == 0
-    untrue = typed("topic", "echo", "--once", "/false_spots", cwd=other_workspace)
+    untrue = run_cli("topic", "echo", "--once", "/false_spots", cwd=other_workspace)
     assert untrue.returncode == 1 and untrue.stdout == ""
     assert "'false_shapes/msg/Spot' of topic '/false_spots' is not installed here" in untrue.stderr
     assert "/painter describes it by a definition that does not have the hash RIHS01_" in untrue.stderr
@@ -108,43 +108,47 @@ def test_verb_reads_messages_by_definition_from_their_node_unless_hash_differs(o
 
 @pytest.mark.slow
 def test_bag_records_foreign_types_and_names_topics_without_definition_or_publisher(other_workspace: Path) -> None:
-    while "/spots" not in typed("topic", "list", cwd=other_workspace).stdout:
+    while "/spots" not in run_cli("topic", "list", cwd=other_workspace).stdout:
         pass
     topics = "/spots", "/false_spots", "/nowhere"
-    recorded = typed("bag", "record", "-o", "bag", "--duration", "4", *topics, cwd=other_workspace)
+    recorded = run_cli("bag", "record", "-o", "bag", "--duration", "4", *topics, cwd=other_workspace)
     assert recorded.returncode == 0, recorded.stderr
     ended = recorded.stderr.splitlines()[-1]
     assert "/false_spots was recorded without a definition" in ended
     assert "'/false_spots' is recorded without a definition: its type false_shapes/msg/Spot is not" in recorded.stderr
     assert "/nowhere was not recorded: nobody has published it" in ended and "/spots was" not in ended.split("; ")
-    shown = typed("bag", "info", "bag", cwd=other_workspace).stdout
+    shown = run_cli("bag", "info", "bag", cwd=other_workspace).stdout
     assert "Topic: /spots | Type: told_shapes/msg/Path" in shown
     assert "Topic: /false_spots | Type: false_shapes/msg/Spot" in shown
 
 
 @pytest.mark.slow
 def test_verbs_send_goals_requests_and_messages_of_foreign_types(other_workspace: Path) -> None:
-    while "/draw" not in typed("action", "list", cwd=other_workspace).stdout:
+    while "/draw" not in run_cli("action", "list", cwd=other_workspace).stdout:
         pass
-    assert "/draw [told_shapes/action/Draw]\n" in typed("action", "list", "-t", cwd=other_workspace).stdout
-    info = typed("action", "info", "-t", "/draw", cwd=other_workspace)
+    assert "/draw [told_shapes/action/Draw]\n" in run_cli("action", "list", "-t", cwd=other_workspace).stdout
+    info = run_cli("action", "info", "-t", "/draw", cwd=other_workspace)
     assert "Action servers: 1\n    /painter [told_shapes/action/Draw]\n" in info.stdout
-    sent = typed("action", "send_goal", "-f", "/draw", "told_shapes/action/Draw", "{to: {x: 1.5}}", cwd=other_workspace)
+    sent = run_cli(
+        "action", "send_goal", "-f", "/draw", "told_shapes/action/Draw", "{to: {x: 1.5}}", cwd=other_workspace
+    )
     assert (sent.stderr, sent.returncode) == ("", 0)
     assert "Sending goal:\n     to:\n  x: 1.5\n  y: 0.0\nhow: 2\n" in sent.stdout
     assert "Feedback:\n    done: 0.5\n" in sent.stdout and "Result:\n    drawn:\n- x: 1.5\n" in sent.stdout
     assert sent.stdout.endswith("Goal finished with status: SUCCEEDED\n")
 
-    shown = typed("interface", "show", "told_shapes/action/Draw", cwd=other_workspace).stdout
+    shown = run_cli("interface", "show", "told_shapes/action/Draw", cwd=other_workspace).stdout
     assert shown.startswith("# To\nSpot to\n\tfloat64 x\n\tfloat64 y\nint8 BY=2\nint8 how 2\n---\n")
-    called = typed("service", "call", "/paint", "told_shapes/srv/Paint", "{at: {x: 1.0, y: 2.0}}", cwd=other_workspace)
+    called = run_cli(
+        "service", "call", "/paint", "told_shapes/srv/Paint", "{at: {x: 1.0, y: 2.0}}", cwd=other_workspace
+    )
     assert called.stdout.endswith("told_shapes.srv.Paint_Response(painted=3.0)\n\n")
-    published = typed("topic", "pub", "--once", "/wanted", "told_shapes/Spot", "{x: 4.0}", cwd=other_workspace)
+    published = run_cli("topic", "pub", "--once", "/wanted", "told_shapes/Spot", "{x: 4.0}", cwd=other_workspace)
     assert "publishing #1: told_shapes.msg.Spot(x=4.0, y=0.0)" in published.stdout
 
-    wrong = typed("action", "send_goal", "/draw", "told_shapes/action/Drew", cwd=other_workspace)
+    wrong = run_cli("action", "send_goal", "/draw", "told_shapes/action/Drew", cwd=other_workspace)
     assert (wrong.stdout, wrong.stderr.strip(), wrong.returncode) == ("", "The passed action type is invalid", 1)
-    untrue = typed("action", "send_goal", "/draw_falsely", "false_shapes/action/Draw", cwd=other_workspace)
+    untrue = run_cli("action", "send_goal", "/draw_falsely", "false_shapes/action/Draw", cwd=other_workspace)
     assert untrue.stdout == "" and untrue.returncode == 1
     assert "/painter describes it by a definition that does not have the hash RIHS01_" in untrue.stderr
 

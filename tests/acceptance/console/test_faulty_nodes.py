@@ -25,7 +25,7 @@ from bot_console.tui.session.embedded.child_host import start_host, why_it_hangs
 from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH, SYSTEM_LAUNCH
 from bot_console.tui.session.launch_host.proxy import HostedLauncher
 from launcher_bench import WAITS
-from processes.typed import typed
+from processes.command_line import run_cli
 
 TIMEOUT_S = 240.0
 """Seconds after which a test gives up; nothing is measured by it."""
@@ -80,7 +80,7 @@ class System:
 
     def all_others_go_on(self) -> None:
         """The robot publishes odometry, no process was restarted, and the good node runs."""
-        assert typed("topic", "echo", "--once", "/odom", "--field", "header.stamp").returncode == 0
+        assert run_cli("topic", "echo", "--once", "/odom", "--field", "header.stamp").returncode == 0
         assert self.named("good").state is ProcessState.RUNNING
         assert self.named("safety_node").restarts == 0
 
@@ -210,8 +210,8 @@ def test_node_holding_interpreter_lock_in_c_is_named_with_its_line(system: Syste
     system.start({"hangs": HEAD + "ctypes.PyDLL(None).sleep(100000)\n"})
     system.until(lambda: "hangs.py:7, in <module>" in system.named("hangs").problem, "the line in which it hangs")
     assert "holds the interpreter lock" in system.named("hangs").problem
-    assert typed("stop", "a test").returncode == 0
-    assert typed("release").returncode == 0
+    assert run_cli("stop", "a test").returncode == 0
+    assert run_cli("release").returncode == 0
     system.kill(["hangs"])
     system.all_others_go_on()
 
@@ -286,9 +286,9 @@ def test_robot_can_be_stopped_beside_nodes_that_never_end(system: System) -> Non
     system.start({name: HEAD + fault for name, fault in ENDLESS.items() if name != "floods"})
     system.until(lambda: (system.named("holds").memory or 0) > 250, "its memory")
     system.start({"floods": HEAD + ENDLESS["floods"]})
-    assert typed("stop", "a test").returncode == 0
+    assert run_cli("stop", "a test").returncode == 0
     system.kill(["floods"])  # It takes a whole processor.
-    assert typed("param", "get", "/waiter", "use_sim_time").stdout == "Boolean value is: False\n"
-    assert typed("release").returncode == 0
+    assert run_cli("param", "get", "/waiter", "use_sim_time").stdout == "Boolean value is: False\n"
+    assert run_cli("release").returncode == 0
     system.kill(ENDLESS.keys() - {"floods"})
     system.all_others_go_on()

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from processes.typed import typed
+from processes.command_line import run_cli
 
 sys.path.insert(0, str(Path(__file__).parent))
 from terminal import Terminal
@@ -42,19 +42,19 @@ def same_folder(console: Terminal, monkeypatch: pytest.MonkeyPatch, socket_folde
 
 
 def speed() -> float:
-    return float(typed("topic", "echo", "--once", "/odom", "--field", "twist.twist.linear.x").stdout.split()[0])
+    return float(run_cli("topic", "echo", "--once", "/odom", "--field", "twist.twist.linear.x").stdout.split()[0])
 
 
 def test_verbs_in_a_second_terminal_reach_the_robot(console: Terminal) -> None:
-    refused = typed("param", "set", "/robot_navigator", "max_speed", "10.0")
+    refused = run_cli("param", "set", "/robot_navigator", "max_speed", "10.0")
     assert "out of range" in refused.stderr + refused.stdout
-    assert typed("param", "set", "/robot_navigator", "max_speed", "2.0").stdout == "Set parameter successful\n"
-    assert typed("param", "get", "/robot_navigator", "max_speed").stdout == "Double value is: 2.0\n"
+    assert run_cli("param", "set", "/robot_navigator", "max_speed", "2.0").stdout == "Set parameter successful\n"
+    assert run_cli("param", "get", "/robot_navigator", "max_speed").stdout == "Double value is: 2.0\n"
     console.output = b""
-    assert typed("stop", "a test").returncode == 0
+    assert run_cli("stop", "a test").returncode == 0
     console.read_until(lambda: b"ALL STOP" in console.output, "the lock on the first screen")
     console.read_until(lambda: abs(speed()) < 0.05, "the robot at rest, which brakes from 2 m/s")
-    assert typed("release").returncode == 0
+    assert run_cli("release").returncode == 0
     console.read_until(lambda: speed() > 0.1, "the robot that drives again")
 
 
@@ -85,6 +85,6 @@ def test_signal_makes_console_write_its_stacks_and_continue(console: Terminal) -
     assert "Current thread" in stacks and "_writer_thread.py" in stacks
     assert f"process {console.process.pid}: screens 1" in stacks
     console.output = b""
-    assert typed("stop", "a test").returncode == 0
+    assert run_cli("stop", "a test").returncode == 0
     console.read_until(lambda: b"ALL STOP" in console.output, "the lock on the first screen")
-    assert typed("release").returncode == 0
+    assert run_cli("release").returncode == 0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from processes.typed import typed
+from processes.command_line import run_cli
 
 LAUNCH = """\
 from launch import LaunchDescription
@@ -19,6 +19,6 @@ def generate_launch_description():
 def test_course_is_listed_in_workspace_with_launch_files(tmp_path: Path) -> None:
     (tmp_path / "launch").mkdir()
     (tmp_path / "launch" / "one.launch.py").write_text(LAUNCH, encoding="utf-8")
-    done = typed("learn", "--list", cwd=tmp_path)
+    done = run_cli("learn", "--list", cwd=tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
     assert "0 of 60 done" in done.stdout

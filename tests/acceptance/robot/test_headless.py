@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from bot_console.runtime.workspace.builtin_package import ROOT
 from bot_console.tui.cli.main import main
-from processes.typed import typed
+from processes.command_line import run_cli
 from systems import system
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -60,7 +60,7 @@ def test_logs_are_formatted_as_in_ros(runs):
 
 @pytest.mark.slow
 def test_real_time_run_is_reported_as_not_deterministic(tmp_path):
-    done = typed("--headless", "--duration", "1", cwd=tmp_path)
+    done = run_cli("--headless", "--duration", "1", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     assert '"deterministic": false' in done.stdout
 
@@ -149,7 +149,7 @@ def test_program_that_never_ends_is_killed_by_its_launch(tmp_path):
 @pytest.mark.parametrize("content", ["simulator:\n  ros__parameters:\n    world: 5\n", "a: [\n"], ids=["value", "YAML"])
 def test_parameters_that_end_the_simulator_end_the_run_at_once(tmp_path, content):
     (tmp_path / "bad.yaml").write_text(content)
-    done = typed("--headless", "--fast", "--duration", "1000", "config_file:=bad.yaml", cwd=tmp_path)
+    done = run_cli("--headless", "--fast", "--duration", "1000", "config_file:=bad.yaml", cwd=tmp_path)
     assert done.returncode == 1
     assert "the simulator ended with exit code 1 before it reported" in done.stderr.splitlines()[-1]
     assert "[1700000001." not in done.stderr, "no second was simulated after that"
@@ -179,7 +179,7 @@ def test_wrong_usage_gets_one_clear_line(tmp_path, monkeypatch, capfd, words, co
 
 
 def test_unknown_world_ends_the_run(tmp_path):
-    done = typed("--headless", "--fast", "--duration", "1", "world:=nowhere", cwd=tmp_path)
+    done = run_cli("--headless", "--fast", "--duration", "1", "world:=nowhere", cwd=tmp_path)
     assert done.returncode == 1, done.stderr
     assert "no world 'nowhere'" in done.stderr
     assert "Traceback" not in done.stderr
@@ -232,7 +232,7 @@ def test_random_numbers_of_a_node_are_reproducible(tmp_path):
 
     def drawn(seed: str) -> list[str]:
         words = ("run", "--headless", "--fast", "--no-simulator", "--duration", "1", "--seed", seed, "draws.py")
-        done = typed(*words, cwd=tmp_path)
+        done = run_cli(*words, cwd=tmp_path)
         return [line for line in done.stderr.splitlines() if "DRAWN" in line]
 
     first = drawn("3")

@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from processes.typed import typed
+from processes.command_line import run_cli
 
 sys.path.insert(0, str(Path(__file__).parent))
 from headless import headless
@@ -49,7 +49,7 @@ def write(folder, *entities):
 
 def run(folder, *words, seconds="6"):
     words = ("--headless", "--fast", "--duration", seconds, "--launch", "mine.launch.py", *words)
-    return typed(*words, cwd=folder)
+    return run_cli(*words, cwd=folder)
 
 
 @pytest.mark.slow
@@ -185,5 +185,5 @@ def test_run_and_launch_verbs_start_no_robot(tmp_path, monkeypatch, words, giver
     (tmp_path / "asks.py").write_text(ASKS.replace("MAX_LOOKS", str(max_looks)))
     node = "Node(executable='./asks.py', output='screen')"
     (tmp_path / "asks.launch.py").write_text(LAUNCH.format(entities=f"[{node}]"))
-    done = typed(*words, cwd=tmp_path)
+    done = run_cli(*words, cwd=tmp_path)
     assert f"given by {givers}" in done.stdout + done.stderr, done.stderr

@@ -4,7 +4,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from processes.typed import typed
+from processes.command_line import run_cli
 
 sys.path.insert(0, str(Path(__file__).parent))
 from headless import headless
@@ -78,7 +78,7 @@ def test_users_executable_runs_beside_our_simulator(name, workspace):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_named_package_is_taken_from_the_workspace(name, workspace):
-    done = typed("run", name, "safety_node", cwd=workspace)
+    done = run_cli("run", name, "safety_node", cwd=workspace)
     assert done.returncode == 1
     assert "which has: robot_node" in done.stderr
     assert f"package '{name}' is the one in {workspace / 'src' / name}" in done.stderr

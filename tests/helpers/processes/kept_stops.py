@@ -129,7 +129,7 @@ def _drained(person: Terminal) -> bool:
 
 def release(robot: LiveRobot) -> None:
     """Release everybody's stops from a shell, and wait until the robot drives."""
-    assert robot.typed("release", "--all") == 0
+    assert robot.run_cli("release", "--all") == 0
     robot.drives()
 
 

@@ -177,7 +177,7 @@ class LiveRobot:
         self.monitor = self.console("run", "bot_console_robot", "safety_node")
         return self.monitor
 
-    def typed(self, *words: str | bytes, environment: Mapping[str, str] | None = None) -> int:
+    def run_cli(self, *words: str | bytes, environment: Mapping[str, str] | None = None) -> int:
         """Run a command line to its end; returns its exit code."""
         return self.console(*words, environment=environment).wait(TIMEOUT_S)
 
@@ -233,11 +233,11 @@ class BackgroundRobot(LiveRobot):
 
     def start(self) -> None:
         """Start it."""
-        assert self.typed("up", "indoor") == 0, self.log()
+        assert self.run_cli("up", "indoor") == 0, self.log()
 
     def close(self) -> None:
         """End the robot and all other processes."""
-        self.typed("down")
+        self.run_cli("down")
         super().close()
 
 

@@ -158,9 +158,9 @@ def second_driver(robot: LiveRobot) -> float:
     driver = robot.second_driver()
     robot.drives()
     robot.until(lambda: len(robot.speeds(time.monotonic() - 1.0)) > 0, "odometry")
-    assert robot.typed("stop", "the arm swings") == 0
+    assert robot.run_cli("stop", "the arm swings") == 0
     went_on = rests(robot, time.monotonic(), 0.0)
-    assert robot.typed("release") == 0
+    assert robot.run_cli("release") == 0
     robot.drives()
     driver.kill()
     return went_on
@@ -184,7 +184,7 @@ def _stopped_then(robot: LiveRobot, number: signal.Signals) -> float:
         held = time.monotonic()
         terminal.process.send_signal(number)
         went_on = rests(robot, held, 0.0)
-    assert robot.typed("release", "--all") == 0
+    assert robot.run_cli("release", "--all") == 0
     robot.drives()
     driver.kill()
     return went_on
@@ -201,7 +201,7 @@ def killed_monitor(robot: LiveRobot) -> float:
     began = time.monotonic()
     robot.start_monitor()
     rests(robot, began, 0.0)
-    assert robot.typed("release") == 0
+    assert robot.run_cli("release") == 0
     robot.drives()
     driver.kill()
     return went_on
@@ -244,8 +244,8 @@ def hand_back(robot: LiveRobot, terminal: Terminal) -> None:
 
 def release_all(robot: LiveRobot) -> None:
     """Release by command line, since no console is left that could hand the robot back."""
-    assert robot.typed("release") == 1, "nobody else's release lets go of it unnamed"
-    assert robot.typed("release", "--all") == 0
+    assert robot.run_cli("release") == 1, "nobody else's release lets go of it unnamed"
+    assert robot.run_cli("release", "--all") == 0
     robot.drives()
 
 

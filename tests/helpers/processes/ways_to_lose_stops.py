@@ -197,14 +197,14 @@ def _world(robot: LiveRobot, meanwhile: Terminal) -> str:
 
 def up_again(robot: LiveRobot, person: Terminal) -> None:
     """Somebody starts the system again while it is running, which is refused."""
-    assert [robot.typed("up"), robot.typed("up", "warehouse")] == [1, 1]
+    assert [robot.run_cli("up"), robot.run_cli("up", "warehouse")] == [1, 1]
 
 
 def down_and_up(robot: LiveRobot, person: Terminal) -> None:
     """The system ends and starts again."""
     with starting_again(robot, person):
-        assert robot.typed("down") == 0
-        assert robot.typed("up", "indoor") == 0
+        assert robot.run_cli("down") == 0
+        assert robot.run_cli("up", "indoor") == 0
 
 
 def console_killed(robot: LiveRobot, person: Terminal) -> None:
@@ -252,7 +252,7 @@ class FarConsole:
 
 def simulator_reset(robot: LiveRobot, person: Terminal) -> None:
     """The world is reset."""
-    assert robot.typed("service", "call", "/reset", "std_srvs/srv/Trigger") == 0
+    assert robot.run_cli("service", "call", "/reset", "std_srvs/srv/Trigger") == 0
 
 
 @contextlib.contextmanager
@@ -272,7 +272,7 @@ def recording(robot: LiveRobot) -> Iterator[None]:
 def bag_played(robot: LiveRobot, person: Terminal) -> None:
     """All recorded messages of an earlier stop and its release are sent again; the witness must see the release."""
     before = list(robot.releases)
-    assert robot.typed("bag", "play", str(robot.folder / "stops"), "--topics", *RECORDED) == 0
+    assert robot.run_cli("bag", "play", str(robot.folder / "stops"), "--topics", *RECORDED) == 0
     robot.until(lambda: len(robot.releases) > len(before), "release of the bag")
     assert set(robot.releases[len(before) :]) <= set(before), "another release than the recorded one"
 
@@ -391,7 +391,7 @@ def unreadable_stores(robot: LiveRobot) -> Iterator[Sequence[str]]:
 def stop_with_undecodable_text(robot: LiveRobot, person: Terminal) -> None:
     """Stop from a shell for a reason, and as a user, that are not UTF-8."""
     environment = {name: "\udcff" for name in ("LOGNAME", "USER")}
-    robot.typed("stop", b"\xff too close", environment=environment)
+    robot.run_cli("stop", b"\xff too close", environment=environment)
 
 
 def damaged_stop_file(robot: LiveRobot, person: Terminal) -> None:

@@ -6,15 +6,15 @@ import os
 from pathlib import Path
 
 import pytest
+from processes.command_line import run_cli
 from processes.two_processes import two_processes
-from processes.typed import typed
 
 if os.name == "nt":
     pytest.skip("programs meet on Unix sockets", allow_module_level=True)
 
 
 def complete(*words: str) -> list[str]:
-    done = typed("complete", "bot-console", *words)
+    done = run_cli("complete", "bot-console", *words)
     assert done.returncode == 0
     return done.stdout.split()
 

@@ -9,7 +9,7 @@ import pytest
 from bot_console.tui.cli.learn import run
 from bot_console.tui.cli.lint.run import run as lint
 from bot_console.tui.learn.command_log import open_log, read_log
-from processes.typed import typed
+from processes.command_line import run_cli
 
 
 def test_list_shows_steps_and_what_the_next_one_still_needs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -57,11 +57,11 @@ def test_recorded_exit_code_is_the_one_of_the_process(tmp_path: Path, monkeypatc
     monkeypatch.setenv("BOT_CONSOLE_SOCKET_DIR", str(tmp_path))
     log = open_log()
     codes = [
-        typed(*words).returncode
+        run_cli(*words).returncode
         for words in (["lint", "--help"], ["lint", "--nonsense"], ["stop", "--help"], ["--version"])
     ]
     assert codes == [0, 2, 0, 0]
     assert [(each.words[0], each.code) for each in read_log(log)] == [("lint", 0), ("lint", 2)]
     os.remove(log)
-    typed("lint", "--help")
+    run_cli("lint", "--help")
     assert not os.path.exists(log)

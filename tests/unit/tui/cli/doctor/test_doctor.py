@@ -18,7 +18,7 @@ from bot_console.tui.cli.shell_python import ShellPython
 from domains import unused_domain
 from fakes.ros_installation import make_standin
 from geometry_msgs.msg import Twist
-from processes.typed import typed
+from processes.command_line import run_cli
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -197,7 +197,7 @@ def test_doctor_says_first_that_it_searches_another_range() -> None:
 
 
 def test_findings_are_printed_as_json() -> None:
-    done = typed("doctor", "--json")
+    done = run_cli("doctor", "--json")
     found = json.loads(done.stdout)
     assert done.returncode == 0 and not done.stderr
     assert {"terminal", "python", "ros", "rclpy", "domain", "sockets", "graph"} == {each["about"] for each in found}
@@ -205,14 +205,14 @@ def test_findings_are_printed_as_json() -> None:
 
 
 def test_unreachable_robot_fails_with_the_reason() -> None:
-    done = typed("doctor", "--connect", "tcp/127.0.0.1:1")
+    done = run_cli("doctor", "--connect", "tcp/127.0.0.1:1")
     assert done.returncode == 1
     assert "✗ link       FAIL: tcp/127.0.0.1:1: the host is there, but no router listens on port 1" in done.stdout
 
 
 def test_wrong_usage_exits_with_2() -> None:
-    assert typed("doctor", "--connect", "robot").returncode == 2
-    assert typed("doctor", "--connect", "tcp/a:1", "--ros").returncode == 2
+    assert run_cli("doctor", "--connect", "robot").returncode == 2
+    assert run_cli("doctor", "--connect", "tcp/a:1", "--ros").returncode == 2
 
 
 def test_closed_pipe_is_not_blamed_on_the_capture(monkeypatch, capsys):

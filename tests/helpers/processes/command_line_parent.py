@@ -1,4 +1,4 @@
-"""The parent process of the command lines in tests: imports what they need once, and forks for each (see `typed`)."""
+"""The parent process of command lines in tests: it imports what they need once, and forks for each."""
 
 from __future__ import annotations
 

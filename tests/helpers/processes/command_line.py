@@ -20,10 +20,10 @@ from pathlib import Path
 
 TIMEOUT_S = 600.0
 """Seconds after which a test gives up; nothing is measured by it."""
-PARENT = Path(__file__).with_name("typed_parent.py")
+PARENT = Path(__file__).with_name("command_line_parent.py")
 
 
-class Typed:
+class CommandLine:
     """A command line that runs as if in another terminal; its output is kept."""
 
     def __init__(self, *words: str, cwd: str | Path | None = None, env: Mapping[str, str] | None = None) -> None:
@@ -67,14 +67,14 @@ class Typed:
         return written
 
 
-def typed(
+def run_cli(
     *words: str, cwd: str | Path | None = None, env: Mapping[str, str] | None = None
 ) -> subprocess.CompletedProcess[str]:
     """Run a command line to its end."""
     if not hasattr(os, "fork"):
         line = [sys.executable, "-m", "bot_console.tui", *words]
         return subprocess.run(line, cwd=cwd, env=env, capture_output=True, text=True, check=False, timeout=TIMEOUT_S)
-    return Typed(*words, cwd=cwd, env=env).end()
+    return CommandLine(*words, cwd=cwd, env=env).end()
 
 
 @cache
