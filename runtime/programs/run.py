@@ -15,7 +15,7 @@ from bot_console.runtime.children.child_environment import child_environment
 from bot_console.runtime.children.ros_wheels import clear_wheel_environment
 from bot_console.runtime.importer import install, places_of
 from bot_console.runtime.process import MAIN, code_program, current, module_program
-from bot_console.runtime.rmw.parameter_file import find_with
+from bot_console.runtime.rmw.parameter_file import register_hint_source
 from bot_console.runtime.shim_folder import shim_folder
 from bot_console.runtime.workspace.executables import executables
 from bot_console.runtime.workspace.parameter_files import hint_for
@@ -31,7 +31,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run the program that the arguments name and return its exit code."""
     words = list(sys.argv[1:] if argv is None else argv)
     install()
-    find_with(hint_for)
+    register_hint_source(hint_for)
     _let_children_import()
     if not words:
         return _refuse("name a file or a package: bot-console run FILE.py, or bot-console run PACKAGE EXECUTABLE")

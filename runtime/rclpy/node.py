@@ -141,7 +141,9 @@ class Node(NodeParameters, NodeGraph):
         self._ros_namespace = remapping.remap_namespace(self._ros_remap_rules, name) or namespace
         problem = names.validate_namespace(self._ros_namespace)
         if problem:
-            raise RCLError(f"error creating node: invalid node namespace: {names.in_words_for_node_names(problem[0])}")
+            raise RCLError(
+                f"error creating node: invalid node namespace: {names.namespace_problem_of_new_node(problem[0])}"
+            )
 
     def _ros_make_parameters(
         self, arguments: list[Arguments], overrides: Sequence[Parameter] | None, undeclared: bool, automatic: bool

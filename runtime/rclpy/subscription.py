@@ -11,7 +11,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import current
-from bot_console.runtime.rmw.endpoints import Held, SubscriptionEndpoint, own
+from bot_console.runtime.rmw.endpoints import HeldMessage, SubscriptionEndpoint, own
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.impl.callables import is_coroutine_function, takes
 from rclpy.impl.callback_order import SUBSCRIPTION
@@ -136,7 +136,12 @@ class Subscription(Entity):
         return self._content_filter
 
     def _set_filter(self, wanted: ContentFilterOptions, verb: str) -> None:
-        from bot_console.runtime.rmw.content_filter import MAX_PARAMETERS, ContentFilterError, FilteredQueue, compiled
+        from bot_console.runtime.rmw.content_filter import (
+            MAX_PARAMETERS,
+            ContentFilterError,
+            FilteredQueue,
+            compile_filter,
+        )
 
         expression, parameters = wanted
         if not isinstance(expression, str) or not all(isinstance(each, str) for each in parameters):  # pyright: ignore[reportUnnecessaryIsInstance] -- a user's arguments
@@ -155,7 +160,7 @@ class Subscription(Entity):
             self._use_queue(deque(self._queue, self._queue.maxlen))
             return
         try:
-            accepts = compiled(expression, parameters, self.msg_type)
+            accepts = compile_filter(expression, parameters, self.msg_type)
         except ContentFilterError as error:
             failed = "set cft expression parameters" if verb == "set" else "create subscription"
             raise RCLError(f"Failed to {failed}: the content filter '{expression}' is invalid: {error}") from None
@@ -194,7 +199,7 @@ class Subscription(Entity):
             self.notify()  # in a reentrant group the next callback may begin before this one has ended
         if expires is not None and current().clock.system_ns() > expires:
             return None
-        if isinstance(message, Held):  # inlined from `own`, to save a call per message
+        if isinstance(message, HeldMessage):  # inlined from `own`, to save a call per message
             message = message.take()
             if message is None:
                 return None

@@ -80,7 +80,7 @@ def _parse_outside(word: str, parsed: Arguments) -> None:
     parsed.deprecated_rules.append(word)
 
 
-def meant(word: str) -> str:
+def suggest_argument(word: str) -> str:
     """Suggest the ROS argument that a mistyped one may mean, as a sentence; empty if none is similar."""
     near = did_you_mean(word, [*_VALUED, *_SWITCHES])
     return f"{word} is not a ROS argument{near}" if near else ""

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Sequence
 from importlib import import_module
 from typing import Any
 
-from bot_console.runtime.rmw.endpoints import Held, Payload
+from bot_console.runtime.rmw.endpoints import HeldMessage, Payload
 from bot_console.runtime.rosidl.cdr import CdrError, deserialize
 
 MAX_PARAMETERS = 100
@@ -60,7 +60,7 @@ class FilteredQueue(deque[Any]):
     def append(self, entry: Any, /) -> None:
         """Add an entry if its message is accepted; an unreadable message has already been reported, and is left out."""
         message = entry[0]
-        if isinstance(message, Held):
+        if isinstance(message, HeldMessage):
             message = message.peek()
         elif isinstance(message, bytes):
             try:
@@ -72,7 +72,7 @@ class FilteredQueue(deque[Any]):
             super().append(entry)
 
 
-def compiled(expression: str, parameters: Sequence[str], message_class: object) -> Accepts:
+def compile_filter(expression: str, parameters: Sequence[str], message_class: object) -> Accepts:
     """Return the predicate for messages of a class; raises `ContentFilterError`. An empty expression accepts all."""
     if not expression:
         return lambda message: True
@@ -103,7 +103,7 @@ class _Parser:
         self._at = min(self._at + 1, len(self._tokens) - 1) if token != _END else self._at
         return token
 
-    def _takes(self, *words: str) -> str:
+    def _accept_word(self, *words: str) -> str:
         """Take the next token if it is one of the words, given in capitals; returns the word, or nothing."""
         kind, text = self._tokens[self._at]
         if kind in ("word", "sign") and text.upper() in words:
@@ -112,20 +112,20 @@ class _Parser:
         return ""
 
     def _expect(self, word: str) -> None:
-        if not self._takes(word):
+        if not self._accept_word(word):
             raise ContentFilterError(f"'{word}' is missing before {_quoted(self._tokens[self._at][1])}")
 
     def _condition(self) -> Accepts:
         left = self._negated()
-        while joint := self._takes("AND", "OR"):
+        while joint := self._accept_word("AND", "OR"):
             left = _joined(joint, left, self._negated())
         return left
 
     def _negated(self) -> Accepts:
-        if self._takes("NOT"):
+        if self._accept_word("NOT"):
             inner = self._negated()
             return lambda message: not inner(message)
-        if self._takes("("):
+        if self._accept_word("("):
             inner = self._condition()
             self._expect(")")
             return inner
@@ -145,8 +145,8 @@ class _Parser:
         return _compared(name, read, is_text, _MIRRORED.get(sign, sign), value)
 
     def _of_field(self, name: str, read: Read, is_text: bool) -> Accepts:
-        negated = bool(self._takes("NOT"))
-        if self._takes("BETWEEN"):
+        negated = bool(self._accept_word("NOT"))
+        if self._accept_word("BETWEEN"):
             low = self._value(*self._next())
             self._expect("AND")
             high = self._value(*self._next())
@@ -155,7 +155,7 @@ class _Parser:
             return lambda message: (above(message) and below(message)) is not negated
         if negated:
             raise ContentFilterError("NOT stands before a comparison, or before BETWEEN")
-        if word := self._takes("LIKE", "MATCH"):
+        if word := self._accept_word("LIKE", "MATCH"):
             return _matching(name, read, is_text, word, self._value(*self._next()))
         sign = self._sign()
         kind, text = self._next()
@@ -218,7 +218,7 @@ def _field(name: str, message_class: Any) -> tuple[Read, bool]:
         types: dict[str, str] = getattr(message, "get_fields_and_field_types", dict)()
         if attribute not in types:
             raise ContentFilterError(f"there is no field '{name}'")
-        kind, is_array = _element(types[attribute])
+        kind, is_array = _element_type(types[attribute])
         if is_array is not bool(index):
             raise ContentFilterError(f"'{name}' is {'a' if is_array else 'no'} list: an index belongs behind a list")
         steps.append((attribute, int(index) if index else None))
@@ -228,7 +228,7 @@ def _field(name: str, message_class: Any) -> tuple[Read, bool]:
     return _reader(steps), kind.startswith(("string", "wstring"))
 
 
-def _element(kind: str) -> tuple[str, bool]:
+def _element_type(kind: str) -> tuple[str, bool]:
     """Return the type of a field, or of its elements if it is a sequence, and whether it is one."""
     if kind.startswith("sequence<"):
         return kind[9:-1].partition(",")[0], True

@@ -50,7 +50,7 @@ class Tap:
         """None while there is no observer."""
 
 
-class Held:
+class HeldMessage:
     """A queued message that must be taken with `take`, as others may still hold it."""
 
     __slots__ = ()
@@ -64,7 +64,7 @@ class Held:
         raise NotImplementedError
 
 
-class Shared(Held):
+class SharedMessage(HeldMessage):
     """A message in several queues: each taker gets its own copy, the last one the message itself.
 
     Copying on `take` makes the cost for the publisher and the queues independent of the number of subscriptions, and a
@@ -93,7 +93,7 @@ class Shared(Held):
 
 def own(message: Payload) -> Payload | None:
     """Take a queued message; None if it cannot be read, which has then been reported."""
-    return message.take() if isinstance(message, Held) else message
+    return message.take() if isinstance(message, HeldMessage) else message
 
 
 _gids = itertools.count(1)
@@ -138,7 +138,7 @@ class NodeId(NamedTuple):
 
 
 Arrival = tuple[Payload, int, int, int, "int | None"]
-"""An entry of a subscription's queue: a message or `Held`, sent (ns), received (ns), sequence number, expiry (ns)."""
+"""An entry of a subscription's queue: message or `HeldMessage`, times sent and received (ns), number, expiry (ns)."""
 Response = tuple[int, Payload]
 """An entry of a client's queue: the sequence number of the request, and its response."""
 Request = tuple["ClientEndpoint", int, Payload]
@@ -176,7 +176,7 @@ class Endpoint:
 class SubscriptionEndpoint:
     """Receives messages: `queue` holds entries (message, sent ns, received ns, sequence number, expiry ns).
 
-    The message may be `Held`; `own` takes it.
+    The message may be `HeldMessage`; `own` takes it.
     """
 
     def __init__(

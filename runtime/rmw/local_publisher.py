@@ -14,7 +14,7 @@ from bot_console.runtime.rmw.endpoints import (
     Notify,
     OnEvent,
     Payload,
-    Shared,
+    SharedMessage,
     SubscriptionEndpoint,
     Tap,
     depth,
@@ -125,7 +125,7 @@ class LocalPublisher:
             takers += 1
         expires = stamp + self._lifespan if self._lifespan else None
         # The last taker gets the message itself; the others get copies, which are made only if they take it.
-        given = Shared(message, takers) if takers > 1 else message
+        given = SharedMessage(message, takers) if takers > 1 else message
         for target in targets:
             if target.raw and data is None:
                 data = _codec().serialize(message)

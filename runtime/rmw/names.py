@@ -183,13 +183,13 @@ _NODE_NAME_PROBLEMS = (
 )
 
 
-def result_of(problem: str) -> int:
+def rmw_result_code(problem: str) -> int:
     """Return rmw's number for a message of `validate_node_name` or `validate_namespace`."""
     known = _NODE_NAME_PROBLEMS if problem.startswith("node name") else _NAMESPACE_PROBLEMS
     return 1 + next(place for place, words in enumerate(known) if words in problem)
 
 
-def in_words_for_node_names(namespace_problem: str) -> str:
+def namespace_problem_of_new_node(namespace_problem: str) -> str:
     """Return rmw's message for an invalid namespace of a new node, which rmw looks up among those for node names."""
     number = next(place for place, word in enumerate(_NAMESPACE_PROBLEMS) if word in namespace_problem)
     known = number < len(_NODE_NAME_PROBLEMS)

@@ -70,7 +70,7 @@ def _not_yaml(path: str, content: bytes, error: Exception) -> str:
     lines = content.decode("utf-8", "replace").splitlines()
     line = lines[number] if number < len(lines) else ""
     tab = "\t" in line[: len(line) - len(line.lstrip())]
-    if not tab and (unspaced := _unspaced(path, lines[: number + 1])):
+    if not tab and (unspaced := _missing_space_hint(path, lines[: number + 1])):
         return unspaced
     return f"{path}:{number + 1}: {hints.TAB if tab else problem}"
 
@@ -81,10 +81,10 @@ def _misspelt(path: str, content: bytes, error: Exception) -> str:
         if line.strip().startswith("ros_parameters:"):
             return f"{path}:{number}: {hints.UNDERSCORE}"
     named = re.search(r"line (?:\d+)", str(error))
-    return _unspaced(path, lines[: int(named[0].split()[1])] if named else lines)
+    return _missing_space_hint(path, lines[: int(named[0].split()[1])] if named else lines)
 
 
-def _unspaced(path: str, lines: list[str]) -> str:
+def _missing_space_hint(path: str, lines: list[str]) -> str:
     """Return a hint, with its place, at the last line up to the error that lacks the space after a colon; empty if none
     does.
     """
@@ -224,7 +224,7 @@ Find = Callable[[str], str]
 _finders: list[Find] = []
 
 
-def find_with(find: Find) -> None:
+def register_hint_source(find: Find) -> None:
     """Register a function that gives such hints; does nothing if it is already registered."""
     if find not in _finders:
         _finders.append(find)

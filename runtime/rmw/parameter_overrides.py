@@ -14,7 +14,7 @@ Slots = dict[tuple[str, bool], Any]
 """The values given for a parameter: (kind, whether a list) -> value. Like rcl, it keeps one value per type."""
 
 
-def chosen(slots: Slots) -> Any:
+def effective_value(slots: Slots) -> Any:
     """Return the effective value among those of several types: scalars before lists; None if there is none."""
     for is_list in (False, True):
         for kind in SCALARS:
@@ -56,7 +56,7 @@ class NodeOverrides:
 
     def __iter__(self) -> Iterator[tuple[str, Any]]:
         for name, slots in zip(self.names, self.values, strict=True):
-            yield name, chosen(slots)
+            yield name, effective_value(slots)
 
 
 class ParameterOverrides:

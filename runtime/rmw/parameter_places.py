@@ -52,13 +52,13 @@ def line_of_name(text: str, node: str, name: str) -> int:
 
 def node_keys(text: str) -> Iterator[tuple[str, int]]:
     """Yield the node keys of a parameter file's text, each with its line; none for a text that is not YAML."""
-    for key, line, _ in _sections(_composed(text), "", 0):
+    for key, line, _ in _sections(_yaml_tree(text), "", 0):
         yield key, line
 
 
 def _names(text: str) -> Iterator[tuple[str, str, int]]:
     """Yield the node key, parameter name and line of each value."""
-    for key, _, values in _sections(_composed(text), "", 0):
+    for key, _, values in _sections(_yaml_tree(text), "", 0):
         yield from ((key, *each) for each in _flat(values, ""))
 
 
@@ -84,7 +84,7 @@ def _pairs(node: Any) -> Iterator[tuple[Any, Any]]:
 
 
 @lru_cache(maxsize=8)
-def _composed(text: str) -> Any:
+def _yaml_tree(text: str) -> Any:
     """Parse a text into a tree of YAML nodes; None if it is not YAML."""
     import yaml
 

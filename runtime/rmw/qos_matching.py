@@ -22,17 +22,17 @@ def incompatible_policy(offered: Profile, requested: Profile) -> str:
         worst = "RELIABILITY"
     if requested.durability.name == "TRANSIENT_LOCAL" and offered.durability.name == "VOLATILE":
         worst = "DURABILITY"
-    if _shorter(requested.deadline.nanoseconds, offered.deadline.nanoseconds):
+    if _is_shorter(requested.deadline.nanoseconds, offered.deadline.nanoseconds):
         worst = "DEADLINE"
     if requested.liveliness.name == "MANUAL_BY_TOPIC" and offered.liveliness.name in ("AUTOMATIC", "SYSTEM_DEFAULT"):
         worst = "LIVELINESS"
     lease = requested.liveliness_lease_duration.nanoseconds, offered.liveliness_lease_duration.nanoseconds
-    if _shorter(*lease):
+    if _is_shorter(*lease):
         worst = "LIVELINESS"
     return worst
 
 
-def _every_policy_fits(offered: Profile, requested: Profile) -> str:
+def _always_compatible(offered: Profile, requested: Profile) -> str:
     """Return an empty text: no policy is incompatible in rmw_zenoh, which delivers whatever a publisher offers."""
     return ""
 
@@ -55,11 +55,11 @@ class QosRules(NamedTuple):
 
 DDS = QosRules("rmw_bot_console", incompatible_policy, True)
 """The rules of the embedded domain, which are those of the DDS middlewares."""
-RMW_ZENOH = QosRules("rmw_zenoh_cpp", _every_policy_fits, False)
+RMW_ZENOH = QosRules("rmw_zenoh_cpp", _always_compatible, False)
 """The rules of nodes behind a Zenoh router: no two profiles are incompatible, and no message expires in transit."""
 
 
-def _shorter(requested: int, offered: int) -> bool:
+def _is_shorter(requested: int, offered: int) -> bool:
     """Whether the requested duration is shorter than the offered one."""
     if requested in INFINITE:
         return False

@@ -114,9 +114,9 @@ def stop(text: str) -> None:
 
 
 def key_expressions(text: str) -> None:
-    from bot_console.runtime.rmw.zenoh.wire.keys import demangled, ros_type
+    from bot_console.runtime.rmw.zenoh.wire.keys import demangle, ros_type
 
-    demangled(text)
+    demangle(text)
     ros_type(text)
 
 

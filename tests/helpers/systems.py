@@ -16,7 +16,7 @@ from bot_console.runtime.process import NodeProcess, SteppedTime, stepped
 from bot_console.runtime.process.fork_server import Job, Report
 from bot_console.runtime.process.lockstep.coordinator import coordinator_of
 from bot_console.runtime.process.node.running import running_process
-from bot_console.runtime.rmw.lockstep.coordination import coordinated
+from bot_console.runtime.rmw.lockstep.coordination import coordinated_run
 
 LONG = 240.0
 """Virtual seconds that a command which ends by itself may take."""
@@ -228,7 +228,7 @@ def kill_composed(launch: Program, name: str) -> None:
 def system() -> Iterator[System]:
     """A system whose programs are ended when the block is left."""
     fork_server()  # before the run takes one processor for itself, and what it starts
-    with stepped(stall_s=STALL) as clock, coordinated(clock, seed=0):
+    with stepped(stall_s=STALL) as clock, coordinated_run(clock, seed=0):
         yield System(clock)
 
 

@@ -22,7 +22,7 @@ from bot_console.runtime.process import NodeProcess
 from bot_console.runtime.process.session_end import end_session
 from bot_console.runtime.programs.hints import SHOW
 from bot_console.runtime.rmw.middleware import bus_of
-from bot_console.runtime.rmw.zenoh.domain.sockets import lives
+from bot_console.runtime.rmw.zenoh.domain.sockets import process_exists
 from bot_console.runtime.rosidl import type_hash
 from bot_console.runtime.rosidl.cdr import serialize
 from bot_console.tui.cli.interruptible_wait import wait_interruptibly
@@ -187,7 +187,7 @@ def serve(host: LaunchHost, seconds: float | None = None, forget: Callable[[], N
     forget = forget or log_process_reports(host.noticed, host.learn)
     close_on_signals(host.close)
     folder = socket_folder()
-    remove_addresses_of_dead_hosts(folder, lives)
+    remove_addresses_of_dead_hosts(folder, process_exists)
     listener = HostListener(folder, host.connect)
     wait_interruptibly(host.over, seconds)
     listener.close()

@@ -93,5 +93,5 @@ def _refuse_unknown(parsed: Arguments) -> None:
     if parsed.unknown_ros_args:
         refused = UnknownROSArgsError(repr(parsed.unknown_ros_args))
         if is_read():
-            setattr(refused, HINT, arguments.meant(parsed.unknown_ros_args[0]))
+            setattr(refused, HINT, arguments.suggest_argument(parsed.unknown_ros_args[0]))
         raise refused

@@ -117,7 +117,7 @@ class NodeGraph(NodeBase):
             return owner
         problem = names.validate_namespace(owner[1]) or names.validate_node_name(owner[0])
         if problem:
-            number = names.result_of(problem[0])
+            number = names.rmw_result_code(problem[0])
             raise RCLError(f"failed to get {what} names and types: {problem[0]}, result: {number}")
         raise NodeNameNonExistentError(f"cannot get {what} names and types for nonexistent node: error not set")
 

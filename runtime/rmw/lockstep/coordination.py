@@ -14,7 +14,7 @@ from bot_console.runtime.rmw.middleware import choose_middleware, chosen_middlew
 
 
 @contextmanager
-def coordinated(clock: SteppedTime, seed: int) -> Generator[None]:
+def coordinated_run(clock: SteppedTime, seed: int) -> Generator[None]:
     """Within the block, launches in this run start users' programs as separate processes that follow its clock.
 
     Contexts initialised in the block can communicate with those processes.

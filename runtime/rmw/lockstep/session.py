@@ -58,7 +58,7 @@ class Link:
                 self.subscriptions[key][number](payload, attachment)
         elif kind == "query":
             process, number, key, payload, attachment = rest
-            inner = _Question(self.send, process, number)
+            inner = _Request(self.send, process, number)
             for asked in tuple(self.served.get(key, {}).values()):
                 asked(Query(inner, key, payload, attachment, LinkError))
         elif kind == "reply":
@@ -74,7 +74,7 @@ class Link:
             self.tokens.pop(key, None)
         for pattern, watch in tuple(self.watches.values()):
             if pattern.fullmatch(key):
-                watch.saw(key, exists)
+                watch.on_token(key, exists)
 
 
 class LockstepSession(Session):
@@ -240,19 +240,19 @@ class _Watch:
         link.watches[self._number] = pattern, watch
         for key in tuple(link.tokens):
             if pattern.fullmatch(key):
-                watch.saw(key, True)
+                watch.on_token(key, True)
 
     def undeclare(self) -> None:
         self._link.watches.pop(self._number, None)
 
 
-class _Question:
+class _Request:
     """A request from another process; plays the role of Zenoh's query."""
 
     def __init__(self, send: Send, process: int, number: int) -> None:
         self._answer = partial(self._reply, send, process, number)
 
-    def __enter__(self) -> _Question:
+    def __enter__(self) -> _Request:
         return self
 
     def __exit__(self, *_error: object) -> None:

@@ -26,7 +26,7 @@ from bot_console.runtime.rmw.zenoh.graph_cache import Listener, Watches
 from bot_console.runtime.rmw.zenoh.remote_publisher import RemotePublisher
 from bot_console.runtime.rmw.zenoh.remote_subscription import RemoteSubscription
 from bot_console.runtime.rmw.zenoh.sender import Sender
-from bot_console.runtime.rmw.zenoh.services import Asking, RemoteClient, Served
+from bot_console.runtime.rmw.zenoh.services import RemoteClient, RequestReceiver, RequestSender
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.whole_graph import WholeGraph
 from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of
@@ -41,7 +41,7 @@ SERVICE_QOS = "::,10:,:,:,,"
 FLUSH_TIMEOUT_S = 0.3
 """How long leaving or closing waits for the queue of messages that must not be dropped, in s."""
 
-Way = RemotePublisher | RemoteSubscription | Served | Asking
+Way = RemotePublisher | RemoteSubscription | RequestReceiver | RequestSender
 
 
 class Bridge(NamedTuple):
@@ -111,7 +111,7 @@ class ZenohBus:
         if shown:
             self._own.add(endpoint.gid)
             remote_publisher = RemotePublisher(self._session, self._sender, publisher, key)
-            watched: tuple[Kind, str, Listener] = ("MS", endpoint.topic, self._reporting(remote_publisher.saw))
+            watched: tuple[Kind, str, Listener] = ("MS", endpoint.topic, self._with_report(remote_publisher.on_token))
             self._keep(endpoint.node, publisher, Bridge(remote_publisher, self._session.declare_token(shown), watched))
         return publisher
 
@@ -122,7 +122,11 @@ class ZenohBus:
         self._local.create_subscription(subscription)
         if shown:
             remote_subscription = RemoteSubscription(self._session, subscription, key, self._own, self._local.tap)
-            watched: tuple[Kind, str, Listener] = ("MP", endpoint.topic, self._reporting(remote_subscription.saw))
+            watched: tuple[Kind, str, Listener] = (
+                "MP",
+                endpoint.topic,
+                self._with_report(remote_subscription.on_token),
+            )
             self._watches.listen(*watched)  # the publishers must be known before the first message arrives
             remote_subscription.open()
             self._keep(
@@ -134,7 +138,7 @@ class ZenohBus:
         key, shown = self._names(service.node, "SS", service)
         self._local.create_service(service)
         if shown:
-            served = Served(self._session, service, key)
+            served = RequestReceiver(self._session, service, key)
             self._keep(service.node, service, Bridge(served, self._session.declare_token(shown)))
 
     def create_client(self, client: ClientEndpoint) -> None:
@@ -142,8 +146,8 @@ class ZenohBus:
         key, shown = self._names(client.node, "SC", client)
         self._local.create_client(client)
         if shown:
-            asking = Asking(self._session, client, key)
-            watched: tuple[Kind, str, Listener] = ("SS", client.name, self._reporting(asking.saw))
+            asking = RequestSender(self._session, client, key)
+            watched: tuple[Kind, str, Listener] = ("SS", client.name, self._with_report(asking.on_token))
             self._keep(client.node, client, Bridge(asking, self._session.declare_token(shown), watched))
 
     def _names(self, node: NodeId, kind: Kind, thing: Endpoint | ServiceEndpoint | ClientEndpoint) -> tuple[str, str]:
@@ -174,7 +178,7 @@ class ZenohBus:
         elif bridge.watched and not isinstance(bridge.way, RemoteSubscription):
             self._watches.listen(*bridge.watched)
 
-    def _reporting(self, saw: Listener) -> Listener:
+    def _with_report(self, saw: Listener) -> Listener:
         """Wrap a listener so that each change also notifies the graph's watchers."""
 
         def report(token: Token, came: bool) -> None:
@@ -220,7 +224,7 @@ class ZenohBus:
         """Send a request to local and remote servers; it is lost if there are none."""
         self._local.request(client, number, request)
         asking = self._bridge(client)
-        if isinstance(asking, Asking) and (asking.has_server or not self._local.has_server(client)):
+        if isinstance(asking, RequestSender) and (asking.has_server or not self._local.has_server(client)):
             asking.request(number, request)
 
     def respond(self, client: ClientEndpoint, number: int, response: Payload) -> None:
@@ -233,12 +237,12 @@ class ZenohBus:
     def has_server(self, client: ClientEndpoint) -> bool:
         """Whether a server of the client's service exists, in this process or another."""
         asking = self._bridge(client)
-        return self._local.has_server(client) or (isinstance(asking, Asking) and asking.has_server)
+        return self._local.has_server(client) or (isinstance(asking, RequestSender) and asking.has_server)
 
     def watch_servers(self, client: ClientEndpoint) -> Callable[[], bool]:
         """Return a function that tells whether all servers that a client has now are known to have ended."""
         asking = self._bridge(client)
-        if isinstance(asking, Asking) and asking.has_server:
+        if isinstance(asking, RequestSender) and asking.has_server:
             return asking.watch_servers()
         return self._local.watch_servers(client)
 
@@ -297,5 +301,5 @@ class ZenohBus:
         with self._lock:
             ways = [bridge.way for each in self._nodes.values() for bridge in each.bridges.values()]
         for way in ways:
-            if isinstance(way, Asking) or (isinstance(way, RemotePublisher) and way.latching):
+            if isinstance(way, RequestSender) or (isinstance(way, RemotePublisher) and way.latching):
                 way.send_again()

@@ -15,7 +15,7 @@ QUIET_S = 0.1
 """Time without declarations, in seconds, after which `AT_ONCE` of them may again be made without a pause."""
 
 
-class Pace:
+class DeclarationThrottle:
     """Counts declarations, and pauses regularly once there are very many."""
 
     def __init__(
@@ -26,7 +26,7 @@ class Pace:
         self._count = 0
         self._last = 0.0
 
-    def shown(self) -> None:
+    def count_declaration(self) -> None:
         """Count a declaration, and pause if one is due."""
         now = self._clock()
         self._count = self._count + 1 if now - self._last < QUIET_S else 1

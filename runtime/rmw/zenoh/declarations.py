@@ -68,10 +68,10 @@ class Declaration:
             except RuntimeError:  # Zenoh's binding says "Already borrowed"
                 time.sleep(0.0005)
 
-    def begin_again(self) -> None:
+    def on_links_lost(self) -> None:
         """Prepare for new links: the old ones were cut."""
 
-    def settle(self) -> None:
+    def on_links_restored(self) -> None:
         """Finish, as the new links are up."""
 
 
@@ -150,7 +150,7 @@ class TokenWatch(Declaration):
         self._there: set[str] = set()
         self._not_again: set[str] = set()
 
-    def saw(self, key: str, came: bool) -> None:
+    def on_token(self, key: str, came: bool) -> None:
         """Report that a token appeared or disappeared, with the lock held to keep the order of reports."""
         with self._lock:
             self._not_again.discard(key)
@@ -163,11 +163,11 @@ class TokenWatch(Declaration):
                     self._gone.add(key)
             self._seen(key, came)
 
-    def begin_question(self) -> None:
+    def begin_query(self) -> None:
         """Begin a query for the existing tokens: record those that disappear from now on; no reply may restore them."""
         self._is_asked = True
 
-    def found(self, keys: Iterable[str]) -> None:
+    def add_existing(self, keys: Iterable[str]) -> None:
         """Handle a reply: report its tokens as existing, except those that have disappeared since the query."""
         for key in keys:
             with self._lock:
@@ -176,22 +176,22 @@ class TokenWatch(Declaration):
                     self._there.add(key)
                     self._seen(key, True)
 
-    def end_question(self) -> None:
+    def end_query(self) -> None:
         """End the query: all replies have arrived."""
         with self._lock:
             self._is_asked = False
             self._gone.clear()
 
-    def begin_again(self) -> None:
+    def on_links_lost(self) -> None:
         """Expect each token to appear again, as the links were cut."""
         with self._lock:
             self._not_again = set(self._there)
 
-    def settle(self) -> None:
+    def on_links_restored(self) -> None:
         """Report the tokens that have not appeared again as gone, as the new links are up."""
         with self._lock:
             for key in tuple(self._not_again):
-                self.saw(key, False)
+                self.on_token(key, False)
 
 
 class Query:

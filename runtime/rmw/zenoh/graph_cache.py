@@ -36,7 +36,7 @@ class GraphCache:
         """If `known` is given, all existing tokens are added at once; `refused` is called with a new key that is not a
         token.
 
-        Without a key nothing is declared: an existing watch, passed to `set_watch`, calls `saw`.
+        Without a key nothing is declared: an existing watch, passed to `set_watch`, calls `on_token`.
         """
         self._refused = refused
         self._own = session.zid
@@ -45,13 +45,15 @@ class GraphCache:
         self._listeners: list[Listener] = []
         self._declared: TokenWatch | TopicWatch | None = None
         if key is not None:
-            self._declared = watch_all(session, key, self.saw, known) if known else session.watch_tokens(key, self.saw)
+            self._declared = (
+                watch_all(session, key, self.on_token, known) if known else session.watch_tokens(key, self.on_token)
+            )
 
     def set_watch(self, watch: TopicWatch) -> None:
         """Set the watch that reports these tokens."""
         self._declared = watch
 
-    def saw(self, key: str, came: bool) -> None:
+    def on_token(self, key: str, came: bool) -> None:
         """Handle a token that appeared or disappeared; ignores invalid tokens, and those of this session."""
         if came and key in self._tokens:  # most arrive twice: as a reply to the query, and through the watch
             return
@@ -126,7 +128,7 @@ class Watches:
                 else:
                     self._single[kind] += 1
         if serving:
-            seen.set_watch(serving.watch(topic, seen.saw))
+            seen.set_watch(serving.watch(topic, seen.on_token))
         seen.listen(listener)
         return seen
 

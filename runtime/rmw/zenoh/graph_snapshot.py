@@ -19,13 +19,13 @@ def watch_all(session: Session, key: str, seen: TokenCallback, known: Known) -> 
     time later. These are taken from the other watches. If that is not possible, all tokens are queried once more.
     """
     watch = session.watch_tokens(key, seen, apart=True)
-    watch.begin_question()
+    watch.begin_query()
     timeout_s = session.answer_timeout_s()
     there = known() if session.links_directly() and _all_links_carry(session, timeout_s) else None
-    watch.found(session.collect_tokens(key, timeout_s)[0] if there is None else there)
+    watch.add_existing(session.collect_tokens(key, timeout_s)[0] if there is None else there)
     if watch.taking is not None:
         watch.taking.take_waiting()
-    watch.end_question()
+    watch.end_query()
     return watch
 
 

@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 from bot_console.runtime.rmw.zenoh.declarations import TokenCallback
 from bot_console.runtime.rmw.zenoh.session import Session
-from bot_console.runtime.rmw.zenoh.wire.keys import mangled
+from bot_console.runtime.rmw.zenoh.wire.keys import mangle
 from bot_console.runtime.rmw.zenoh.wire.tokens import Kind, tokens_of_kind, topic_part
 
 
@@ -46,7 +46,7 @@ class KindWatch:
 
     def __init__(self, session: Session, kind: Kind) -> None:
         self._rows: dict[str, TopicTokens] = {}
-        self._watch = session.watch_tokens(tokens_of_kind(session.domain, kind), self._saw, apart=True)
+        self._watch = session.watch_tokens(tokens_of_kind(session.domain, kind), self._on_token, apart=True)
 
     def watch(self, topic: str, seen: TokenCallback) -> TopicWatch:
         """Call back for each token of a topic that exists, appears or disappears.
@@ -61,7 +61,7 @@ class KindWatch:
             for key in tuple(row.keys):
                 seen(key, True)
 
-        self._change(mangled(topic), begin)
+        self._change(mangle(topic), begin)
         return TopicWatch(self, topic, seen)
 
     def unwatch(self, topic: str, seen: TokenCallback) -> None:
@@ -71,7 +71,7 @@ class KindWatch:
             if row.seen is seen:
                 row.seen = None
 
-        self._change(mangled(topic), end)
+        self._change(mangle(topic), end)
 
     def known(self) -> list[str]:
         """Return the keys of the existing tokens that were reported."""
@@ -82,7 +82,7 @@ class KindWatch:
         if self._watch.taking is not None:
             self._watch.taking.take_waiting()
 
-    def _saw(self, key: str, came: bool) -> None:
+    def _on_token(self, key: str, came: bool) -> None:
         part = topic_part(key)
 
         def change(row: TopicTokens) -> None:

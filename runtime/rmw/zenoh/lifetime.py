@@ -7,7 +7,7 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from bot_console.runtime.rmw.zenoh.declaration_throttle import Pace
+from bot_console.runtime.rmw.zenoh.declaration_throttle import DeclarationThrottle
 from bot_console.runtime.rmw.zenoh.declarations import Declaration
 
 CLOSE_TIMEOUT_S = 0.4
@@ -25,7 +25,7 @@ class Lifetime:
         self._declared: dict[Declaration, None] = {}
         self._is_open = True  # each subclass opens it at once
         self._ended = False
-        self._pace = Pace()
+        self._throttle = DeclarationThrottle()
         self.settled = threading.Event()
         """Cleared while the session is being reopened, until its links are up: what is sent earlier may reach nobody.
         """
@@ -54,7 +54,7 @@ class Lifetime:
             self._is_open = False
             self.settled.clear()
             for each in self._declared:
-                each.begin_again()
+                each.on_links_lost()
         self._shut()
         join()
         with self._lock:
@@ -72,7 +72,7 @@ class Lifetime:
         with self._lock:
             declared = tuple(self._declared)
         for each in declared:
-            each.settle()
+            each.on_links_restored()
 
     def close(self) -> None:
         """Close the session and its declarations; does nothing if it is already closed."""
@@ -100,7 +100,7 @@ class Lifetime:
                 thing.inner = thing.declare(self._zenoh)
             if not self._ended:
                 self._declared[thing] = None
-        self._pace.shown()
+        self._throttle.count_declaration()
         return thing
 
     def forget(self, thing: Declaration) -> None:

@@ -65,7 +65,7 @@ class RemotePublisher(deque[Any]):
         self._out = self._session.declare_publisher(self._key, reliable=reliable, cache=cache, blocking=self._blocking)
         return self._out
 
-    def saw(self, token: Token, came: bool) -> None:
+    def on_token(self, token: Token, came: bool) -> None:
         """Handle a subscription of another process that appeared or disappeared."""
         publisher = self._publisher
         endpoint = publisher.endpoint

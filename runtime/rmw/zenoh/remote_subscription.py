@@ -7,7 +7,7 @@ from collections.abc import Container
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
-from bot_console.runtime.rmw.endpoints import Held, Payload, SubscriptionEndpoint, Tap, depth
+from bot_console.runtime.rmw.endpoints import HeldMessage, Payload, SubscriptionEndpoint, Tap, depth
 from bot_console.runtime.rmw.zenoh.congestion_control import BLOCKING_TOPICS
 from bot_console.runtime.rmw.zenoh.declarations import Declaration
 from bot_console.runtime.rmw.zenoh.session import Session
@@ -34,7 +34,7 @@ class RemotePublisher:
         """In ns; None means no limit."""
 
 
-class Arrived(Held):
+class ReceivedPayload(HeldMessage):
     """A received payload; the thread that takes the message deserializes it, so that the link is drained without delay.
 
     A payload that a full queue drops is never deserialized.
@@ -59,7 +59,7 @@ class Arrived(Held):
         try:
             return deserialize(self._payload, self._remote_subscription.message_class)
         except CdrError as error:
-            self._remote_subscription.dropped(error)
+            self._remote_subscription.report_unreadable(error)
             return None
 
 
@@ -115,9 +115,9 @@ class RemoteSubscription:
                 self._lost(number - publisher.number - 1)
             publisher.number = number
         except FormatError as error:
-            self.dropped(error)
+            self.report_unreadable(error)
             return
-        message = payload if self._raw else Arrived(self, payload)
+        message = payload if self._raw else ReceivedPayload(self, payload)
         expires = None if publisher.lifespan is None else stamp + publisher.lifespan
         queue = subscription.queue
         if self._counted and stamp >= self._opened and len(queue) == queue.maxlen:
@@ -128,7 +128,7 @@ class RemoteSubscription:
         if hear is not None:
             hear(subscription.endpoint, gid, number, stamp, payload)
 
-    def dropped(self, error: Exception) -> None:
+    def report_unreadable(self, error: Exception) -> None:
         """Report a message that cannot be read."""
         notify(self._process, f"a message on '{self._subscription.endpoint.topic}' was dropped: {error}")
 
@@ -153,7 +153,7 @@ class RemoteSubscription:
             f"messages of '{topic}' come faster than they are taken; of more than {queue.maxlen} the oldest go",
         )
 
-    def saw(self, token: Token, came: bool) -> None:
+    def on_token(self, token: Token, came: bool) -> None:
         """Handle a publisher of another process that appeared or disappeared."""
         subscription = self._subscription
         endpoint = subscription.endpoint

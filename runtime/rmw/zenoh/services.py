@@ -32,10 +32,10 @@ Caller = tuple[bytes, int]
 class RemoteClient(ClientEndpoint):
     """A client in another process, as it appears in the server's request queue."""
 
-    served: Served
+    served: RequestReceiver
 
 
-class Served:
+class RequestReceiver:
     """Queues the requests of other processes for a server, and sends the responses back."""
 
     def __init__(self, session: Session, service: ServiceEndpoint, key: str) -> None:
@@ -44,9 +44,9 @@ class Served:
         self._pending: dict[Caller, Query] = {}
         self._process = current()
         self._clock = current().clock
-        self._declared: Declaration = session.declare_queryable(key, self.asked)
+        self._declared: Declaration = session.declare_queryable(key, self.on_query)
 
-    def asked(self, query: Query) -> None:
+    def on_query(self, query: Query) -> None:
         """Handle a request, on one of Zenoh's threads."""
         service = self._service
         try:
@@ -88,7 +88,7 @@ class Served:
             query.drop()
 
 
-class Asking:
+class RequestSender:
     """Sends a client's requests to servers in other processes, and queues their responses for it."""
 
     def __init__(self, session: Session, client: ClientEndpoint, key: str) -> None:
@@ -118,7 +118,7 @@ class Asking:
 
         return ended
 
-    def saw(self, token: Token, came: bool) -> None:
+    def on_token(self, token: Token, came: bool) -> None:
         """Handle a server of another process that appeared or disappeared."""
         if token.type_name == self._client.type_name and self._key.endswith("/" + token.type_hash):
             servers = Counter(self._servers)

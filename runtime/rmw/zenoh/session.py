@@ -30,10 +30,10 @@ from bot_console.runtime.rmw.zenoh.declarations import (
     TokenCallback,
     TokenWatch,
 )
-from bot_console.runtime.rmw.zenoh.domain.sockets import Socket, lives
+from bot_console.runtime.rmw.zenoh.domain.sockets import Socket, process_exists
 from bot_console.runtime.rmw.zenoh.lifetime import Lifetime
 from bot_console.runtime.rmw.zenoh.link_threads import LinkWaker, link_threads
-from bot_console.runtime.rmw.zenoh.settings import leaves
+from bot_console.runtime.rmw.zenoh.settings import leaf_settings
 from bot_console.runtime.rmw.zenoh.thread_state_cache import cache_thread_state, here
 from bot_console.runtime.rmw.zenoh.transient_local_publisher import TransientLocalPublisher
 
@@ -99,7 +99,7 @@ class Session(Lifetime):
 
         try:
             config = zenoh.Config.from_file(file) if file else zenoh.Config.from_json5(json.dumps(settings))
-            for path, value in (*(leaves(settings) if file else ()), *last):
+            for path, value in (*(leaf_settings(settings) if file else ()), *last):
                 config.insert_json5(path, value)
         except (zenoh.ZError, OSError) as error:
             if file and not os.path.isfile(file):
@@ -161,7 +161,7 @@ class Session(Lifetime):
         """The processes that are stopped in a debugger: the first 8 digits of their session ids, with the line."""
         return {}
 
-    def stopped_afar(self) -> Sequence[int]:
+    def stopped_behind_router(self) -> Sequence[int]:
         """The pids of frozen processes behind a router, as far as it reports them; empty without a router."""
         return ()
 
@@ -300,7 +300,7 @@ class Session(Lifetime):
         def take(sample: zenoh.Sample) -> None:
             if not here.kept:
                 cache_thread_state()
-            watch.saw(str(sample.key_expr), sample.kind == came)
+            watch.on_token(str(sample.key_expr), sample.kind == came)
 
         def declare(session: zenoh.Session) -> Any:
             tokens = session.liveliness()
@@ -363,7 +363,7 @@ class Session(Lifetime):
 
         `pid` is what `pid_of` returned before.
         """
-        return zid in self.linked() or (pid is not None and not lives(pid))
+        return zid in self.linked() or (pid is not None and not process_exists(pid))
 
     def watch_links(self, changed: Callable[[str, bool], None]) -> Declaration:
         """Call back with the id of each session that is or gets linked (True), or whose link is lost (False)."""
@@ -381,11 +381,11 @@ class Session(Lifetime):
             )
         )
 
-    def attendance(self, who: str = "*", timeout: float = 0.1) -> set[str]:
+    def answering_sessions(self, who: str = "*", timeout: float = 0.1) -> set[str]:
         """Return the first 8 digits of the ids of the sessions that answer within `timeout` (s)."""
         return {each.removeprefix(ROLL_CALL_KEY) for each in self.collect_tokens(ROLL_CALL_KEY + who, timeout)[0]}
 
-    def question(self, timeout: float) -> Callable[[], bool | None]:
+    def ping(self, timeout: float) -> Callable[[], bool | None]:
         """Ping the other end; returns a function that tells whether it answered within `timeout` (s), None while it
         may.
 
@@ -412,9 +412,9 @@ class Session(Lifetime):
 
         return answered
 
-    def is_answered(self, timeout: float) -> bool:
+    def answers_ping(self, timeout: float) -> bool:
         """Whether the other end answers a ping within `timeout` (s)."""
-        answer, pause = self.question(timeout), threading.Event()
+        answer, pause = self.ping(timeout), threading.Event()
         while (answered := answer()) is None:
             pause.wait(0.001)
         return answered

@@ -113,10 +113,10 @@ def session_settings(
     }
 
 
-def leaves(settings: Mapping[str, object], above: str = "") -> Iterable[tuple[str, str]]:
+def leaf_settings(settings: Mapping[str, object], above: str = "") -> Iterable[tuple[str, str]]:
     """Yield the settings one by one, as path and JSON."""
     for name, value in settings.items():
         if isinstance(value, Mapping) and above + name not in INSEPARABLE:
-            yield from leaves(cast("Mapping[str, Any]", value), f"{above}{name}/")
+            yield from leaf_settings(cast("Mapping[str, Any]", value), f"{above}{name}/")
         else:
             yield above + name, json.dumps(value)

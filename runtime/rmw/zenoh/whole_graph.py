@@ -40,8 +40,8 @@ class WholeGraph:
         key = all_tokens(session.domain)
         self._process, self._has_refused = current(), False
         self._seen = GraphCache(session, key, known=known, refused=self._refused)
-        self._seen.listen(self._saw)
-        for pid in session.stopped_afar():
+        self._seen.listen(self._on_token)
+        for pid in session.stopped_behind_router():
             notify(
                 current(), f"process {pid} of the robot is stopped, so its nodes are silent: `kill -CONT {pid}` there"
             )
@@ -53,7 +53,7 @@ class WholeGraph:
             text = f"the graph contains {key[:120]!r}, which is not in the format of rmw_zenoh and is ignored"
             notify(self._process, f"{text}: `bot-console doctor` counts and lists such tokens")
 
-    def _saw(self, token: Token, came: bool) -> None:
+    def _on_token(self, token: Token, came: bool) -> None:
         row = self._rows.setdefault(token.key, _row(token)) if came else self._rows.pop(token.key, None)
         if isinstance(row, NodeId) and came:
             self._nodes[token.key] = token.node.zid[:8], row

@@ -12,7 +12,7 @@ import sys
 from ament_index_python.packages import PackageNotFoundError
 from bot_console.runtime.children.child_environment import child_environment
 from bot_console.runtime.process.node.main_thread import exit_code_of
-from bot_console.runtime.rmw.parameter_file import find_with
+from bot_console.runtime.rmw.parameter_file import register_hint_source
 from bot_console.runtime.workspace.entry_script import script_of
 from bot_console.runtime.workspace.executables import Executable, executables
 from bot_console.runtime.workspace.not_found import no_executable, no_package
@@ -55,7 +55,7 @@ def _run(arguments: argparse.Namespace) -> Result:
     if arguments.executable_name not in found:
         advise(lambda: no_executable(arguments.package_name, arguments.executable_name))
         return "No executable found"
-    find_with(hint_for)
+    register_hint_source(hint_for)
     return run(found[arguments.executable_name], arguments.argv, arguments.prefix)
 
 

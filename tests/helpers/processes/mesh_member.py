@@ -40,7 +40,7 @@ for word in sys.stdin:
         case "heard":
             print(*heard, flush=True)
         case "answer":
-            print(*session.attendance(timeout=0.3), flush=True)
+            print(*session.answering_sessions(timeout=0.3), flush=True)
         case "exit":
             began = time.monotonic()
             session.close()

@@ -15,7 +15,7 @@ if not hasattr(os, "fork"):
     pytest.skip("needs fork", allow_module_level=True)
 
 from bot_console.runtime.process import stepped
-from bot_console.runtime.rmw.lockstep.coordination import coordinated
+from bot_console.runtime.rmw.lockstep.coordination import coordinated_run
 from launch.actions import RegisterEventHandler, Shutdown, TimerAction
 from launch.event_handlers import OnProcessExit
 from launch_ros.actions import Node
@@ -62,7 +62,7 @@ def step(run: Launch) -> Callable[..., Run]:
     def launched(*actions: Any, stall_s: float = 30.0) -> Run:
         codes: list[int] = []
         on_exit = RegisterEventHandler(OnProcessExit(on_exit=lambda event, context: codes.append(event.returncode)))
-        with stepped(stall_s=stall_s) as clock, coordinated(clock, seed=1):
+        with stepped(stall_s=stall_s) as clock, coordinated_run(clock, seed=1):
             text = run([on_exit, *actions]).text
         return Run(text, codes, clock.deterministic, clock.stalls)
 

@@ -151,7 +151,7 @@ def test_unknown_substitutions_are_rejected(name: str, shown: str) -> None:
 def test_namespace_error_is_phrased_as_for_node_names(namespace: str, words: str) -> None:
     problem = names.validate_namespace(namespace)
     assert problem is not None
-    assert names.in_words_for_node_names(problem[0]) == words
+    assert names.namespace_problem_of_new_node(problem[0]) == words
 
 
 @pytest.mark.parametrize(

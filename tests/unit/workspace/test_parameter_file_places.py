@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.rmw.arguments import ArgumentsError, parse
-from bot_console.runtime.rmw.parameter_file import _finders, find_with
+from bot_console.runtime.rmw.parameter_file import _finders, register_hint_source
 from bot_console.runtime.workspace import parameter_files
 from bot_console.runtime.workspace.discover import Workspace
 from bot_console.runtime.workspace.parameter_files import hint_for
@@ -45,7 +45,7 @@ def test_no_hint_without_a_matching_file(named: str) -> None:
 
 
 def test_command_line_error_includes_the_hint() -> None:
-    find_with(hint_for)
+    register_hint_source(hint_for)
     with pytest.raises(ArgumentsError) as refused:
         parse(["--ros-args", "--params-file", "config/robot.yaml"])
     assert refused.value.hint.endswith("No such file or directory; package 'mine' has src/mine/config/robot.yaml")

@@ -53,7 +53,7 @@ def answer_time(session: Session) -> float | None:
     times: list[float] = []
     for _ in range(PROBES):
         began = time.monotonic()
-        if session.is_answered(1.0):
+        if session.answers_ping(1.0):
             times.append(time.monotonic() - began)
     return min(times, default=None)
 

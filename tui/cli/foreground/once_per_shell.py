@@ -9,7 +9,7 @@ import sys
 
 from bot_console.runtime.programs.exit_messages import stderr_is_terminal
 from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, runtime_folder
-from bot_console.runtime.rmw.zenoh.domain.sockets import lives
+from bot_console.runtime.rmw.zenoh.domain.sockets import process_exists
 
 FOLDER = "told"
 """The folder of the markers, beside those of the domains."""
@@ -42,7 +42,7 @@ def _is_new(text: str) -> bool:
 def _forget_ended_shells(folder: str) -> None:
     for name in os.listdir(folder):
         shell = name.partition(".")[0]
-        if shell.isdecimal() and not lives(int(shell)):
+        if shell.isdecimal() and not process_exists(int(shell)):
             with contextlib.suppress(OSError):
                 os.unlink(os.path.join(folder, name))
 

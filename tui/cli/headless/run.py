@@ -168,10 +168,10 @@ def _run_clock(options: Options) -> Generator[Any]:
 
     import_numpy()
     os.environ.pop(STOP_FILE_VARIABLE, None)  # the file belongs to the domain, which this run does not join
-    from bot_console.runtime.rmw.lockstep.coordination import coordinated
+    from bot_console.runtime.rmw.lockstep.coordination import coordinated_run
 
     seed = options.seed or 0
-    with stepped(seed=seed, virtual_main=True) as clock, coordinated(clock, seed):
+    with stepped(seed=seed, virtual_main=True) as clock, coordinated_run(clock, seed):
         yield clock
 
 

@@ -13,7 +13,7 @@ from bot_console.runtime.rmw.zenoh.network.client import OVERRIDE_VARIABLE, Way,
 from bot_console.runtime.rmw.zenoh.network.network_bus import NetworkBuses
 from bot_console.runtime.rmw.zenoh.network.reachability import place_of
 from bot_console.runtime.rmw.zenoh.session import SessionError
-from bot_console.runtime.rmw.zenoh.settings import leaves
+from bot_console.runtime.rmw.zenoh.settings import leaf_settings
 from bot_console.tui.session.embedded.domain import CONNECT_VARIABLE, domain, note_connection
 
 ESCAPED_SEMICOLON = "\\u003b"
@@ -33,7 +33,7 @@ def connect(way: Way) -> NetworkBuses:
 
 def lead_children_to(way: Way) -> None:
     """Make programs that this one starts connect to the same router, through the environment that they inherit."""
-    tls = leaves({"transport": {"link": {"tls": way.tls.as_client()}}})
+    tls = leaf_settings({"transport": {"link": {"tls": way.tls.as_client()}}})
     settings = [f"{path}={value.replace(';', ESCAPED_SEMICOLON)}" for path, value in tls]
     given = os.environ.get(OVERRIDE_VARIABLE, "")
     os.environ[CONNECT_VARIABLE] = " ".join(endpoints_of(with_environment(way)))

@@ -104,13 +104,13 @@ def is_in_range() -> bool:
 def others_take_part() -> bool:
     """Whether another process of this user is in the domain, according to its socket folder."""
     from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError, domain_folder
-    from bot_console.runtime.rmw.zenoh.domain.sockets import lives, sockets
+    from bot_console.runtime.rmw.zenoh.domain.sockets import process_exists, sockets
 
     try:
         found = sockets(domain_folder(domain()))
     except FolderRefusedError:
         return False
-    return any(each.pid != os.getpid() and lives(each.pid) for each in found)
+    return any(each.pid != os.getpid() and process_exists(each.pid) for each in found)
 
 
 def frozen() -> list[int]:

@@ -35,17 +35,17 @@ def folder_lock(folder: str) -> Generator[None]:
     A process that freezes or hangs while it holds the lock blocks nobody: the others continue without the lock, and the
     watch that each process keeps on the folder restores the links they missed.
     """
-    handle = _opened(folder)
+    handle = _open_lock(folder)
     try:
-        behind = _Behind()
-        while not _taken(handle, LOCK_TIMEOUT_S) and not behind.hangs(_holder(handle)):
+        behind = _LockHolder()
+        while not _acquire(handle, LOCK_TIMEOUT_S) and not behind.hangs(_holder(handle)):
             pass
         yield
     finally:
         os.close(handle)
 
 
-class _Behind:
+class _LockHolder:
     """Tracks who holds the lock, since when, and since when that process has used no processor time."""
 
     def __init__(self) -> None:
@@ -69,22 +69,22 @@ class _Behind:
 def remove_dead(folder: str) -> None:
     """Remove dead sockets from a domain's folder, unless a process is joining, which removes them as well."""
     with contextlib.suppress(OSError):
-        handle = _opened(folder)
+        handle = _open_lock(folder)
         try:
-            if _taken(handle, 0.0):
+            if _acquire(handle, 0.0):
                 live_sockets(folder)
         finally:
             os.close(handle)
 
 
-def _opened(folder: str) -> int:
+def _open_lock(folder: str) -> int:
     """Open what is to be locked: the folder itself if possible, as a lock file could be removed while it is locked."""
     if FOLDER_HOLDS_LOCKS:
         return os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
     return open_lock(os.path.join(folder, "joining.lock"))
 
 
-def _taken(handle: int, timeout_s: float) -> bool:
+def _acquire(handle: int, timeout_s: float) -> bool:
     """Try to get the lock for up to `timeout_s`; return whether it was acquired."""
     deadline, pause = time.monotonic() + timeout_s, POLL
     while True:

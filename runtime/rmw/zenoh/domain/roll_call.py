@@ -6,7 +6,7 @@ import os
 import threading
 import time
 
-from bot_console.runtime.rmw.zenoh.domain.sockets import Socket, lives
+from bot_console.runtime.rmw.zenoh.domain.sockets import Socket, process_exists
 from bot_console.runtime.rmw.zenoh.session import Session
 
 
@@ -20,7 +20,7 @@ def await_answers(session: Session, timeout_s: float) -> list[Socket]:
     deadline = time.monotonic() + timeout_s
     missing = list(session.joined)
     while missing:
-        answered = session.attendance()
+        answered = session.answering_sessions()
         missing = [each for each in missing if each.zid not in answered and _runs(each)]
         if all(each.is_stopped() for each in missing) or time.monotonic() > deadline:
             break
@@ -32,4 +32,4 @@ def _runs(socket: Socket) -> bool:
     """Whether the socket's process has neither left nor been killed."""
     if not os.path.lexists(socket.path):
         return False
-    return lives(socket.pid)
+    return process_exists(socket.pid)

@@ -68,13 +68,13 @@ class Socket(NamedTuple):
 
 def own_socket(folder: str, zid: str) -> Socket:
     """Return the socket for a session of this process to listen on."""
-    path = os.path.join(folder, f"{getpid()}.{zid[:8]}{_ending()}")
+    path = os.path.join(folder, f"{getpid()}.{zid[:8]}{_suffix()}")
     return Socket(path, getpid(), zid[:8])
 
 
 def sockets(folder: str) -> list[Socket]:
     """List all sockets in a folder, including dead ones."""
-    found, ending = list[Socket](), _ending()
+    found, ending = list[Socket](), _suffix()
     for name in sorted(os.listdir(folder)):
         match = _NAME.fullmatch(name.removesuffix(ending)) if name.endswith(ending) else None
         if match:
@@ -93,7 +93,7 @@ def live_sockets(folder: str) -> list[Socket]:
     return live
 
 
-def _ending() -> str:
+def _suffix() -> str:
     """Return the names' suffix, as processes that use ports cannot be linked to processes that use sockets."""
     return loopback.SUFFIX if loopback.is_chosen() else ""
 
@@ -104,7 +104,7 @@ def is_stopped(pid: int) -> bool:
     return reported is not None and reported[0] in ("T", "t")
 
 
-def lives(pid: int) -> bool:
+def process_exists(pid: int) -> bool:
     """Whether a process exists; always True on Windows, where asking would kill it.
 
     A process that has ended does not count, even if its parent has not reaped it yet (a zombie).

@@ -57,7 +57,7 @@ LAST_ANSWER_TIMEOUT_S = 10.0
 """The timeout for the last query before the session is reopened because a process does not answer, in s."""
 
 
-class Watched(Protocol):
+class WatchedSession(Protocol):
     """What the watch needs of a session."""
 
     zid: str
@@ -71,7 +71,7 @@ class Watched(Protocol):
         """Call back with the id of each session that is or gets linked (True), or whose link is lost (False)."""
         ...
 
-    def attendance(self, who: str, timeout: float) -> set[str]:
+    def answering_sessions(self, who: str, timeout: float) -> set[str]:
         """Return the first 8 digits of the ids of the sessions matching `who` that answer within `timeout` (s)."""
         ...
 
@@ -83,7 +83,7 @@ class Watched(Protocol):
 class Watch:
     """Checks a session's folder once a second, in a separate thread that `end` stops."""
 
-    def __init__(self, session: Watched, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, session: WatchedSession, clock: Callable[[], float] = time.monotonic) -> None:
         self._session = session
         self._clock = clock
         self._ended = threading.Event()
@@ -141,7 +141,7 @@ class Watch:
         self._since = {each: self._since.get(each, now) for each in self._running(without)}
         busy = slowness()
         due = {each for each, since in self._since.items() if now - since >= self._grace(each) * busy}
-        if due or self._is_to_ask(now):
+        if due or self._is_query_due(now):
             self._ask(due)
             without = self._without_link(found)
             self._since = {each: since for each, since in self._since.items() if each not in self._answered}
@@ -153,7 +153,7 @@ class Watch:
         times = min(2.0**self._reopened, MAX_TIMEOUT_FACTOR)
         return LINK_TIMEOUT_S * times * (2.0 if other[0] < self._session.zid[:8] else 1.0)
 
-    def _is_to_ask(self, now: float) -> bool:
+    def _is_query_due(self, now: float) -> bool:
         """Whether it is time to query the processes that are not yet overdue; the intervals get longer."""
         if not self._since:
             self._pause = SOCKET_POLL_S
@@ -168,7 +168,7 @@ class Watch:
         asked = {zid for zid, _ in self._since if zid in linked}
         if asked:
             who = "*" if len(asked) > 1 else min(asked)  # a query by name spares fifty others the answer
-            answered = self._session.attendance(who, LAST_ANSWER_TIMEOUT_S if due else ANSWER_TIMEOUT_S)
+            answered = self._session.answering_sessions(who, LAST_ANSWER_TIMEOUT_S if due else ANSWER_TIMEOUT_S)
             self._answered |= {each for each in self._since if each[0] in answered}
 
     def _still_lost(self, folder: str) -> bool:

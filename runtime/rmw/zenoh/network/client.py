@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from bot_console.runtime.rmw.qos_matching import RMW_ZENOH, QosRules
 from bot_console.runtime.rmw.zenoh.link_probe import LinkProbe, LinkState
-from bot_console.runtime.rmw.zenoh.network.frozen_processes import StoppedBehind
+from bot_console.runtime.rmw.zenoh.network.frozen_processes import StoppedBehindRouter
 from bot_console.runtime.rmw.zenoh.network.reachability import Tls, why_unreachable
 from bot_console.runtime.rmw.zenoh.session import ROLL_CALL_KEY, Session, SessionError, SettingsError, endpoints_of_file
 
@@ -96,7 +96,7 @@ class NetworkSession(Session):
             raise SessionError(why_unreachable(way.endpoints, way.tls) or reason) from None
         self.declare_token(ROLL_CALL_KEY + self.zid[:8])
         self._probe: LinkProbe | None = None
-        self._stopped: StoppedBehind | None = None
+        self._stopped: StoppedBehindRouter | None = None
 
     def qos_rules(self, zid: str) -> QosRules:
         """Return rmw_zenoh's rules, which apply between all nodes that meet at its routers."""
@@ -104,8 +104,8 @@ class NetworkSession(Session):
 
     def watch(self) -> None:
         """Probe the link to the router repeatedly, and track which processes it reports as frozen or in a debugger."""
-        self._probe = self._probe or LinkProbe(self.question, str(self.way))
-        self._stopped = self._stopped or StoppedBehind(self)
+        self._probe = self._probe or LinkProbe(self.ping, str(self.way))
+        self._stopped = self._stopped or StoppedBehindRouter(self)
 
     def stopped(self) -> Mapping[str, int]:
         """The frozen processes behind the router, if it is one of ours; empty unless `watch` was called."""
@@ -115,7 +115,7 @@ class NetworkSession(Session):
         """The processes behind the router that are stopped in a debugger, each with the line."""
         return self._stopped.debugged() if self._stopped else {}
 
-    def stopped_afar(self) -> Sequence[int]:
+    def stopped_behind_router(self) -> Sequence[int]:
         """The pids of the frozen processes, which run on the robot."""
         return sorted(self.stopped().values())
 

@@ -55,7 +55,7 @@ class StoppedTokens:
             self._shown[each] = self._session.declare_token(each)
 
 
-class StoppedBehind:
+class StoppedBehindRouter:
     """Tracks which processes a router reports as frozen or in a debugger."""
 
     def __init__(self, session: Session) -> None:

@@ -30,11 +30,11 @@ def data_key(domain: int, name: str, type_name: str, type_hash: str) -> str:
     return f"{domain}/{name.strip('/')}/{dds_type(type_name)}/{type_hash}"
 
 
-def mangled(name: str) -> str:
+def mangle(name: str) -> str:
     """Encode a name as one part of a key: each slash becomes a per cent sign, as does the empty name."""
     return name.replace("/", "%") or "%"
 
 
-def demangled(part: str) -> str:
+def demangle(part: str) -> str:
     """Decode a name from a part of a key."""
     return part.replace("%", "/")

@@ -78,10 +78,10 @@ class WireQos(NamedTuple):
 
 def encode_qos(qos: Profile) -> str:
     """Encode a profile; policies that are left to the middleware are resolved as by rmw_zenoh."""
-    reliability = _named(Reliability, qos.reliability.name, Reliability.RELIABLE)
-    durability = _named(Durability, qos.durability.name, Durability.VOLATILE)
-    history = _named(History, qos.history.name, History.KEEP_LAST)
-    liveliness = _named(Liveliness, qos.liveliness.name, Liveliness.AUTOMATIC)
+    reliability = _member_or_default(Reliability, qos.reliability.name, Reliability.RELIABLE)
+    durability = _member_or_default(Durability, qos.durability.name, Durability.VOLATILE)
+    history = _member_or_default(History, qos.history.name, History.KEEP_LAST)
+    liveliness = _member_or_default(Liveliness, qos.liveliness.name, Liveliness.AUTOMATIC)
     depth = qos.depth or DEFAULT_DEPTH
     fields = (
         _unless(reliability, Reliability.RELIABLE),
@@ -119,7 +119,7 @@ def _unless(value: int, default: int) -> str:
     return "" if value == default else str(int(value))
 
 
-def _named(kind: type[IntEnum], name: str, default: IntEnum) -> IntEnum:
+def _member_or_default(kind: type[IntEnum], name: str, default: IntEnum) -> IntEnum:
     """Return the member with that name; the default if the profile leaves the choice open."""
     found = kind.__members__.get(name, default)
     return default if found.name in ("SYSTEM_DEFAULT", "UNKNOWN", "BEST_AVAILABLE") else found

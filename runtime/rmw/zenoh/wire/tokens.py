@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import Literal, NamedTuple, get_args
 
-from bot_console.runtime.rmw.zenoh.wire.keys import FormatError, dds_type, demangled, mangled, ros_type
+from bot_console.runtime.rmw.zenoh.wire.keys import FormatError, dds_type, demangle, mangle, ros_type
 from bot_console.runtime.rmw.zenoh.wire.qos_text import WireQos, decode_qos
 
 Kind = Literal["NN", "MP", "MS", "SS", "SC"]
@@ -56,11 +56,11 @@ def entity_token(
     profile.
     """
     head = _head(domain, node, number, kind)
-    return f"{head}/{mangled(topic)}/{dds_type(type_name)}/{type_hash}/{qos}"
+    return f"{head}/{mangle(topic)}/{dds_type(type_name)}/{type_hash}/{qos}"
 
 
 def _head(domain: int, node: TokenNode, number: int, kind: Kind) -> str:
-    names = f"{mangled(node.enclave)}/{mangled(node.namespace)}/{node.name}"
+    names = f"{mangle(node.enclave)}/{mangle(node.namespace)}/{node.name}"
     return f"{SPACE}/{domain}/{node.zid}/{node.number}/{number}/{kind}/{names}"
 
 
@@ -78,13 +78,13 @@ def parse_token(key: str) -> Token:
         return Token(key, "NN", node, number)
     topic, dds, type_hash, qos = parts[9:ENTITY_PARTS]
     known: Kind = kind  # pyright: ignore[reportAssignmentType] -- one of `KINDS`, as checked above
-    return Token(key, known, node, number, demangled(topic), *_type(dds, type_hash), decode_qos(qos))
+    return Token(key, known, node, number, demangle(topic), *_type(dds, type_hash), decode_qos(qos))
 
 
 @lru_cache(1024)  # a node has dozens of entities
 def _node(domain: str, zid: str, number: str, enclave: str, namespace: str, name: str) -> TokenNode:
     _natural(domain)
-    return TokenNode(zid, _natural(number), demangled(enclave), demangled(namespace), name)
+    return TokenNode(zid, _natural(number), demangle(enclave), demangle(namespace), name)
 
 
 @lru_cache(1024)  # a graph of thousands of entities has dozens of types
@@ -105,7 +105,7 @@ def all_tokens(domain: int) -> str:
 
 def tokens_of(domain: int, kind: Kind, topic: str) -> str:
     """Return the key expression that matches the tokens of one kind for one topic or service."""
-    return f"{SPACE}/{domain}/*/*/*/{kind}/*/*/*/{mangled(topic)}/**"
+    return f"{SPACE}/{domain}/*/*/*/{kind}/*/*/*/{mangle(topic)}/**"
 
 
 def tokens_of_kind(domain: int, kind: Kind) -> str:

@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
-from bot_console.runtime.rmw.zenoh.declaration_throttle import AT_ONCE, DECLARATIONS_PER_PAUSE, PAUSE_S, QUIET_S, Pace
+from bot_console.runtime.rmw.zenoh.declaration_throttle import (
+    AT_ONCE,
+    DECLARATIONS_PER_PAUSE,
+    PAUSE_S,
+    QUIET_S,
+    DeclarationThrottle,
+)
 
 
 class Rig:
@@ -11,7 +17,7 @@ class Rig:
     def __init__(self) -> None:
         self.now = 100.0
         self.rests: list[float] = []
-        self.pace = Pace(lambda: self.now, self._rest)
+        self.pace = DeclarationThrottle(lambda: self.now, self._rest)
 
     def _rest(self, seconds: float) -> None:
         self.rests.append(seconds)
@@ -19,7 +25,7 @@ class Rig:
 
     def show(self, count: int) -> None:
         for _ in range(count):
-            self.pace.shown()
+            self.pace.count_declaration()
 
 
 def test_declarations_of_fifty_nodes_need_no_pause() -> None:

@@ -12,7 +12,7 @@ from bot_console.runtime.process import on_notice
 from bot_console.runtime.rmw.zenoh.domain.debugger_note import SUFFIX
 from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession
 from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
-from bot_console.runtime.rmw.zenoh.network.frozen_processes import DEBUGGED_TOKEN, TOKEN, StoppedBehind
+from bot_console.runtime.rmw.zenoh.network.frozen_processes import DEBUGGED_TOKEN, TOKEN, StoppedBehindRouter
 from bot_console.runtime.rmw.zenoh.settings import Serving
 from bot_console.runtime.rmw.zenoh.whole_graph import WholeGraph
 from helpers.processes.mesh import eventually, members
@@ -41,7 +41,7 @@ def test_frozen_or_debugged_process_is_reported_until_it_continues():
             assert [str(member.process.pid) in each and "is stopped" in each for each in reported] == [True]
             member.process.send_signal(signal.SIGCONT)
             assert eventually(lambda: client.stopped() == {})
-            assert client.stopped_afar() == []
+            assert client.stopped_behind_router() == []
             for line in ("/a b/*.py:12, in tick", "", "/ä.py:3"):
                 note.write_text(line, "utf-8")
                 assert eventually(lambda line=line: client.debugged() == {member.zid[:8]: line})
@@ -67,7 +67,7 @@ class Tokens:
 
 def test_tokens_of_other_kinds_report_nothing():
     tokens = Tokens()
-    behind = StoppedBehind(cast("Any", tokens))
+    behind = StoppedBehindRouter(cast("Any", tokens))
     for key in ("a/x", "a/-1", "a/", "", "a/²", "b/12"):
         tokens.seen(TOKEN + key, True)
     assert behind.now() == {"b": 12}
@@ -81,7 +81,7 @@ def test_tokens_of_other_kinds_report_nothing():
 
 def test_next_line_in_a_debugger_may_come_before_the_last_one_goes():
     tokens = Tokens()
-    behind = StoppedBehind(cast("Any", tokens))
+    behind = StoppedBehindRouter(cast("Any", tokens))
     for key, came in (("a/x61", True), ("a/x62", True), ("a/x61", False)):
         tokens.seen(DEBUGGED_TOKEN + key, came)
     assert behind.debugged() == {"a": "b"}

@@ -148,10 +148,10 @@ def test_whole_graph_is_requested_if_other_watches_have_ended():
 
 def test_token_that_leaves_during_the_request_does_not_return():
     mesh = Mesh(A)
-    mesh.meanwhile = lambda: mesh.watch.saw("known", False)
+    mesh.meanwhile = lambda: mesh.watch.on_token("known", False)
     assert tokens_taken_in(mesh, ["known"]) == [("known", False)]
     mesh = Mesh(A)
-    mesh.meanwhile = lambda: [mesh.watch.saw("known", came) for came in (False, True)]
+    mesh.meanwhile = lambda: [mesh.watch.on_token("known", came) for came in (False, True)]
     assert tokens_taken_in(mesh, ["known"])[-1] == ("known", True)
 
 

@@ -44,7 +44,7 @@ class Queue:
             self.tries += 1
             return self.tries == got
 
-        monkeypatch.setattr(joining, "_taken", taken)
+        monkeypatch.setattr(joining, "_acquire", taken)
         monkeypatch.setattr(joining, "_holder", lambda handle: next(holders))
         monkeypatch.setattr(joining, "_time_used", lambda pid: next(self.used))
         monkeypatch.setattr(joining, "is_stopped", lambda pid: pid == STOPPED)

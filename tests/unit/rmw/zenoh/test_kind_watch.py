@@ -56,7 +56,7 @@ def watch(session: FakeSession) -> KindWatch:
 
 @pytest.fixture
 def report(session: FakeSession, watch: KindWatch) -> Any:
-    return session.watches[tokens_of_kind(0, "MP")].saw
+    return session.watches[tokens_of_kind(0, "MP")].on_token
 
 
 def recorder(heard: Heard) -> TokenCallback:
@@ -112,12 +112,12 @@ def test_few_topics_are_watched_individually_and_more_by_kind(session, monkeypat
     watches.listen("SS", "/t0", listener)
     singly = [tokens_of(0, "MP", "/t0"), tokens_of(0, "MP", "/t1"), tokens_of(0, "SS", "/t0")]
     assert set(session.watches) == {*singly, tokens_of_kind(0, "MP")}
-    session.watches[tokens_of_kind(0, "MP")].saw(token("/t3"), True)
-    session.watches[singly[0]].saw(token("/t0"), True)
+    session.watches[tokens_of_kind(0, "MP")].on_token(token("/t3"), True)
+    session.watches[singly[0]].on_token(token("/t0"), True)
     assert [each.topic for each in heard] == ["/t3", "/t0"]
     assert sorted(watches.known() or []) == [token("/t0"), token("/t3")]
     watches.forget("MP", "/t3", listener)
-    session.watches[tokens_of_kind(0, "MP")].saw(token("/t3", 2), True)
+    session.watches[tokens_of_kind(0, "MP")].on_token(token("/t3", 2), True)
     assert len(heard) == 2
     assert token("/t3", 2) in (watches.known() or [])  # its kind is still watched
     watches.forget("MP", "/t0", listener)

@@ -50,7 +50,7 @@ def refusal(way: Way) -> str:
 def test_mutual_tls_connects(secure, files):
     own, _ = files
     session = open_network_session(0, Way((secure,), Tls(own.ca, own.certificate, own.key)))
-    assert session.attendance(session.zid[:8], TIMEOUT_S) == {session.zid[:8]}
+    assert session.answering_sessions(session.zid[:8], TIMEOUT_S) == {session.zid[:8]}
     session.close()
 
 
@@ -128,7 +128,7 @@ def test_environment_variables_of_rmw_zenoh_are_respected(monkeypatch, tmp_path)
     monkeypatch.setenv("ZENOH_SESSION_CONFIG_URI", str(file))
     monkeypatch.setenv("ZENOH_CONFIG_OVERRIDE", f'connect/endpoints=["tcp/127.0.0.1:{port}"];connect/timeout_ms=3000')
     session = open_network_session(0, with_environment(Way(timeout_s=0.3)))
-    assert session.attendance(session.zid[:8], TIMEOUT_S)
+    assert session.answering_sessions(session.zid[:8], TIMEOUT_S)
     session.close()
     router.close()
 

@@ -6,7 +6,7 @@ import sys
 from types import SimpleNamespace
 
 from bot_console.runtime.rmw.endpoints import ClientEndpoint, NodeId, ServiceEndpoint
-from bot_console.runtime.rmw.zenoh.services import Asking, Served
+from bot_console.runtime.rmw.zenoh.services import RequestReceiver, RequestSender
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.wire.attachment import pack
 from example_interfaces.srv import AddTwoInts
@@ -35,20 +35,20 @@ def corrupt(payload):
 
 def test_corrupted_request_is_not_served(notices):
     service = ServiceEndpoint(NodeId("n", "/"), NAME, TYPE, lambda: None, AddTwoInts)
-    served = Served(SESSION, service, "key")
+    served = RequestReceiver(SESSION, service, "key")
     sent = serialize_message(AddTwoInts.Request(a=1, b=2))
     cut = Request(corrupt(sent), pack(1, 5, GID, sent))
-    served.asked(cut)
+    served.on_query(cut)
     assert cut.dropped and not service.queue
     assert notices == [f"a request to '/add' was dropped: {REPORTED}"]
-    served.asked(Request(sent, pack(2, 5, GID, sent)))
+    served.on_query(Request(sent, pack(2, 5, GID, sent)))
     ((_, number, request),) = service.queue
     assert (number, request.a, request.b) == (2, 1, 2)
 
 
 def test_corrupted_response_is_not_accepted(notices):
     client = ClientEndpoint(NodeId("n", "/"), NAME, TYPE, lambda: None, AddTwoInts, gid=GID)
-    asking = Asking(SESSION, client, "key")
+    asking = RequestSender(SESSION, client, "key")
     sent = serialize_message(AddTwoInts.Response(sum=3))
     asking._replied(corrupt(sent), pack(1, 5, GID, sent))
     assert not client.queue
@@ -79,18 +79,18 @@ class Links:
 
 def ask_servers(session, *servers):
     client = ClientEndpoint(NodeId("n", "/"), NAME, TYPE, lambda: None, AddTwoInts, gid=GID)
-    asking = Asking(session, client, "key/hash")
+    asking = RequestSender(session, client, "key/hash")
     for each in servers:
-        asking.saw(server(each), True)
+        asking.on_token(server(each), True)
     return asking, asking.watch_servers()
 
 
 def test_server_withdrawn_over_a_working_link_has_ended():
     asking, ended = ask_servers(Links(), "a", "b")
     assert asking.has_server and not ended()
-    asking.saw(server("a"), False)
+    asking.on_token(server("a"), False)
     assert not ended(), "the other one is there"
-    asking.saw(server("b"), False)
+    asking.on_token(server("b"), False)
     assert ended() and not asking.has_server
 
 
@@ -98,13 +98,13 @@ def test_lost_link_does_not_end_the_server_unless_its_process_ended():
     links = Links()
     asking, ended = ask_servers(links, "a")
     links.ids = set()
-    asking.saw(server("a"), False)
+    asking.on_token(server("a"), False)
     assert not ended(), "its process lives, and may link itself anew"
     gone = subprocess.Popen([sys.executable, "-c", ""])
     links.pids["a"] = gone.pid
     asking, ended = ask_servers(links, "a")
     gone.wait()
-    asking.saw(server("a"), False)
+    asking.on_token(server("a"), False)
     assert ended()
 
 

@@ -34,7 +34,7 @@ class FakeSession:
         self.changed = changed
         return self
 
-    def attendance(self, who: str, timeout: float) -> set[str]:
+    def answering_sessions(self, who: str, timeout: float) -> set[str]:
         self.asked.append(who)
         return self.answering & self.links
 

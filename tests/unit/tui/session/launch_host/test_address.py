@@ -9,7 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from bot_console.runtime.rmw.zenoh.domain.sockets import lives
+from bot_console.runtime.rmw.zenoh.domain.sockets import process_exists
 from bot_console.tui.session.launch_host.address import (
     HostListener,
     connect_to_host,
@@ -55,6 +55,6 @@ def test_the_addresses_of_processes_that_have_ended_are_removed(tmp_path: Path) 
     os.waitid(os.P_PID, ended.pid, os.WEXITED | os.WNOWAIT)  # it stays a zombie: its parent has not waited for it
     for pid in (ended.pid, os.getppid()):
         (tmp_path / f"{pid}.host").touch()
-    remove_addresses_of_dead_hosts(str(tmp_path), lives)
+    remove_addresses_of_dead_hosts(str(tmp_path), process_exists)
     assert host_addresses(str(tmp_path)) == [str(tmp_path / f"{os.getppid()}.host")]
     ended.communicate()
