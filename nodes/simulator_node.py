@@ -197,7 +197,7 @@ class Simulator(Node):
         except ValueError as error:
             self.get_logger().warning(f"Pose on initialpose ignored: x = {pose.x:.2f} m, y = {pose.y:.2f} m: {error}")
         else:
-            self.get_logger().info(f"Robot put to x = {pose.x:.2f} m, y = {pose.y:.2f} m")
+            self.get_logger().info(f"Robot moved to x = {pose.x:.2f} m, y = {pose.y:.2f} m")
 
     def _on_reset(self, _: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         try:

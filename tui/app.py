@@ -132,7 +132,7 @@ class BotConsoleApp(GuardedApp):
             await self._handle_event(event)
         elif isinstance(event, events.Paste) and len(event.text) > MAX_PASTE_CHARACTERS:
             self.notify(
-                f"{len(event.text):,} characters were pasted and ignored: {MAX_PASTE_CHARACTERS:,} at most",
+                f"{len(event.text):,} characters were pasted and ignored: the maximum is {MAX_PASTE_CHARACTERS:,}",
                 severity="error",
             )
         elif isinstance(event, events.Key) and keymap.is_quit_now_key(event.key):
@@ -466,7 +466,7 @@ class BotConsoleApp(GuardedApp):
         with contextlib.suppress(Exception):  # after a fault, nothing may keep the terminal from being restored
             self.console_of_robot.drive.stop(True, "bot-console has failed")
         details = save_traceback(error)
-        text = f"bot-console: ended by a fault of its own, the robot was stopped: {reason(error)}"
+        text = f"bot-console: ended by an internal error, the robot was stopped: {reason(error)}"
         return text + (f"; details in {details}" if details else "")
 
     def action_sleep(self) -> None:
@@ -478,7 +478,7 @@ class BotConsoleApp(GuardedApp):
         text = self.screen.get_selected_text()
         if text:
             self.copy_to_clipboard(text)
-            self.notify(f"Copied: {counted(len(text), 'letter')}.")
+            self.notify(f"Copied {counted(len(text), 'character')}.")
 
     def action_end_stream(self) -> None:
         """Stop the command line that is running below the panes."""

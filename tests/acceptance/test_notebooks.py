@@ -114,7 +114,7 @@ def test_example_notebook_runs_and_ends_its_robot(kernel: Kernel, env: dict[str,
     text = "".join(each for each, _ in printed)
     assert "speed while turning: 0.0 m/s" in text and "Double value is: " in text
     there = in_shell("bash", Path(env["HOME"]), "bot-console status", env)
-    assert (there.returncode, "nothing runs" in there.stderr) == (1, True)
+    assert (there.returncode, "nothing is running" in there.stderr) == (1, True)
 
 
 @pytest.mark.slow

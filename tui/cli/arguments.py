@@ -159,15 +159,15 @@ def parse(words: Sequence[str], commands: Collection[str] = ()) -> Options:
     if profile.launch:
         given.launch, pairs = profile.launch, {**profile.arguments, **pairs}
     if given.simulator is not None and not given.launch:
-        parser.error("--simulator and --no-simulator go with --launch: the robot system brings its own robot")
+        parser.error("--simulator and --no-simulator need --launch: the robot system has its own robot")
     if given.launch is not None and not given.launch.strip():
         parser.error("--launch: give the name of a launch file")
     if given.allow_missing:
         if not given.launch:
-            parser.error("--allow-missing goes with --launch: the robot system has no missing executables")
+            parser.error("--allow-missing needs --launch: the robot system has no missing executables")
         pairs["allow_missing"] = "true"
     if given.fast and not given.headless:
-        parser.error("--fast goes with --headless: a screen shows real time")
+        parser.error("--fast needs --headless: a screen shows real time")
     return Options(
         profile=profile.name,
         profile_file=profile.path,
@@ -257,7 +257,7 @@ def add_profile_folders(parser: argparse.ArgumentParser) -> None:
     )
 
 
-SIMULATOR_HELP = "run the simulated robot beside it, or not (default: if its nodes need a robot and there is none)"
+SIMULATOR_HELP = "run the simulated robot alongside, or not (default: only if its nodes need a robot and there is none)"
 
 
 def option_parser() -> argparse.ArgumentParser:

@@ -68,7 +68,7 @@ def network_way(parser: argparse.ArgumentParser, given: argparse.Namespace) -> W
     tls = Tls(given.tls_ca, given.tls_certificate, given.tls_key, given.tls_any_name)
     if asked is None:
         if tls != Tls():
-            parser.error("the options --tls-... go with --connect")
+            parser.error("the --tls-... options need --connect")
         return None
     endpoints = tuple(filter(None, asked))
     if not endpoints and not os.environ.get(CONFIG_VARIABLE):

@@ -19,7 +19,7 @@ def wants_to_attach(there: list[str], *, robot: bool) -> bool:
         print(f"`ROS_DOMAIN_ID={number + 1} bot-console` starts another one in isolation.")
         question = "Attach the console to the running one? [Y/n] "
     else:
-        print(f"Nodes named like our robot's run in ROS domain {number}: {', '.join(there)}.")
+        print(f"Nodes with our robot's node names run in ROS domain {number}: {', '.join(there)}.")
         if there == [NAVIGATOR]:
             print("`bot-console navigator:=false` starts our robot without its navigator,")
         print(f"`bot-console --launch {NAME} simulator.launch.py` adds only a robot,")

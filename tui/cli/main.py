@@ -161,7 +161,7 @@ def _has_screen() -> bool:
     try:
         import termios  # noqa: F401  # pyright: ignore[reportUnusedImport] -- whether it is there
     except ImportError:
-        system = "the console needs a terminal of Linux or macOS: on Windows start it in WSL"
+        system = "the console needs a Linux or macOS terminal: on Windows, start it in WSL"
         print(f"{system}, or use `bot-console --headless` and the verbs of ros2", file=sys.stderr)
         return False
     return True

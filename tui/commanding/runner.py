@@ -106,7 +106,7 @@ class LineRunner:
         if not wrong and words[0] == "layout" and words[1] not in self._host.layouts():
             return f"there is no layout {words[1]}; there are {', '.join(self._host.layouts())}"
         if not wrong and words[0] == "help" and len(words) > 1 and words[1] not in VERBS:
-            return f"no verb of the console is {words[1]}; ros2 {words[1]} -h tells of those of ros2"
+            return f"the console has no command {words[1]}; ros2 {words[1]} -h explains those of ros2"
         if not wrong and words[0] == "bag":
             return bag_problem(words)
         return wrong
@@ -151,7 +151,7 @@ class LineRunner:
         notes = [*opening.notes, *(f"{each} is ignored" for each in left)]
         if opening.perspective:
             file = opening.perspective
-            notes.append(f"perspective {file} is opened at the start only: bot-console --perspective-file {file}")
+            notes.append(f"perspective {file} can only be opened at the start: bot-console --perspective-file {file}")
         self._host.open(opening._replace(notes=tuple(notes)))
 
     def _ros2(self, line: str) -> None:

@@ -23,11 +23,11 @@ class Verb:
 
 
 VERBS: Mapping[str, Verb] = {
-    "bag": Verb("bag open|play FOLDER", "look at a bag, or play it, in a console of its own, until q", 2, 2),
+    "bag": Verb("bag open|play FOLDER", "look at a bag, or play it, in a separate console, until q", 2, 2),
     "help": Verb("help [VERB]", "all commands, or one", maximum=1),
     "layout": Verb("layout NAME", "show a layout", 1, 1),
     "plot": Verb("plot PATH ...", "curves of the plot: /topic/field or /node:parameter", 1),
-    "record": Verb("record [FOLDER] | record stop", "record all topics into a bag; end that", maximum=1),
+    "record": Verb("record [FOLDER] | record stop", "record all topics into a bag; stop recording", maximum=1),
     "release": Verb("release", "let the robot move again", maximum=0),
     "set": Verb("set NODE PARAMETER VALUE", "set a parameter", 3),
     "stop": Verb("stop", "ALL STOP: hold the robot", maximum=0),
@@ -53,10 +53,10 @@ def parse_setting(words: Sequence[str], snapshot: ConsoleSnapshot) -> Setting:
 def _parameter(node: str, name: str, snapshot: ConsoleSnapshot) -> ParameterInfo:
     tree = snapshot.parameters.get(f"/{node.lstrip('/')}")
     if tree is None:
-        raise ValueError(f"there is no node {node} with parameters; tab shows those that are there")
+        raise ValueError(f"there is no node {node} with parameters; tab lists the nodes")
     found = tree.get(name)
     if found is None:
-        raise ValueError(f"{tree.node} has no parameter {name}; tab shows those it has")
+        raise ValueError(f"{tree.node} has no parameter {name}; tab lists its parameters")
     return found
 
 
@@ -74,7 +74,7 @@ def bag_problem(words: Sequence[str]) -> str:
     """The problem with `bag open FOLDER` or `bag play FOLDER`; empty if there is none."""
     if words[1] not in ("open", "play"):
         begun = "write it as: bag open FOLDER, or bag play FOLDER"
-        return f"{begun}; record begins and ends one, the rest is for a shell: bot-console bag -h"
+        return f"{begun}; record starts and stops a recording, the rest is for a shell: bot-console bag -h"
     return "" if os.path.exists(words[2]) else f"there is no bag {words[2]}"
 
 

@@ -74,7 +74,7 @@ def read_condition(text: str, line: int = 0) -> Condition:
     try:
         words = shlex.split(before)
     except ValueError as error:
-        raise ValueError(f"{line}: {error}; put what contains blanks or quotes into quotes") from None
+        raise ValueError(f"{line}: {error}; put words that contain blanks or quotes into quotes") from None
     verb = VERBS.get(words[0])
     if verb is None:
         raise ValueError(f"{line}: '{words[0][:40]}' is not one of {', '.join(VERBS)}")

@@ -90,7 +90,7 @@ def find_course(given: str) -> Path:
             return folder
     if Path(given).is_dir():
         raise CourseError(f"{given}: a course needs a file {INDEX} with its title; `bot-console learn --new` makes one")
-    raise CourseError(f"there is no course '{given}'; there are {', '.join(names())}, or name a folder")
+    raise CourseError(f"there is no course '{given}'; the courses are {', '.join(names())}, or name a folder")
 
 
 def read_course(folder: Path) -> Course:
@@ -103,7 +103,7 @@ def read_course(folder: Path) -> Course:
         elif name := re.fullmatch(r"([a-z_]+) = (\S+)", line.strip()):
             defaults[name[1]] = name[2]
         elif line.startswith("## "):
-            raise CourseError(f"{folder / INDEX}:{number}: steps belong into a file of their own, beside {INDEX}")
+            raise CourseError(f"{folder / INDEX}:{number}: steps belong in a separate file, beside {INDEX}")
     chapters = tuple(_chapter(path) for path in sorted(folder.glob("*.md")) if path.name != INDEX)
     course = Course(folder.name, title, chapters, defaults)
     if not course.steps():
@@ -152,7 +152,7 @@ def _chapter(path: Path) -> Chapter:
     found: list[Step] = []
     for part in steps:
         if not part.conditions:
-            raise CourseError(f"{path}:{part.line}: the step '{part.title}' has no fence `step` with what it waits for")
+            raise CourseError(f"{path}:{part.line}: the step '{part.title}' has no fence `step` with its conditions")
         id = re.sub(r"[^a-z0-9]+", "-", part.title.lower()).strip("-")
         found.append(Step(id, part.title, part.text(), tuple(part.snippets), tuple(part.conditions)))
     rows = [row for part in (head, *steps) for row in part.rows]
@@ -177,7 +177,7 @@ def _sections(path: Path, lines: Sequence[str]) -> list[_Section]:
             parts.append(_Section(line[3:].strip(), number))
         elif line.startswith("# "):
             if parts[0].title:
-                raise CourseError(f"{path}:{number}: a second `# Title`; another chapter is another file")
+                raise CourseError(f"{path}:{number}: a second `# Title`; put another chapter in a file of its own")
             parts[0].title, parts[0].line = line[2:].strip(), number
         else:
             parts[-1].prose.append(line)

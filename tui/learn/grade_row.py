@@ -90,7 +90,7 @@ def _words(text: str, line: int) -> tuple[str, ...]:
     try:
         return tuple(shlex.split(text))
     except ValueError as error:
-        raise ValueError(f"{line}: {error}; put what contains blanks or quotes into quotes") from None
+        raise ValueError(f"{line}: {error}; put words that contain blanks or quotes into quotes") from None
 
 
 def _drive(text: str, line: int) -> Drive:

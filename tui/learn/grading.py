@@ -93,7 +93,7 @@ def _drive(drive: Drive, sandbox: Sandbox, names: dict[str, str]) -> str:
     done = sandbox.run(line, ROW_TIMEOUT_S)
     report = _report(sandbox)
     if done.why or report is None or "distance" not in report:
-        return done.why or _explained("the run has no report", done)
+        return done.why or _explained("the run produced no report", done)
     distance = float(report["distance"])
     return (
         ""

@@ -48,6 +48,6 @@ def read_progress(workspace: Path, course: str) -> Progress:
     except FileNotFoundError:
         pass
     except (OSError, ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
-        progress.problem = f"{path} cannot be read ({error}): the course starts again beside it"
+        progress.problem = f"{path} cannot be read ({error}): the course starts again in a new file"
         progress.path = path.with_name(f"{course}-2.json")
     return progress

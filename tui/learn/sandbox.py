@@ -90,8 +90,8 @@ def make_sandbox(workspace: Path, folder: Path, *, allow_network: bool) -> Sandb
     if not can_isolate():
         if not allow_network:
             raise NoSandboxError(
-                "this system gives programs no network namespace of their own, so that what is graded could reach the "
-                "network: grade in a container without one and add --allow-network, or accept it with --allow-network"
+                "this system does not let programs have a separate network namespace, so that graded programs could "
+                "reach the network: grade in a container without network access, or accept this, with --allow-network"
             )
         prefix = ()
     shutil.copytree(workspace, folder / "ws", ignore=SKIPPED, symlinks=True)
@@ -124,7 +124,7 @@ def _wait(process: subprocess.Popen[bytes], seconds: float) -> str:
         if time.monotonic() > deadline:
             why = f"it took longer than {seconds:g} s"
         elif _resident_bytes(process.pid) > MAX_MEMORY_BYTES:
-            why = f"it took more than {MAX_MEMORY_BYTES // 1_000_000} MB of memory"
+            why = f"it used more than {MAX_MEMORY_BYTES // 1_000_000} MB of memory"
         if why:
             _kill_all(process.pid)
             process.wait()

@@ -10,7 +10,7 @@ from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.prompt.question import Confirmation
 from textual.app import App
 
-REASON = "bot-console is asked to quit"
+REASON = "bot-console was asked to quit"
 MAX_NAMED_VALUES = 8
 """Maximum number of values that are listed."""
 
@@ -71,7 +71,7 @@ def unsaved_names(snapshot: ConsoleSnapshot) -> list[tuple[str, str]]:
 def unsaved_text(snapshot: ConsoleSnapshot) -> str:
     """A text that lists the values not saved in any file, one per line."""
     names = unsaved_names(snapshot)
-    lines = [f"{counted(len(names), 'value')} set here and saved nowhere:"]
+    lines = [f"{counted(len(names), 'value')} set here and not saved:"]
     for node, name in names[:MAX_NAMED_VALUES]:
         tree = snapshot.parameters.get(node)
         known = tree.get(name) if tree else None

@@ -9,7 +9,7 @@ from bot_console.tui.console.robot.robot_model import DriveInfo, RobotStop
 from bot_console.tui.text.sanitize import counted, sanitize
 from bot_console.tui.widgets.prompt.question import Confirmation
 
-HOLDS_AGAIN = "What persons have requested holds it again as soon as it is back; ! and bot-console release end that."
+HOLDS_AGAIN = "Stops that people requested hold it again as soon as it is back; ! and bot-console release end them."
 IS_TEXT = "! is a letter here"
 """What the stop key does while a text field has the focus."""
 MAX_NAMED_STOPS = 5
@@ -106,6 +106,6 @@ def release_question(
         "These stops are not this console's:",
         *_stop_lines(others),
         "",
-        "With no the robot stays held, by you too.",
+        "If you answer no, the robot stays held, by you too.",
     ]
-    return Confirmation("Release the robot all the same?", then, gone, reasons="\n".join(reasons))
+    return Confirmation("Release the robot anyway?", then, gone, reasons="\n".join(reasons))

@@ -22,7 +22,7 @@ STOP_TIMEOUT_S = 1.0
 """Seconds within which the robot should acknowledge the stop; then the terminal is left anyway."""
 STOP_POLL_S = 0.05
 EMPTY = "\x1b[m\x1b[H\x1b[J"
-ASLEEP = "bot-console was put to sleep (Ctrl-Z)"
+ASLEEP = "bot-console was suspended (Ctrl-Z)"
 
 
 class TerminalHandover:

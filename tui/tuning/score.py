@@ -11,7 +11,7 @@ from typing import Any
 from bot_console.tui.text.expression.numbers import Number, evaluate
 
 FIGURES: Mapping[str, str] = {
-    "mean_speed": "way over time (m/s)",
+    "mean_speed": "distance over time (m/s)",
     "distance": "way driven (m)",
     "collisions": "touches, each counted once",
     "min_clearance": "least room around the hull (m)",
@@ -23,11 +23,11 @@ FIGURES: Mapping[str, str] = {
 BUILT_IN_SCORES: Mapping[str, tuple[str, str]] = {
     "swift": (
         "mean_speed - 2*collisions - 5*max(0, 0.15 - min_clearance)",
-        "fast, and nothing touched: a collision costs 2 m/s, less than 0.15 m of room costs too",
+        "fast, and without touching anything: a collision costs 2 m/s, less than 0.15 m of room costs too",
     ),
     "steady": (
         "mean_speed - 0.1*stops - longest_standstill/duration - 2*collisions",
-        "fast without stopping: a stop costs 0.1 m/s, and so does the share of time that it stood longest",
+        "fast without stopping: a stop costs 0.1 m/s, and the longest standstill costs its share of the time",
     ),
     "roomy": (
         "min(1, min_clearance) + 0.2*mean_speed - 2*collisions",
@@ -65,7 +65,7 @@ class Score:
         for index, (statistic, path) in enumerate(self.topics):
             found = samples.get(path)
             if not found:
-                raise ValueError(f"nothing came on {path}")
+                raise ValueError(f"no message arrived on {path}")
             names[f"topic{index}"] = found[statistic]
         value = float(evaluate(self.formula, names))
         if not math.isfinite(value):
@@ -89,9 +89,8 @@ def parse_score(text: str) -> Score:
 
     formula = _TOPIC.sub(take, BUILT_IN_SCORES[text][0] if text in BUILT_IN_SCORES else text)
     if text.isidentifier() and text not in BUILT_IN_SCORES and text not in FIGURES:
-        raise ValueError(
-            f"'{text}' is not a score; there are {', '.join(BUILT_IN_SCORES)}, and formulas over {', '.join(FIGURES)}"
-        )
+        scores, names = ", ".join(BUILT_IN_SCORES), ", ".join(FIGURES)
+        raise ValueError(f"'{text}' is not a score; choose from {scores}, or use {names} in a formula")
     score = Score(text, formula, tuple(topics))
     trial = {**dict.fromkeys(FIGURES, 1.0), **{f"topic{index}": 1.0 for index in range(len(topics))}}
     try:

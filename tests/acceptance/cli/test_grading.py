@@ -200,7 +200,7 @@ def test_child_processes_share_the_memory_limit(tmp_path: Path, monkeypatch: pyt
     box = make_sandbox(_empty(tmp_path), _new(tmp_path), allow_network=False)
     hog = f"{sys.executable} -c 'x = bytearray(90_000_000); input()'"
     done = box.run(f"sleep 60 | {hog} & sleep 60 | {hog} & wait", 60.0)
-    assert done.why == "it took more than 150 MB of memory"
+    assert done.why == "it used more than 150 MB of memory"
 
 
 @needs_namespaces

@@ -69,7 +69,7 @@ def test_program_with_a_session_exits_without_finalizing_the_interpreter(place: 
 
 
 def test_status_reports_the_robot_behind_the_named_router(place: str) -> None:
-    assert f"nothing runs in ROS domain 0 at {place}" in run_connected(place, "status").stderr
+    assert f"nothing is running in ROS domain 0 at {place}" in run_connected(place, "status").stderr
     session = open_network_session(0, Way((place,)))
     node = TokenNode(session.zid, 0, "", "/", "base")
     session.declare_token(node_token(0, node))

@@ -65,7 +65,7 @@ def test_background_robot_is_reached_through_router_with_certificate_only(
     [
         (["--listen", "robot"], 2, "is not an endpoint"),
         (["--listen", "tls/127.0.0.1:7447"], 2, "needs --tls-certificate and --tls-key"),
-        (["--listen", "tcp/192.0.2.1:7447"], 1, "whoever reaches tcp/192.0.2.1:7447 can drive this robot"),
+        (["--listen", "tcp/192.0.2.1:7447"], 1, "anyone who can reach tcp/192.0.2.1:7447 can drive this robot"),
     ],
 )
 def test_invalid_endpoint_is_refused_and_open_one_warned_of(words: list[str], code: int, reported: str) -> None:

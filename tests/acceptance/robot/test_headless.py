@@ -162,7 +162,7 @@ def test_parameters_that_end_the_simulator_end_the_run_at_once(tmp_path, content
         (["--headless", "pkg", "node"], 2, "runs with `bot-console run --headless pkg node`"),
         (["--headless", "--launch", "missing.launch.py"], 1, "there is no launch file missing.launch.py"),
         (["--headless", "--launch", "turtlesim", "no.launch.py"], 1, "file 'no.launch.py' was not found in the share"),
-        (["--fast"], 2, "--fast goes with --headless"),
+        (["--fast"], 2, "--fast needs --headless"),
         (["--headless", "--duration", "-1"], 2, "--duration: must be positive"),
         (["--headless", "--duration", "inf"], 2, "--duration: must be positive"),
         (["--headless", "--seed", "-1"], 2, "--seed: must be from 0 to 9223372036854775807"),

@@ -69,7 +69,7 @@ def test_paste_is_inserted_or_refused_as_a_whole() -> None:
             session.app.post_message(Paste("x" * characters))
         await session.press("space", "y")
         assert field(session) == "x" * MAX_PASTE_CHARACTERS + " y"
-        assert any("20,001 characters were pasted and ignored: 20,000 at most" in each for each in reported)
+        assert any("20,001 characters were pasted and ignored: the maximum is 20,000" in each for each in reported)
         await session.press("escape", "exclamation_mark")
         assert session.console.asked[-1] == ("all_stop", True)
 

@@ -69,7 +69,7 @@ def test_quit_question_stops_nothing_without_a_robot() -> None:
         session.console.current = replace(session.console.current, drive=DriveInfo())
         await session.settle()
         await session.press("q")
-        assert "saved nowhere" in session.text() and "held meanwhile" not in session.text()
+        assert "not saved:" in session.text() and "held meanwhile" not in session.text()
         await session.press("n")
         assert stops(session) == [] and not has_ended(session)
 

@@ -97,7 +97,7 @@ def _run_live(steps: Sequence[Step], given: argparse.Namespace) -> list[Outcome]
         if console is None:
             return None
         if not known(console, given.wait):
-            print("no node runs in this domain; `bot-console up` starts the robot", file=sys.stderr)
+            print("no node is running in this domain; `bot-console up` starts the robot", file=sys.stderr)
             return None
         return _run_steps(Runner(console), steps, print_progress=not given.json, stop=given.stop)
 

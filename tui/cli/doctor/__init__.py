@@ -25,18 +25,18 @@ from bot_console.tui.session.machine.network_use import RANGES, discovery_range,
 
 EPILOG = """\
 examples:
-  bot-console doctor                               this terminal, this machine, and what runs on it
+  bot-console doctor                               this terminal, this machine, and what is running on it
   bot-console doctor --ros                         the ROS 2 that is sourced
-  bot-console doctor --ros --range SUBNET          the same, searching the network whatever the environment says
+  bot-console doctor --ros --range SUBNET          the same, searching the network regardless of the environment
   bot-console doctor --connect tcp/robot:7447      a robot: link, clocks, types, QoS, its time-out for commands
   bot-console doctor --connect tcp/robot:7447 --capture robot.json
   bot-console doctor --json                        for scripts
 
-exit codes: 0 nothing fails, 1 something fails, 2 wrong usage
+exit codes: 0 no check failed, 1 a check failed, 2 wrong usage
 """
 BEYOND_RANGE = "search the network: bot-console doctor --ros --range SUBNET"
 IN_NETWORK = (
-    "check whether the robot has this ROS_DOMAIN_ID and middleware; where the network lets no multicast pass, name its "
+    "check whether the robot has this ROS_DOMAIN_ID and middleware; if the network blocks multicast, put its "
     "address in ROS_STATIC_PEERS"
 )
 LISTEN_S = 2.0
@@ -52,9 +52,9 @@ def run(words: Sequence[str]) -> int:
     if given.ros and way is not None:
         parser.error("--ros and --connect exclude each other")
     if given.range and not given.ros:
-        parser.error("--range goes with --ros: it is the discovery range of ROS 2")
+        parser.error("--range needs --ros: it is the discovery range of ROS 2")
     if given.capture and given.ros:
-        parser.error("--capture goes with --connect or a system of this program: it records what Zenoh carries")
+        parser.error("--capture needs --connect or a bot-console system: it records Zenoh traffic")
     findings: list[DoctorFinding] = []
 
     def report(found: Sequence[DoctorFinding]) -> None:
@@ -115,7 +115,7 @@ def _ros(seconds: float | None, report: Callable[[Sequence[DoctorFinding]], None
     ros = find_machine_ros()
     if ros is None or not ros.usable:
         hint = NO_ROS if ros is None else how_to_install(ros)
-        report([DoctorFinding(Level.FAIL, "ros", "this Python cannot use an rclpy", hint)])
+        report([DoctorFinding(Level.FAIL, "ros", "this Python has no usable rclpy", hint)])
         return
     report([DoctorFinding(Level.OK, "network", network_use(os.environ))])
     try:
@@ -133,7 +133,7 @@ def _zenoh(
     way: Way | None, seconds: float, capture: Path | None, report: Callable[[Sequence[DoctorFinding]], None]
 ) -> None:
     if way is None and not others_take_part():
-        report([DoctorFinding(Level.NOTE, "graph", "no system of bot-console runs in this ROS domain")])
+        report([DoctorFinding(Level.NOTE, "graph", "no bot-console system is running in this ROS domain")])
         return
     install()
     from bot_console.tui.cli.doctor.system import examine

@@ -47,7 +47,7 @@ def ros_finding(ros: MachineRos | None, environment: Mapping[str, str]) -> Docto
         text = "no ROS 2 is sourced; the embedded runtime needs none"
         if rmw or environment.get("AMENT_PREFIX_PATH"):
             hint = "source its setup file again, and check whether `python3 -c 'import rclpy'` works"
-            return DoctorFinding(Level.WARN, "ros", "variables of a ROS 2 are set, but its rclpy is not found", hint)
+            return DoctorFinding(Level.WARN, "ros", "ROS 2 variables are set, but its rclpy cannot be found", hint)
         return DoctorFinding(Level.OK, "ros", text)
     if ros.is_mixed:
         return DoctorFinding(Level.WARN, "ros", f"{ros} cannot be used", how_to_install(ros))
@@ -59,7 +59,7 @@ def ros_finding(ros: MachineRos | None, environment: Mapping[str, str]) -> Docto
 def rclpy_finding(python: ShellPython | None) -> DoctorFinding:
     """Which rclpy the programs of this shell import."""
     if python is None:
-        return DoctorFinding(Level.NOTE, "rclpy", "no python3 on PATH answers; `bot-console run` needs none")
+        return DoctorFinding(Level.NOTE, "rclpy", "no python3 on PATH works; `bot-console run` does not need one")
     text = python.description()
     if python.real or (python.set_up and python.fits):
         return DoctorFinding(Level.OK, "rclpy", text)
@@ -71,11 +71,14 @@ def rclpy_finding(python: ShellPython | None) -> DoctorFinding:
 def domain_finding(text: str) -> DoctorFinding:
     """The domain that ROS_DOMAIN_ID names, and whether it is valid."""
     if not text:
-        return DoctorFinding(Level.OK, "domain", "ROS_DOMAIN_ID is not set: 0")
+        return DoctorFinding(Level.OK, "domain", "ROS_DOMAIN_ID is not set, so the domain is 0")
     number = parse_domain(text)
     if number is None:
         return DoctorFinding(
-            Level.FAIL, "domain", f"ROS_DOMAIN_ID={text[:40]} is not a number", "unset it, or set it to 0 to 101"
+            Level.FAIL,
+            "domain",
+            f"ROS_DOMAIN_ID={text[:40]} is not a number",
+            "unset it, or set it to a number from 0 to 101",
         )
     if number > MAX_DDS_DOMAIN:
         hint = "DDS accepts 0 to 101 on every system; Zenoh accepts any"
@@ -98,7 +101,7 @@ def sockets_findings() -> list[DoctorFinding]:
     if dead:
         text = f"{len(dead)} left over from programs that were killed"
         findings.append(
-            DoctorFinding(Level.NOTE, "sockets", text, "nothing: the next program that starts removes them")
+            DoctorFinding(Level.NOTE, "sockets", text, "nothing to do: the next program that starts removes them")
         )
     for each in stopped:
         hint = f"`kill -CONT {each.pid}`, or end it"

@@ -61,10 +61,12 @@ def answer_time(session: Session) -> float | None:
 def link_finding(to: str, delay: float | None) -> DoctorFinding:
     """The latency of the link to the router."""
     if delay is None:
-        return DoctorFinding(Level.FAIL, "link", f"{to} is reached, but does not answer", "is it a Zenoh 1.x router?")
+        return DoctorFinding(
+            Level.FAIL, "link", f"{to} can be reached, but does not answer", "is it a Zenoh 1.x router?"
+        )
     text = f"{to} answers after {delay * 1000:.1f} ms"
     if delay * 1000 > FAR_MS:
         return DoctorFinding(
-            Level.WARN, "link", text, "drive slowly: what you see is that old; or run the console over SSH"
+            Level.WARN, "link", text, "drive slowly, since what you see is that old, or run the console over SSH"
         )
     return DoctorFinding(Level.OK, "link", text)

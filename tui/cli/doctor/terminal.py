@@ -28,7 +28,7 @@ MAX_MEASURABLE_KB_S = 3000
 def terminal_findings(environment: Mapping[str, str]) -> list[DoctorFinding]:
     """All checks of the terminal that a console would use."""
     if not (sys.stdin.isatty() and sys.stdout.isatty()):
-        return [DoctorFinding(Level.NOTE, ABOUT, "there is none here: size, colours and delay were not checked")]
+        return [DoctorFinding(Level.NOTE, ABOUT, "this is not a terminal: size, colours and delay were not checked")]
     found = [size_finding(*shutil.get_terminal_size()), characters_finding(), colours_finding(environment)]
     if os.name != "nt":
         found.append(terminal_link_finding(*_measure()))
@@ -65,8 +65,8 @@ def colours_finding(environment: Mapping[str, str]) -> DoctorFinding:
         return DoctorFinding(Level.OK, ABOUT, f"{term}, 16 million colours")
     if "256color" in term or "kitty" in term or "direct" in term:
         return DoctorFinding(Level.OK, ABOUT, f"{term}, 256 colours")
-    hint = "export TERM=xterm-256color, if it is one (tmux: TERM=tmux-256color)"
-    return DoctorFinding(Level.WARN, ABOUT, f"TERM={term or '(empty)'} promises few colours", hint)
+    hint = "export TERM=xterm-256color, if the terminal is compatible (tmux: TERM=tmux-256color)"
+    return DoctorFinding(Level.WARN, ABOUT, f"TERM={term or '(empty)'} promises only few colours", hint)
 
 
 def terminal_link_finding(delay: float | None, bytes_per_s: float | None) -> DoctorFinding:

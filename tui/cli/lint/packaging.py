@@ -134,7 +134,7 @@ def _packages(package: Package) -> Iterator[Obstacle]:
                 if (inner / "__init__.py").is_file()
                 else f"give {inner.relative_to(package.folder)} an __init__.py and "
             )
-            yield Obstacle(path, line, f"packages= does not list {dotted}, which is not installed then",
+            yield Obstacle(path, line, f"packages= does not list {dotted}, so it is not installed",
                            f"{init}add '{dotted}' to packages=, or write packages=find_packages()")  # fmt: skip
     for executable, entry in package.executables.items():
         first = entry.module.partition(".")[0]
@@ -151,7 +151,7 @@ def _data_files(package: Package) -> Iterator[Obstacle]:
         if missing:
             names = ", ".join(str(each.relative_to(package.folder)) for each in missing[:MAX_NAMED_FILES])
             yield Obstacle(
-                path, row.line, f"data_files names {names}, which is not there", "correct the name, or remove it"
+                path, row.line, f"data_files names {names}, which does not exist", "correct the name, or remove it"
             )
         elif not row.files and row.written:
             yield Obstacle(path, row.line, f"{row.written} matches no file, so that {row.target} stays empty",
@@ -190,10 +190,10 @@ def _programs(package: Package) -> Iterator[Obstacle]:
         except OSError:
             continue
         if path.suffix == ".py" and not begin.startswith(b"#!"):
-            yield Obstacle(path, 1, "the program has no first line that names its interpreter",
+            yield Obstacle(path, 1, "the program does not begin with a line that names its interpreter",
                            "write `#!/usr/bin/env python3` as its first line")  # fmt: skip
         if os.name == "posix" and not os.access(path, os.X_OK):
-            yield Obstacle(path, 0, "the program may not be executed", f"chmod +x {path}")
+            yield Obstacle(path, 0, "the program is not executable", f"chmod +x {path}")
 
 
 def _line_of(path: Path, begin: str) -> int:

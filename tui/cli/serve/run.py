@@ -32,8 +32,8 @@ MISSING = (
     "pip install 'bot-console[serve]' (in a clone: pip install '.[serve]')"
 )
 EXPOSED_WARNING = (
-    "WARNING: {} is reachable from other machines, without encryption: whoever reads along in the network gets in. "
-    "A tunnel is safer: ssh -L {}:localhost:{} HOST"
+    "WARNING: {} is reachable from other machines, without encryption: anyone who can read the network traffic gets "
+    "in. A tunnel is safer: ssh -L {}:localhost:{} HOST"
 )
 
 
@@ -100,7 +100,7 @@ def _address(parser: argparse.ArgumentParser, text: str) -> str:
 def _console(parser: argparse.ArgumentParser, words: Sequence[str], *, control: bool) -> list[str]:
     """The command that opens a console with these arguments; exits with code 2 if they open none."""
     if words and is_command(words[0]) and words[0] not in SERVABLE:
-        parser.error(f"'{words[0]}' opens no console; a command to serve: {', '.join(SERVABLE)}")
+        parser.error(f"'{words[0]}' does not open a console; the command that can be served is {', '.join(SERVABLE)}")
     opened = [*words] if control else [*words, "--read-only"]
     if words[:1] == ["attach"]:
         parse_attach(opened[1:])

@@ -90,9 +90,9 @@ class Server:
             if host not in own and not (name in own and port.isdecimal()):
                 raise web.HTTPForbidden(text="This is not the address of this server.")
             if origin is None and request.path == "/ws":
-                raise web.HTTPForbidden(text="A socket is opened by the page only.")
+                raise web.HTTPForbidden(text="Only the page may open a socket.")
             if origin is not None and origin != f"http://{host}":
-                raise web.HTTPForbidden(text="Another page asked for this.")
+                raise web.HTTPForbidden(text="This request came from another page.")
             response = await handler(request)
         except web.HTTPException as error:
             error.headers.update(_headers(host))

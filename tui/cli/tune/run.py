@@ -191,7 +191,7 @@ def command_parser() -> argparse.ArgumentParser:
     add_profile_folders(parser)
     add("--worlds", default="", metavar="A,B", help="worlds for each setting; default: the profile's")
     add("--jobs", type=integer(0, MAX_RUNS), default=0, metavar="N", help="concurrent runs; default: one per processor")
-    add("--resume", action="store_true", help="resume a tuning that was stopped")
+    add("--resume", action="store_true", help="resume a tuning job that was stopped")
     add("--json", action="store_true", help="print the result as JSON")
     add("--save", default="", metavar="NAME", help="save the best setting as one of your profiles")
     return parser

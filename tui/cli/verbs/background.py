@@ -84,7 +84,7 @@ def up(words: Sequence[str]) -> int:
     serving, words = _split_serving(words)
     options = parse(["--headless", *words])
     if options.fast:
-        print("a system in the background runs in real time: leave --fast out", file=sys.stderr)
+        print("a system in the background runs in real time: omit --fast", file=sys.stderr)
         return 2
     if problem := no_robot_here():
         print(problem, file=sys.stderr)
@@ -161,7 +161,7 @@ def _wait_until_up(
         print(f"it ended with exit code {process.returncode}; its log is {started.log}", file=sys.stderr)
         return 1
     if not seen:
-        what = "nothing that it launches runs" if launched else "no robot was found"
+        what = "none of the programs that it launches is running" if launched else "no robot was found"
         print(
             f"{what} after {START_TIMEOUT_S:g} s: the log of {started.describe()} says why; bot-console down ends it",
             file=sys.stderr,
@@ -252,7 +252,7 @@ def down(words: Sequence[str]) -> int:
         return 1
     there = _running_system()
     if there is None:
-        print(f"nothing runs in the background of ROS domain {domain()}", file=sys.stderr)
+        print(f"no system is running in the background of ROS domain {domain()}", file=sys.stderr)
         return 1
     if robot_there():
         _stop_robot()
@@ -298,9 +298,9 @@ def status(words: Sequence[str]) -> int:
     is_held = (bool(robot or routers) or others_take_part()) and _print_holders()
     stopped = [] if routers else frozen()  # process ids of another machine mean nothing here
     for pid in stopped:
-        print(f"process {pid} is stopped: it does nothing for the others; kill -CONT {pid} lets it continue")
+        print(f"process {pid} is stopped: its nodes do not respond; kill -CONT {pid} lets it continue")
     if not (there or robot or is_held or stopped):
-        print(f"nothing runs in {where}", file=sys.stderr)
+        print(f"nothing is running in {where}", file=sys.stderr)
         return 1
     return 0
 
@@ -309,7 +309,7 @@ def _print_holders() -> bool:
     """Print who holds the robots of the domain, or that this is unknown; returns whether anything was printed."""
     found = holders()
     if found is None:
-        print("whether somebody holds it is not known: its emergency stop did not answer")
+        print("it is unknown whether somebody holds it: its emergency stop did not answer")
         return True
     for each in found:
         print(f"held by {sanitize(each)}; bot-console release --all releases it")

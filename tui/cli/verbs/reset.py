@@ -58,7 +58,7 @@ def _reset(console: RosConsole, *, dry: bool) -> int:
         good = good and answer is not None and answer.ok
     if untold:
         nodes = ", ".join(map(sanitize, untold))
-        print(f"left as they are, since their start values are unknown: {nodes}", file=sys.stderr)
+        print(f"not reset, since their initial values are unknown: {nodes}", file=sys.stderr)
     return 0 if good else 1
 
 
@@ -95,7 +95,9 @@ def _report(moved: Values, snapshot: ConsoleSnapshot) -> None:
             print(sanitize(f"{node} {name}: {before} -> {value_text(value)}"))
     count = sum(len(each) for each in moved.values())
     print(
-        f"{counted(count, 'parameter')} differed from the start" if count else "all parameters have their start values"
+        f"{counted(count, 'parameter')} differed from the initial values"
+        if count
+        else "all parameters have their initial values"
     )
 
 

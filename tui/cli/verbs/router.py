@@ -20,8 +20,9 @@ from bot_console.tui.session.embedded.domain import domain
 HERE = f"tcp/127.0.0.1:{PORT}"
 LOOPBACK = ("127.", "localhost", "::1")
 OPEN = (
-    "WARNING: whoever reaches {} can drive this robot, set its parameters and read all its messages; {}. Only for a "
-    "network whose users may all do so; otherwise use tls/ with --tls-ca, and an access list (docs/your-robot.md)."
+    "WARNING: anyone who can reach {} can drive this robot, set its parameters and read all its messages; {}. Use it "
+    "only on a network where everybody may do so; otherwise use tls/ with --tls-ca, and an access list "
+    "(docs/your-robot.md)."
 )
 
 
@@ -45,7 +46,7 @@ def run(words: Sequence[str]) -> int:
 
     for each in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(each, end)
-    what = "the programs of this ROS domain are reached" if given.mesh else "a router for nodes of rmw_zenoh"
+    what = "the programs in this ROS domain can be reached" if given.mesh else "a router for nodes of rmw_zenoh"
     how = "; Ctrl-C ends it" if sys.stdin.isatty() else ""  # `up --serve` has no terminal
     print(f"{what} at {', '.join(serving.endpoints)}{how}", flush=True)
     wait_interruptibly(over)

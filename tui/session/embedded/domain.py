@@ -189,7 +189,7 @@ def why_no_robot(robot: Sequence[str], arguments: Mapping[str, str]) -> str:
     if robot:
         return f"a robot is already running in ROS domain {domain()}: {', '.join(robot)}"
     if there := same_names_there(arguments):
-        return f"nodes named like our robot's run already in ROS domain {domain()}: {', '.join(there)}"
+        return f"nodes with our robot's node names are running already in ROS domain {domain()}: {', '.join(there)}"
     return ""
 
 

@@ -38,7 +38,7 @@ def test_status_reports_robot_that_does_not_answer(
 ) -> None:
     monkeypatch.setattr(background, "holders", lambda: None)
     background._print_holders()
-    assert capsys.readouterr().out == "whether somebody holds it is not known: its emergency stop did not answer\n"
+    assert capsys.readouterr().out == "it is unknown whether somebody holds it: its emergency stop did not answer\n"
 
 
 def test_status_names_who_holds_a_robot_in_a_namespace(

@@ -42,7 +42,7 @@ def test_lint_names_the_line_of_a_mistake(tmp_path: Path, capsys: pytest.Capture
 @pytest.mark.parametrize(
     ("words", "code", "text"),
     [
-        (["nowhere"], 2, "there is no course 'nowhere'; there are week6"),
+        (["nowhere"], 2, "there is no course 'nowhere'; the courses are week6"),
         (["--workspace", "nowhere"], 1, "there is no folder nowhere: make it (`mkdir -p nowhere/src`)"),
     ],
 )

@@ -109,9 +109,9 @@ def test_a_package_of_an_executable_that_is_not_listed_is_named(folder: Path) ->
     [
         ("launch/*.launch.py", "launch/*.launch", "matches no file, so that share/p/launch stays empty"),
         ("launch/*.launch.py", "launch/*.xml", "correct the pattern: launch/ contains all.launch.py"),
-        ("glob('launch/*.launch.py')", "['launch/one.launch.py']", "names launch/one.launch.py, which is not there"),
+        ("glob('launch/*.launch.py')", "['launch/one.launch.py']", "names launch/one.launch.py, which does not exist"),
         ("launch/*.launch.py", "lanch/*.py", "matches no file"),
-        ("['package.xml']", "['package.xml', 'LICENSE']", "names LICENSE, which is not there"),
+        ("['package.xml']", "['package.xml', 'LICENSE']", "names LICENSE, which does not exist"),
     ],
 )  # fmt: skip
 def test_data_files_that_install_nothing_are_named(folder: Path, old: str, new: str, message: str) -> None:
@@ -163,8 +163,8 @@ def test_programs_that_cannot_be_started_are_named(folder: Path) -> None:
     (folder / "bin").mkdir()
     (folder / "bin" / "run.py").write_text("print(1)\n")
     lines = obstacles_in(folder)
-    assert len(lines) == 2 and "bin/run.py: the program may not be executed; chmod +x" in lines[0]
-    assert lines[1].startswith("bin/run.py:1: the program has no first line")
+    assert len(lines) == 2 and "bin/run.py: the program is not executable; chmod +x" in lines[0]
+    assert lines[1].startswith("bin/run.py:1: the program does not begin with a line")
     (folder / "bin" / "run.py").write_text("#!/usr/bin/env python3\n")
     (folder / "bin" / "run.py").chmod(0o755)
     assert obstacles_in(folder) == []

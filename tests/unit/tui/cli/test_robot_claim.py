@@ -145,7 +145,11 @@ def test_nodes_with_our_names_alone_are_not_a_robot(program, up, tmp_path, monke
     monkeypatch.setattr(domain, "same_names_there", lambda arguments: ["/sensor_handler"])
     background.up([]) if program == "up" else headless._join_domain(parse(["--headless"]))
     reported = capsys.readouterr().err
-    assert reported.startswith("nodes named like our robot's run already") and "/sensor_handler" in reported and not up
+    assert (
+        reported.startswith("nodes with our robot's node names are running already")
+        and "/sensor_handler" in reported
+        and not up
+    )
     assert bool(apart) == (program == "--headless") and RobotClaim(tmp_path).held
 
 

@@ -149,7 +149,7 @@ def test_unsupported_system_is_reported_with_alternatives(
     monkeypatch.setitem(sys.modules, "termios", None)
     assert main(words) == 1
     assert capsys.readouterr().err == (
-        "the console needs a terminal of Linux or macOS: on Windows start it in WSL, "
+        "the console needs a Linux or macOS terminal: on Windows, start it in WSL, "
         "or use `bot-console --headless` and the verbs of ros2\n"
     )
 

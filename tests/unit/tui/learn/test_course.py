@@ -76,7 +76,7 @@ def test_file_that_is_not_utf_8_is_named(tmp_path: Path) -> None:
 
 
 def test_unknown_course_names_those_that_exist(tmp_path: Path) -> None:
-    with pytest.raises(CourseError, match="there is no course 'week7'; there are week6"):
+    with pytest.raises(CourseError, match="there is no course 'week7'; the courses are week6"):
         find_course("week7")
     with pytest.raises(CourseError, match=r"needs a file course\.md"):
         find_course(str(tmp_path))

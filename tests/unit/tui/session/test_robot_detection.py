@@ -73,7 +73,7 @@ def test_console_asks_before_it_adds_a_second_node_of_one_name(monkeypatch, caps
     monkeypatch.setattr("builtins.input", lambda question: asked.append(question) or typed)
     assert attach_question.wants_to_attach(["/robot_navigator"], robot=False) is attached
     reported = capsys.readouterr().out
-    assert "Nodes named like our robot's run in ROS domain" in reported and "/robot_navigator" in reported
+    assert "Nodes with our robot's node names run in ROS domain" in reported and "/robot_navigator" in reported
     assert "bot-console --launch bot_console_robot simulator.launch.py" in reported
     assert "`bot-console navigator:=false` starts our robot" in reported, "which needs neither of the other two"
     assert max(map(len, reported.splitlines())) < 80

@@ -108,7 +108,9 @@ def test_interrupt_during_start_reports_how_to_end_it(
     assert "it is still starting: process" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize(("words", "what"), [([], "no robot was found"), (["--launch", __file__], "nothing that it")])
+@pytest.mark.parametrize(
+    ("words", "what"), [([], "no robot was found"), (["--launch", __file__], "none of the programs that it")]
+)
 def test_system_that_does_not_come_up_in_time_is_not_reported_as_running(
     started_processes: list[object],
     monkeypatch: pytest.MonkeyPatch,
