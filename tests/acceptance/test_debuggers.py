@@ -134,7 +134,7 @@ def test_breakpoints_of_an_editor_stop_timer_and_callback_and_other_processes_se
         for number, function in zip(lines, ("tick", "heard"), strict=True):
             thread, stopped = editor.stop()
             assert stopped == function
-            assert eventually(lambda: [*debugger_lines(str(workspace / "5")).values()]), "while all threads stand"
+            assert eventually(lambda: [*debugger_lines(str(workspace / "5")).values()]), "while all threads are stopped"
             (where,) = debugger_lines(str(workspace / "5")).values()
             assert where.endswith(f"node.py:{number}, in {function}")
             editor.request("continue", threadId=thread)

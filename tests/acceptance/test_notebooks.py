@@ -100,7 +100,7 @@ def test_interrupt_ends_the_cell_and_a_restart_leaves_no_node(kernel: Kernel) ->
     assert kernel.run(HEARS) == ("True\n", "")
     cell = "print('waits', flush=True); threading.Event().wait()"
     assert kernel.run(cell, interrupt_at="waits") == ("waits\n", "KeyboardInterrupt")
-    assert kernel.run(HEARS) == ("True\n", ""), "the node spins on"
+    assert kernel.run(HEARS) == ("True\n", ""), "the node keeps spinning"
     for now in (False, True):
         kernel.restart(now=now)
         assert kernel.run(BEGIN + NODES) == ("['notebook']\n", "")

@@ -251,7 +251,7 @@ def test_a_profile_shows_what_it_would_change(rig: Rig) -> None:
     assert not rig.console.profiles.differences("nobody")
     with pytest.raises(ValueError, match="none of its nodes is running"):
         rig.console.profiles.apply("elsewhere").result(TIMEOUT_S)
-    assert rig.console.snapshot().active_profile == "", "what nobody took is not in force"
+    assert rig.console.snapshot().active_profile == "", "a profile that no node accepted is not active"
 
 
 def test_a_profile_is_applied_and_can_be_undone(rig: Rig) -> None:
@@ -356,7 +356,9 @@ def test_any_file_can_be_opened_as_a_profile_and_previewed(rig: Rig, tmp_path: P
     answer = rig.console.profiles.open(str(file))
     assert (answer.ok, answer.text) == (True, "any")
     found = {(each.node, each.name): each for each in rig.console.profiles.differences("any")}
-    assert set(found) == {(ROBOT, "speed"), (ROBOT, "nobody")}, "a wildcard asks nobody for what it has not"
+    assert set(found) == {(ROBOT, "speed"), (ROBOT, "nobody")}, (
+        "a wildcard does not ask nodes for parameters that they lack"
+    )
     assert found[ROBOT, "nobody"].unknown and not found[ROBOT, "speed"].refusal
     outcomes = rig.console.profiles.apply("any").result(TIMEOUT_S)
     assert [(each.name, each.accepted) for each in outcomes] == [("speed", True)]

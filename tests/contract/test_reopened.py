@@ -59,7 +59,7 @@ def while_reopened(here: Here, call: Callable[[], None], times: int = TIMES) -> 
         call()
         called += 1
     thread.join()
-    assert opened >= times, "it could not be opened"
+    assert opened >= times, "the session could not be opened"
 
 
 @pytest.mark.slow

@@ -185,7 +185,7 @@ class Terminals:
                 screen: Any = Screen(app, pilot, self.console, launcher)  # type: ignore[arg-type] # a real one
                 await screen.settle()
                 await play(screen)
-                assert app.controls.faults.seen == [], "a pane has ended by a fault"
+                assert app.controls.faults.seen == [], "a pane has failed"
 
         with at_rest():
             asyncio.run(main())

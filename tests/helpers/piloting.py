@@ -124,6 +124,6 @@ def run(
                 await session.settle()
                 await play(session)
                 if not faults_wanted:
-                    assert app.controls.faults.seen == [], "a pane has ended by a fault"
+                    assert app.controls.faults.seen == [], "a pane has failed"
 
     asyncio.run(main())

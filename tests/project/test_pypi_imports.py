@@ -63,7 +63,7 @@ def test_modules_import_at_once_only_what_pypi_has() -> None:
     paths = (path for folder in FOLDERS for path in sorted(folder.rglob("*.py")))
     found = {str(path.relative_to(ROOT)): names for path in paths if (names := missing_packages(path))}
     assert {path: names for path, names in found.items() if path not in EXCEPTIONS and not path.startswith(DEMOS)} == {}
-    assert EXCEPTIONS.keys() <= found.keys(), "remove what is no exception any more"
+    assert EXCEPTIONS.keys() <= found.keys(), "remove exceptions that are no longer needed"
 
 
 @pytest.mark.parametrize(

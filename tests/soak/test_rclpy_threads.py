@@ -76,7 +76,7 @@ def eventually(what: Callable[[], bool]) -> None:
     """Wait until a condition holds."""
     end = time.monotonic() + TIMEOUT_S
     while not what():
-        assert time.monotonic() < end, "it did not come about"
+        assert time.monotonic() < end, "the condition did not come true"
         time.sleep(0.001)
 
 

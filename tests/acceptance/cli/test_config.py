@@ -25,7 +25,7 @@ def config(*words: str) -> subprocess.CompletedProcess[str]:
 def test_settings_are_shown_created_edited_and_checked(home: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     shown = config()
     assert shown.returncode == 0 and "not there yet" in shown.stdout and "theme: dark" in shown.stdout
-    assert not home.exists(), "showing writes nothing"
+    assert not home.exists(), "showing the settings writes nothing"
     assert config("--path").stdout.strip() == str(home / "settings.yaml")
     none = config("--edit")
     assert none.returncode == 1 and "EDITOR" in none.stderr and (home / "settings.yaml").exists()

@@ -97,7 +97,7 @@ async def live(options, size=(120, 40)):
 
 @pytest.fixture
 def crashing(tmp_path):
-    assert not join_domain(), "programs are processes, which this one meets in a domain"
+    assert not join_domain(), "programs are processes, which this process finds in a domain"
     (tmp_path / "lives.py").write_text(LIVES)
     (tmp_path / "crashes.py").write_text(CRASHES)
     path = tmp_path / "two.launch.py"

@@ -158,7 +158,7 @@ def test_steering_blocks_the_program_and_silence_locks(bench: Bench) -> None:
     assert bench.stands(6.0)
     assert "anna: held the steering and fell silent" in bench.launch.stdout
     assert "still locked by anna" in bench.call("/safety_monitor/release")
-    assert bench.stands(), "nobody else's release lets go of it unnamed"
+    assert bench.stands(), "a plain release must not release another person's stop"
     assert "released" in bench.call("/safety_monitor/release_all")
     assert bench.drives()
 

@@ -58,7 +58,7 @@ def test_monitor_follows_simulation_time_once_a_scan_is_late() -> None:
     with system() as running:
         running.ros2("launch", str(ROOT / "launch" / "robot_system.launch.py"))
         running.run(3.0)
-        assert listeners(running) == "0", "scans in time: nobody needs to be woken a hundred times in a second"
+        assert listeners(running) == "0", "scans arrive in time, so nobody needs to be woken a hundred times a second"
         running.finish(running.ros2("param", "set", "/simulator", "scan_rate", "5.0"))
         running.run(1.0)
         assert listeners(running) == "1"

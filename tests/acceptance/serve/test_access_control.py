@@ -73,7 +73,7 @@ def test_token_is_exchanged_once_for_a_cookie_that_no_script_reads() -> None:
                 cookie = answer.headers["Set-Cookie"]
             assert "HttpOnly" in cookie and "SameSite=Strict" in cookie and "token" not in cookie
             assert await status(first, f"http://127.0.0.1:{port}/") == 200
-            assert await status(first, address) == 303, "a link that was kept leads its own browser in again"
+            assert await status(first, address) == 303, "the same browser may use its link again"
             assert await status(second, address) == 403
             assert await status(second, f"http://127.0.0.1:{port}/") == 403
 
@@ -153,7 +153,7 @@ def test_page_that_closes_before_its_socket_opens_is_not_an_error(monkeypatch: p
             with monkeypatch.context() as patched:
                 patched.setattr(web.WebSocketResponse, "prepare", gone)
                 assert await status(session, f"{here}/ws", Origin=here) == 200
-            assert await socket_status(session, port, Origin=here) == 101, "the place is free again"
+            assert await socket_status(session, port, Origin=here) == 101, "the session is free again"
 
     run(work)
 
@@ -197,7 +197,7 @@ def test_console_has_a_terminal_and_ends_with_its_tab(monkeypatch: pytest.Monkey
                 assert admission.terminal is not None
                 process = admission.terminal._process
             await asyncio.to_thread(process.wait, 60)
-            assert process.returncode == 0, "it was hung up on, and ended by itself"
+            assert process.returncode == 0, "it got SIGHUP, and ended by itself"
             while await socket_status(session, port, Origin=here) != 101:
                 await asyncio.sleep(0)
 

@@ -88,7 +88,7 @@ def steer(robot: LiveRobot, terminal: Terminal) -> None:
     )
     began = time.monotonic()
     while not any(speed > MOVING for _, speed in robot.speeds(began)):
-        assert time.monotonic() < began + TIMEOUT_S, "it does not follow the keys"
+        assert time.monotonic() < began + TIMEOUT_S, "the robot does not follow the keys"
         terminal.type("a")
         terminal.drain(0.1)
 
@@ -244,7 +244,7 @@ def hand_back(robot: LiveRobot, terminal: Terminal) -> None:
 
 def release_all(robot: LiveRobot) -> None:
     """Release by command line, since no console is left that could hand the robot back."""
-    assert robot.run_cli("release") == 1, "nobody else's release lets go of it unnamed"
+    assert robot.run_cli("release") == 1, "a plain release must not release another person's stop"
     assert robot.run_cli("release", "--all") == 0
     robot.drives()
 

@@ -274,7 +274,7 @@ def bag_played(robot: LiveRobot, person: Terminal) -> None:
     before = list(robot.releases)
     assert robot.run_cli("bag", "play", str(robot.folder / "stops"), "--topics", *RECORDED) == 0
     robot.until(lambda: len(robot.releases) > len(before), "release of the bag")
-    assert set(robot.releases[len(before) :]) <= set(before), "another release than the recorded one"
+    assert set(robot.releases[len(before) :]) <= set(before), "a release other than the recorded one"
 
 
 class Clocks:

@@ -111,7 +111,7 @@ async def filter_and_step(session: Session) -> None:
     await session.press("N")
     assert at_cursor(rows) == here
     await session.press("escape")
-    assert rows.row_count() == every and at_cursor(rows) == here, "the cursor stays on its thing"
+    assert rows.row_count() == every and at_cursor(rows) == here, "the cursor stays on its item"
     seen = []
     for _ in range(3):
         await session.press("n")

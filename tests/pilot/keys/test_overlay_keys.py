@@ -53,7 +53,7 @@ def clashes(session: Session) -> dict[str, set[str]]:
     found: dict[str, set[str]] = {}
     for key, id in claims(session):
         found.setdefault(key, set()).add(id)
-    assert found, "nothing acts here"
+    assert found, "no key acts here"
     return {key: ids for key, ids in found.items() if len(ids) > 1}
 
 

@@ -46,15 +46,15 @@ def test_alarm_is_announced_once_per_crossing_even_while_hidden() -> None:
         await feed_speeds(session, 2.5, 2.6)
         assert alarm_notifications(session) == 1 and "too fast: 2.5" in session.text()
         await feed_speeds(session, 2.7)
-        assert alarm_notifications(session) == 1, "it goes on holding"
+        assert alarm_notifications(session) == 1, "the condition still holds"
         assert "⚠ too fast" in session.lines()[-2], "the status bar names it in every pane"
         await session.press("B")
         assert "✗ active" in session.text() and "1 time" in session.text() and "1 of 1 active" in session.text()
         await feed_speeds(session, 1.0, 3.0, 1.0)
-        assert alarm_notifications(session) == 1, "the notice of the first time still stands"
+        assert alarm_notifications(session) == 1, "the first notification is still visible"
         session.pane(AlarmsPane).clock.now += 8.0
         await feed_speeds(session, 1.0, 4.0, 1.0)
-        assert "(2 times)" in session.text(), "together with the time before"
+        assert "(2 times)" in session.text(), "it is reported together with the previous one"
         assert alarm_notifications(session) == 2 and "○ quiet" in session.text() and "3 times" in session.text()
         assert "⚠" not in session.lines()[-2]
 
@@ -148,7 +148,7 @@ def test_alarms_are_suggested_with_live_values_and_enter_watches_one() -> None:
         session.console.series["/scan/ranges.min()"] = ([1.0, 2.0], [0.85, 0.7])
         session.console.change(drive=DriveInfo())
         await session.settle()
-        assert "now 0.85" in session.text(), "not with each change of the system: figures that fast cannot be read"
+        assert "now 0.85" in session.text(), "not with each change of the system, which would be too fast to read"
         await feed_speeds(session, 0.5)
         assert "now 0.7" in session.text()
         while session.pane(AlarmRows).current.name != "no scan":
@@ -161,7 +161,9 @@ def test_alarms_are_suggested_with_live_values_and_enter_watches_one() -> None:
         session.console.series["rate(/scan)"] = ([1.0, 2.0], [9.8, 0.0])
         await feed_speeds(session, 0.5)
         assert "✗ active" in session.text()
-        assert ("unwatch", "/scan/ranges.min()") in session.console.asked, "what is not suggested is not received"
+        assert ("unwatch", "/scan/ranges.min()") in session.console.asked, (
+            "topics that are not suggested are not received"
+        )
 
     run(system, play, (100, 30))
 

@@ -26,7 +26,7 @@ def test_tree_names_levels_and_propagates_the_worst() -> None:
         await session.press("G")
         assert "nearest  1.2" in session.text() and "was" in session.text()
         await session.press("g", "down", "enter")
-        assert titles(session)[1:3] == ["motors", "safety_monitor: velocity"], "enter closes what holds others"
+        assert titles(session)[1:3] == ["motors", "safety_monitor: velocity"], "enter closes a row with children"
         await session.press("right", "down", "down", "enter")
         assert "temperature  71 C" in session.text() and "hardware robot" in session.text()
 
@@ -54,7 +54,7 @@ def test_new_status_is_shown_and_silent_one_becomes_stale() -> None:
         session.console.sensors.info = Diagnostics((status("arm", Level.ERROR, "broken", heard=100.0),))
         pane.clock.now += 0.4
         pane.tick()
-        assert "arm" not in titles(session), "not before its time"
+        assert "arm" not in titles(session), "not before the timeout"
         pane.clock.now += 0.2
         pane.tick()
         await session.settle()

@@ -138,7 +138,7 @@ def test_a_new_node_appears_and_the_selection_stays() -> None:
         assert "graph" in session.console.sensors.watched_nodes
         await session.press("1")
         session.pane(GraphPane).tick()
-        assert "graph" not in session.console.sensors.watched_nodes, "nobody is asked for a pane that nobody sees"
+        assert "graph" not in session.console.sensors.watched_nodes, "no node is asked while the pane is hidden"
         await session.press("3")
         session.console.change(graph=GraphInfo())
         await session.settle()
@@ -288,7 +288,7 @@ def test_unfolding_a_large_namespace_shows_its_namespaces_first() -> None:
         assert "/fleet/robot_0/nav_0" in items(session) and "namespace:/fleet/robot_1" in items(session)
         session.console.change(graph=GraphInfo(nodes))
         await session.press("F", "F")
-        assert items(session) == robots, "a single box for everything says nothing"
+        assert items(session) == robots, "a single box for everything would be useless"
 
     run(live(), play, (120, 40))
 
@@ -342,7 +342,7 @@ def test_rates_are_shown_on_the_lines_where_there_is_room_while_the_pane_is_visi
         assert "odom 50 Hz" in session.text()
         await session.press("1")
         pane.tick()
-        assert session.console.topics.measuring == (), "nothing is measured for a pane that nobody sees"
+        assert session.console.topics.measuring == (), "nothing is measured while the pane is hidden"
         await session.press("3", "r")
         assert "50 Hz" not in session.text() and session.console.topics.measuring == ()
 
@@ -355,7 +355,7 @@ def test_rates_are_measured_on_request_where_there_is_no_room_for_them() -> None
         pane = session.pane(GraphPane)
         pane.clock = Clock()
         await session.press("3")
-        assert session.console.topics.measuring == (), "nothing is measured unasked"
+        assert session.console.topics.measuring == (), "nothing is measured without a request"
         await session.press("r")
         assert "odom 50 Hz" in session.text()
         await session.press("r", *"mmm")
@@ -392,7 +392,7 @@ def test_choosing_an_item_in_the_details_goes_to_it() -> None:
         await session.type("odom")
         await session.press("enter")
         line = "line:/simulator>/motion_controller"
-        assert picture(session).selected == line and "/odom" in session.text(), "the line on which the topic stands"
+        assert picture(session).selected == line and "/odom" in session.text(), "the line that shows the topic"
         await draw_topics(session)
         session.pane(GraphPane).go_to("/odom")
         assert picture(session).selected == "topic:/odom"

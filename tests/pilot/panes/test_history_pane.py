@@ -32,7 +32,7 @@ def test_changes_are_listed_newest_first_with_source_and_reason() -> None:
         assert shown_changes(session) == [("max_speed", 10.0), ("max_speed", 1.0), ("turn_rate", 1.5)]
         text = session.text()
         assert "✗ max_speed" in text and "too fast" in text
-        assert "profile outdoor" in text and "11-13" in text, "an earlier run stands with its date"
+        assert "profile outdoor" in text and "11-13" in text, "an earlier run is shown with its date"
         await session.press("down")
         assert "ros2 param set /robot_navigator max_speed 1.0" in session.text()
         session.console.take(NAVIGATOR, {"turn_rate": 2.0}, ChangeSource.OTHER)
@@ -83,7 +83,7 @@ def test_values_set_together_are_one_row_that_enter_opens_and_undoes_together() 
         session.console.take(NAVIGATOR, {"max_speed": 3.0, "turn_rate": 2.0}, ChangeSource.PROFILE, by="outdoor")
         await session.press("H")
         assert "▸ profile outdoor  2 values, 2 less safe" in session.text()
-        assert "▲" in session.lines()[2], "the line of time"
+        assert "▲" in session.lines()[2], "the timeline"
         await session.press("enter")
         assert "▾ profile outdoor" in session.text() and "1.0 → 2.0" in session.text()
         await session.press("down", "left")

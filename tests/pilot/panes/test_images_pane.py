@@ -54,7 +54,7 @@ def test_frame_rate_is_limited_and_freezing_stops_updates() -> None:
         await session.press("I")
         session.console.sensors.shown = picture(40, 2)
         await pass_time(session, 0.3)
-        assert "on #cccccc" in drawn_lines(session), "not before its time"
+        assert "on #cccccc" in drawn_lines(session), "not before it is due"
         await pass_time(session, 0.3)
         assert "on #222222" in drawn_lines(session)
         await session.press("space")

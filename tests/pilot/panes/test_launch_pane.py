@@ -161,7 +161,7 @@ def test_details_and_timeline_are_listed() -> None:
         assert "simulator-6 started, pid 4109" in session.text()
         await session.paste("simulator-6")
         await session.press("enter")
-        assert session.app.time_cursor.stamp == START + 10**9, "plot, log and world look at that moment"
+        assert session.app.time_cursor.stamp == START + 10**9, "plot, log and world show that moment"
         shown = "\n".join(session.lines()[-8:])
         assert "◆" in shown and "simulator-6 started" in shown and "telemetry_publisher-4 ended" not in shown
 
@@ -352,7 +352,7 @@ def test_empty_pane_explains_what_to_do_and_new_process_appears() -> None:
         await session.settle()
         assert "sensor_handler-1" not in session.text()
         event = next(line for line in session.lines() if "launch /opt/" in line)
-        assert event.rstrip("│ ").endswith("x…"), "no cut without an ellipsis"
+        assert event.rstrip("│ ").endswith("x…"), "a cut text ends in an ellipsis"
 
     run(empty(), play)
 
@@ -445,7 +445,7 @@ def test_line_after_a_silence_is_shown_at_once_and_further_lines_every_two_secon
         session.console.change(drive=DriveInfo())
         session.app.pull()  # its turn, in which there is only CPU usage to show
         assert await shows("line one", 0.3)
-        assert not await shows("line two", 0.3), "what prints all the time is drawn no more often than before"
+        assert not await shows("line two", 0.3), "constant output is drawn no more often than before"
         assert not await shows("line three", 0.3)
         assert await shows("line four", NEWS_S) and "line two" in session.text()
 

@@ -68,7 +68,7 @@ def test_many_lines_are_followed_and_counted_exactly_once(lines: int) -> None:
             console.flood(first)
             counts = await counts_until(session, f"line {first + AT_ONCE - 1} ")
             assert counts and all(part <= whole for part, whole in counts)
-        assert np.array_equal(shown_numbers(session), np.arange(lines)), "no line twice, none missing"
+        assert np.array_equal(shown_numbers(session), np.arange(lines)), "every line appears exactly once"
         console.change(logs=console.records.state)
         await counts_until(session, f"{lines} of {lines}")
         await session.press("w")

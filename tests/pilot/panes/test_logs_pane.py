@@ -38,7 +38,7 @@ def test_newest_line_is_followed_until_the_user_scrolls_up() -> None:
         await session.press("f")
         assert "line 61" in session.text() and "new below" not in session.text()
         await session.press("up")
-        assert "paused, f follows" in session.text(), "what was followed is not new"
+        assert "paused, f follows" in session.text(), "lines that were followed do not count as new"
 
     run(live(), play)
 
@@ -122,7 +122,7 @@ def test_rules_hide_and_highlight_lines() -> None:
         shown = seqs(session)
         assert 0 < len(shown) < every and "highlighted only" in session.pane(LogsPane).status_text()
         await session.press("o", "F", "c", "c", "c", "c", "c", "c")
-        assert "● hide" in session.text(), "behind the last colour it hides"
+        assert "● hide" in session.text(), "after the last colour the rule hides lines"
         await session.press("space", "escape")
         assert len(seqs(session)) == every, "it is off"
         await session.press("F", "enter")

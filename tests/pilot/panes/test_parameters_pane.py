@@ -282,7 +282,7 @@ def test_refusal_is_shown_in_full_until_it_is_dismissed(key: str) -> None:
         await refuse(session)
         assert_that_the_reason_stands_in_full_in_the_details(session)
         await session.press("down", key, "up")
-        assert "✗ 3.0" in session.text(), "only that of the row at the cursor"
+        assert "✗ 3.0" in session.text(), "only the refusal of the row at the cursor"
         await session.press(key)
         assert "✗ 3.0" not in session.text()
 
@@ -337,7 +337,7 @@ def test_reset_undo_redo_folding_and_filters_work() -> None:
         await session.paste("max_speed")
         await session.press("enter", "escape")
         at = rows(session).current
-        assert at and at.name == "max_speed", "what was found is seen without the filter, though its node was closed"
+        assert at and at.name == "max_speed", "the match stays visible without the filter, although its node was closed"
         assert any(row.folded and row.node == "/simulator" for row in rows(session).rows)
         await session.press("C", "C", "slash")
         await session.paste("lidar")
@@ -497,7 +497,7 @@ def test_nodes_that_leave_or_do_not_answer_are_named() -> None:
         assert "has left" not in session.text()
         await session.press("4")
         pane.tick()
-        assert "parameters" not in session.console.sensors.watched_nodes, "nobody is asked for a pane that nobody sees"
+        assert "parameters" not in session.console.sensors.watched_nodes, "no node is asked while the pane is hidden"
 
     run(live(), play)
 
@@ -520,7 +520,7 @@ def test_large_tree_starts_folded_opens_by_key_and_stays_open_as_nodes_come() ->
         assert "▾ base" in session.text() and "max_speed" in session.text()
         session.console.change(parameters=fleet(7))
         await session.settle()
-        assert "max_speed" in session.text(), "what was opened stays open"
+        assert "max_speed" in session.text(), "opened nodes stay open"
 
     run(system, play, (100, 30))
 

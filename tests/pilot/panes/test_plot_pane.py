@@ -69,7 +69,7 @@ def test_wrong_expression_stays_to_be_corrected(typed: str) -> None:
         await session.paste(typed)
         await session.press("enter")
         assert session.app.screen.query_one(Input).value == typed
-        assert len(session.app._notifications) == 0, "the reason stands in the box"
+        assert len(session.app._notifications) == 0, "the box shows the reason"
         await session.press("ctrl+u")
         await session.paste(f"{SPEED} * 2")
         await session.press("enter")
@@ -199,7 +199,7 @@ def test_samples_and_picture_are_saved(tmp_path: Path) -> None:
 
     run(live(), play, (100, 30))
     rows = list(csv.reader((tmp_path / "p.csv").open()))
-    assert rows[0] == ["series", "time", "seconds", "value"] and len(rows) == 1 + 600 + 1, "what is seen, and no more"
+    assert rows[0] == ["series", "time", "seconds", "value"] and len(rows) == 1 + 600 + 1, "only the visible samples"
     at = datetime.fromisoformat(rows[1][1])
     assert at.tzinfo is not None and at.timestamp() == pytest.approx(float(rows[1][2])) == pytest.approx(
         START / 1e9 - 30

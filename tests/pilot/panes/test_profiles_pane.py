@@ -190,7 +190,7 @@ def test_node_that_can_check_values_is_asked_before_applying() -> None:
         await session.press("a")
         assert "and with them all other values" in session.text() and applied(session) == []
         await session.press("n", "up", "down")
-        assert len(questions) == 2, "another time it is looked at is another question"
+        assert len(questions) == 2, "viewing it again asks again"
         answers[1].set_result(Answer(True, ""))
         await session.settle()
         assert "checked: will accept" in session.text()
@@ -245,7 +245,7 @@ def test_cursor_follows_the_active_profile() -> None:
         await session.press("down")
         session.console.change(active_profile="broken")
         await session.settle()
-        assert session.pane(ProfileRows).cursor == 1, "a person looks at another one"
+        assert session.pane(ProfileRows).cursor == 1, "a person has selected another one"
 
     run(system, play, (160, 40))
 

@@ -75,9 +75,9 @@ def test_figures_stay_long_enough_to_be_read_while_nobody_steers_here() -> None:
         await session.press("6")
         pass_time(session, 1.0)
         assert "+0.40 m/s" in await drive_at(session, 0.40)
-        assert "+0.40 m/s" in await drive_at(session, 0.50), "at once after another figure"
+        assert "+0.40 m/s" in await drive_at(session, 0.50), "at once, since the figure was shown long enough"
         pass_time(session, 1.0)
-        assert "+0.50 m/s" in session.text(), "the newest figures, though nothing came since"
+        assert "+0.50 m/s" in session.text(), "the newest figures, although none have arrived since"
         await session.press("enter")
         assert "+0.60 m/s" in await drive_at(session, 0.60) and "+0.70 m/s" in await drive_at(session, 0.70)
 
@@ -204,10 +204,10 @@ def test_command_is_repeated_and_dead_man_timeout_stops_once() -> None:
         count = len(commands(session))
         for _ in range(10):
             pass_time(session, 0.1)
-        assert len(commands(session)) == count, "zero is said once"
+        assert len(commands(session)) == count, "zero is sent once"
         await session.settle()
         assert "no key for 2 s: the robot stands" in session.text()
-        assert stops(session) == [("all_stop", True), ("steer", False)], "locked before the steering is let go"
+        assert stops(session) == [("all_stop", True), ("steer", False)], "locked before steering is handed back"
         await session.press("w")
         assert len(commands(session)) == count, "a key alone moves nothing"
         await session.press("enter", "w")
@@ -324,7 +324,7 @@ def test_enter_resumes_steering_a_robot_without_lock_after_timeout() -> None:
         session.console.change(drive=replace(stands, stop_reason="ALL STOP"))
         await session.settle()
         await session.press("enter")
-        assert not steering(session).state.armed, "an all-stop is not taken back by the way"
+        assert not steering(session).state.armed, "an all-stop is not released as a side effect"
         session.console.change(drive=stands)
         await session.settle()
         await session.press("enter")
@@ -446,7 +446,7 @@ def test_limits_and_dead_man_time_are_kept_per_robot_and_arming_is_not() -> None
         theirs = steering(session).state
         assert not ours.armed and not theirs.armed and "steers another robot" in session.text()
         assert (theirs.typed, theirs.deadman, theirs.linear) == (None, 2.0, 0.0)
-        assert stops(session)[-2:] == [("all_stop", True), ("steer", False)], "it stands, locked"
+        assert stops(session)[-2:] == [("all_stop", True), ("steer", False)], "the robot stands, locked"
         await steer("/")
         assert steering(session).state is ours and ours.linear == 0.0
 
@@ -503,7 +503,7 @@ def test_mouse_moves_sliders_and_the_pad_springs_back() -> None:
         await session.pilot.mouse_down(offset=(left, top + 1))
         assert commands(session)[-1] == (1.0, 1.0), "the upper left corner"
         await session.pilot.mouse_up(offset=(left, top + 1))
-        assert commands(session)[-1] == (0.0, 0.0), "let go of, it stands"
+        assert commands(session)[-1] == (0.0, 0.0), "released, the robot stands"
         assert pane.state.armed
 
     run(live(), play, (120, 50))

@@ -248,7 +248,7 @@ def test_newest_message_is_a_tree_that_can_be_frozen_and_folded() -> None:
         await session.press("space")
         assert "3.5 m" in session.text() and "frozen" not in session.text()
         await session.press("down", "down", "down", "down", "left")
-        assert "3.5 m" not in session.text(), "what the pose holds is folded"
+        assert "3.5 m" not in session.text(), "the content of the pose is folded"
         session.console.topics.cannot_hear(f"{'the type of this topic ' * 5}is not known")
         tick(session)
         await session.settle()
@@ -318,7 +318,7 @@ def test_a_message_is_filled_in_and_published_once_and_at_a_rate() -> None:
         await session.settle()
         assert "▶" in session.text()
         await session.press("exclamation_mark")
-        assert session.console.topics.repeated() == {}, "an all-stop ends what drives the robot"
+        assert session.console.topics.repeated() == {}, "an all-stop ends publishing that drives the robot"
 
     run(live(), play, SIZE)
 
@@ -420,7 +420,7 @@ def test_key_bar_describes_keys_for_topics_services_and_actions() -> None:
         await session.press("m")
         assert "P Publish" in bar() and "m Services" in bar()
         await session.press("m", "4")
-        assert "enter Call" not in bar(), "words of one pane are none of another"
+        assert "enter Call" not in bar(), "a filter applies to its own pane only"
 
     run(live(), play, (140, 40))
 

@@ -39,7 +39,7 @@ def test_stop_overtakes_earlier_keys_and_does_not_release_in_its_turn() -> None:
         session.app.pull()
         assert is_held(session) and "! holds it again" in session.text()
         await their_turn(session)
-        assert is_held(session), "its turn released what it had held"
+        assert is_held(session), "handling the key released its own early stop"
         await session.settle()
         assert "! releases" in session.text()
         await session.press(STOP)
@@ -79,7 +79,7 @@ def test_press_at_a_robot_that_moves_again_stops_it_even_if_the_screen_still_say
         await type_unhandled(session, STOP)
         assert is_held(session)
         await their_turn(session)
-        assert is_held(session), "the robot was let go again"
+        assert is_held(session), "the robot was released again"
 
     run(live(), play)
 
@@ -88,7 +88,7 @@ def test_stop_key_typed_into_a_new_text_field_is_withdrawn_and_inserted() -> Non
     async def play(session: Session) -> None:
         await session.press("2")
         await type_unhandled(session, "slash", STOP)
-        assert is_held(session), "nobody can know yet that it is a letter"
+        assert is_held(session), "it is not known yet that the key is text"
         await their_turn(session)
         assert not is_held(session) and session.app.focused.value == "!"
 

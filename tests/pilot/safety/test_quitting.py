@@ -163,7 +163,7 @@ def test_answering_no_does_not_release_the_stop_of_another_console() -> None:
         await session.press("n")
         assert session.console.current.drive.stops == (ben,) and session.console.current.drive.stopped
         await session.press("q", "n")
-        assert session.console.current.drive.stops == (ben,), "one that was there before stays, too"
+        assert session.console.current.drive.stops == (ben,), "an earlier stop stays, too"
 
     run(live(), play)
 

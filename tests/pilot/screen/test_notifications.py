@@ -55,7 +55,7 @@ def test_row_at_the_cursor_is_never_covered(size: tuple[int, int], end: str) -> 
         assert isinstance(rows, RowList)
         line = rows.content_region.y + rows.cursor - rows.scroll_offset.y
         in_its_place = line >= size[1] - BELOW_ROWS - MAX_LINES
-        assert in_its_place is (end == "end"), "else nothing had to give way"
+        assert in_its_place is (end == "end"), "otherwise the test would prove nothing"
         assert not toast.region.y <= line < toast.region.bottom
         assert toast.region.bottom <= size[1] - 2 and toast.region.height <= MAX_LINES
 

@@ -48,7 +48,7 @@ def test_status_line_updates_numbers_each_second_and_words_at_once(clock: Clock)
         drive(session, 0.2)
         clock.now = 103.5
         await heartbeat(session)
-        assert "robot  0.2" in status(session), "what has stood long enough gives way at once"
+        assert "robot  0.2" in status(session), "a figure that was shown long enough is replaced at once"
         drive(session, 0.3)
         clock.now = 103.9
         await heartbeat(session)
@@ -69,7 +69,7 @@ def test_status_line_updates_numbers_each_second_and_words_at_once(clock: Clock)
         assert "robot  0.5" in status(session)
         clock.now = 105.0
         await heartbeat(session)
-        assert "robot  0.7" in status(session), "the newest is told, though nothing new comes after it"
+        assert "robot  0.7" in status(session), "the newest is shown, although nothing new comes after it"
 
     run(live(), play, (160, 40))
 
@@ -89,7 +89,7 @@ def test_world_facts_update_twice_a_second_except_on_request(clock: Clock) -> No
         await heartbeat(session)
         assert "x    1.5" in session.text()
         await session.press("+")
-        assert "x    2.5" in session.text(), "a key shows what is so now"
+        assert "x    2.5" in session.text(), "a key shows the current state"
         at(3.5)
         clock.now = 101.0
         await heartbeat(session)

@@ -32,8 +32,8 @@ def check(session: Session, size: tuple[int, int]) -> None:
         for child in pane.walk_children():
             if child.display and child.region.area and not isinstance(child.parent, ScrollView):
                 assert pane.region.contains_region(child.region), (pane.id, child)
-    assert lines[0].strip().startswith(("0", "[0")), "the tabs are seen"
-    assert "! Stop" in lines[-1], "the keys are seen"
+    assert lines[0].strip().startswith(("0", "[0")), "the tabs are visible"
+    assert "! Stop" in lines[-1], "the keys are visible"
 
 
 CASES = [(size, live) for size in SIZES] + [

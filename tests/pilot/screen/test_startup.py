@@ -111,9 +111,9 @@ def test_first_frame_has_tabs_keys_and_the_positions_of_the_panes(monkeypatch: p
                 text = "\n".join(strip.text for strip in app.screen._compositor.render_strips())
                 assert all(word in text for word in ("0 All", "Parameters", "World", "Plot", "Logs", "! Stop"))
                 await pilot.press("exclamation_mark", "q", "ctrl+z")
-                assert app.is_running and app._keyboard._waiting, "what needs a console waits for it"
+                assert app.is_running and app._keyboard._waiting, "keys that need a console wait for it"
                 await pilot.press("ctrl+c")
-                assert not app.screen.is_attached, "whoever wants to quit does not wait"
+                assert not app.screen.is_attached, "quitting does not wait"
 
     asyncio.run(main())
 

@@ -70,7 +70,7 @@ def test_panel_shows_the_last_lines_without_taking_focus(streams: list[FakeStrea
         assert "[red]average rate: 49[/red]" in session.text() and "rate: 43" not in session.text()
         assert session.app.focused is focused
         await session.press("2")
-        assert "average rate: 49" in session.text(), "it stays whatever pane is seen"
+        assert "average rate: 49" in session.text(), "it stays in every pane"
         await session.press("ctrl+o")
         assert streams[0].stopped and "average rate" not in session.text()
 

@@ -103,7 +103,7 @@ def player_message(app: BagApp) -> str:
 
 def test_steps_and_seeking_move_the_cursor_of_all_panes(bag: Bag) -> None:
     async def play(app: BagApp, pilot: Any, published: PublishingNode) -> None:
-        assert app.time_cursor.stamp is None and not published.topics, "nothing is played before it is asked for"
+        assert app.time_cursor.stamp is None and not published.topics, "nothing is played without a request"
         await pilot.press("number_sign")
         assert published.next() == 0
         assert "⏸ paused   0.0 / 10.0 s  ×1  1 messages" in player_message(app) and app.time_cursor.stamp == BEGIN

@@ -52,7 +52,7 @@ def test_recording_does_not_offer_to_replace_an_existing_folder(
 def test_last_minutes_are_saved_or_their_absence_reported(tmp_path: Path) -> None:
     async def play(session: Session) -> None:
         await session.press("2", "Z")
-        assert ("keep", "") in session.console.asked, "which answers why not"
+        assert ("keep", "") in session.console.asked, "the request is refused with the reason"
         session.console.change(recording=RecordingInfo(kept_s=120.0))
         await session.press("Z")
         assert "save the last 2 min" in session.text()

@@ -69,7 +69,7 @@ def test_refusal_by_one_node_keeps_all_marks_and_shows_the_reason() -> None:
         assert value(session, "turn_rate") == 1.0
         assert "Nothing was set" in session.text() and "✗ 180: not while it turns" in session.text()
         await session.press("plus")
-        assert "360 → " in session.text(), "what is marked anew is seen in place of the refusal"
+        assert "360 → " in session.text(), "a newly marked value replaces the refusal"
         await session.press("x")
         await session.press("a")
         assert set_requests(session)[-1] == {NAVIGATOR: {"turn_rate": 0.98}}
@@ -124,7 +124,7 @@ def test_every_way_to_set_an_unsafe_value_warns_first() -> None:
         await session.press("A")
         assert "Send set B?" in session.text()
         await session.press("n")
-        assert "1 marked" in session.text() and "1.0 → 1.5" in session.text(), "nothing has become of it"
+        assert "1 marked" in session.text() and "1.0 → 1.5" in session.text(), "the edit was dropped"
         await session.press("A", "y")
         assert value(session, "max_speed") == 1.5
         await go_to(session, "enable_safety")

@@ -72,7 +72,7 @@ def test_tuning_session_works_by_keyboard_from_search_to_restart(tmp_path: Path)
         await session.press("A")
         assert value(session, "safety_distance") == 1.0
         await session.press("A")
-        assert "lowers a safety margin" in session.text(), "the way back is asked about"
+        assert "lowers a safety margin" in session.text(), "going back needs a confirmation"
         await session.press("y")
         assert value(session, "safety_distance") == 0.9
         await session.press("H")

@@ -134,7 +134,7 @@ def other(make: Callable[[], Any], *callbacks: tuple[str, Callable[[random.Rando
             name, message = chance.choice(callbacks)
             getattr(node, name)(*(() if message is None else (message(chance),)))
             assert isinstance(node, MotionController) is False or math.isfinite(node._velocity.linear), (
-                "poisoned for good"
+                "the node never recovers"
             )
 
         return once

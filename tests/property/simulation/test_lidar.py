@@ -51,7 +51,9 @@ def test_every_beam_ends_at_the_first_surface(
         assert ranges[beam] <= expected + 1e-9
         if ranges[beam] < expected - 1e-9:
             beside = (simulation.true_range(angle + turn, 50.0) for turn in (-1e-6, 1e-6))
-            assert any(ranges[beam] == pytest.approx(each, abs=1e-3) for each in beside), "a surface that is not there"
+            assert any(ranges[beam] == pytest.approx(each, abs=1e-3) for each in beside), (
+                "the beam hit a surface that does not exist"
+            )
 
 
 @settings(max_examples=20, deadline=None)

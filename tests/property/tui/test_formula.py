@@ -109,7 +109,7 @@ def test_every_value_follows_the_documentation(
     try:
         formula = parse_formula(text)
     except ValueError:
-        assert "/" not in text.replace(" / ", ""), "only what has no path is refused"
+        assert "/" not in text.replace(" / ", ""), "only expressions without a path are refused"
         return
     if isinstance(formula, str):
         return
@@ -130,4 +130,4 @@ def test_every_value_follows_the_documentation(
     shown = {time: value for time, value in zip(some_times.tolist(), some.tolist(), strict=True)}
     assert [shown[times[at]] for at in inside] == pytest.approx(
         [wanted[at] for at in inside], nan_ok=True, rel=1e-6, abs=1e-6
-    ), "a part of the time is as the whole"
+    ), "a part of the samples must give the same values as all of them"

@@ -44,7 +44,7 @@ def test_time_synchronizer_matches_exact_times() -> None:
         two.signalMessage(message(at))
     for at in (1, 3, 2):
         three.signalMessage(message(at))
-    assert sets == [[3.0, 3.0, 3.0], [2.0, 2.0, 2.0]], "1 was pushed out of queues of two"
+    assert sets == [[3.0, 3.0, 3.0], [2.0, 2.0, 2.0]], "1 was dropped from queues of two"
 
 
 def test_approximate_synchronizer_takes_the_nearest_messages() -> None:
@@ -69,7 +69,7 @@ def test_approximate_sets_respect_slop_and_use_each_message_once(arrivals: list[
         left = [[each / 1e9 for each in queue] for queue in sync.queues]
         fits = [each for each in itertools.product(*left) if max(each) - min(each) < 0.2999]
         near = [each for each in fits if tenth / 10 in each]
-        assert not near, "a set that could be passed on was kept"
+        assert not near, "a complete set was not passed on"
     for each in sets:
         assert max(times(each)) - min(times(each)) < 0.3
     members = [id(each) for one in sets for each in one]

@@ -24,7 +24,7 @@ def test_two_locks_make_the_same_stop_for_one_silence_and_another_for_the_next()
     here.release(["s1"], "ben")
     here.request(steer, 0)
     here.watch(SILENCE_TIMEOUT_NS + 1)
-    assert here.lock.held, "a recorded claim of the steering is no way around the silence"
+    assert here.lock.held, "a recorded steering request must not end the silence"
 
 
 def test_returned_steering_needs_no_heartbeat() -> None:

@@ -123,4 +123,4 @@ def test_robot_time_does_not_query_the_graph_under_load(rig: Rig) -> None:
     rig.clocks(2)
     rig.clocks(1)
     rig.clock(8.5)
-    assert rig.time.now() - began == 0.5 * SECOND, "a clock that stays is followed on when another one goes"
+    assert rig.time.now() - began == 0.5 * SECOND, "a remaining clock is still followed when another one leaves"

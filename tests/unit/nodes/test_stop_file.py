@@ -36,7 +36,7 @@ def test_two_locks_writing_in_turn_lose_nothing_and_revive_nothing(tmp_path: Pat
     both = at(tmp_path).merge(Lock((BEN,), 2))
     assert both.ids == {"a1", "b1"}
     at(tmp_path).merge(both.without(["a1"], "carla"))
-    assert at(tmp_path).merge(Lock((ANNA, BEN), 2)).ids == {"b1"}, "this one has not heard of the release"
+    assert at(tmp_path).merge(Lock((ANNA, BEN), 2)).ids == {"b1"}, "this lock has not received the release"
 
 
 def test_file_is_written_only_where_it_lacks_something(tmp_path: Path) -> None:
@@ -47,7 +47,9 @@ def test_file_is_written_only_where_it_lacks_something(tmp_path: Path) -> None:
     other.merge(Lock((BEN,), 2))
     assert other.is_as_left and not one.is_as_left, "it has to learn what the other one has written"
     known = one.merge(Lock((ANNA,), 1))
-    assert known.ids == {"a1", "b1"} and one.is_as_left and other.is_as_left, "or they would write in turn for ever"
+    assert known.ids == {"a1", "b1"} and one.is_as_left and other.is_as_left, (
+        "otherwise they would write in turn forever"
+    )
     path.unlink()
     assert not one.is_as_left
     one.merge(known)

@@ -37,7 +37,7 @@ def test_files_are_deleted_at_exit_and_those_of_a_killed_process_by_the_next(tmp
     assert left.read_text() == kept.read_text() == "a: 1" and base.stat().st_mode & 0o777 == 0o700
     killed.send_signal(signal.SIGKILL)
     killed.wait()
-    assert left.exists(), "a killed process cleans nothing"
+    assert left.exists(), "a killed process does not clean up"
     living.communicate("\n")
     assert not kept.exists() and left.exists()
     last, _ = start_process(tmp_path)

@@ -44,7 +44,7 @@ class Ros:
         """Spin all nodes until a condition holds."""
         deadline = time.monotonic() + LONG
         while not until():
-            assert time.monotonic() < deadline, "what the test waits for did not happen"
+            assert time.monotonic() < deadline, "the expected event did not happen"
             self._executor.spin_once(timeout_sec=LONG)
 
     def settle(self) -> None:

@@ -169,5 +169,5 @@ def test_group_forgets_deleted_entities() -> None:
         group.add_entity(each)
     for _ in range(2000):
         group.add_entity(Member())
-    assert len(group.entities) <= 2 * len(kept), "a node that makes a timer a second would grow for good"
+    assert len(group.entities) <= 2 * len(kept), "a node that makes a timer each second would grow forever"
     assert all(map(group.has_entity, kept))

@@ -192,7 +192,7 @@ def test_removed_node_is_not_served(ros: Any) -> None:
     assert got == ["other"]
     other.executor.add_node(node)
     other.executor.spin_once(timeout_sec=1.0)
-    assert got == ["other", "node"], "what it was told meanwhile is not lost"
+    assert got == ["other", "node"], "a wake-up in the meantime is not lost"
 
 
 def test_destroyed_node_does_not_disturb_others(ros: Any) -> None:
@@ -399,7 +399,7 @@ def test_second_thread_spinning_the_same_executor_gets_a_value_error(ros: Any, k
     future.set_result(None)
     ros.context.shutdown()
     thread.join()
-    assert not [each for each in errors if isinstance(each, ValueError)], "the first one goes on"
+    assert not [each for each in errors if isinstance(each, ValueError)], "the first one continues"
 
 
 def test_two_threads_may_wait_for_different_things(ros: Any) -> None:

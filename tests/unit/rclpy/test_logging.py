@@ -133,7 +133,7 @@ def test_invalid_filters_are_rejected(
 def test_non_text_messages_are_converted(log: Any, message: Any, text: str, printed: Callable[[], list[str]]) -> None:
     assert log.info(message)
     assert printed() == [f"[INFO] {text}"]
-    assert log.debug(5) is False, "what is not logged is not looked at"
+    assert log.debug(5) is False, "arguments of suppressed messages are not evaluated"
 
 
 def test_printf_style_is_rejected(log: Any) -> None:

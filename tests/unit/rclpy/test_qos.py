@@ -28,7 +28,7 @@ def test_profile_has_defaults() -> None:
     assert profile.lifespan == profile.deadline == profile.liveliness_lease_duration == Duration()
     assert profile.avoid_ros_namespace_conventions is False
     assert QoSProfile(history=HistoryPolicy.KEEP_ALL).depth == 10
-    assert QoSProfile(depth=-1).depth == -1, "as upstream takes it"
+    assert QoSProfile(depth=-1).depth == -1, "as upstream accepts it"
 
 
 @pytest.mark.parametrize(

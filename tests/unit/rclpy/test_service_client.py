@@ -207,7 +207,7 @@ def test_call_can_be_awaited_within_a_callback(ros: Any, own_group: bool) -> Non
 
     pair.node.create_guard_condition(ask).trigger()
     ros.settle()
-    assert got == ([9] if own_group else []), "in one exclusive group the answer waits for ever"
+    assert got == ([9] if own_group else []), "in one exclusive group the response waits forever"
 
 
 def test_names_are_expanded_and_remapped(ros: Any) -> None:

@@ -132,7 +132,7 @@ def test_reset_postpones_a_timer(stepped_ros: Any) -> None:
     node.create_timer(0.2, feed)
     stepped_ros.spin(lambda: bool(record.times))
     assert record.times == [1500]
-    assert len(node.executor._timers.entries) == 2, "a timer that is put off leaves nothing behind"
+    assert len(node.executor._timers.entries) == 2, "a postponed timer leaves nothing behind"
 
 
 def test_autostart_false_waits_for_reset(stepped_ros: Any) -> None:

@@ -78,7 +78,7 @@ def test_garbage_collection_during_a_change_does_not_deadlock(eager_collector):
             tables.clients.pairs()
     finally:
         gc.callbacks.remove(end_one)
-    assert len(left) < 200, "the collector has never come"
+    assert len(left) < 200, "the collector never ran"
     for each in left:
         tables.clients.remove(each)
     assert list(tables.clients.on("/s")) == new

@@ -31,7 +31,7 @@ def serve(node: Node) -> Callable[[Callable[[], bool]], None]:
     def until(is_so: Callable[[], bool]) -> None:
         deadline = time.monotonic() + 20
         while not is_so():
-            assert time.monotonic() < deadline, "what the test waits for did not happen"
+            assert time.monotonic() < deadline, "the expected event did not happen"
             executor.spin_once(timeout_sec=0.1)
 
     return until

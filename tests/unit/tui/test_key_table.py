@@ -70,7 +70,7 @@ def test_only_visible_lines_are_rendered_and_carry_their_keys(monkeypatch: pytes
             keys = app.query_one(KeyTable)
             assert max(drawn) == keys.size.height - 1
             pressed = [each.style and each.style.meta[KEY] for each in keys.render_line(max(drawn))]
-            assert {*pressed} == {"a"}, "blanks behind the text as well"
+            assert {*pressed} == {"a"}, "blanks after the text as well"
 
     asyncio.run(main())
 

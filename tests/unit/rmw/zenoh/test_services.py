@@ -89,7 +89,7 @@ def test_server_withdrawn_over_a_working_link_has_ended():
     asking, ended = ask_servers(Links(), "a", "b")
     assert asking.has_server and not ended()
     asking.on_token(server("a"), False)
-    assert not ended(), "the other one is there"
+    assert not ended(), "the other server exists"
     asking.on_token(server("b"), False)
     assert ended() and not asking.has_server
 
@@ -99,7 +99,7 @@ def test_lost_link_does_not_end_the_server_unless_its_process_ended():
     asking, ended = ask_servers(links, "a")
     links.ids = set()
     asking.on_token(server("a"), False)
-    assert not ended(), "its process lives, and may link itself anew"
+    assert not ended(), "its process lives, and may reconnect"
     gone = subprocess.Popen([sys.executable, "-c", ""])
     links.pids["a"] = gone.pid
     asking, ended = ask_servers(links, "a")

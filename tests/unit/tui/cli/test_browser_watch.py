@@ -34,7 +34,7 @@ def test_silent_or_closed_browser_ends_the_console_with_sighup(monkeypatch: pyte
     reading, writing = os.pipe()
     monkeypatch.setenv(VARIABLE, str(reading))
     with browser_watch(lambda: silence):
-        assert VARIABLE not in os.environ, "what the console starts has no browser"
+        assert VARIABLE not in os.environ, "programs that the console starts have no browser"
         if not silence:
             os.write(writing, b".")
             assert not hung_up.is_set()

@@ -25,7 +25,7 @@ def test_garbage_is_not_collected_until_start_is_complete() -> None:
             there = There()
             resume_collection()
             assert gc.isenabled()
-            assert not any(each is there for each in gc.get_objects()), "it is looked through no more"
+            assert not any(each is there for each in gc.get_objects()), "it is no longer traversed"
     finally:
         gc.unfreeze()
 

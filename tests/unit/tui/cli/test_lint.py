@@ -96,7 +96,7 @@ def test_launch_file_parameters_are_compared_with_declarations_of_its_package(pa
         mine = [each for each in found if each.place.endswith("all.launch.py") and each.fault == "dead parameter"]
         return [(each.line, each.subject) for each in mine]
 
-    assert dead() == [], "whose nodes they are is not known"
+    assert dead() == [], "their nodes are unknown"
     (package / "package.xml").write_text("<package><name>mine</name></package>")
     assert dead() == [(3, "spead"), (4, "pid.kp")]
 
@@ -151,7 +151,7 @@ def test_single_file_is_compared_with_declarations_of_its_package(
     (package / "package.xml").write_text("<package><name>mine</name></package>")
     assert run([str(package / "params.yaml")]) == 1
     text = capsys.readouterr().out
-    assert "robt: dead key" in text and "robot.py" not in text, "what is wrong elsewhere is left out"
+    assert "robt: dead key" in text and "robot.py" not in text, "faults elsewhere are left out"
 
 
 @pytest.mark.parametrize("unit", ["(m)", "[m]", "(at most 3, m)"])

@@ -48,7 +48,7 @@ def test_reset_locks_robot_first_then_sets_parameters_then_simulator(robot: Robo
         ("all_stop", True),
         ("set_all", {NAVIGATOR: {"max_speed": 2.0}}, "reset"),
         ("call", "/reset"),
-    ], "a service that only has the name of a reset is not called, what is read only is not set"
+    ], "a service that is only called reset is not called, and read-only parameters are not set"
     assert robot.current.drive.stopped, "it stays locked"
     message = capsys.readouterr().out
     assert "/robot_navigator max_speed: 1.0 -> 2.0" in message and "bot-console release releases it" in message

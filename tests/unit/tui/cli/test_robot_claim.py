@@ -30,7 +30,7 @@ def test_second_program_waits_for_the_robot_of_the_first(tmp_path):
         "there is nothing to wait for"
     )
     assert second.wait_for_robot(lambda: next(polls), lambda: reported.append(1)) == ["/simulator"] and not second.held
-    assert reported == [1], "who waits is told so, once"
+    assert reported == [1], "the wait is reported once"
     first.release(), first.release(), second.release()
 
 
@@ -58,7 +58,7 @@ def test_wait_for_claimed_robot_ends_at_its_timeout(tmp_path, monkeypatch):
 def test_released_claim_leaves_no_file(tmp_path):
     first, second = RobotClaim(tmp_path), RobotClaim(tmp_path)
     second.release()
-    assert (tmp_path / NAME).exists(), "it is not theirs"
+    assert (tmp_path / NAME).exists(), "the claim is not theirs"
     first.release()
     assert not list(tmp_path.iterdir())
 
@@ -194,4 +194,4 @@ def test_console_started_beside_another_shows_its_robot(tmp_path, monkeypatch, c
     assert open_console.run(parse([])) == 0 and shown[0].attach
     assert "Another bot-console is starting a robot" in capsys.readouterr().err
     first.release()
-    assert RobotClaim(tmp_path).held, "who attached claims nothing"
+    assert RobotClaim(tmp_path).held, "an attached console claims nothing"

@@ -32,9 +32,9 @@ def test_up_recalls_lines_with_the_typed_prefix_and_down_returns(tmp_path: Path)
     assert history.step("list", -1, anywhere=True) == "node list"
     assert history.step("node list", -1, anywhere=True) == "topic list"
     history.restart_walk()
-    assert history.step("topic hz /odom", -1) == "topic hz /odom", "there is no other one that begins so"
+    assert history.step("topic hz /odom", -1) == "topic hz /odom", "no other line begins like this"
     history.add("topic hz")
-    assert history.step("topic hz", -1) == "topic hz /odom", "the line that stands there already is passed by"
+    assert history.step("topic hz", -1) == "topic hz /odom", "a line equal to the typed text is skipped"
 
 
 def test_unwritable_history_lasts_until_exit(tmp_path: Path) -> None:

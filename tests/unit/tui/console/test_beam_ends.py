@@ -20,7 +20,7 @@ SCAN = LaserScan(
 def test_end_points_are_computed_around_the_pose_on_demand():
     ends = BeamEnds(SCAN, Pose(1.0, 2.0, math.pi / 2))
     assert ends.nearest == 1.0 and len(ends) == 3 and bool(ends)
-    assert "points" not in vars(ends), "nobody has looked"
+    assert "points" not in vars(ends), "not computed before it is requested"
     wanted = [(2.0, 2.0), (-1.0, 2.0), (-2.0, 2.0)]
     assert np.asarray(ends, float) == pytest.approx(np.array(wanted))
     assert [*ends] == [pytest.approx(each) for each in wanted] and ends[1:] == (ends[1], ends[2])

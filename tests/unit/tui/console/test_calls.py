@@ -62,7 +62,7 @@ def test_a_server_that_disappears_is_reported_before_the_timeout():
     for ready in (False, True, False):
         node.ready = ready
         node.fire()
-        assert not node.answer.done(), "one look without it may be a restart"
+        assert not node.answer.done(), "missing in a single poll, it may be restarting"
     node.fire()
     with pytest.raises(NoAnswer, match="/home went away before it answered; has its node ended"):
         asking.send(None)

@@ -305,7 +305,7 @@ class Waits:
 def test_closing_waits_for_an_unacknowledged_zero_if_there_is_a_subscription(monkeypatch):
     bench, waits = Bench("/cmd_vel"), Waits(monkeypatch)
     bench.link.close(7.0)
-    assert waits.waited == [], "it was only looked at"
+    assert waits.waited == [], "it was only watched"
     bench.link.drive(0.5, 0.0)
     bench.link.close(7.0)
     assert waits.waited == [7.0]

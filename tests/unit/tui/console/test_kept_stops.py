@@ -174,7 +174,7 @@ def test_after_a_bag_was_played_every_console_shows_the_actual_state(rig: StopRi
     reports = [each for each in rig.recorded if each[0] != REQUEST]
     rig.recorded = [each for each in reports if "true" not in str(each[1].values)]
     rig.play()
-    assert held(rig) and not ben.info.stopped, "the last that ben has heard is a recording"
+    assert held(rig) and not ben.info.stopped, "the last report that ben has received is a recording"
     rig.report()
     assert ben.info.confirmed and [each.holder for each in ben.info.stops] == ["anna"]
 

@@ -105,7 +105,7 @@ def test_another_console_sees_the_holder_and_releases_the_stop_by_its_key(rig: R
     assert (rig.link.info.confirmed, rig.link.info.holder, rig.link.info.reason) == (True, "ben", "my foot")
     rig.link.release()
     rig.settle()
-    assert other.info.stopped, "what another person has stopped stays so"
+    assert other.info.stopped, "another person's stop stays"
     rig.link.release([each.key for each in rig.link.info.stops])
     rig.settle()
     assert not other.info.stopped
@@ -119,7 +119,7 @@ def test_two_consoles_hold_the_robot_and_each_withdraws_its_own_stop(rig: Rig) -
     other.stop("my foot")
     rig.settle()
     rig.link.stop("the arm swings")
-    assert rig.link.info.stopped and not rig.link.info.confirmed, "held by ben is no answer to us"
+    assert rig.link.info.stopped and not rig.link.info.confirmed, "a report of ben's stop does not acknowledge ours"
     rig.settle()
     assert [each.holder for each in rig.link.info.stops] == ["ben", "anna"] and rig.link.info.confirmed
     other.release()
@@ -151,7 +151,7 @@ def test_a_lock_that_reports_only_that_it_is_locked_acknowledges_every_stop(rig:
     rig.settle()
     assert rig.link.info.confirmed and len(rig.link.info.stops) == 1
     rig.link.release()
-    assert rig.link.releasing, "said again until the lock has heard it"
+    assert rig.link.releasing, "repeated until the lock has received it"
     publisher.publish(DiagnosticStatus(values=[KeyValue(key="locked", value="false")]))
     rig.settle()
     assert not (rig.link.releasing or rig.link.info.stopped)
@@ -199,7 +199,7 @@ def test_stop_of_locks_that_missed_the_console_counts_as_its_own_until_released(
     held = {id for lock in locks for id in lock.lock.ids}
     assert held and rig.link.info.own == held, "one press releases it, as the status line says"
     rig.link.release()
-    assert rig.link.info.own == frozenset(), "on its way: another press holds the robot"
+    assert rig.link.info.own == frozenset(), "while it is in transit, another press holds the robot"
     rig.settle(3)
     assert not (rig.link.info.own or rig.link.info.stopped or any(lock.lock.held for lock in locks))
 

@@ -168,7 +168,7 @@ def test_a_means_confirms_that_it_holds_and_a_release_undoes_it(bench: Bench, en
     bench.robot.offer(entry)
     bench.link_with(entry)
     bench.pass_time(1.0)
-    assert not bench.robot.calls, "unasked nothing is done"
+    assert not bench.robot.calls, "nothing is done without a request"
     bench.link.stop(True, "ALL STOP")
     assert not bench.info.stop_confirmed and "THE ROBOT MAY MOVE" in bench.status
     bench.settle()
@@ -177,7 +177,7 @@ def test_a_means_confirms_that_it_holds_and_a_release_undoes_it(bench: Bench, en
     assert bench.status.startswith(f"ALL STOP held by {next(iter(entry))} /") and "MAY MOVE" not in bench.status
     held = len(bench.robot.calls)
     bench.pass_time(2.0)
-    assert "lock" in entry or len(bench.robot.calls) == held, "what holds is not asked again"
+    assert "lock" in entry or len(bench.robot.calls) == held, "a means that holds is not asked again"
     bench.link.stop(False, "")
     bench.settle()
     assert not bench.robot.stands and not bench.info.stopped
@@ -226,7 +226,7 @@ def test_zeros_are_sent_at_once_and_the_next_means_does_not_wait_for_the_last(be
     assert "trigger /two has not answered yet" in bench.status
     bench.pass_time(NEXT_AFTER_S)
     assert bench.robot.calls == ["stop"] and bench.info.held_by_means == "trigger /base/stop"
-    assert set(bench.robot.velocities) == {0.0} and len(bench.robot.velocities) >= 6, "and they go on"
+    assert set(bench.robot.velocities) == {0.0} and len(bench.robot.velocities) >= 6, "and the zeros continue"
 
 
 def test_the_next_means_is_not_tried_once_one_holds(bench: Bench) -> None:
@@ -239,7 +239,7 @@ def test_the_next_means_is_not_tried_once_one_holds(bench: Bench) -> None:
     assert bench.robot.calls == ["stop"]
     bench.link.stop(False, "")
     bench.pass_time(1.0)
-    assert bench.robot.calls == ["stop", "clear"], "what was not used is not released"
+    assert bench.robot.calls == ["stop", "clear"], "a means that was not used is not released"
 
 
 def test_all_means_tried_are_undone(bench: Bench) -> None:

@@ -165,7 +165,7 @@ def test_values_and_verdicts_follow_the_driven_robot(robots: Robots) -> None:
     both_say()
     assert (robots.info.robot, robots.info.actual, robots.info.limited_by) == ("/", (0.25, 0.0), "warning_distance")
     robots.choose("/robot2")
-    assert (robots.info.robot, robots.info.actual, robots.info.asked) == ("/robot2", None, None), "not yet heard"
+    assert (robots.info.robot, robots.info.actual, robots.info.asked) == ("/robot2", None, None), "nothing received yet"
     assert robots.world.info.pose is None and robots.world.info.trail == ()
     both_say()
     assert (robots.info.actual, robots.info.asked, robots.info.limited_by) == (

@@ -78,7 +78,9 @@ def test_split_halves_a_pane_and_same_direction_adds_no_level() -> None:
     assert split("a", "a", "b", "beside") == beside("a", "b")
     assert split(beside("a", "b"), "a", "c", "beside") == beside("a", "c", "b", shares=(1, 1, 2))
     assert split(beside("a", "b"), "b", "c", "below") == beside("a", below("b", "c"))
-    assert split(beside("a", "b", "c"), "a", "c", "below") == beside(below("a", "c"), "b"), "one that is there moves"
+    assert split(beside("a", "b", "c"), "a", "c", "below") == beside(below("a", "c"), "b"), (
+        "a pane that is already there moves"
+    )
     assert split("a", "a", "a", "below") == "a"
 
 
@@ -109,7 +111,7 @@ def test_neighbour_in_a_direction_is_found() -> None:
     assert neighbour(places, "c", -1, 0) == "a"
     assert neighbour(places, "c", 0, -1) == "b"
     assert neighbour(places, "b", 0, 1) == "c"
-    assert neighbour(places, "d", 0, 1) == "d", "nothing lies there"
+    assert neighbour(places, "d", 0, 1) == "d", "there is no pane"
     assert neighbour(places, "a", 1, 0) in ("b", "c")
     assert neighbour(places, "d", 0, -1) in ("a", "c")
 

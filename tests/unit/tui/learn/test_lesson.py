@@ -443,7 +443,7 @@ def test_interrupted_ros2_verb_does_not_count_as_failed(tmp_path: Path, monkeypa
     monkeypatch.setattr(command_line, "_run", interrupt)
     words = ["topic", "echo", "/odom"]
     with command_log.record_command(words) as ended:
-        assert ended(command_line.main(words)) == 2, "as the ros2 of ROS 2 ends"
+        assert ended(command_line.main(words)) == 2, "as ROS 2's ros2 exits"
     (command,) = read_log(str(log))
     assert command.code == 130 and command.is_working and not command.failed
     with command_log.record_command(words) as ended:

@@ -92,7 +92,7 @@ def test_only_the_press_that_turns_out_to_be_text_is_withdrawn() -> None:
     rig = Rig()
     first, second = rig.press(alone=False), rig.press()
     rig.typing = True
-    assert not rig.early.has_acted(first), "it is a letter"
+    assert not rig.early.has_acted(first), "it is text"
     rig.typing = False
     assert rig.early.has_acted(second)
     assert rig.asked == [("hold", "1"), ("hold", "2"), ("withdraw", "1"), ("keep", "2"), "stop"]

@@ -28,7 +28,7 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
 
 def resolve(*words: str) -> tuple[str, str]:
     options, problem = with_launch_file(parse(words))
-    assert problem or not options.launch_file, "who launches it takes a path"
+    assert problem or not options.launch_file, "the launcher takes a path"
     return options.launch, problem
 
 

@@ -82,7 +82,7 @@ def test_programs_that_a_console_in_the_domain_starts_stay_there(started_session
     os.environ[CONNECT_VARIABLE] = ROBOT
     assert open_console.run(Options(attach=True)) == 0
     assert named_routers() == []
-    assert any(ROBOT in each for each in started_sessions[0][1].args[1]), "the log of the console says so"
+    assert any(ROBOT in each for each in started_sessions[0][1].args[1]), "the console's log reports it"
 
 
 def test_children_inherit_several_endpoints_and_certificates_but_the_users_settings_take_precedence(

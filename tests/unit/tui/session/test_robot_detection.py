@@ -75,7 +75,7 @@ def test_console_asks_before_it_adds_a_second_node_of_one_name(monkeypatch, caps
     reported = capsys.readouterr().out
     assert "Nodes with our robot's node names run in ROS domain" in reported and "/robot_navigator" in reported
     assert "bot-console --launch bot_console_robot simulator.launch.py" in reported
-    assert "`bot-console navigator:=false` starts our robot" in reported, "which needs neither of the other two"
+    assert "`bot-console navigator:=false` starts our robot" in reported, "it needs neither of the other two"
     assert max(map(len, reported.splitlines())) < 80
     assert asked == ["Attach the console to them, without a robot? [Y/n] "]
 

@@ -47,7 +47,7 @@ def test_stalled_terminal_does_not_block_closing(terminal: tuple[int, TextIO], m
     taken = b""
     while len(taken) < 100_000 and b"\x1b[?25h" not in taken:
         taken += os.read(far, 65536)
-    assert taken.endswith(closing.LAST_WORDS.encode()), "the modes are put back for when it wakes up"
+    assert taken.endswith(closing.LAST_WORDS.encode()), "the modes are restored for when it continues"
 
 
 def test_responsive_terminal_gets_all_output(terminal: tuple[int, TextIO]) -> None:

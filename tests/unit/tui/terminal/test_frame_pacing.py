@@ -116,7 +116,7 @@ def test_merged_frames_are_reported_only_while_they_are_many_and_recent(gate: An
     draw(gate)
     gate.answered()
     gate.merged()
-    assert gate.held_back == 0, "the pace alone holds nothing back"
+    assert gate.held_back == 0, "pacing alone does not count as holding back"
     for _ in range(MAX_IN_FLIGHT):
         draw(gate)
     for _ in range(MIN_MERGED_FRAMES - 1):
@@ -130,7 +130,7 @@ def test_merged_frames_are_reported_only_while_they_are_many_and_recent(gate: An
 
 def test_only_a_terminal_that_has_answered_before_has_pending_answers(gate: AnswerGate) -> None:
     draw(gate)
-    assert not gate.has_unanswered, "perhaps it never answers"
+    assert not gate.has_unanswered, "it may never answer"
     gate.answered()
     assert not gate.has_unanswered
     draw(gate)

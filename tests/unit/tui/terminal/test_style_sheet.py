@@ -47,7 +47,9 @@ def test_component_style_is_computed_on_demand_and_then_follows_the_rules() -> N
                 await pilot.pause()
                 assert [call for call in drawn.call_args_list if call.args == (parts,) and not call.kwargs]
             assert parts.get_component_styles("parts--first").color == Color.parse("blue")
-            assert parts.get_component_styles("parts--first").node is part, "another one would be left to the collector"
+            assert parts.get_component_styles("parts--first").node is part, (
+                "a new one would leave garbage for the collector"
+            )
             with pytest.raises(KeyError):
                 parts.get_component_styles("parts--third")
 

@@ -150,7 +150,7 @@ def test_a_terminal_that_was_not_left_is_left_and_set_up_again_outside_the_signa
         assert driver.done == ["set up"]
         driver.resume_application_mode()
         driver.resume_application_mode()
-        assert driver.done == ["set up"], "what a signal handler interrupts may hold a lock that this needs"
+        assert driver.done == ["set up"], "the code that a signal handler interrupts may hold a lock that this needs"
         await asyncio.sleep(0)
         assert driver.done == ["set up", "left", "set up"]
 

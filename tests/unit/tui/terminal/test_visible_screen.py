@@ -89,7 +89,7 @@ async def come(app: Panes, pilot: Pilot[None]) -> None:
 def test_hidden_changes_are_neither_laid_out_nor_drawn(change: Play) -> None:
     assert run_play(change)[:2] == (0, 0)
     if change is grow:
-        assert run_play(change, Screen)[0] > 0, "which Textual does"
+        assert run_play(change, Screen)[0] > 0, "as Textual does"
 
 
 async def grow_and_show(app: Panes, pilot: Pilot[None]) -> None:

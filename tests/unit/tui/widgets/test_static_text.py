@@ -53,7 +53,7 @@ def test_only_changed_lines_are_drawn() -> None:
             assert drawn_rows(words) == [0]
             await pilot.pause()
             words.show_text("a line")
-            assert drawn_rows(words) == [*range(6)], "nothing is known of the lines of a plain text"
+            assert drawn_rows(words) == [*range(6)], "the lines of a plain text are unknown"
             await pilot.pause()
             words.add_class("wrapped")
             await pilot.pause()

@@ -83,7 +83,7 @@ def test_asking_locks_changes_nothing(bench: Bench) -> None:
     found = base_finding(bench.doctor)
     assert found.level is Level.OK and "has an emergency stop that answers" in found.text
     assert "/emergency_stop/arbiter of /safety_monitor, /emergency_stop/base of /base" in found.text
-    assert (monitor.lock, base.lock) == before and before[0].held, "no stop and no release came of it"
+    assert (monitor.lock, base.lock) == before and before[0].held, "it caused neither a stop nor a release"
 
 
 @pytest.mark.parametrize("locked", [False, True])

@@ -103,14 +103,14 @@ def test_values_are_plotted_over_the_time_of_the_bag(console: OpenedBag) -> None
     assert len(console.plots.samples(path, samples.cursor).times) == 0, "nothing more comes"
     changed = console.plots.samples("/nav:max_speed")
     assert list(zip(changed.times, changed.values, strict=True)) == [(0.0, 1.0), (4.0, 2.5)]
-    assert console.plots.watch("/odom/pose.covariance[0:2].max()").ok, "the colon of a slice names no parameter"
+    assert console.plots.watch("/odom/pose.covariance[0:2].max()").ok, "the colon of a slice does not name a parameter"
     assert console.plots.time() == 10.0 and console.plots.time((BEGIN + 2) * SECOND) == 2.0
     for wrong in ("/odom/no.such", "/nothing/data", "/nav:none", "/odom"):
         assert not console.plots.watch(wrong).ok and console.plots.watch(wrong).text
 
 
 def test_every_change_is_refused(console: OpenedBag) -> None:
-    assert "robot" not in status_text(console.snapshot()), "none is waited for"
+    assert "robot" not in status_text(console.snapshot()), "no topic is awaited"
     (outcome,) = console.parameters.set("/nav", {"max_speed": 1.0}).result()
     assert not outcome.accepted and outcome.reason == WHY
     assert console.parameters.undo().result().text == WHY and console.bags.start("x").result().text == WHY

@@ -57,7 +57,7 @@ def test_another_node_is_used_once_it_knows_all_nodes(observer: Observer, made_n
         observer.poll()
     (other,) = made_nodes
     observer.poll()
-    assert observer.node is first, "it has found nothing yet"
+    assert observer.node is first, "the node has found nothing yet"
     other.names = ["console", "arm", "base"]
     observer.poll()
     assert observer.node is other

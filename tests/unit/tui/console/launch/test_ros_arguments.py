@@ -21,4 +21,4 @@ def test_the_first_of_several_names_counts_and_an_unfinished_line_is_accepted() 
     words = "--ros-args -r __node:=a --ros-args -r __node:=b --disable-rosout-logs -r"
     found = read_ros_arguments(words.split())
     assert (found.name, found.others) == ("a", ("--disable-rosout-logs",))
-    assert read_ros_arguments(["--", "x"]).arguments == ("--", "x"), "that is an end of ROS arguments only within them"
+    assert read_ros_arguments(["--", "x"]).arguments == ("--", "x"), "`--` ends ROS arguments only within them"

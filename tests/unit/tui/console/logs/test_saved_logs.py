@@ -54,7 +54,7 @@ def test_a_file_is_followed_through_rotation_and_truncation(tmp_path: Path) -> N
     with path.open("a") as file:
         file.write("last words")
     os.rename(path, tmp_path / "log.1")
-    assert new_text(tail) == "", "a line without an end may go on"
+    assert new_text(tail) == "", "an unfinished line may continue"
     path.write_text("d\n")
     assert new_text(tail) == "last words\nd\n"
     path.write_text("")

@@ -37,7 +37,7 @@ def test_changes_of_a_run_appear_in_the_next_one_with_negative_numbers(tmp_path:
     first = Journal(history=History(file, 1))
     first.record(SECOND, "/robot", "speed", (0.5, 1.0), ChangeSource.PROFILE, by="indoor")
     first.record(2 * SECOND, "/robot", "speed", (1.0, 9.0), ChangeSource.EDIT, "too fast")
-    assert [each.seq for each in first.after(-10)] == [0, 1], "its own are no earlier ones"
+    assert [each.seq for each in first.after(-10)] == [0, 1], "its own changes do not count as earlier"
     first.close()
     second = Journal(history=History(file, 2))
     second.record(3 * SECOND, "/robot", "speed", (1.0, 2.0), ChangeSource.EDIT)

@@ -43,7 +43,7 @@ def test_the_override_that_takes_effect_is_named_as_origin(
     found = origin_of(override, given, value)
     assert found.origin == origin
     assert (found.default, found.declared_at) == (1.0, "/ws/src/n.py:12")
-    assert found.changed is (value != 1.0), "a mark says what differs from what was declared"
+    assert found.changed is (value != 1.0), "a mark shows values that differ from the declared ones"
 
 
 def test_start_values_are_known_if_they_were_reported() -> None:

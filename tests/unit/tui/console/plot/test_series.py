@@ -68,7 +68,7 @@ def test_an_array_is_reduced_to_one_number_ignoring_infinite_elements():
         for name, where in {"min": "", "max": "[1:3]", "mean": "[2:]", "sum": "[:1]", "len": "", "std": "[-1:]"}.items()
     }
     assert made == {"min": 1.0, "max": 1.0, "mean": 1.5, "sum": 4.0, "len": 4.0, "std": 0.0}
-    assert math.isnan(reader(*parse_path("ranges[1:2].min()"))(scan)), "nothing finite is a gap"
+    assert math.isnan(reader(*parse_path("ranges[1:2].min()"))(scan)), "an array without finite values is a gap"
     turned = Quaternion(z=0.5**0.5, w=0.5**0.5)
     from geometry_msgs.msg import Pose
 

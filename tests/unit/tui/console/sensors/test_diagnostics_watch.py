@@ -48,7 +48,7 @@ def test_the_newest_status_of_each_name_is_kept_with_values_and_time() -> None:
     assert (status.level, status.message, status.hardware, status.values, status.heard) == (
         Level.WARN, "warm", "arm", (("temperature", "70"),), 102.0,
     )  # fmt: skip
-    assert watch.diagnostics() is watch.diagnostics(), "the same object until something is said"
+    assert watch.diagnostics() is watch.diagnostics(), "the same object until a message arrives"
 
 
 def test_the_history_has_every_change_of_level_or_message_but_no_repetitions() -> None:

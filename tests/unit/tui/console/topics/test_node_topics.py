@@ -93,7 +93,7 @@ def console(robot: Robot) -> Iterator[RosConsole]:
 
 def test_a_topic_is_measured_with_the_qos_offered_and_released(console: RosConsole) -> None:
     graph: GraphInfo = console.snapshot().graph
-    assert not offered_qos(graph, "/odom").reliable, "best effort is offered, so best effort is asked for"
+    assert not offered_qos(graph, "/odom").reliable, "best effort is offered, so best effort is requested"
     traffic = console.topics
     traffic.measure(["/odom"])
     found = until(lambda: next((e for e in traffic.measured().values() if e.count > 20 and e.rate), None), "messages")

@@ -36,7 +36,7 @@ def test_a_topic_that_falls_behind_is_late_until_it_has_caught_up() -> None:
     assert rig.topics.requesters[REQUESTER] == ("/scan", "/odom") and not any(each.late for each in found)
     rig.topics.figures["/scan"] = Measure(rate=4.0, age=0.1)
     late, other = rig.after(1)
-    assert (late.topic, late.late, late.measured, late.times) == ("/scan", True, "4 Hz", 1), "it comes first"
+    assert (late.topic, late.late, late.measured, late.times) == ("/scan", True, "4 Hz", 1), "it is listed first"
     assert other.late is False
     assert rig.after(0.5) == (late, other) and rig.after(1) == (late, other)
     rig.topics.figures["/scan"] = Measure(rate=9.9, age=0.0)
@@ -66,7 +66,7 @@ def test_the_active_profile_and_running_monitors_are_read_and_measuring_ends_wit
     assert [each.expected for each in rig.after(1)] == ["10 Hz ± 5 %"]
     monitor = ParameterTree("/greenwave_monitor", (ParameterInfo("/greenwave_monitor", key, Kind.DOUBLE, 20.0),))
     rig.trees = {"/greenwave_monitor": monitor}
-    assert [each.expected for each in rig.after(1)] == ["20 Hz ± 5 %"], "a running monitor counts more"
+    assert [each.expected for each in rig.after(1)] == ["20 Hz ± 5 %"], "a running monitor takes precedence"
     rig.profile, rig.trees = None, NO_TREES
     assert rig.after(1) == () and rig.topics.requesters[REQUESTER] == ()
 

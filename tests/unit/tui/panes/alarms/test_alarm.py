@@ -30,7 +30,7 @@ def test_every_crossing_counts_once_even_if_brief() -> None:
 def test_samples_of_several_paths_are_processed_in_order_of_arrival() -> None:
     robot = console(a=([1.0, 3.0], [5.0, 0.0]), b=([2.0, 4.0], [0.0, 5.0]))
     alarm = Alarm.of(AlarmText("both", "/a/x > 1 and /b/x > 1"))
-    assert alarm.poll(robot) == [] and alarm.holds is False, "they never were so at once"
+    assert alarm.poll(robot) == [] and alarm.holds is False, "the two never held at the same time"
 
 
 def test_alarm_state_is_unknown_without_a_value() -> None:

@@ -27,7 +27,7 @@ def test_each_kind_of_topic_has_conditions_that_can_be_read() -> None:
     assert [each.name for each in found if "rate(" in each.condition] == ["no odometry", "no scan", "no picture"]
     assert {"battery low", "close to something", "stands still", "collision"} <= {each.name for each in found}
     assert not any("/lights/on" in each.condition for each in found)
-    assert len(alarm_texts_in([each.data for each in found])) == len(found), "a condition that is wrong is left out"
+    assert len(alarm_texts_in([each.data for each in found])) == len(found), "an invalid condition is left out"
 
 
 def test_names_are_unique_and_there_are_not_too_many() -> None:

@@ -91,7 +91,7 @@ def test_legend_explains_the_marks_that_are_drawn_and_no_others() -> None:
     marked = GraphInfo((node("/a", "/stop/x /stop/y /own /map", "/own"), node("/b", "", "/stop/x /stop/y /map")))
     assert words(marked, {}) == "↺ sent to itself    ×2 two topics of a namespace"
     assert words(marked, {"/map": IDLE}).endswith("    idle: no messages now")
-    assert words(marked, {"/map": IDLE}, 30) == "↺ sent to itself", "what does not fit is left out"
+    assert words(marked, {"/map": IDLE}, 30) == "↺ sent to itself", "items that do not fit are left out"
 
 
 def test_legend_explains_marks_of_mismatched_qos_and_of_dead_ends() -> None:

@@ -37,7 +37,7 @@ def test_next_change_ends_the_effect_of_the_previous_one() -> None:
     drive(effects, 3.0, 0.5, lambda _: 0.2)
     effects.changed([3], 3.5)
     assert effects.of(1) == "speed 0.5 → 1.0 m/s in 0.1 s"
-    assert effects.of(2) == "", "too soon to tell"
+    assert effects.of(2) == "", "too early to be known"
 
 
 def test_nothing_is_known_without_odometry() -> None:

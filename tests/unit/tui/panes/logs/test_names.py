@@ -17,7 +17,7 @@ def test_logger_name_becomes_node_name_with_child_suffix() -> None:
     assert names.of("arm.left.zoo.planner.fast") == "/arm/left/zoo.planner.fast"
     assert names.of("arm.right") == "/arm.right"
     assert names.of("talker") == "/talker"
-    assert names.of("talker-1") == "talker-1", "a process is no node"
+    assert names.of("talker-1") == "talker-1", "a process is not a node"
     assert names.of("") == ""
 
 
@@ -41,7 +41,7 @@ def test_a_wide_line_has_more_room_for_the_name() -> None:
     assert name not in line_text(record, name, 150, names.longest)
     assert f"{name} " in line_text(record, name, 190, names.longest)
     short = line_text(record, "/talker", 190, len("/talker"))
-    assert short == line_text(record, "/talker", 190), "where no name needs it there is no gap"
+    assert short == line_text(record, "/talker", 190), "there is no gap unless a name needs it"
 
 
 def test_wide_line_shows_the_source_location() -> None:

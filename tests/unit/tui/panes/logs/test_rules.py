@@ -28,7 +28,7 @@ def test_rules_are_stored_in_an_editable_file(tmp_path: Path) -> None:
     assert book.add("at:nav.py", hide=False) == (Rule("at:nav.py", "violet"), "")
     again = RuleBook(path)
     again.read()
-    assert again.rules == book.rules and "pink noise" in path.read_text(), "what is not understood stays"
+    assert again.rules == book.rules and "pink noise" in path.read_text(), "lines that are not understood stay"
 
 
 def test_new_rule_gets_an_unused_colour(tmp_path: Path) -> None:

@@ -45,10 +45,10 @@ def test_single_long_name_does_not_remove_all_sliders() -> None:
     assert name_column(rows[0], own, 60) == own.name
     over = name_column(row(LONG), own, 60)
     assert over > own.name and MARKS_CELLS + over + GAP_CELLS + MIN_VALUE_CELLS <= 60, (
-        "it runs over its column, and its value is seen"
+        "it exceeds its column, and its value stays visible"
     )
-    assert columns(need, 100).name == 2 + len(LONG), "where there is room all names stand in the column"
-    assert not columns(measure([rows[0], row(LONG)]), 60).bar, "one of two is not few"
+    assert columns(need, 100).name == 2 + len(LONG), "if there is room, all names fit into the column"
+    assert not columns(measure([rows[0], row(LONG)]), 60).bar, "one of two is too many to exceed the column"
 
 
 def test_moved_edge_shifts_room_but_leaves_some_for_names_and_values() -> None:

@@ -94,7 +94,7 @@ def test_whole_name_selects_the_parameter_of_that_name() -> None:
         return "" if at is None else f"{found[at].node}:{found[at].parameter.name}"
 
     assert named("max_speed") == "/b:max_speed"
-    assert named("max_speed", len(found) - 1) == "/c:max_speed", "the cursor stays where it is right"
+    assert named("max_speed", len(found) - 1) == "/c:max_speed", "the cursor stays if its row is right"
     assert named("max_rate") == "/a:drive.max_rate"
     assert named("speed") == named("") == ""
 
@@ -182,7 +182,9 @@ def test_rows_are_reused_if_the_same_parameters_match() -> None:
     again = made.rows(GROUPED, View(query=parse("pid.")))
     assert [a is b for a, b in zip(first[1:], again[1:], strict=True)] == [True] * (len(first) - 1)
     for view in (View(query=parse("pid.x")), View(query=parse("pid.x"), folded=frozenset({"/n:pid.x."})), View()):
-        assert made.rows(GROUPED, view) == rows(GROUPED, view), "others pass, or stand folded: made anew"
+        assert made.rows(GROUPED, view) == rows(GROUPED, view), (
+            "other rows match or are folded, so the rows are made again"
+        )
 
 
 def test_large_tree_starts_folded_with_its_namespaces_and_a_small_one_open() -> None:

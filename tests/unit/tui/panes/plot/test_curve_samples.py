@@ -53,7 +53,7 @@ def test_new_samples_share_memory_with_earlier_ones() -> None:
     take(curve, Source(20), 1)
     first = curve.values
     take(curve, Source(20), 500)
-    assert np.shares_memory(first, curve.values), "arrays that are made anew for each sample leave holes in the memory"
+    assert np.shares_memory(first, curve.values), "arrays that are made again for each sample fragment the memory"
 
 
 def test_only_new_samples_remain_after_clearing() -> None:

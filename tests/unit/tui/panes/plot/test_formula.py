@@ -101,9 +101,9 @@ def test_shared_paths_are_released_with_their_last_curve() -> None:
     assert not timeline.fetch_samples()
     refused = timeline.add(f"{A} - /no/topic")
     assert not refused.ok and "/no/topic" in refused.text and len(timeline.curves) == 2
-    assert detach(console) == [], "what another curve needs is watched on"
+    assert detach(console) == [], "paths that another curve needs are still watched"
     assert not timeline.add("/c/z + /no/topic").ok
-    assert detach(console) == ["/c/z"], "what was watched for a curve that cannot be is let go"
+    assert detach(console) == ["/c/z"], "paths of a curve that cannot be made are released"
     timeline.remove(0)
     assert detach(console) == ["/c/z", "/c/y"]
     timeline.remove(0)

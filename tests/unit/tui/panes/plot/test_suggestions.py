@@ -37,7 +37,7 @@ def test_the_last_path_of_an_expression_is_completed_and_its_brackets_closed() -
 def test_a_path_that_does_not_exist_yet_is_offered_after_the_matching_ones() -> None:
     assert titles("/odm/pose.x") == ["/odom/pose.pose.position.x", "/odm/pose.x"]
     assert suggestions(KNOWN, "/odm/pose.x")[-1].about == "does not exist yet"
-    assert titles("/odom/twist") == ["/odom/twist.twist.linear.x"], "what is half typed is no path of its own"
+    assert titles("/odom/twist") == ["/odom/twist.twist.linear.x"], "a half-typed path is not offered by itself"
 
 
 def test_invalid_expression_is_reported() -> None:

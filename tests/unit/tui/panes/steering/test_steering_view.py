@@ -50,7 +50,7 @@ def test_robot_at_the_requested_velocity_is_one_mark() -> None:
 def test_plane_and_bars_fit_80_by_24_with_every_reason() -> None:
     drawn = texts(ARMED, driving())
     assert len(drawn) <= INNER[1] and all(len(each) <= INNER[0] for each in drawn)
-    assert place(drawn[6:], ASKED)[1] == 1, "what the keys ask for is at the upper edge of the plane"
+    assert place(drawn[6:], ASKED)[1] == 1, "the velocity requested by the keys is at the upper edge of the plane"
     text = "\n".join(drawn)
     assert "asked   ▕██████████▏ +1.00 m/s" in text and "robot   ▕██████    ▏ +0.58 m/s" in text
     assert "by warning_distance of /safety_monitor" in text and "limits  1 m/s  1 rad/s" in text
