@@ -42,7 +42,7 @@ def import_needed(job: Job) -> None:
         seen = path, os.stat(path).st_mtime_ns if path else 0
         if seen not in _seen:
             _seen.add(seen)
-            for name in _needed(path) if path else (UNKNOWN,):
+            for name in _modules_needed(path) if path else (UNKNOWN,):
                 with contextlib.suppress(Exception):
                     importlib.import_module(name)
 
@@ -59,7 +59,7 @@ def _source(function: str, arguments: Sequence[Any]) -> str | None:
     return None
 
 
-def _needed(path: str) -> Iterator[str]:
+def _modules_needed(path: str) -> Iterator[str]:
     """Yield the modules to import for a file."""
     with open(path, "rb") as file:
         text = file.read(MAX_SOURCE_BYTES + 1)
@@ -87,11 +87,15 @@ def _of_module(module: str, names: Sequence[str] = ()) -> Iterator[str]:
         return
     if top in PACKAGES and module not in WITH_ARRAYS:
         yield module
-    elif kind not in ("msg", "srv") or not os.path.isdir(os.path.join(GENERATED, top)) or not _are_made(module, names):
+    elif (
+        kind not in ("msg", "srv")
+        or not os.path.isdir(os.path.join(GENERATED, top))
+        or not _create_one_of_each(module, names)
+    ):
         yield from (UNKNOWN, module) if module in WITH_ARRAYS else (UNKNOWN,)
 
 
-def _are_made(module: str, names: Sequence[str]) -> bool:
+def _create_one_of_each(module: str, names: Sequence[str]) -> bool:
     """Create an object of each interface, which imports NumPy for fixed-size arrays; return whether all are known."""
     for name in names:
         cls = getattr(importlib.import_module(module), name, None)

@@ -49,10 +49,10 @@ def local_copy(address: str) -> Path:
     cached copy.
     """
     _check(address)
-    kept = _Kept(address)
+    kept = _CachedCopy(address)
     try:
-        answer = _asked(address, kept.tag)
-    except _OutOfReach as error:
+        answer = _download(address, kept.tag)
+    except _UnreachableError as error:
         if not kept.path.is_file():
             raise RemoteError(f"{address} is out of reach ({error}), and there is no copy of it here") from None
         age = _age(time.time() - kept.path.stat().st_mtime)
@@ -69,11 +69,11 @@ def local_copy(address: str) -> Path:
     return kept.path
 
 
-class _OutOfReach(Exception):
+class _UnreachableError(Exception):
     """The server did not answer, or answered that it is unavailable now."""
 
 
-class _Kept:
+class _CachedCopy:
     """The cached copy of one address, if there is one: the text, and beside it the server's ETag."""
 
     def __init__(self, address: str) -> None:
@@ -148,7 +148,7 @@ def _is_here(address: str) -> bool:
         return False
 
 
-class _SafePlaces(urllib.request.HTTPRedirectHandler):
+class _SafeRedirects(urllib.request.HTTPRedirectHandler):
     """Follows redirects, but never from TLS to plain HTTP, and without TLS only on this machine."""
 
     def redirect_request(
@@ -159,23 +159,23 @@ class _SafePlaces(urllib.request.HTTPRedirectHandler):
         return super().redirect_request(req, fp, code, msg, headers, newurl)  # type: ignore[arg-type] -- as typeshed has it in some versions
 
 
-def _asked(address: str, tag: str) -> tuple[bytes, str] | None:
+def _download(address: str, tag: str) -> tuple[bytes, str] | None:
     """Return content and ETag; None if the file is unchanged."""
     request = urllib.request.Request(address, headers={"User-Agent": "bot-console", "Accept-Encoding": "identity"})
     if tag:
         request.add_header("If-None-Match", tag)
     try:
-        handlers = [urllib.request.HTTPSHandler(context=ssl.create_default_context()), _SafePlaces()]
+        handlers = [urllib.request.HTTPSHandler(context=ssl.create_default_context()), _SafeRedirects()]
         if _is_here(address):
             handlers.append(urllib.request.ProxyHandler({}))  # a proxy would be in between, and not on this machine
         with urllib.request.build_opener(*handlers).open(request, timeout=SILENCE_TIMEOUT_S) as answer:
-            return _content(address, answer), answer.headers.get("ETag", "")
+            return _read_body(address, answer), answer.headers.get("ETag", "")
     except urllib.error.HTTPError as error:
         with error:
             if error.code == http.client.NOT_MODIFIED and tag:
                 return None
             if error.code >= http.client.INTERNAL_SERVER_ERROR or error.code == http.client.TOO_MANY_REQUESTS:
-                raise _OutOfReach(f"it answers {error.code} {error.reason}") from None
+                raise _UnreachableError(f"it answers {error.code} {error.reason}") from None
             raise RemoteError(f"{address}: the server answers {error.code} {error.reason}") from None
     except RemoteError:
         raise
@@ -186,10 +186,10 @@ def _asked(address: str, tag: str) -> tuple[bytes, str] | None:
                 f"{address}: its certificate is not trusted: {why.verify_message}; "
                 "SSL_CERT_FILE names the file of an authority of your own"
             ) from None
-        raise _OutOfReach(_words(why)) from None
+        raise _UnreachableError(_words(why)) from None
 
 
-def _content(address: str, answer: Any) -> bytes:
+def _read_body(address: str, answer: Any) -> bytes:
     """Return the body, within the limits of size and time."""
     end = time.monotonic() + FETCH_TIMEOUT_S
     content = b""
@@ -198,9 +198,9 @@ def _content(address: str, answer: Any) -> bytes:
         if len(content) > MAX_FILE_BYTES:
             raise RemoteError(f"{address} is larger than {MAX_FILE_BYTES // 1000} kB, which no parameter file is")
         if time.monotonic() > end:
-            raise _OutOfReach(f"it took more than {FETCH_TIMEOUT_S:g} s")
+            raise _UnreachableError(f"it took more than {FETCH_TIMEOUT_S:g} s")
     if answer.length:
-        raise _OutOfReach("it broke off")
+        raise _UnreachableError("it broke off")
     return content
 
 

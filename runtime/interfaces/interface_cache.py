@@ -19,7 +19,7 @@ from bot_console.runtime.files.user_folders import cache_folder
 GENERATOR = Path(__file__).resolve().parents[1] / "rosidl"
 
 
-def compiled(module: str, definition: str, source: Callable[[], str]) -> CodeType:
+def compiled_module(module: str, definition: str, source: Callable[[], str]) -> CodeType:
     """Return the code of a module that `source` generates from a definition, from the cache if it has it.
 
     If the cache cannot be read or written, the code is silently generated each time, as a cache is no reason to fail.

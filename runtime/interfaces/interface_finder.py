@@ -157,9 +157,9 @@ class InterfaceLoader:
         if self._kept is not None:
             module.__spec__ = self._kept
             return
-        from bot_console.runtime.interfaces.interface_cache import compiled
+        from bot_console.runtime.interfaces.interface_cache import compiled_module
 
         name = module.__name__
-        code = compiled(name, self._defining(name), lambda: self.get_source(name))
+        code = compiled_module(name, self._defining(name), lambda: self.get_source(name))
         exec(code, vars(module))
         self._modules[module.__name__] = module

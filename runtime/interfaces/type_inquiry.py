@@ -15,7 +15,7 @@ Question = tuple[str, str]
 """A type and its hash, to be requested from `get_type_description`."""
 
 
-def whole(type_name: str) -> str:
+def containing_action(type_name: str) -> str:
     """Return the action to which a type such as `pkg/action/Name_Feedback` belongs; any other type unchanged."""
     package, kind, name = type_name.split("/")
     return f"{package}/{kind}/{name.partition('_')[0]}" if kind == "action" else type_name

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import launch.logging
 
 
-class Included(NamedTuple):
+class Include(NamedTuple):
     """An include that is being visited."""
 
     file: str
@@ -22,11 +22,11 @@ class Includes:
     """The includes being visited, outermost first, and which of them has set which argument to which value."""
 
     def __init__(self) -> None:
-        self._open: list[Included] = []
-        self._set: dict[str, tuple[Included, Any]] = {}
-        self._warned: set[tuple[str, Included]] = set()
+        self._open: list[Include] = []
+        self._set: dict[str, tuple[Include, Any]] = {}
+        self._warned: set[tuple[str, Include]] = set()
 
-    def enter(self, include: Included, configurations: dict[str, Any]) -> None:
+    def enter(self, include: Include, configurations: dict[str, Any]) -> None:
         """Begin an include whose arguments have just been set."""
         self._open.append(include)
         for name in include.given:

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 import launch.logging
 from ament_index_python.packages import PackageNotFoundError
 from bot_console.runtime.programs.hints import at, no_package
-from bot_console.runtime.programs.missing_packages import what_brings
+from bot_console.runtime.programs.missing_packages import what_provides
 from bot_console.runtime.workspace.choices import package_names
 from bot_console.runtime.workspace.executables import executables
-from bot_console.runtime.workspace.not_found import to_add
+from bot_console.runtime.workspace.not_found import what_to_add
 from launch.substitutions import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.events.node_missing import NodeMissing
@@ -41,7 +41,7 @@ def may_start(context: LaunchContext, action: Any, package: str | None) -> bool:
         what = str(error).strip().strip('"')
         executable = perform_substitutions(context, normalize_to_list_of_substitutions(action.node_executable))
         has = _what_it_has(package or "", executable)
-        brings = has or what_brings(package or "")
+        brings = has or what_provides(package or "")
         if _allowed(context):
             logger.warning(f"left out a node: {what}. {brings}")
             reason = f"{what}. {brings}"
@@ -68,5 +68,5 @@ def _what_it_has(package: str, executable: str) -> str:
         names = sorted(executables(package))
     except PackageNotFoundError:
         return ""
-    hint = to_add(package, executable)
+    hint = what_to_add(package, executable)
     return f"{package} has: {', '.join(names) or 'none'}{hint}." if names or hint else ""

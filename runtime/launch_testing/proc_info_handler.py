@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from launch.events.process import ProcessExited
-from launch_testing.util.proc_lookup import NoMatchingProcessException, described, resolveProcesses
+from launch_testing.util.proc_lookup import NoMatchingProcessException, describe_process, resolveProcesses
 
 
 class ProcInfoHandler:
@@ -81,4 +81,4 @@ class ActiveProcInfoHandler(ProcInfoHandler):
 
 
 def _shown(process: object) -> str | None:
-    return process if isinstance(process, str) or process is None else described(process)
+    return process if isinstance(process, str) or process is None else describe_process(process)

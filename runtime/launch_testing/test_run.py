@@ -93,10 +93,10 @@ class TestRun:
             if name in known:
                 setattr(own, name, known[name])
         for name in ("setUpClass", "tearDownClass"):
-            setattr(own, name, _given(getattr(own, name), known))
+            setattr(own, name, _bind_known(getattr(own, name), known))
         for test in cast("Iterable[unittest.TestCase]", unittest.defaultTestLoader.loadTestsFromTestCase(own)):
             for name in (test._testMethodName, "setUp", "tearDown"):
-                setattr(test, name, _given(getattr(test, name), known))
+                setattr(test, name, _bind_known(getattr(test, name), known))
             if self.name:
                 method = getattr(test, test._testMethodName)
                 test._testMethodName += self.name
@@ -169,7 +169,7 @@ def entities_of(entity: Any) -> list[Any]:
     return [entity, *(found for each in below for found in entities_of(each))]
 
 
-def _given(method: Any, known: Mapping[str, Any]) -> Any:
+def _bind_known(method: Any, known: Mapping[str, Any]) -> Any:
     """Return those arguments of a method that are known by name."""
     wanted = [each for each in inspect.signature(method).parameters if each in known]
     return functools.partial(method, **{each: known[each] for each in wanted}) if wanted else method

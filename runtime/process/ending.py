@@ -23,7 +23,7 @@ def wait_for_threads() -> None:
             left[0].join()
 
 
-def exit_functions_run(code: int) -> int:
+def run_exit_functions(code: int) -> int:
     """Call the exit functions and flush the output streams, as the interpreter does at exit. The caller must then call
     `os._exit`.
 

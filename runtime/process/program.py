@@ -137,7 +137,7 @@ def _look_up(module_name: str, function: str) -> Callable[[], Any]:
     return found
 
 
-class _FoundFirst:
+class _ProgramPackageFinder:
     """A finder for `sys.meta_path`: packages in the program's folders precede embedded ones of the same name."""
 
     def __init__(self, places: Places) -> None:
@@ -168,4 +168,4 @@ def _new_main(places: Places, folder: str) -> ModuleType:
 
 def _find_modules_in(places: Places) -> None:
     sys.path[:0] = places.folders
-    sys.meta_path.insert(0, _FoundFirst(places))
+    sys.meta_path.insert(0, _ProgramPackageFinder(places))

@@ -77,7 +77,7 @@ def _is_ours(frame: FrameType) -> bool:
     return frame.f_code.co_filename.startswith((_PROCESS, "<frozen importlib", "<frozen runpy"))
 
 
-def trimmed(trace: TracebackType | None) -> TracebackType | None:
+def trim_traceback(trace: TracebackType | None) -> TracebackType | None:
     """Return a traceback without the frames of this package and of the import machinery."""
     kept: TracebackType | None = None
     entries: list[TracebackType] = []
@@ -99,12 +99,12 @@ def trim(exception: BaseException) -> BaseException:
         if item is None or id(item) in seen:
             continue
         seen.add(id(item))
-        item.__traceback__ = trimmed(item.__traceback__)
+        item.__traceback__ = trim_traceback(item.__traceback__)
         queue += [item.__cause__, item.__context__]
     return exception
 
 
-def formatted(exception: BaseException) -> str:
+def format_exception(exception: BaseException) -> str:
     """Return the interpreter's text for an uncaught exception, for a process that prints to `sys.stderr`."""
     if sys.version_info < (3, 12) and isinstance(exception, (AttributeError, NameError)):
         # Before Python 3.12 only the interpreter's own hook adds `Did you mean`.

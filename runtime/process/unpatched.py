@@ -21,7 +21,7 @@ main_thread = threading.main_thread
 enumerate_threads = threading.enumerate
 
 
-class _Agenda:
+class _WallTimeSchedule:
     """Actions scheduled in wall time, run by a thread that exists only while there are any."""
 
     def __init__(self) -> None:
@@ -59,7 +59,7 @@ class _Agenda:
             return self._entries[0][0] if self._entries else None
 
 
-_agenda = _Agenda()
+_agenda = _WallTimeSchedule()
 
 
 def later(seconds: float, action: Callable[[], None]) -> None:

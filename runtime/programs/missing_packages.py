@@ -85,7 +85,7 @@ NO_EXECUTABLE = (
 )
 
 
-def what_brings(package: str) -> str:
+def what_provides(package: str) -> str:
     """Return a sentence about what provides a package's executables, or an equivalent here."""
     if package in EXECUTABLES:
         return EXECUTABLES[package]

@@ -54,7 +54,7 @@ def examine(path: Path) -> PlainFile:
     return PlainFile(hint=hint, calls_main=True) if mains else PlainFile(_no_main(path, tree))
 
 
-def then_main(runs: Callable[[], object]) -> Callable[[], None]:
+def run_then_main(runs: Callable[[], object]) -> Callable[[], None]:
     """Return a function that runs a file and then the `main()` it defines, as `ros2 run` would."""
 
     def run() -> None:

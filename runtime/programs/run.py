@@ -85,7 +85,7 @@ def run_package(package: str, words: Sequence[str]) -> int:
 
 def run_file(path: Path, words: Sequence[str]) -> int:
     """Run a Python file as `python FILE` does; if it only defines `main()`, call that, as `ros2 run` would."""
-    from bot_console.runtime.programs.python_file_check import examine, then_main
+    from bot_console.runtime.programs.python_file_check import examine, run_then_main
 
     if not path.is_file():
         return _refuse(f"{path} does not exist")
@@ -95,7 +95,7 @@ def run_file(path: Path, words: Sequence[str]) -> int:
     if found.hint:
         print(f"[WARN] [bot-console]: {found.hint}", file=sys.stderr)
     runs = python_file(path)
-    return _run(then_main(runs) if found.calls_main else runs, [str(path), *words])
+    return _run(run_then_main(runs) if found.calls_main else runs, [str(path), *words])
 
 
 def _run(runs: Program, argv: Sequence[str]) -> int:

@@ -56,30 +56,30 @@ def report_future(future: Any, executor: Any) -> None:
     """Give a notice if a future, for which the calling thread spins an executor, cannot be completed that way."""
     for node in executor.get_nodes():
         for entity in tuple(node._ros_entities):
-            if entity.awaits(future) and _blocked(entity, sys._getframe(1)):
+            if entity.awaits(future) and _is_blocked(entity, sys._getframe(1)):
                 report_deadlock(entity, node, "spinning until a future is complete")
 
 
 def runs_in_callback() -> bool:
     """Whether the calling thread is inside a callback of an executor."""
-    return next(_running(sys._getframe(1)), None) is not None
+    return next(_running_callbacks(sys._getframe(1)), None) is not None
 
 
 def _cause(entity: Entity, frame: FrameType) -> str:
-    if _blocked(entity, frame):
+    if _is_blocked(entity, frame):
         return GROUP
-    if any(executor is entity.sink and executor.receives_in_one_thread for executor, _ in _running(frame)):
+    if any(executor is entity.sink and executor.receives_in_one_thread for executor, _ in _running_callbacks(frame)):
         return THREAD
     return UNSPUN if entity.sink is None else ""
 
 
-def _blocked(entity: Entity, frame: FrameType) -> bool:
+def _is_blocked(entity: Entity, frame: FrameType) -> bool:
     """Whether a callback of the entity's group runs further up the stack and prevents the entity from being served."""
     group = entity.callback_group
-    return any(each.callback_group is group for _, each in _running(frame)) and not group.can_execute(entity)
+    return any(each.callback_group is group for _, each in _running_callbacks(frame)) and not group.can_execute(entity)
 
 
-def _running(frame: FrameType | None) -> Iterator[tuple[Any, Any]]:
+def _running_callbacks(frame: FrameType | None) -> Iterator[tuple[Any, Any]]:
     """Yield the executors that run callbacks further up the stack, each with the entity whose callback it runs."""
     while frame is not None:
         if frame.f_code.co_name == "_run":

@@ -28,7 +28,7 @@ class ServiceIntrospectionState(NamedIntEnum):
     CONTENTS = 2
 
 
-class Introspected(Protocol):
+class IntrospectedEntity(Protocol):
     """What introspection needs of a service or client."""
 
     srv_type: ServiceType
@@ -47,7 +47,7 @@ class Introspected(Protocol):
 class ServiceEvents:
     """Publishes the events of one service or client; the event types are those of `ServiceEventInfo`."""
 
-    def __init__(self, entity: Introspected, clock: Clock, qos_profile: QoSProfile) -> None:
+    def __init__(self, entity: IntrospectedEntity, clock: Clock, qos_profile: QoSProfile) -> None:
         self.state = ServiceIntrospectionState.OFF
         self._event = entity.srv_type.Event
         self._clock = clock
@@ -85,7 +85,7 @@ class ServiceEvents:
         self._node.destroy_publisher(self._publisher)
 
 
-def configure(entity: Introspected, clock: Clock, qos_profile: QoSProfile, state: object) -> None:
+def configure(entity: IntrospectedEntity, clock: Clock, qos_profile: QoSProfile, state: object) -> None:
     """Make a service or client publish its events, or stop it with OFF; raises `TypeError` for an invalid state."""
     _ = clock.handle, qos_profile.get_c_qos_profile  # an invalid clock or profile, such as a depth, fails as upstream
     if not isinstance(state, ServiceIntrospectionState):

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from bot_console.runtime.process import current
 from bot_console.runtime.rmw.endpoints import HeldMessage, SubscriptionEndpoint, own
 from rclpy._rclpy_pybind11 import RCLError
-from rclpy.impl.callables import is_coroutine_function, takes
+from rclpy.impl.callables import accepts_arguments, is_coroutine_function
 from rclpy.impl.callback_order import SUBSCRIPTION
 from rclpy.impl.destroyable import SubscriptionHandle
 from rclpy.impl.entity import Entity
@@ -88,11 +88,11 @@ class Subscription(Entity):
         self._message_only = True
         self._is_async = is_coroutine_function(value)
         try:
-            if takes(value, 1):
+            if accepts_arguments(value, 1):
                 return
         except ValueError:
             return
-        if takes(value, 2):
+        if accepts_arguments(value, 2):
             self._callback_type = Subscription.CallbackType.WithMessageInfo
             self._message_only = False
             return

@@ -80,7 +80,7 @@ class DirectNode:
         # A verb that is given the type needs nothing from the graph: its subject may appear at any time, or never.
         typed = getattr(arguments, "message_type", None)
         names = (getattr(arguments, each, None) for each in NAMES)
-        self._about = "" if typed else next((absolute(each) for each in names if each), "")
+        self._about = "" if typed else next((absolute_name(each) for each in names if each), "")
         self._name = name
 
     def __enter__(self) -> Node:
@@ -158,7 +158,7 @@ def node_names(node: Node, *, include_hidden: bool = False) -> list[NodeName]:
     return [each for each in names if include_hidden or not each.name.startswith(HIDDEN)]
 
 
-def absolute(name: str) -> str:
+def absolute_name(name: str) -> str:
     """Return a name with its leading slash."""
     return name if name.startswith("/") else f"/{name}"
 

@@ -52,12 +52,12 @@ def named_launch_file(named: str, words: Sequence[str]) -> tuple[str, list[str]]
     """
     if os.path.isfile(named):
         return named, [*words]
-    with of_package(named):
+    with package_errors_converted(named):
         return find_launch_file(named, words[0] if words else None), [*words[1:]]
 
 
 @contextlib.contextmanager
-def of_package(named: str) -> Generator[None]:
+def package_errors_converted(named: str) -> Generator[None]:
     """Convert errors about an unknown or invalid package name to `LaunchFileError`."""
     from ament_index_python.packages import PackageNotFoundError
 

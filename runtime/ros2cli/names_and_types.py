@@ -15,7 +15,7 @@ SEND_GOAL = "/_action/send_goal"
 GOAL_SUFFIX = "_SendGoal"
 
 
-def visible(rows: NamesAndTypes, include_hidden: bool) -> NamesAndTypes:
+def visible_rows(rows: NamesAndTypes, include_hidden: bool) -> NamesAndTypes:
     """Return the rows sorted by name; hidden ones, which include the parts of actions, only if requested."""
     return sorted(row for row in rows if include_hidden or not topic_or_service_is_hidden(row[0]))
 

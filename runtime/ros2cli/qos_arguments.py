@@ -80,7 +80,7 @@ def _preset(name: str) -> QoSProfile:
     )
 
 
-def compatible(arguments: argparse.Namespace, default: str, publishers: Any) -> QoSProfile:
+def compatible_profile(arguments: argparse.Namespace, default: str, publishers: Any) -> QoSProfile:
     """Return the profile of the options, or, with at most a preset given, one compatible with all publishers of a
     topic.
 
@@ -91,16 +91,16 @@ def compatible(arguments: argparse.Namespace, default: str, publishers: Any) -> 
     if not publishers or any(getattr(arguments, f"qos_{each}") is not None for each in settings):
         return chosen
     offers = [each.qos_profile for each in publishers]
-    chosen.reliability = _offered(
+    chosen.reliability = _offered_by_all(
         [each.reliability for each in offers], ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
     )
-    chosen.durability = _offered(
+    chosen.durability = _offered_by_all(
         [each.durability for each in offers], DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE
     )
     return chosen
 
 
-def _offered(offers: Sequence[Any], best: Any, fallback: Any) -> Any:
+def _offered_by_all(offers: Sequence[Any], best: Any, fallback: Any) -> Any:
     """Return `best` if all publishers offer it, otherwise `fallback`."""
     count = offers.count(best)
     if count == len(offers):

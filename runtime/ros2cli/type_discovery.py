@@ -26,14 +26,16 @@ def message_class(node: Node, topic: str, type_name: str) -> Any:
         return get_message(type_name)
     except MISSING:
         pass
-    why = _learned(node, type_name)
+    why = _learn_from_nodes(node, type_name)
     if why == "":
         return get_message(type_name)
     why = "no node publishes it that could be asked" if why is None else why
     return f"The type '{type_name}' of topic '{topic}' is not installed here: {why}"
 
 
-def typed_class(get: Callable[[str], Any], kind: str, type_name: str, invalid: str, node: Node | None = None) -> Any:
+def class_of_typed_name(
+    get: Callable[[str], Any], kind: str, type_name: str, invalid: str, node: Node | None = None
+) -> Any:
     """Return the class of a type as typed by a user, with or without `kind` (msg, srv, action) in the middle of its
     name.
 
@@ -45,7 +47,7 @@ def typed_class(get: Callable[[str], Any], kind: str, type_name: str, invalid: s
     except MISSING:
         pass
     full = full_type_name(kind, type_name)
-    why = learned(full, node) if f"/{kind}/" in full else None
+    why = learn_type(full, node) if f"/{kind}/" in full else None
     if why is None:
         return invalid
     return not_installed(full, why) if why else get(full)
@@ -56,7 +58,7 @@ def not_installed(type_name: str, why: str) -> str:
     return f"The type '{type_name}' is not installed here: {why}"
 
 
-def learned(type_name: str, node: Node | None = None) -> str | None:
+def learn_type(type_name: str, node: Node | None = None) -> str | None:
     """Learn a type by its full name; returns an empty string, or why that failed, or None if no node knows the type."""
     package = type_name.partition("/")[0]
     if not re.fullmatch(TYPE_NAME, type_name):
@@ -66,7 +68,7 @@ def learned(type_name: str, node: Node | None = None) -> str | None:
     from ros2cli.direct_node import DirectNode
 
     with nullcontext(node) if node else DirectNode(argparse.Namespace(no_daemon=True)) as asking:
-        return _learned(asking, type_name)
+        return _learn_from_nodes(asking, type_name)
 
 
 def full_type_name(kind: str, type_name: str) -> str:
@@ -75,20 +77,20 @@ def full_type_name(kind: str, type_name: str) -> str:
     return f"{package}/{kind}/{name}" if slash and "/" not in name else type_name
 
 
-def _learned(node: Node, type_name: str) -> str | None:
+def _learn_from_nodes(node: Node, type_name: str) -> str | None:
     """Learn a type, and an action's parts; returns "", why it failed, or None if no node knows it."""
-    from bot_console.runtime.interfaces.type_inquiry import inquiries, whole
+    from bot_console.runtime.interfaces.type_inquiry import containing_action, inquiries
 
     why = None
-    for name, inquiry in inquiries(node.context.get_domain_id(), whole(type_name)).items():
-        problem = _asked(node, name, inquiry)
+    for name, inquiry in inquiries(node.context.get_domain_id(), containing_action(type_name)).items():
+        problem = _ask_node(node, name, inquiry)
         if not problem:
             return ""
         why = f"{name} {problem}"
     return why
 
 
-def _asked(node: Node, name: str, inquiry: Any) -> str:
+def _ask_node(node: Node, name: str, inquiry: Any) -> str:
     """Ask a node all questions of an inquiry; returns why that failed, or an empty string."""
     from ros2cli.direct_node import spin_until
     from type_description_interfaces.srv import GetTypeDescription

@@ -37,7 +37,7 @@ LENGTHS = {order: row(["I"], ANYWHERE, order)[0] for order in "<>"}
 @cache
 def reader(cls: Any, order: str = "<") -> Callable[[bytes], Any]:
     """Return the function that reads a message of a class; raises `CdrError`, or `struct.error` for missing bytes."""
-    reading = _Reading(cls, order, outermost=True)
+    reading = _ReaderGenerator(cls, order, outermost=True)
     return reading.source.compiled("data", reading.lines(), f"CDR reader of {cls.__name__}")
 
 
@@ -46,13 +46,13 @@ def element_reader(cls: Any, order: str) -> Callable[[bytes, memoryview, int, in
     """Return the function `(data, view, at, end)` for an element of a sequence: it returns the element and the position
     after it.
     """
-    reading = _Reading(cls, order, outermost=False)
+    reading = _ReaderGenerator(cls, order, outermost=False)
     return reading.source.compiled(
         "data, view, at, end", reading.lines(), f"CDR reader of {cls.__name__} in a sequence"
     )
 
 
-class _Reading:
+class _ReaderGenerator:
     """Generates a reader; `_codes` and `_targets` are the pending row of numbers."""
 
     def __init__(self, cls: object, order: str, *, outermost: bool) -> None:

@@ -45,18 +45,18 @@ def writer(cls: Any) -> Callable[[Any], bytes]:
 
     The function raises some exception if a field does not hold exactly what a copy of the message would hold.
     """
-    writing = _Writing(cls, outermost=True)
+    writing = _WriterGenerator(cls, outermost=True)
     return writing.source.compiled("m", writing.lines(), f"CDR writer of {cls.__name__}")
 
 
 @cache
 def element_writer(cls: Any) -> Callable[[Any, Put, int], int]:
     """Return the function `(message, put, at)` that writes a sequence element and returns the position after it."""
-    writing = _Writing(cls, outermost=False)
+    writing = _WriterGenerator(cls, outermost=False)
     return writing.source.compiled("m, put, at", writing.lines(), f"CDR writer of {cls.__name__} in a sequence")
 
 
-class _Writing:
+class _WriterGenerator:
     """Generates a writer; `_codes` and `_values` are the pending row of numbers."""
 
     def __init__(self, cls: object, *, outermost: bool) -> None:

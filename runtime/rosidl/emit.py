@@ -96,7 +96,7 @@ def _constructor(definition: Definition, known: dict[str, str]) -> Iterator[str]
     arguments: list[str] = []
     for field in definition.fields:
         simple = _default(field) if _is_plain(field.type) else "_MISSING"
-        arguments.append(f"{field.name}: {_taken(field.type, known)} = {simple}")
+        arguments.append(f"{field.name}: {_assignable_annotation(field.type, known)} = {simple}")
     yield "def __init__("
     yield (
         "    self, *, " + "".join(each + ", " for each in arguments) + "check_fields: bool | None = None, **_other: Any"
@@ -123,12 +123,12 @@ def _initial(field: Field, known: dict[str, str]) -> Iterator[str]:
     yield f"if {name} is _MISSING:"
     yield f"    self._{name} = {_default(field, known)}"
     yield "else:"
-    yield f"    self.{name} = {_converted(field.type, name)}"
+    yield f"    self.{name} = {_conversion(field.type, name)}"
     if field.type.size and field.type.item in DTYPES:
         yield f"    assert self._{name}.shape == ({field.type.size},)"
 
 
-def _converted(kind: Type, value: str) -> str:
+def _conversion(kind: Type, value: str) -> str:
     """Return the expression with which a constructor or setter converts a value; numeric arrays are always copied."""
     if kind.size and kind.item in DTYPES:
         return f"_to_ndarray('{DTYPES[kind.item]}', {value})"
@@ -160,7 +160,7 @@ def _many_default(field: Field, known: dict[str, str]) -> str:
     return f"[{one} for _ in range({kind.size})]"
 
 
-def _given(kind: Type, known: dict[str, str]) -> str:
+def _value_annotation(kind: Type, known: dict[str, str]) -> str:
     """Return the type annotation of a field's value."""
     if kind.size and kind.item in DTYPES:
         return "Any"
@@ -170,7 +170,7 @@ def _given(kind: Type, known: dict[str, str]) -> str:
     return f"list[{item}]" if kind.sequence or kind.size else item
 
 
-def _taken(kind: Type, known: dict[str, str]) -> str:
+def _assignable_annotation(kind: Type, known: dict[str, str]) -> str:
     """Return the type annotation of values that can be assigned to a field."""
     if kind.size and kind.item in DTYPES:
         return "Any"
@@ -187,13 +187,13 @@ def _item(kind: Type, known: dict[str, str]) -> str:
 def _property(field: Field, known: dict[str, str]) -> Iterator[str]:
     name, kind = field.name, field.type
     yield "@property"
-    yield f"def {name}(self) -> {_given(kind, known)}:"
+    yield f"def {name}(self) -> {_value_annotation(kind, known)}:"
     yield f'    """Message field \'{name}\'."""'
     yield f"    return self._{name}"
     yield ""
     yield f"@{name}.setter"
-    yield f"def {name}(self, value: {_taken(kind, known)}) -> None:"
-    converted = _converted(kind, "value")
+    yield f"def {name}(self, value: {_assignable_annotation(kind, known)}) -> None:"
+    converted = _conversion(kind, "value")
     yield "    if self._check_fields:"
     if converted == "value":
         yield f"        self._check('{name}', value)"

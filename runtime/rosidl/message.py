@@ -16,7 +16,7 @@ NUMBER_SEQUENCES = ("sequence<float", "sequence<double", "sequence<int", "sequen
 CHECK_VARIABLE = "ROS_PYTHON_CHECK_FIELDS"
 
 
-class _Asked(threading.local):
+class _CheckSetting(threading.local):
     """The environment's setting, per thread because each node process has its own environment; None until it is
     read.
     """
@@ -24,7 +24,7 @@ class _Asked(threading.local):
     value: bool | None = None
 
 
-_asked = _Asked()
+_asked = _CheckSetting()
 
 
 def checks_asked_for() -> bool:
@@ -99,7 +99,7 @@ class Message(metaclass=MessageType):
     def __repr__(self) -> str:
         name = ".".join([*type(self).__module__.split(".")[:-1], type(self).__name__])
         fields = ", ".join(
-            f"{name}={_shown(getattr(self, name), kind)}" for name, kind in self._fields_and_field_types.items()
+            f"{name}={_field_text(getattr(self, name), kind)}" for name, kind in self._fields_and_field_types.items()
         )
         return f"{name}({fields})"
 
@@ -109,7 +109,7 @@ class Message(metaclass=MessageType):
         return all(_equal(getattr(self, name), getattr(other, name)) for name in self._fields_and_field_types)
 
 
-def _shown(value: Any, kind: str) -> str:
+def _field_text(value: Any, kind: str) -> str:
     """Return the text of a field: a sequence of numbers without its type, any other value unchanged."""
     numbers = isinstance(value, array) and kind.startswith(NUMBER_SEQUENCES) and "/" not in kind
     return repr(cast("array[Any]", value).tolist() if numbers else cast("Any", value))

@@ -8,7 +8,7 @@ from typing import Any
 
 from bot_console.runtime.rosidl.definition import PRIMITIVES, Constant, Definition, Field, Interface, Type
 from bot_console.runtime.rosidl.parse import parse
-from bot_console.runtime.rosidl.write import written
+from bot_console.runtime.rosidl.write import to_text
 
 FOLDER = Path(__file__).resolve().parent / "definitions"
 EMPTY = "structure_needs_at_least_one_member"
@@ -21,7 +21,7 @@ def interfaces() -> Iterator[tuple[Interface, str]]:
     yield from ours
     for each in _from_store():
         if (each.package, each.kind, each.name) not in known:
-            yield each, written(each)
+            yield each, to_text(each)
 
 
 def _ours() -> Iterator[tuple[Interface, str]]:

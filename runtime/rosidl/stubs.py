@@ -95,7 +95,7 @@ def _holder(name: str, text: str, parts: Sequence[str]) -> Iterator[str]:
 
 def _message(definition: Definition, of_it: Comments, names: Mapping[str, str]) -> Iterator[str]:
     definition = definition._replace(fields=[each for each in definition.fields if not iskeyword(each.name)])
-    fields = [f"{each.name} ({_shown(each)})" for each in definition.fields]
+    fields = [f"{each.name} ({_type_and_range(each)})" for each in definition.fields]
     listed = "Fields: " + ", ".join(fields) if fields else "No fields."
     yield from ("", f"class {definition.name}(_Message):")
     yield from _documented(f"{of_it.whole}\n\n{listed}".strip(), "    ")
@@ -107,15 +107,17 @@ def _message(definition: Definition, of_it: Comments, names: Mapping[str, str]) 
     for field in definition.fields:
         if field.default is not None:
             yield f"    {field.name.upper()}__DEFAULT: _Any"
-    arguments = "".join(f"{each.name}: {_taken(each.type, names)} = ..., " for each in definition.fields)
+    arguments = "".join(
+        f"{each.name}: {_assignable_annotation(each.type, names)} = ..., " for each in definition.fields
+    )
     yield f"    def __init__(self, *, {arguments}check_fields: _b.bool | None = None) -> None: ..."
     for field in definition.fields:
-        text = "\n\n".join(filter(None, (of_it.members.get(field.name, ""), _shown(field))))
+        text = "\n\n".join(filter(None, (of_it.members.get(field.name, ""), _type_and_range(field))))
         yield "    @_b.property"
-        yield f"    def {field.name}(self) -> {_given(field.type, names)}:"
+        yield f"    def {field.name}(self) -> {_value_annotation(field.type, names)}:"
         yield from _documented(text, "        ")
         yield f"    @{field.name}.setter"
-        yield f"    def {field.name}(self, value: {_taken(field.type, names)}) -> None: ..."
+        yield f"    def {field.name}(self, value: {_assignable_annotation(field.type, names)}) -> None: ..."
 
 
 def _documented(text: str, indent: str) -> Sequence[str]:
@@ -126,7 +128,7 @@ def _documented(text: str, indent: str) -> Sequence[str]:
     return [*lines[:-1], f'{lines[-1]}"""']
 
 
-def _shown(field: Field) -> str:
+def _type_and_range(field: Field) -> str:
     """Return the type of a field with the range of its values, such as `uint8, 0 to 255`."""
     kind = field.type
     item = WRITTEN[kind.item] if kind.primitive else kind.item
@@ -145,7 +147,7 @@ def _item(kind: Type, names: Mapping[str, str]) -> str:
     return f"_b.{SCALARS.get(kind.item, 'int')}" if kind.primitive else names[kind.item]
 
 
-def _given(kind: Type, names: Mapping[str, str]) -> str:
+def _value_annotation(kind: Type, names: Mapping[str, str]) -> str:
     """Return the type annotation of a field's value."""
     item = _item(kind, names)
     if kind.size and kind.item in DTYPES:
@@ -155,7 +157,7 @@ def _given(kind: Type, names: Mapping[str, str]) -> str:
     return f"_b.list[{item}]" if kind.sequence or kind.size else item
 
 
-def _taken(kind: Type, names: Mapping[str, str]) -> str:
+def _assignable_annotation(kind: Type, names: Mapping[str, str]) -> str:
     """Return the type annotation of values that can be assigned to a field."""
     item = _item(kind, names)
     if not (kind.sequence or kind.size):

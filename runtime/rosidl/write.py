@@ -8,7 +8,7 @@ from typing import Any, cast
 from bot_console.runtime.rosidl.definition import WRITTEN, Constant, Definition, Field, Interface, Type
 
 
-def written(interface: Interface) -> str:
+def to_text(interface: Interface) -> str:
     """Return the text of a definition file, with its parts separated by `---`."""
     return "---\n".join(_part(each, interface.package) for each in interface.parts)
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from bot_console.runtime.importer import places_of
 from bot_console.runtime.process import entry_point_program, file_program
-from bot_console.runtime.programs.python_file_check import then_main
+from bot_console.runtime.programs.python_file_check import run_then_main
 from bot_console.runtime.workspace.builtin_package import own_is_first
 from bot_console.runtime.workspace.discover import Workspace, use, workspace
 
@@ -24,7 +24,7 @@ def python_file(workspace_folders: Sequence[str], path: str, folders: Sequence[s
     """Return the program of a file whose modules are in these folders; if it only defines `main()`, this is called."""
     find_packages_in(workspace_folders)
     runs = file_program(path, places_of(folders))
-    return then_main(runs) if calls_main else runs
+    return run_then_main(runs) if calls_main else runs
 
 
 def find_packages_in(folders: Sequence[str]) -> None:

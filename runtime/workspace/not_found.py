@@ -21,10 +21,10 @@ def no_package(package: str) -> str:
 def no_executable(package: str, name: str) -> str:
     """Return the message for a package without that executable."""
     has = ", ".join(all_executable_names(package)) or "none"
-    return f"No executable found: '{name}' is not in package '{package}', which has: {has}{to_add(package, name)}"
+    return f"No executable found: '{name}' is not in package '{package}', which has: {has}{what_to_add(package, name)}"
 
 
-def to_add(package: str, name: str) -> str:
+def what_to_add(package: str, name: str) -> str:
     """Return what to repair so that a workspace package has it, as a further sentence; empty for other packages."""
     source = workspace().packages.get(package)
     if source is None or not (source.folder / "setup.py").is_file():

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, NamedTuple, cast
 
 from bot_console.runtime.workspace.setup_py_syntax import first_mistake
-from bot_console.runtime.workspace.setup_values import Unreadable, Values, called
+from bot_console.runtime.workspace.setup_values import Unreadable, Values, called_name
 
 PANES = "bot_console.panes"
 """The entry point group through which a package provides panes for the console."""
@@ -121,10 +121,10 @@ class _Reader:
                 self._assign(target.id, statement.value)
         elif isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Call):
             call = statement.value
-            if called(call) == "setup":
+            if called_name(call) == "setup":
                 self._keywords.update({each.arg: each.value for each in call.keywords if each.arg})
                 self._has_all_rows = all(each.arg for each in call.keywords)
-            elif called(call) in ("append", "extend"):
+            elif called_name(call) in ("append", "extend"):
                 self._grow(call)
 
     def _assign(self, name: str, value: ast.expr) -> None:
@@ -140,7 +140,7 @@ class _Reader:
                 new = self._values.of(call.args[0])
             except (Unreadable, IndexError):
                 return
-            self._values.names[holder.id] += new if called(call) == "extend" else [new]
+            self._values.names[holder.id] += new if called_name(call) == "extend" else [new]
 
     def _keyword(self, name: str, default: object) -> Any:
         if name not in self._keywords:
@@ -221,7 +221,7 @@ class _Reader:
 
 def _written_glob(row: ast.expr) -> str:
     """Return the call of `glob` in a row, as it is written."""
-    calls = (each for each in ast.walk(row) if isinstance(each, ast.Call) and called(each) in ("glob", "iglob"))
+    calls = (each for each in ast.walk(row) if isinstance(each, ast.Call) and called_name(each) in ("glob", "iglob"))
     return next((ast.unparse(each) for each in calls), "")
 
 

@@ -35,7 +35,7 @@ class Unreadable(ValueError):
     """An expression that can be evaluated only by running the file; the message says which expression and where."""
 
 
-def called(call: ast.Call) -> str:
+def called_name(call: ast.Call) -> str:
     """Return the last part of the name of the called function."""
     return call.func.attr if isinstance(call.func, ast.Attribute) else getattr(call.func, "id", "")
 
@@ -140,7 +140,7 @@ class Values:
         raise Unreadable(f"line {node.lineno}: {ast.unparse(node)}")
 
     def _call(self, node: ast.Call) -> object:
-        name = called(node)
+        name = called_name(node)
         if name == "join" and isinstance(node.func, ast.Attribute) and ast.unparse(node.func).endswith("path.join"):
             return os.path.join(*(str(self.of(each)) for each in node.args))
         if name in ("glob", "iglob"):

@@ -118,9 +118,9 @@ def plain_file(text: str) -> None:
 def definition(kind: str) -> Callable[[str], None]:
     def run(text: str) -> None:
         from bot_console.runtime.rosidl.parse import parse
-        from bot_console.runtime.rosidl.write import written
+        from bot_console.runtime.rosidl.write import to_text
 
         interface = parse(text, "mine", kind, "Mutated")
-        written(interface)
+        to_text(interface)
 
     return run

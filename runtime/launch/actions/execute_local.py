@@ -215,7 +215,7 @@ class ExecuteLocal(Action):
         if context.is_shutdown or context.resolving:
             return None
         self.__logger = launch.logging.get_logger(name)
-        if not _by_stream(self.__output):
+        if not _is_per_stream(self.__output):
             self.__output = perform_substitutions(context, self.__output)
         loggers = launch.logging.get_output_loggers(name or "", self.__output)
         self.__lines = {
@@ -403,6 +403,6 @@ def _kill_by_name(signal_number: object) -> Any:
     return 9 if signal_number == "SIGKILL" else signal_number
 
 
-def _by_stream(output: object) -> bool:
+def _is_per_stream(output: object) -> bool:
     """Whether the output setting is per stream (a dict) and not a text."""
     return isinstance(output, dict)

@@ -11,7 +11,7 @@ from launch.action import Action
 from launch.actions.set_launch_configuration import SetLaunchConfiguration
 from launch.argument_discovery import IncludesDescription
 from launch.frontend.expose import expose_action
-from launch.inherited_arguments import Included
+from launch.inherited_arguments import Include
 from launch.launch_context import LaunchContext
 from launch.launch_description_source import LaunchDescriptionSource
 from launch.launch_description_sources import AnyLaunchDescriptionSource
@@ -88,7 +88,7 @@ class IncludeLaunchDescription(Action, IncludesDescription):
         description = self.__source.get_launch_description(context)
         self._set_locals(context)
         given = self._given_names(context)
-        include = Included(self.__source.location, self.origin, frozenset(given))
+        include = Include(self.__source.location, self.origin, frozenset(given))
         self._check_required(description, given)
         return [
             *(SetLaunchConfiguration(name, value) for name, value in self.__arguments),
@@ -135,7 +135,7 @@ class IncludeBoundary(Action):
 class _EnterInclude(IncludeBoundary):
     """Visited after an include has set its arguments, before its description."""
 
-    def __init__(self, include: Included) -> None:
+    def __init__(self, include: Include) -> None:
         super().__init__()
         self._include = include
 

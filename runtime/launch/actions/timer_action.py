@@ -99,7 +99,7 @@ class TimerAction(Action):
     def execute(self, context: LaunchContext) -> None:
         """Start the timer."""
         self.__locals = dict(context.get_locals_as_dict())
-        self.__configurations = _copied(context.launch_configurations)
+        self.__configurations = _copy_configurations(context.launch_configurations)
         period = perform_typed_substitution(context, self.__period, float)
         self._completed_future = create_future(context.asyncio_loop)
         cancel_on_shutdown = perform_typed_substitution(context, self.__cancel_on_shutdown, bool)
@@ -139,7 +139,9 @@ class TimerAction(Action):
         return [PushLaunchConfigurations(), restore, *self.__actions, PopLaunchConfigurations()]
 
     def _restore_configurations(self, context: LaunchContext) -> None:
-        context.launch_configurations.update(_copied({**context.launch_configurations, **self.__configurations}))
+        context.launch_configurations.update(
+            _copy_configurations({**context.launch_configurations, **self.__configurations})
+        )
 
     def cancel(self) -> None:
         """Cancel the timer."""
@@ -150,6 +152,6 @@ class TimerAction(Action):
             self._completed_future.set_result(None)
 
 
-def _copied(configurations: Mapping[str, object]) -> dict[str, object]:
+def _copy_configurations(configurations: Mapping[str, object]) -> dict[str, object]:
     """Return a copy that shares no list, as launch_ros appends to the lists of `SetParameter` and `SetRemap`."""
     return {name: copy(value) for name, value in configurations.items()}

@@ -40,7 +40,7 @@ class ForkedChild(StreamedChild):
         self.transports: list[asyncio.BaseTransport] = []
         self.input: asyncio.WriteTransport | None = None
 
-    def news_end(self) -> None:
+    def on_news_end(self) -> None:
         """Handle the end of the data pipe."""
         self.news.close()
         self.pipe_connection_lost(DATA, None)
@@ -49,16 +49,16 @@ class ForkedChild(StreamedChild):
         """Print news that no hook takes, so that a person may read them."""
         self.pipe_data_received(2, text.encode())
 
-    def reported(self, data: bytes) -> None:
+    def on_report(self, data: bytes) -> None:
         """Handle a report from the fork server."""
         self.report.feed(data)
         if self.report.pid is not None and not self.started.done():
             self.pid = self.news.pid = self.report.pid
             self.started.set_result(None)
         if self.report.exit_code is not None:
-            self.has_ended(self.report.exit_code)
+            self.on_exit(self.report.exit_code)
 
-    def all_reported(self) -> None:
+    def on_reports_end(self) -> None:
         """Handle the end of the fork server's reports, for whatever reason."""
         if not self.started.done():
             text = self.report.problem or "the fork server has ended"
@@ -71,7 +71,7 @@ class ForkedChild(StreamedChild):
         """Wait for the end of a process whose server has ended; only its open streams show that it is still running."""
         while self.open_streams:
             await asyncio.sleep(0.2)
-        self.has_ended(UNKNOWN)
+        self.on_exit(UNKNOWN)
 
     def send_signal(self, signum: int) -> None:
         """Deliver a signal; raises `ProcessLookupError` after the end."""
@@ -137,8 +137,8 @@ async def start_forked_child(
     first = f"{begun.__module__}:{begun.__name__}"
     job = Job(name, first, words, list(argv), dict(env), os.path.abspath(cwd or os.getcwd()))
     own = start_job(job, emulate_tty=emulate_tty)
-    child.transports.append(await read_stream(own.report, child.reported, child.all_reported))
-    child.transports.append(await read_stream(own.data, child.news.feed, child.news_end))
+    child.transports.append(await read_stream(own.report, child.on_report, child.on_reports_end))
+    child.transports.append(await read_stream(own.data, child.news.feed, child.on_news_end))
     for fd, end in ((1, own.stdout), (2, own.stderr)):
         child.transports.append(await read_output(child, fd, end))
     child.input, _ = await loop.connect_write_pipe(asyncio.Protocol, os.fdopen(own.stdin, "wb", buffering=0))

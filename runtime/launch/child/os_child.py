@@ -30,7 +30,7 @@ class OsChild(StreamedChild, asyncio.SubprocessProtocol):
 
     def process_exited(self) -> None:
         """Handle the process's exit."""
-        self.has_ended(self._transport.get_returncode() or 0)
+        self.on_exit(self._transport.get_returncode() or 0)
 
     def send_signal(self, signum: int) -> None:
         """Deliver a signal; raises `ProcessLookupError` after the end."""

@@ -37,20 +37,20 @@ class SteppedChild(ForkedChild):
                 partial(self._in_loop, self.pipe_data_received, fd),
                 partial(self._in_loop, self.pipe_connection_lost, fd, None),
             )
-        self._member.read(own.data, partial(self._in_loop, self.news.feed), partial(self._in_loop, self.news_end))
+        self._member.read(own.data, partial(self._in_loop, self.news.feed), partial(self._in_loop, self.on_news_end))
 
     def _take_report(self, data: bytes) -> None:
         self._report.feed(data)
         self._member.pid, self._member.exit_code = self._report.pid or 0, self._report.exit_code
         if self._report.exit_code is None:
-            self._in_loop(self.reported, data)
+            self._in_loop(self.on_report, data)
         else:
             self._exit_report = data
 
     def _pass_on_exit(self) -> None:
         if self._exit_report:
-            self._in_loop(self.reported, self._exit_report)
-        self._in_loop(self.all_reported)
+            self._in_loop(self.on_report, self._exit_report)
+        self._in_loop(self.on_reports_end)
 
     def _in_loop(self, callback: Callable[..., object], *arguments: object) -> None:
         try:

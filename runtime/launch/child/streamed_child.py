@@ -32,7 +32,7 @@ class StreamedChild:
         self.open_streams.discard(fd)
         self._finish_if_drained()
 
-    def has_ended(self, code: int) -> None:
+    def on_exit(self, code: int) -> None:
         """Record the exit code; output may still arrive."""
         self._code = code
         self._finish_if_drained()

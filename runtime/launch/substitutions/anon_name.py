@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
-from launch.substitutions.joined import described
+from launch.substitutions.joined import describe_all
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -41,7 +41,7 @@ class AnonName(Substitution):
 
     def describe(self) -> str:
         """Return a description such as `AnonName('rviz')`."""
-        return f"AnonName({described(self.__name)})"
+        return f"AnonName({describe_all(self.__name)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the name."""

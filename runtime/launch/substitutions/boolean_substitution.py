@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
-from launch.substitutions.joined import TwoSided, bool_of, described, word
+from launch.substitutions.joined import TwoSided, bool_text, describe_all, evaluate_bool
 from launch.utilities import normalize_to_list_of_substitutions
 
 if TYPE_CHECKING:
@@ -37,16 +37,16 @@ class NotSubstitution(Substitution):
 
     def describe(self) -> str:
         """Return a description such as `NotSubstitution('true')`."""
-        return f"NotSubstitution({described(self.__value)})"
+        return f"NotSubstitution({describe_all(self.__value)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Evaluate to `true` or `false`."""
-        return word(not bool_of(context, self.__value))
+        return bool_text(not evaluate_bool(context, self.__value))
 
 
 def _values(context: LaunchContext, *operands: list[Substitution]) -> list[bool]:
     """Evaluate all operands, even if the first ones already decide."""
-    return [bool_of(context, each) for each in operands]
+    return [evaluate_bool(context, each) for each in operands]
 
 
 @expose_substitution("and")
@@ -58,7 +58,7 @@ class AndSubstitution(TwoSided):
 
     def perform(self, context: LaunchContext) -> str:
         """Evaluate to `true` or `false`."""
-        return word(all(_values(context, self.left, self.right)))
+        return bool_text(all(_values(context, self.left, self.right)))
 
 
 @expose_substitution("or")
@@ -70,7 +70,7 @@ class OrSubstitution(TwoSided):
 
     def perform(self, context: LaunchContext) -> str:
         """Evaluate to `true` or `false`."""
-        return word(any(_values(context, self.left, self.right)))
+        return bool_text(any(_values(context, self.left, self.right)))
 
 
 class _ManySided(Substitution):
@@ -96,7 +96,7 @@ class _ManySided(Substitution):
 
     def describe(self) -> str:
         """Return a description such as `AnySubstitution('true' 'false')`."""
-        return f"{type(self).__name__}({' '.join(described(each) for each in self.__args)})"
+        return f"{type(self).__name__}({' '.join(describe_all(each) for each in self.__args)})"
 
 
 @expose_substitution("any")
@@ -105,7 +105,7 @@ class AnySubstitution(_ManySided):
 
     def perform(self, context: LaunchContext) -> str:
         """Evaluate to `true` or `false`."""
-        return word(any(_values(context, *self.args)))
+        return bool_text(any(_values(context, *self.args)))
 
 
 @expose_substitution("all")
@@ -114,4 +114,4 @@ class AllSubstitution(_ManySided):
 
     def perform(self, context: LaunchContext) -> str:
         """Evaluate to `true` or `false`."""
-        return word(all(_values(context, *self.args)))
+        return bool_text(all(_values(context, *self.args)))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import launch.logging
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
-from launch.substitutions.joined import described
+from launch.substitutions.joined import describe_all
 from launch.substitutions.substitution_failure import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -50,7 +50,7 @@ class Command(Substitution):
 
     def describe(self) -> str:
         """Return a description such as `Command('date')`."""
-        return f"Command({described(self.__command)})"
+        return f"Command({describe_all(self.__command)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the output with its last newline; raises `SubstitutionFailure` if the command fails."""

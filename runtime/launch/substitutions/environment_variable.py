@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
-from launch.substitutions.joined import described
+from launch.substitutions.joined import describe_all
 from launch.substitutions.substitution_failure import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -44,7 +44,7 @@ class EnvironmentVariable(Substitution):
 
     def describe(self) -> str:
         """Return a description such as `EnvVar('HOME')`."""
-        return f"EnvVar({described(self.__name)})"
+        return f"EnvVar({describe_all(self.__name)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the value; raises `SubstitutionFailure` if there is neither value nor default."""

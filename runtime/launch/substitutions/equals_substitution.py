@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING, cast
 
 from launch.frontend.expose import expose_substitution
-from launch.substitutions.joined import TwoSided, word
+from launch.substitutions.joined import TwoSided, bool_text
 from launch.utilities import perform_substitutions
 from launch.utilities.type_utils import is_substitution
 
@@ -56,4 +56,4 @@ class EqualsSubstitution(TwoSided):
 
     def perform(self, context: LaunchContext) -> str:
         """Evaluate to `true` or `false`."""
-        return word(self.equal(context))
+        return bool_text(self.equal(context))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
-from launch.substitutions.joined import described
+from launch.substitutions.joined import describe_all
 from launch.substitutions.substitution_failure import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -41,7 +41,7 @@ class FileContent(Substitution):
 
     def describe(self) -> str:
         """Return a description such as `FileContent('x')`."""
-        return f"{self.name}({described(self.__path)})"
+        return f"{self.name}({describe_all(self.__path)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the text; raises `SubstitutionFailure` if there is no such file."""

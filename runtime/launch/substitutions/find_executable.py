@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
-from launch.substitutions.joined import described
+from launch.substitutions.joined import describe_all
 from launch.substitutions.substitution_failure import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -40,7 +40,7 @@ class FindExecutable(Substitution):
 
     def describe(self) -> str:
         """Return a description such as `FindExec('x')`."""
-        return f"FindExec({described(self.__name)})"
+        return f"FindExec({describe_all(self.__name)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the path; raises `SubstitutionFailure` if there is none."""

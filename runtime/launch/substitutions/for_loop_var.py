@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
-from launch.substitutions.joined import described
+from launch.substitutions.joined import describe_all
 from launch.substitutions.substitution_failure import SubstitutionFailure
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
@@ -39,7 +39,7 @@ class ForEachVar(Substitution):
 
     def describe(self) -> str:
         """Return a description such as `ForEachVar('x')`."""
-        return f"{type(self).__name__}({described(self._name)})"
+        return f"{type(self).__name__}({describe_all(self._name)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the value; raises `SubstitutionFailure` outside a loop that has it."""

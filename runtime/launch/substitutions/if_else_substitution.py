@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
-from launch.substitutions.joined import bool_of, described
+from launch.substitutions.joined import describe_all, evaluate_bool
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -57,9 +57,9 @@ class IfElseSubstitution(Substitution):
     def describe(self) -> str:
         """Return a description such as `IfElseSubstitution('true', 'a', 'b')`."""
         parts = (self._condition, self._if_value, self._else_value)
-        return f"IfElseSubstitution({', '.join(described(each) for each in parts)})"
+        return f"IfElseSubstitution({', '.join(describe_all(each) for each in parts)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the value."""
-        chosen = self._if_value if bool_of(context, self._condition) else self._else_value
+        chosen = self._if_value if evaluate_bool(context, self._condition) else self._else_value
         return perform_substitutions(context, chosen)

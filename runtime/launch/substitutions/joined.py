@@ -13,12 +13,12 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
 
 
-def described(subs: Iterable[Substitution]) -> str:
+def describe_all(subs: Iterable[Substitution]) -> str:
     """Return the descriptions of substitutions, joined by plus signs."""
     return " + ".join(each.describe() for each in subs)
 
 
-def bool_of(context: LaunchContext, subs: Iterable[Substitution]) -> bool:
+def evaluate_bool(context: LaunchContext, subs: Iterable[Substitution]) -> bool:
     """Return the boolean value of a text by YAML's rules; raises `SubstitutionFailure` if the text is not a boolean."""
     from launch.substitutions.substitution_failure import SubstitutionFailure
     from launch.utilities.type_utils import perform_typed_substitution
@@ -29,7 +29,7 @@ def bool_of(context: LaunchContext, subs: Iterable[Substitution]) -> bool:
         raise SubstitutionFailure(error) from error
 
 
-def word(value: bool) -> str:
+def bool_text(value: bool) -> str:
     """Return `true` or `false`."""
     return "true" if value else "false"
 
@@ -61,4 +61,4 @@ class TwoSided(Substitution):
 
     def describe(self) -> str:
         """Return a description such as `AndSubstitution('true' 'false')`."""
-        return f"{type(self).__name__}({described(self.__left)} {described(self.__right)})"
+        return f"{type(self).__name__}({describe_all(self.__left)} {describe_all(self.__right)})"

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from launch.frontend.expose import expose_substitution
 from launch.substitutions.equals_substitution import EqualsSubstitution
-from launch.substitutions.joined import word
+from launch.substitutions.joined import bool_text
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
@@ -18,4 +18,4 @@ class NotEqualsSubstitution(EqualsSubstitution):
 
     def perform(self, context: LaunchContext) -> str:
         """Evaluate to `true` or `false`."""
-        return word(not self.equal(context))
+        return bool_text(not self.equal(context))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
-from launch.substitutions.joined import described
+from launch.substitutions.joined import describe_all
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ class PathJoinSubstitution(Substitution):
 
     def describe(self) -> str:
         """Return a description such as `PathJoin('<a> + <b>')`."""
-        return f"PathJoin('{' + '.join(described(each) for each in self.__pieces)}')"
+        return f"PathJoin('{' + '.join(describe_all(each) for each in self.__pieces)}')"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the path."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
-from launch.substitutions.joined import described
+from launch.substitutions.joined import describe_all
 from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -51,8 +51,8 @@ class PythonExpression(Substitution):
 
     def describe(self) -> str:
         """Return a description such as `PythonExpr('1 + 1', ['math'])`."""
-        modules = ", ".join(described(each) for each in self.__modules)
-        return f"PythonExpr({described(self.__expression)}, [{modules}])"
+        modules = ", ".join(describe_all(each) for each in self.__modules)
+        return f"PythonExpr({describe_all(self.__expression)}, [{modules}])"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the value as text; raises what the expression raises."""

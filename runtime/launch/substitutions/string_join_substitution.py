@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
-from launch.substitutions.joined import described
+from launch.substitutions.joined import describe_all
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ class StringJoinSubstitution(Substitution):
 
     def describe(self) -> str:
         """Return a description such as `StringJoin('a' + 'b')`."""
-        return f"StringJoin('{' + '.join(described(each) for each in self.__parts)}')"
+        return f"StringJoin('{' + '.join(describe_all(each) for each in self.__parts)}')"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the text."""

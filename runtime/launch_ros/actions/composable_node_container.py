@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from launch.frontend import expose_action
-from launch_ros.actions.load_composable_nodes import LoadComposableNodes, holds, parse_composable_nodes
+from launch_ros.actions.load_composable_nodes import LoadComposableNodes, condition_holds, parse_composable_nodes
 from launch_ros.actions.node import Node
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ class ComposableNodeContainer(Node):
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Start the container, then load the nodes whose conditions hold."""
-        wanted = [each for each in self.__descriptions or () if holds(each, context)]
+        wanted = [each for each in self.__descriptions or () if condition_holds(each, context)]
         loading = []
         if wanted:
             loading = [LoadComposableNodes(composable_node_descriptions=wanted, target_container=self)]

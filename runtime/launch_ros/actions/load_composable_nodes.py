@@ -75,7 +75,7 @@ class LoadComposableNodes(Action):
         from composition_interfaces.srv import LoadNode
 
         target = self._container_name(context)
-        wanted = [each for each in self.__descriptions if holds(each, context)]
+        wanted = [each for each in self.__descriptions if condition_holds(each, context)]
         requests = [request_for(each, context) for each in wanted]
         if not requests:
             return None
@@ -167,7 +167,7 @@ def parse_composable_nodes(entity: Entity, parser: Parser, *, optional: bool = F
     return found
 
 
-def holds(description: ComposableNode, context: LaunchContext) -> bool:
+def condition_holds(description: ComposableNode, context: LaunchContext) -> bool:
     """Whether a description's condition holds."""
     condition = description.condition()
     return condition is None or condition.evaluate(context)
@@ -195,13 +195,13 @@ def request_for(description: ComposableNode, context: LaunchContext) -> Any:
     request.remap_rules = [f"{source}:={target}" for source, target in rules]
     names = (request.node_name, request.node_namespace)
     everywhere = context.launch_configurations.get("global_params") or ()
-    given = [*map(_of_all_nodes, everywhere), *(description.parameters or ())]
+    given = [*map(_global_parameters, everywhere), *(description.parameters or ())]
     request.parameters = _messages(context, names, given)
     request.extra_arguments = _messages(context, names, description.extra_arguments or ())
     return request
 
 
-def _of_all_nodes(given: Any) -> Any:
+def _global_parameters(given: Any) -> Any:
     """Return what `SetParameter` or `SetParametersFromFile` has set, as an entry of a node's parameters."""
     if isinstance(given, tuple):
         return normalize_parameter_dict({given[0]: given[1]})
@@ -218,6 +218,6 @@ def _messages(context: LaunchContext, names: tuple[str, str], parameters: Sequen
 
 def get_composable_node_load_request(composable_node_description: ComposableNode, context: LaunchContext) -> Any:
     """Return the request that loads a node; None if its condition does not hold."""
-    if not holds(composable_node_description, context):
+    if not condition_holds(composable_node_description, context):
         return None
     return request_for(composable_node_description, context)

@@ -12,7 +12,7 @@ from bot_console.runtime.workspace.executables import executables
 from launch.frontend import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions import SubstitutionFailure
-from launch.substitutions.joined import described
+from launch.substitutions.joined import describe_all
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 from launch_ros.node_program import container_path
 
@@ -50,7 +50,7 @@ class ExecutableInPackage(Substitution):
 
     def describe(self) -> str:
         """Return a description such as `ExecInPkg(pkg='p', exec='e')`."""
-        return f"ExecInPkg(pkg={described(self.__package)}, exec={described(self.__executable)})"
+        return f"ExecInPkg(pkg={describe_all(self.__package)}, exec={describe_all(self.__executable)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the path; raises `PackageNotFoundError`, or `SubstitutionFailure` if the package has no such file."""

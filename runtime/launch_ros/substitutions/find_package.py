@@ -10,7 +10,7 @@ from ament_index_python.packages import get_package_prefix, get_package_share_di
 from launch.frontend import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions import PathJoinSubstitution
-from launch.substitutions.joined import described
+from launch.substitutions.joined import describe_all
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class FindPackage(Substitution):
 
     def describe(self) -> str:
         """Return a description such as `FindPackageShare(pkg='p')`."""
-        return f"{type(self).__name__}(pkg={described(self.__package)})"
+        return f"{type(self).__name__}(pkg={describe_all(self.__package)})"
 
     def find(self, package_name: str) -> str:
         """Return the folder; raises `PackageNotFoundError`."""

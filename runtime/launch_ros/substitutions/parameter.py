@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from launch.frontend import expose_substitution
 from launch.substitution import Substitution
 from launch.substitutions import SubstitutionFailure
-from launch.substitutions.joined import described
+from launch.substitutions.joined import describe_all
 from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ class Parameter(Substitution):
 
     def describe(self) -> str:
         """Return a description such as `Parameter('x')`."""
-        return f"Parameter({described(self.__name)})"
+        return f"Parameter({describe_all(self.__name)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the value; raises `SubstitutionFailure` if it is not set and has no default."""

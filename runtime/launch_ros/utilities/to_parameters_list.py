@@ -65,7 +65,7 @@ def _values_of_file(context: LaunchContext, path: Path, full_name: str) -> dict[
     sections = list(_sections(tree, []))
     values: dict[str, Any] = {}
     for key, section in sections:
-        if _means(key, full_name, path):
+        if _key_matches(key, full_name, path):
             values.update(section or {})
     if not sections:
         values = dict(tree)
@@ -90,7 +90,7 @@ def _sections(content: Mapping[Any, Any], above: list[str]) -> Iterator[tuple[st
             yield from _sections(below, [*above, str(key).lstrip("/")])
 
 
-def _means(key: str, full_name: str, path: Path) -> bool:
+def _key_matches(key: str, full_name: str, path: Path) -> bool:
     """Whether a key matches the node: `*` stands for one part of a name, `**` for any number of parts."""
     pattern = (key if key.startswith("/") else f"/{key}").replace("/*", r"(/\w+)")
     try:

@@ -30,14 +30,14 @@ def resolveProcesses(
         return known
     if isinstance(process, ExecuteLocal):
         if process not in known:
-            raise NoMatchingProcessException(f"No data recorded for proc {described(process)}")
+            raise NoMatchingProcessException(f"No data recorded for proc {describe_process(process)}")
         return [process]
     if not isinstance(process, str):
         raise TypeError(f"proc argument must be 'ExecuteProcess' or 'str' not {type(process)}")
     if isinstance(cmd_args, str):
         cmd_args = [cmd_args]
     found = [each for each in known if process in name_of(each) and _has(each, cmd_args)]
-    names = ", ".join(sorted(map(described, known)))
+    names = ", ".join(sorted(map(describe_process, known)))
     if not found:
         raise NoMatchingProcessException(
             f"Did not find any processes matching name '{process}' and args '{cmd_args}'. Procs: {names}"
@@ -55,7 +55,7 @@ def name_of(action: Any) -> str:
     return str(details["name"]) if details else ""
 
 
-def described(action: Any) -> str:
+def describe_process(action: Any) -> str:
     """Return the name and arguments of a process; before its launch, the command if it is plain text."""
     details = action.process_details
     if details:

@@ -15,7 +15,7 @@ from typing import NoReturn
 
 from ..crashes import explanation
 from ..current import MAIN
-from ..ending import exit_functions_run, wait_for_threads
+from ..ending import run_exit_functions, wait_for_threads
 from ..notices import notify
 
 
@@ -23,7 +23,7 @@ def run_to_end(program: Callable[[], object]) -> NoReturn:
     """Run a program, wait for its threads, call its exit functions, and end the process."""
     code = _run(program)
     wait_for_threads()
-    code = exit_functions_run(code)
+    code = run_exit_functions(code)
     _flush_of_c()
     if code == -signal.SIGINT:  # so that the parent sees the signal as the cause of the exit
         signal.signal(signal.SIGINT, signal.SIG_DFL)

@@ -7,7 +7,7 @@ import socket
 
 from .ending import run_to_end
 from .job import Job, function_named
-from .server import Birth, Server
+from .server import NewChild, Server
 from .start import become, let_signals_in
 
 
@@ -16,18 +16,18 @@ def main(descriptor: int, warm_up: str, prepare: str) -> None:
     gc.disable()  # nearly all objects created here stay
     function_named(warm_up)()
     gc.collect()
-    birth = Server(socket.socket(fileno=descriptor), function_named(prepare) if prepare else _nothing).serve()
-    if birth is None:
+    child = Server(socket.socket(fileno=descriptor), function_named(prepare) if prepare else _nothing).serve()
+    if child is None:
         return
-    run_to_end(lambda: _live(birth))
+    run_to_end(lambda: _run_child(child))
 
 
 def _nothing(_job: Job) -> None:
     return
 
 
-def _live(birth: Birth) -> None:
+def _run_child(child: NewChild) -> None:
     gc.enable()
-    program = become(birth)
+    program = become(child)
     let_signals_in()
     program()

@@ -48,7 +48,7 @@ class Fork:
         before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
         self.pid = os.fork()
         if self.pid == 0:
-            _live(serve, kept, before)
+            _run_fork(serve, kept, before)
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
     def poll(self) -> int | None:
@@ -80,7 +80,7 @@ class Fork:
             os.kill(self.pid, signal.SIGKILL)
 
 
-def _live(serve: Callable[[], object], kept: int, signals: set[signal.Signals] | set[int]) -> NoReturn:
+def _run_fork(serve: Callable[[], object], kept: int, signals: set[signal.Signals] | set[int]) -> NoReturn:
     """In the fork: discard what belongs to the parent's program, and serve."""
     code = 1
     try:

@@ -24,7 +24,7 @@ HELD_BACK = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGCHLD)
 
 
 @dataclass
-class Birth:
+class NewChild:
     """The data that a new child receives."""
 
     job: Job
@@ -46,8 +46,8 @@ class Server:
     """The session ids of all children started so far."""
     _ending: bool = False
 
-    def serve(self) -> Birth | None:
-        """Start children until the parent and all of them have ended; return None, but in each child its `Birth`."""
+    def serve(self) -> NewChild | None:
+        """Start children until the parent and all of them have ended; return None, but in each child its `NewChild`."""
         wake, woken = os.pipe()
         os.set_blocking(wake, False)
         os.set_blocking(woken, False)
@@ -80,8 +80,8 @@ class Server:
         if number != signal.SIGCHLD:
             self._ending = True
 
-    def _next(self) -> Birth | None:
-        """Handle a request; in the child, return its `Birth`."""
+    def _next(self) -> NewChild | None:
+        """Handle a request; in the child, return its `NewChild`."""
         request = wire.receive(self.parent)
         if request is None:
             self._ending = True
@@ -106,7 +106,7 @@ class Server:
                 os.close(each)
             if len(given) > 4:
                 job = job._replace(arguments=[*job.arguments, given[4]])
-            return Birth(job, (given[0], given[1], given[2]), given[3])
+            return NewChild(job, (given[0], given[1], given[2]), given[3])
         signal.pthread_sigmask(signal.SIG_UNBLOCK, HELD_BACK)
         self._release(given)
         self._children[pid] = report

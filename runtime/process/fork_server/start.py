@@ -17,23 +17,23 @@ from .. import data_pipe
 from ..crashes import explanation
 from ..current import MAIN
 from ..notices import notify, on_notice
-from ..stack_frames import formatted, trim
+from ..stack_frames import format_exception, trim
 from ..watch.gil_watch import GilWatch
 from ..watch.main_watch import MainWatch
 from .job import function_named
-from .server import HELD_BACK, Birth
+from .server import HELD_BACK, NewChild
 from .shown_command import show_command
 
 LAST_PRIORITY = 500
 """OOM score adjustment (-1000 to 1000), so that the system kills this process before the console."""
 
 
-def become(birth: Birth) -> Callable[[], object]:
+def become(child: NewChild) -> Callable[[], object]:
     """Make this fork the process that a job describes and return its program. Signals are still blocked."""
-    job = birth.job
+    job = child.job
     os.setsid()
-    _take_streams(birth.stdio)
-    data_pipe.use(birth.data)
+    _take_streams(child.stdio)
+    data_pipe.use(child.data)
     os.chdir(job.cwd)
     os.environ.clear()
     os.environ.update(job.env)
@@ -98,7 +98,7 @@ def _name(name: str) -> None:
 def _uncaught(kind: type[BaseException], exception: BaseException, trace: TracebackType | None) -> None:
     """Print an uncaught exception as the interpreter does, from the program's first line on; report it."""
     trim(exception.with_traceback(trace))
-    text = formatted(exception)
+    text = format_exception(exception)
     sys.stderr.write(text)
     frames = traceback.extract_tb(exception.__traceback__)
     where = [(each.filename, each.lineno, each.name) for each in frames]

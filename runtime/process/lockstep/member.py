@@ -28,7 +28,7 @@ from ..stepping.calls import uninstall_stepped_calls
 from ..stepping.one_cpu import import_numpy
 from ..stepping.stepped_time import SteppedTime
 from ..virtual import child_threads, waits
-from ..watch.gil_watch import out_of_the_way
+from ..watch.gil_watch import move_to_high_descriptor
 from . import alarms
 from .channel import SIGNAL, Channel, Operation, Welcome
 
@@ -44,7 +44,7 @@ class Member:
 
     def __init__(self, connection: socket.socket) -> None:
         # A high number, as a program may close all descriptors that it knows of.
-        self._channel = Channel(socket.socket(fileno=out_of_the_way(connection.detach())))
+        self._channel = Channel(socket.socket(fileno=move_to_high_descriptor(connection.detach())))
         self._outbox: list[Operation] = []
         self._published: Wakeup | None = None
         self._undo: list[tuple[Any, str, Any]] = []

@@ -158,7 +158,7 @@ class MemberProcess:
         self._wakeup.clear()
         scheduler = task.scheduler
         self._channel.send((scheduler.now, scheduler.horizon(), operations))
-        watch = _Watch(self.pid, self.clock.stall_s)
+        watch = _HangDetector(self.pid, self.clock.stall_s)
         interval_ms = round(1e3 * self.clock.stall_s / CHECKS_PER_STALL)
         answer: Any = None
         while True:
@@ -234,7 +234,7 @@ class MemberProcess:
             each.end()
 
 
-class _Watch:
+class _HangDetector:
     """Detects that a process cannot answer: it is stopped, or its C code holds the GIL for a long time.
 
     A thread that blocks or computes otherwise is reported by the process's own watch.

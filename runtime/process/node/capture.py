@@ -22,7 +22,7 @@ class LineCapture(io.TextIOBase):
 
     def __init__(self, sink: Sink, name: str = "<stdout>") -> None:
         self.name = name
-        self.buffer = _ByteSide(self)
+        self.buffer = _ByteStream(self)
         self._sink = sink
         self._partial = ""
         self._lock = RLock()
@@ -90,7 +90,7 @@ class _NoInput(io.TextIOBase):
 NO_INPUT = _NoInput()
 
 
-class _ByteSide(io.BufferedIOBase):
+class _ByteStream(io.BufferedIOBase):
     """`sys.stdout.buffer`: accepts bytes and passes them on as text."""
 
     def __init__(self, text: LineCapture) -> None:

@@ -43,7 +43,7 @@ def start_inside(
     To the interpreter it is a daemon, so that an abandoned thread does not block its exit.
     """
     state = ThreadState(process, clock, thread)
-    inside = _Inside(state)
+    inside = _NodeThreadRun(state)
     thread.daemon = True
     # Set on the object, because `Thread.start` calls its `run`, even in a subclass.
     vars(thread)["run"] = inside
@@ -72,7 +72,7 @@ class VirtualThreading(VirtualModule):
     excepthook = process_variable("excepthook", lambda _process: threading.__excepthook__)
 
 
-class _Inside:
+class _NodeThreadRun:
     """The `run` of a thread that belongs to a node process."""
 
     def __init__(self, state: ThreadState) -> None:

@@ -32,7 +32,7 @@ def process_variable(name: str, of_process: Callable[[Any], Any]) -> property:
     return property(get, set_)
 
 
-class _OfOneModule(type):
+class _EqualsModuleType(type):
     """Metaclass that makes a class with one module's properties equal to `ModuleType` for users of `type(module)`.
 
     The interpreter itself creates modules by `type(sys)(name)`: with these properties, new modules would share that
@@ -40,8 +40,8 @@ class _OfOneModule(type):
     """
 
     def __new__(cls, name: str, bases: tuple[type, ...], members: dict[str, Any], **options: Any) -> Any:
-        if any(type(base) is _OfOneModule and base is not VirtualModule for base in bases):
-            bases = tuple(ModuleType if isinstance(base, _OfOneModule) else base for base in bases)
+        if any(type(base) is _EqualsModuleType and base is not VirtualModule for base in bases):
+            bases = tuple(ModuleType if isinstance(base, _EqualsModuleType) else base for base in bases)
             return type(name, bases, members, **options)
         return super().__new__(cls, name, bases, members, **options)
 
@@ -55,7 +55,7 @@ class _OfOneModule(type):
         return issubclass(subclass, ModuleType)
 
 
-class VirtualModule(ModuleType, metaclass=_OfOneModule):
+class VirtualModule(ModuleType, metaclass=_EqualsModuleType):
     """Base class of modules with such properties; no other module is an instance."""
 
 

@@ -24,7 +24,7 @@ _FRAME = re.compile(r'  File "(.*)", line (\d+) in (.*)')
 _ESCAPE = re.compile(r"\\(?:x[0-9a-f]{2}|u[0-9a-f]{4}|U[0-9a-f]{8})")
 
 
-class Held(NamedTuple):
+class HoldingThread(NamedTuple):
     """The thread that holds the GIL."""
 
     ident: int
@@ -49,7 +49,7 @@ def voluntary_switches(process: int | str, thread: int) -> int | None:
         return None
 
 
-def held_in_stacks(text: str, switches: int, now: float) -> Held | None:
+def holding_thread(text: str, switches: int, now: float) -> HoldingThread | None:
     """Determine from a watched process's file which thread holds the GIL, if any.
 
     `switches` are the voluntary switches of the thread named in the file; `now` is the monotonic time in s.
@@ -69,7 +69,7 @@ def held_in_stacks(text: str, switches: int, now: float) -> Held | None:
     found = [each for each in found if not stack_frames.is_shipped(each[1])] or found
     if not found:
         return None
-    return Held(found[0][0], " or ".join(dict.fromkeys(line for *_, line in found[:2])))
+    return HoldingThread(found[0][0], " or ".join(dict.fromkeys(line for *_, line in found[:2])))
 
 
 def _threads(text: str) -> list[_Thread]:
@@ -108,7 +108,7 @@ class GilHolder:
             return ""
         thread = text.partition(" ")[0]
         switches = voluntary_switches(self._pid, int(thread)) if thread.isdecimal() else None
-        held = None if switches is None else held_in_stacks(text, switches, unpatched.monotonic())
+        held = None if switches is None else holding_thread(text, switches, unpatched.monotonic())
         return held.line if held is not None else ""
 
 

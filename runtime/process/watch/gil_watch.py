@@ -15,7 +15,7 @@ from collections.abc import Callable
 from typing import Any
 
 from .. import unpatched
-from .gil_holder import NAME, held_in_stacks, voluntary_switches
+from .gil_holder import NAME, holding_thread, voluntary_switches
 
 PERIOD_S = 0.5
 """Wall time (s) between two heartbeats."""
@@ -46,7 +46,7 @@ class GilWatch:
         if not hasattr(os, "memfd_create") or voluntary_switches("self", threading.get_native_id()) is None:
             return
         try:
-            self._file = out_of_the_way(os.memfd_create(NAME))
+            self._file = move_to_high_descriptor(os.memfd_create(NAME))
         except OSError:  # no more descriptors are available
             return
         self._made = _identity(self._file)
@@ -76,7 +76,7 @@ class GilWatch:
             text = os.pread(self._file, 1 << 20, 0).decode("ascii", "replace")
             me = threading.get_native_id()
             switches, now = voluntary_switches("self", me) or 0, unpatched.monotonic()
-            held = held_in_stacks(text, switches, now)
+            held = holding_thread(text, switches, now)
             os.ftruncate(self._file, 0)
             os.lseek(self._file, 0, os.SEEK_SET)
             os.write(self._file, f"{me} {switches} {now}\n".encode())
@@ -93,7 +93,7 @@ def _identity(descriptor: int) -> tuple[int, int]:
     return status.st_dev, status.st_ino
 
 
-def out_of_the_way(descriptor: int) -> int:
+def move_to_high_descriptor(descriptor: int) -> int:
     """Move a descriptor to a high number, which programs that close all they know of leave alone; return it."""
     import fcntl
     import resource

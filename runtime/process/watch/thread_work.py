@@ -74,9 +74,9 @@ class ThreadWork:
         still, self._switches = switches == self._switches, switches
         on_lock = place in ("", "0") or place.startswith("futex")
         self._factor = SLOW_DISK_FACTOR if importing and not on_lock else 1
-        return (still or not (on_lock or importing)) and not self._family_works()
+        return (still or not (on_lock or importing)) and not self._any_descendant_works()
 
-    def _family_works(self) -> bool:
+    def _any_descendant_works(self) -> bool:
         """Whether a child process or descendant of the thread makes progress; then the thread is waiting for it."""
         reported = [each for each in map(state_and_seconds, _descendants(self._task)) if each]
         before, self._family = self._family, sum(seconds for _, seconds in reported)

@@ -21,7 +21,7 @@ from bot_console.runtime.rmw.endpoints import (
 )
 from bot_console.runtime.rosidl.conversion import type_name
 from rclpy.exceptions import InvalidServiceNameException, InvalidTopicNameException
-from rclpy.node_parts.topic_names import checked
+from rclpy.node_parts.topic_names import checked_name
 
 if TYPE_CHECKING:
     from bot_console.runtime.rosidl.message import ServiceType
@@ -54,9 +54,9 @@ def action_names(node: Node, action: str, side: str) -> ActionNames:
         empty = f"{invalid} invalid empty action name"
         raise ValueError(empty if side == "server" else f"{failed}: failed to get goal service name")
     try:
-        checked(node, f"{action}/_action/{GOAL}")  # first as a topic, as rcl words its message for one
-        services = (checked(node, f"{action}/_action/{part}", service=True) for part in (GOAL, CANCEL, RESULT))
-        topics = (checked(node, f"{action}/_action/{part}") for part in (FEEDBACK, STATUS))
+        checked_name(node, f"{action}/_action/{GOAL}")  # first as a topic, as rcl words its message for one
+        services = (checked_name(node, f"{action}/_action/{part}", service=True) for part in (GOAL, CANCEL, RESULT))
+        topics = (checked_name(node, f"{action}/_action/{part}") for part in (FEEDBACK, STATUS))
         return ActionNames(*services, *topics)
     except (InvalidServiceNameException, InvalidTopicNameException) as error:
         why = error.error_msg

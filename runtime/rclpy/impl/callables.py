@@ -30,7 +30,7 @@ def is_coroutine_function(callback: object) -> TypeGuard[Callable[..., Coroutine
     return inspect.iscoroutinefunction(callback)
 
 
-def takes(callback: Callable[..., object], count: int) -> bool:
+def accepts_arguments(callback: Callable[..., object], count: int) -> bool:
     """Whether a callback can be called with `count` positional arguments; raises `ValueError` if that is unknown."""
     function = _plain(callback)
     if function is not None:

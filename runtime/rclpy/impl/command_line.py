@@ -36,7 +36,7 @@ def parse_global(words: Sequence[str]) -> Arguments:
     _refuse_unknown(parsed)
     if parsed.log_config_file:
         raise RCLError(f"failed to initialize logging: {NO_LOG_CONFIG}")
-    state().obey(parsed)
+    state().apply_arguments(parsed)
     if is_read():
         for word in (each for each in parsed.unparsed if re.match(ASSIGNED, each)):
             RcutilsLogger("rcl").warning(NOT_OBEYED.format(word))

@@ -35,7 +35,7 @@ class EventHandler(Entity):
         self._info_type = info_type
         self._reported = False
 
-    def happened(self, kind: str, what: Any) -> None:
+    def on_event(self, kind: str, what: Any) -> None:
         """Record an event; thread-safe."""
         raise NotImplementedError
 
@@ -70,7 +70,7 @@ class MatchedHandler(EventHandler):
     kinds = ("matched",)
     _total = _new = _now = _change = 0
 
-    def happened(self, kind: str, what: int) -> None:
+    def on_event(self, kind: str, what: int) -> None:
         """Record that an endpoint appeared (1) or left (-1)."""
         self._total += max(0, what)
         self._new += max(0, what)
@@ -91,7 +91,7 @@ class IncompatibleHandler(EventHandler):
     _total = _new = 0
     _policy = QoSPolicyKind.INVALID
 
-    def happened(self, kind: str, what: str) -> None:
+    def on_event(self, kind: str, what: str) -> None:
         """Record an endpoint that is incompatible in the policy `what`."""
         self._total += 1
         self._new += 1
@@ -110,7 +110,7 @@ class LostHandler(EventHandler):
     kinds = ("lost",)
     _total = _new = 0
 
-    def happened(self, kind: str, what: int) -> None:
+    def on_event(self, kind: str, what: int) -> None:
         """Record a number of lost messages."""
         self._total += what
         self._new += what
@@ -183,7 +183,7 @@ class MissedHandler(TimedHandler):
     def _due(self) -> int | None:
         return self._next
 
-    def happened(self, kind: str, what: Any) -> None:
+    def on_event(self, kind: str, what: Any) -> None:
         """Restart the period."""
         self._next = self._clock.steady_ns() + self._period
         self._arm()
@@ -213,7 +213,7 @@ class LivelinessHandler(TimedHandler):
         self._silent: set[Publisher] = set()
         self._before = 0, 0
 
-    def happened(self, kind: str, what: Any) -> None:
+    def on_event(self, kind: str, what: Any) -> None:
         """Record that a publisher appeared, left or was heard."""
         silent = what in self._silent
         if kind == "gone":

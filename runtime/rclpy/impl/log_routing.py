@@ -41,7 +41,7 @@ class LogState:
             self.default = level
         self.effective.clear()
 
-    def obey(self, arguments: Arguments) -> None:
+    def apply_arguments(self, arguments: Arguments) -> None:
         """Apply the log levels and switches of a context's command line."""
         for name, level in arguments.logger_levels.items():
             self.set_level(name, level)

@@ -11,7 +11,7 @@ from bot_console.runtime.process.notices import notify
 from lifecycle_msgs.msg import State, Transition, TransitionDescription
 from lifecycle_msgs.srv import ChangeState, GetAvailableStates, GetAvailableTransitions, GetState
 from rclpy._rclpy_pybind11 import RCLError
-from rclpy.lifecycle.state_machine import Described, LifecycleStateMachine
+from rclpy.lifecycle.state_machine import LifecycleStateMachine, TransitionTuple
 from rclpy.lifecycle.transition_callback_return import TransitionCallbackReturnType as TransitionCallbackReturn
 
 if TYPE_CHECKING:
@@ -103,7 +103,7 @@ def _serve(
     return service
 
 
-def _message(transition: Described) -> TransitionDescription:
+def _message(transition: TransitionTuple) -> TransitionDescription:
     number, label, start, start_label, goal, goal_label = transition
     return TransitionDescription(
         transition=Transition(id=number, label=label),

@@ -15,13 +15,13 @@ from lifecycle_msgs.msg import State, TransitionEvent
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.lifecycle.transition_map import STATES, TRANSITIONS, TransitionRow
 from rclpy.logging import get_logger
-from rclpy.node_parts.topic_names import checked
+from rclpy.node_parts.topic_names import checked_name
 from rclpy.qos import QoSProfile
 
 if TYPE_CHECKING:
     from rclpy.node import Node
 
-Described = tuple[int, str, int, str, int, str]
+TransitionTuple = tuple[int, str, int, str, int, str]
 """A transition: its id and label, and those of its start and goal states."""
 
 
@@ -35,7 +35,7 @@ class LifecycleStateMachine:
         if not hasattr(enable_com_interface, "__bool__"):  # upstream's C++ also converts numbers and None
             raise TypeError(f"enable_communication_interface must be a bool, not {type(enable_com_interface)}")
         self._state: int = State.PRIMARY_STATE_UNCONFIGURED
-        topic = checked(node, "~/transition_event")
+        topic = checked_name(node, "~/transition_event")
         kind = type_name(TransitionEvent)
         endpoint = Endpoint(node._ros_id, topic, kind, QoSProfile(depth=10), new_gid(), TransitionEvent)
         bus: Bus = node._ros_bus
@@ -57,12 +57,12 @@ class LifecycleStateMachine:
         return list(STATES.items())
 
     @property
-    def available_transitions(self) -> list[Described]:
+    def available_transitions(self) -> list[TransitionTuple]:
         """The transitions from the current state."""
         return [_described(each) for each in self._valid()]
 
     @property
-    def transition_graph(self) -> list[Described]:
+    def transition_graph(self) -> list[TransitionTuple]:
         """All transitions."""
         return [_described(each) for each in TRANSITIONS]
 
@@ -103,5 +103,5 @@ class LifecycleStateMachine:
             self._publish(event)
 
 
-def _described(row: TransitionRow) -> Described:
+def _described(row: TransitionRow) -> TransitionTuple:
     return row.id, row.label, row.start, STATES[row.start], row.goal, STATES[row.goal]

@@ -27,7 +27,7 @@ from rclpy.constants import S_TO_NS
 from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
 from rclpy.guard_condition import GuardCondition
 from rclpy.node_parts.base import NodeBase
-from rclpy.node_parts.topic_names import checked
+from rclpy.node_parts.topic_names import checked_name
 from rclpy.publisher import Publisher
 from rclpy.qos import QoSProfile, qos_profile_services_default
 from rclpy.service import Service
@@ -105,7 +105,7 @@ class NodeEntities(NodeBase):
         qos = self._ros_profile(qos_profile)
         group = self._ros_group(callback_group)
         self._ros_may_create("publisher")
-        name = checked(self, topic)
+        name = checked_name(self, topic)
         check_is_valid_msg_type(msg_type)
         qos = self._ros_overridden(qos, name, qos_overriding_options, publisher=True)
         callbacks = event_callbacks or PublisherEventCallbacks()
@@ -139,7 +139,7 @@ class NodeEntities(NodeBase):
         qos = self._ros_profile(qos_profile)
         group = self._ros_group(callback_group)
         self._ros_may_create("subscription")
-        name = checked(self, topic)
+        name = checked_name(self, topic)
         check_is_valid_msg_type(msg_type)
         qos = self._ros_overridden(qos, name, qos_overriding_options, publisher=False)
         callbacks = event_callbacks or SubscriptionEventCallbacks()
@@ -188,7 +188,7 @@ class NodeEntities(NodeBase):
         self._ros_may_create("service")
         check_is_valid_srv_type(srv_type)
         _check_service_qos(qos_profile)
-        name = checked(self, srv_name, service=True)
+        name = checked_name(self, srv_name, service=True)
         service = Service(self, srv_type, srv_name, callback, group, qos_profile)
         service.endpoint = ServiceEndpoint(self._ros_id, name, type_name(srv_type), service.notify, srv_type)
         self._ros_enter(service, group)
@@ -208,7 +208,7 @@ class NodeEntities(NodeBase):
         self._ros_may_create("client")
         check_is_valid_srv_type(srv_type)
         _check_service_qos(qos_profile)
-        name = checked(self, srv_name, service=True)
+        name = checked_name(self, srv_name, service=True)
         client = Client(self, srv_type, srv_name, qos_profile, group)
         client.endpoint = ClientEndpoint(self._ros_id, name, type_name(srv_type), client.notify, srv_type)
         self._ros_enter(client, group)
@@ -357,7 +357,7 @@ def _event_reporter(handlers: list[EventHandler]) -> OnEvent:
     def report(kind: Event, what: object) -> None:
         for handler in handlers:
             if kind in handler.kinds:
-                handler.happened(kind, what)
+                handler.on_event(kind, what)
 
     return report
 

@@ -18,7 +18,7 @@ from rclpy.duration import Duration, Infinite
 from rclpy.impl.graph_wait import require_valid, wait_until_there
 from rclpy.impl.qos_policies import QoSPolicyEnum
 from rclpy.node_parts.base import NodeBase
-from rclpy.node_parts.topic_names import expand_name, remapped, resolve
+from rclpy.node_parts.topic_names import expand_name, remapped_name, resolve
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
 
 if TYPE_CHECKING:
@@ -37,7 +37,7 @@ class NodeGraph(NodeBase):
         self._ros_use_graph("topic")
         tables = self._ros_bus.tables()
         if no_demangle:
-            return collect(all_ends(tables))
+            return collect(all_dds_topics(tables))
         return collect(
             pair for each in tables for ends in (each.publishers, each.subscriptions) for pair in ends.pairs()
         )
@@ -83,7 +83,7 @@ class NodeGraph(NodeBase):
         """Return the topics that a node publishes, with types; raises `NodeNameNonExistentError`."""
         owner = self._ros_who("publisher", node_name, node_namespace)
         if no_demangle:
-            return collect(written_by(self._ros_bus.tables(), owner))
+            return collect(dds_topics_written(self._ros_bus.tables(), owner))
         return collect(pair for each in self._ros_bus.tables() for pair in each.publishers.of(owner))
 
     def get_subscriber_names_and_types_by_node(
@@ -92,7 +92,7 @@ class NodeGraph(NodeBase):
         """Return the topics that a node subscribes to, with types; raises `NodeNameNonExistentError`."""
         owner = self._ros_who("subscriber", node_name, node_namespace)
         if no_demangle:
-            return collect(read_by(self._ros_bus.tables(), owner))
+            return collect(dds_topics_read(self._ros_bus.tables(), owner))
         return collect(pair for each in self._ros_bus.tables() for pair in each.subscriptions.of(owner))
 
     def get_service_names_and_types_by_node(self, node_name: str, node_namespace: str) -> NamesAndTypes:
@@ -159,7 +159,7 @@ class NodeGraph(NodeBase):
         require_valid(
             self.context, f"Failed to get information by topic for {'publishers' if publisher else 'subscriptions'}"
         )
-        name = topic.removeprefix(TOPIC) if no_mangle else remapped(self, expand_name(self, topic))
+        name = topic.removeprefix(TOPIC) if no_mangle else remapped_name(self, expand_name(self, topic))
         tables = [each.publishers if publisher else each.subscriptions for each in self._ros_bus.tables()]
         kind = TopicEndpointTypeEnum.PUBLISHER if publisher else TopicEndpointTypeEnum.SUBSCRIPTION
         return [
@@ -170,7 +170,7 @@ class NodeGraph(NodeBase):
                 topic_type_hash=_type_hash(each),
                 endpoint_type=kind,
                 endpoint_gid=list(each.gid),
-                qos_profile=in_effect(each.qos),
+                qos_profile=effective_profile(each.qos),
             )
             for table in tables
             for each in table.on(name)
@@ -204,12 +204,12 @@ _P = TypeVar("_P", bound=QoSPolicyEnum)
 _UNDECIDED = ("SYSTEM_DEFAULT", "BEST_AVAILABLE", "UNKNOWN")
 
 
-def in_effect(asked: Profile) -> QoSProfile:
+def effective_profile(asked: Profile) -> QoSProfile:
     """Return the profile with the middleware's choices for open policies, and unlimited durations as infinite.
 
     Each caller gets its own object, which it may change. A profile received over the wire is converted only once.
     """
-    return copied(_of_wire(asked)) if isinstance(asked, tuple) else _in_effect(asked)
+    return copy_profile(_of_wire(asked)) if isinstance(asked, tuple) else _in_effect(asked)
 
 
 @lru_cache(256)  # a graph of thousands of endpoints has only a few different profiles
@@ -231,7 +231,7 @@ def _in_effect(asked: Profile) -> QoSProfile:
     )
 
 
-def copied(profile: QoSProfile) -> QoSProfile:
+def copy_profile(profile: QoSProfile) -> QoSProfile:
     """Return a copy of a profile; durations are shared, as they are immutable."""
     copy = QoSProfile.__new__(QoSProfile)
     for slot in QoSProfile.__slots__:
@@ -252,7 +252,7 @@ TOPIC = "rt"
 """Prefix of a topic's DDS name."""
 
 
-def written_by(tables: Iterable[Any], owner: Owner) -> Iterator[Pair]:
+def dds_topics_written(tables: Iterable[Any], owner: Owner) -> Iterator[Pair]:
     """Yield the DDS topics a node publishes: its topics, the replies of its services, the requests of its clients."""
     for each in tables:
         yield from map(_topic, each.publishers.of(owner))
@@ -260,7 +260,7 @@ def written_by(tables: Iterable[Any], owner: Owner) -> Iterator[Pair]:
         yield from map(_request, each.clients.of(owner))
 
 
-def read_by(tables: Iterable[Any], owner: Owner) -> Iterator[Pair]:
+def dds_topics_read(tables: Iterable[Any], owner: Owner) -> Iterator[Pair]:
     """Yield the DDS topics a node subscribes to: its topics, its services' requests, its clients' replies."""
     for each in tables:
         yield from map(_topic, each.subscriptions.of(owner))
@@ -268,7 +268,7 @@ def read_by(tables: Iterable[Any], owner: Owner) -> Iterator[Pair]:
         yield from map(_reply, each.clients.of(owner))
 
 
-def all_ends(tables: Iterable[Any]) -> Iterator[Pair]:
+def all_dds_topics(tables: Iterable[Any]) -> Iterator[Pair]:
     """Yield all topics, and both topics of each service."""
     for each in tables:
         for topics in (each.publishers, each.subscriptions):

@@ -197,7 +197,7 @@ class NodeParameters(ParameterSetting):
         """
         from rcl_interfaces.msg import ListParametersResult
 
-        names = listed(self._parameters, prefixes, depth)
+        names = list_names(self._parameters, prefixes, depth)
         found = dict.fromkeys(name.rpartition(PARAMETER_SEPARATOR_STRING)[0] for name in names if "." in name)
         return ListParametersResult(names=names, prefixes=list(found))
 
@@ -254,7 +254,7 @@ def _from_value(name: str, value: ParameterValue) -> Parameter:
 ANY_DEPTH = 0
 
 
-def listed(names: Iterable[str], prefixes: object, depth: object) -> list[str]:
+def list_names(names: Iterable[str], prefixes: object, depth: object) -> list[str]:
     """Return the names that `list_parameters` returns, in its order; raises `TypeError` and `ValueError`."""
     if not isinstance(prefixes, list):
         raise TypeError("The prefixes argument must be a list")

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from rclpy.node_parts.base import NodeBase
 
 
-def checked(node: NodeBase, name: str, *, service: bool = False) -> str:
+def checked_name(node: NodeBase, name: str, *, service: bool = False) -> str:
     """Return the full, remapped name of an entity to be created.
 
     Raises `InvalidTopicNameException` or `InvalidServiceNameException`, and `ValueError` for an unknown substitution.
@@ -28,7 +28,7 @@ def checked(node: NodeBase, name: str, *, service: bool = False) -> str:
     problem = names.validate_topic_name(name)
     if problem:
         raise kind(name, *problem)
-    full = remapped(node, expand_topic_name(name, node.get_name(), node.get_namespace()), service)
+    full = remapped_name(node, expand_topic_name(name, node.get_name(), node.get_namespace()), service)
     validate_full_topic_name(full, is_service=service)
     return full
 
@@ -36,7 +36,7 @@ def checked(node: NodeBase, name: str, *, service: bool = False) -> str:
 def expand_name(node: NodeBase, name: str, *, service: bool = False) -> str:
     """Return the full name of an existing topic or service, not remapped.
 
-    Raises `ValueError` as upstream's `count_...` methods do, and the exceptions of `checked` for invalid full names.
+    Raises `ValueError` as upstream's `count_...` methods do, and what `checked_name` raises for invalid full names.
     """
     full = expand_topic_name(name, node.get_name(), node.get_namespace())
     validate_full_topic_name(full, is_service=service)
@@ -52,14 +52,14 @@ def resolve(node: NodeBase, name: str, *, only_expand: bool, service: bool = Fal
         full = names.expand(name, node.get_name(), node.get_namespace())
     except ValueError as error:
         raise RCLError(f"failed to resolve name: {error}") from None
-    full = full if only_expand else remapped(node, full, service)
+    full = full if only_expand else remapped_name(node, full, service)
     problem = names.validate_full_topic_name(full)
     if problem:
         raise RCLError(f"failed to resolve name: {problem[0]}")
     return full
 
 
-def remapped(node: NodeBase, full: str, service: bool = False) -> str:
+def remapped_name(node: NodeBase, full: str, service: bool = False) -> str:
     """Return a full name to which the node's remap rules have been applied."""
     rules = node._ros_remap_rules
     if not rules:

@@ -30,7 +30,7 @@ from ros2cli.direct_node import (
     spin_until,
 )
 from ros2cli.names_and_types import add_count_argument, print_names, print_types
-from ros2cli.type_discovery import typed_class
+from ros2cli.type_discovery import class_of_typed_name
 from ros2cli.yaml_values import read_values
 from rosidl_runtime_py import message_to_yaml, set_message_fields
 from rosidl_runtime_py.utilities import get_action
@@ -116,7 +116,7 @@ def _goal_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _send_goal(arguments: argparse.Namespace) -> Result:
-    kind = typed_class(get_action, "action", arguments.action_type, "The passed action type is invalid")
+    kind = class_of_typed_name(get_action, "action", arguments.action_type, "The passed action type is invalid")
     if isinstance(kind, str):
         return kind
     values = read_values(sys.stdin if arguments.stdin else arguments.goal)

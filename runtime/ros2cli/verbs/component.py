@@ -98,7 +98,7 @@ def _load(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
         if name not in _containers(node):
             return _missing(name)
-        loaded = _asked(node, LoadNode, name, "load_node", request)
+        loaded = _call(node, LoadNode, name, "load_node", request)
     if not loaded.success:
         return f"Failed to load component: {loaded.error_message.capitalize()}"
     message = f"Loaded component {loaded.unique_id} into '{name}' container node as '{loaded.full_node_name}'"
@@ -124,7 +124,7 @@ def _unload(arguments: argparse.Namespace) -> Result:
         if name not in _containers(node):
             return _missing(name)
         for uid in arguments.component_uid:
-            unloaded = _asked(node, UnloadNode, name, "unload_node", UnloadNode.Request(unique_id=uid))
+            unloaded = _call(node, UnloadNode, name, "unload_node", UnloadNode.Request(unique_id=uid))
             if not unloaded.success:
                 reason = unloaded.error_message.capitalize()
                 return f"Failed to unload component {uid} from '{name}' container node\n    {reason}"
@@ -132,7 +132,7 @@ def _unload(arguments: argparse.Namespace) -> Result:
     return None
 
 
-def _asked(node: Node, kind: ServiceType, container: str, service: str, request: Message) -> Any:
+def _call(node: Node, kind: ServiceType, container: str, service: str, request: Message) -> Any:
     """Return the response of a container's service; raises `RuntimeError` if the service is not ready in time."""
     missing = f"No '{service}' service found for '{container}' container"
     return call(node, kind, f"{container}/_container/{service}", request, ANSWER_TIMEOUT_S, missing)

@@ -14,7 +14,7 @@ from bot_console.runtime.interfaces.interface_finder import interface_folders
 from bot_console.runtime.rosidl.names import KINDS
 from ros2cli.command import Command, Result, Verb
 from ros2cli.interface_text import show_text
-from ros2cli.type_discovery import learned, not_installed
+from ros2cli.type_discovery import learn_type, not_installed
 from rosidl_runtime_py import (
     get_action_interfaces,
     get_message_interfaces,
@@ -91,7 +91,7 @@ def _proto_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _proto(arguments: argparse.Namespace) -> Result:
-    why = learned(arguments.type)
+    why = learn_type(arguments.type)
     if why:
         return not_installed(arguments.type, why)
     try:
@@ -152,7 +152,7 @@ def _text(name: str, arguments: argparse.Namespace) -> str:
     try:
         return show_text(name, all_comments=arguments.all_comments, no_comments=arguments.no_comments)
     except LookupError:
-        why = learned(name)
+        why = learn_type(name)
         if why is None:
             raise
         if why:

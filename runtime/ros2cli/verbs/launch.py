@@ -16,7 +16,7 @@ from launch.actions import IncludeLaunchDescription
 from launch.launch_description_sources import AnyLaunchDescriptionSource
 from ros2cli.advice import advise, launch_files
 from ros2cli.command import Command, Result
-from ros2cli.launch_file import LaunchFileError, named_launch_file, of_package, parse_launch_arguments
+from ros2cli.launch_file import LaunchFileError, named_launch_file, package_errors_converted, parse_launch_arguments
 
 
 def _arguments(parser: argparse.ArgumentParser) -> None:
@@ -83,7 +83,7 @@ def _launch(arguments: argparse.Namespace) -> Result:
     words = [*([name] if name is not None else []), *arguments.launch_arguments]
     try:
         if arguments.show_args and name is None and not os.path.isfile(arguments.package_name):
-            with of_package(arguments.package_name):
+            with package_errors_converted(arguments.package_name):
                 return _list_launch_files(arguments.package_name)
         path, words = named_launch_file(arguments.package_name, words)
     except LaunchFileError as error:
@@ -160,13 +160,14 @@ def launch(
         allow_missing(service)
     service.include_launch_description(LaunchDescription([include, WarnOfUndeclaredArguments(arguments)]))
     if threading.current_thread() is threading.main_thread():
-        signal.signal(signal.SIGINT, _late)  # the run installs its own handler, and restores this one at the end
+        # The run installs its own handler, and restores this one at the end.
+        signal.signal(signal.SIGINT, _ignore_late_interrupt)
         # Python removes its own handlers before the process has ended.
         atexit.register(signal.signal, signal.SIGINT, signal.SIG_IGN)
     return service.run()
 
 
-def _late(number: int, frame: FrameType | None) -> None:
+def _ignore_late_interrupt(number: int, frame: FrameType | None) -> None:
     """Ignore the first interrupt after the end of a launch; the second one ends a program that does not exit."""
     signal.signal(number, signal.default_int_handler)
 

@@ -9,13 +9,13 @@ from lifecycle_msgs.msg import Transition
 from lifecycle_msgs.srv import ChangeState, GetAvailableTransitions, GetState
 from rclpy.node import Node
 from ros2cli.command import Command, Result, Verb
-from ros2cli.direct_node import DirectNode, absolute, add_strategy_arguments, call, node_names
+from ros2cli.direct_node import DirectNode, absolute_name, add_strategy_arguments, call, node_names
 from ros2cli.names_and_types import add_count_argument
 
 GET_STATE = "lifecycle_msgs/srv/GetState"
 
 
-def _managed(node: Node, include_hidden: bool) -> list[str]:
+def _lifecycle_nodes(node: Node, include_hidden: bool) -> list[str]:
     """Return the lifecycle nodes."""
     services = dict(node.get_service_names_and_types())
     names = sorted(each.full_name for each in node_names(node, include_hidden=include_hidden))
@@ -34,7 +34,7 @@ def _nodes_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _nodes(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        names = _managed(node, arguments.all)
+        names = _lifecycle_nodes(node, arguments.all)
     if arguments.count_nodes:
         print(len(names))
     for name in () if arguments.count_nodes else names:
@@ -50,11 +50,11 @@ def _get_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _get(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        names = _managed(node, arguments.include_hidden_nodes)
+        names = _lifecycle_nodes(node, arguments.include_hidden_nodes)
         if arguments.node_name:
-            if absolute(arguments.node_name) not in names:
+            if absolute_name(arguments.node_name) not in names:
                 return "Node not found"
-            names = [absolute(arguments.node_name)]
+            names = [absolute_name(arguments.node_name)]
         for name in names:
             state = call(node, GetState, f"{name}/get_state", GetState.Request()).current_state
             text = f"{state.label} [{state.id}]"
@@ -70,9 +70,9 @@ def _set_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _set(arguments: argparse.Namespace) -> Result:
-    name = absolute(arguments.node_name)
+    name = absolute_name(arguments.node_name)
     with DirectNode(arguments) as node:
-        if name not in _managed(node, arguments.include_hidden_nodes):
+        if name not in _lifecycle_nodes(node, arguments.include_hidden_nodes):
             return "Node not found"
         offered = _transitions(node, name)
         wanted = [each for each in offered if each.label == arguments.transition]
@@ -102,9 +102,9 @@ def _list_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _list(arguments: argparse.Namespace) -> Result:
-    name = absolute(arguments.node_name)
+    name = absolute_name(arguments.node_name)
     with DirectNode(arguments) as node:
-        if name not in _managed(node, arguments.include_hidden_nodes):
+        if name not in _lifecycle_nodes(node, arguments.include_hidden_nodes):
             return "Node not found"
         verb = "get_transition_graph" if arguments.all else "get_available_transitions"
         answer = call(node, GetAvailableTransitions, f"{name}/{verb}", GetAvailableTransitions.Request())

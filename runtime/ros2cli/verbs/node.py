@@ -11,7 +11,7 @@ from rclpy.node import Node
 from ros2cli.advice import advise, no_node
 from ros2cli.command import Command, Result, Verb
 from ros2cli.direct_node import DirectNode, NodeName, add_strategy_arguments, node_names
-from ros2cli.names_and_types import action_names_and_types, add_count_argument, visible
+from ros2cli.names_and_types import action_names_and_types, add_count_argument, visible_rows
 
 DUPLICATES = (
     "WARNING: Be aware that there are nodes in the graph that share an exact name, "
@@ -73,10 +73,10 @@ def _sections(node: Node, name: NodeName, hidden: bool) -> Sequence[tuple[str, A
     servers = node.get_service_names_and_types_by_node(*who)
     clients = node.get_client_names_and_types_by_node(*who)
     return (
-        ("Subscribers", visible(subscribers, hidden)),
-        ("Publishers", visible(publishers, hidden)),
-        ("Service Servers", visible(servers, hidden)),
-        ("Service Clients", visible(clients, hidden)),
+        ("Subscribers", visible_rows(subscribers, hidden)),
+        ("Publishers", visible_rows(publishers, hidden)),
+        ("Service Servers", visible_rows(servers, hidden)),
+        ("Service Clients", visible_rows(clients, hidden)),
         ("Action Servers", action_names_and_types(servers)),
         ("Action Clients", action_names_and_types(clients)),
     )

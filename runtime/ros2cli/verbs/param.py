@@ -24,7 +24,7 @@ def _timeout(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def _one(*names: tuple[str, str], middle: Any = None) -> Any:
+def _node_arguments(*names: tuple[str, str], middle: Any = None) -> Any:
     """Return a function that adds the arguments of a verb about one node: the shared options around the verb's own."""
 
     def add(parser: argparse.ArgumentParser) -> None:
@@ -74,22 +74,24 @@ COMMAND = Command(
     "param",
     "Various param related sub-commands",
     (
-        Verb("delete", "Delete parameter", param_change.delete, _one(PARAMETER)),
+        Verb("delete", "Delete parameter", param_change.delete, _node_arguments(PARAMETER)),
         Verb(
             "describe",
             "Show descriptive information about declared parameters",
             param_show.describe,
-            _one(middle=_names),
+            _node_arguments(middle=_names),
         ),
-        Verb("dump", "Show all of the parameters of a node in a YAML file format", param_show.dump, _one()),
-        Verb("get", "Get parameter", param_show.get, _one(PARAMETER, middle=_hide_type)),
+        Verb("dump", "Show all of the parameters of a node in a YAML file format", param_show.dump, _node_arguments()),
+        Verb("get", "Get parameter", param_show.get, _node_arguments(PARAMETER, middle=_hide_type)),
         Verb("list", "Output a list of available parameters", param_show.list_, _list_arguments),
         Verb(
             "load",
             "Load parameter file for a node",
             param_change.load,
-            _one(("parameter_file", "Parameter file"), middle=_wildcard),
+            _node_arguments(("parameter_file", "Parameter file"), middle=_wildcard),
         ),
-        Verb("set", "Set parameter", param_change.set_, _one(PARAMETER, ("value", "Value of the parameter"))),
+        Verb(
+            "set", "Set parameter", param_change.set_, _node_arguments(PARAMETER, ("value", "Value of the parameter"))
+        ),
     ),
 )

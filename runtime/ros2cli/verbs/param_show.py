@@ -15,15 +15,15 @@ from rclpy.node import Node
 from rclpy.parameter import parameter_value_to_python
 from ros2cli.advice import advise, no_node, no_parameter
 from ros2cli.command import Result
-from ros2cli.direct_node import DirectNode, NoAnswer, NodeName, absolute, call, node_names, wait_for_node
+from ros2cli.direct_node import DirectNode, NoAnswer, NodeName, absolute_name, call, node_names, wait_for_node
 
 NOT_FOUND = "Node not found"
 TYPE_WORDS = {NOT_SET: "not set", **{code: each.shown for code, each in BY_CODE.items()}}
 
 
-def found(node: Node, arguments: argparse.Namespace) -> bool:
+def find_node(node: Node, arguments: argparse.Namespace) -> bool:
     """Return whether the node exists, or appears within the time-out; a person gets a hint if not."""
-    name = absolute(arguments.node_name)
+    name = absolute_name(arguments.node_name)
     hidden = arguments.include_hidden_nodes
     if wait_for_node(node, name, include_hidden=hidden, timeout=arguments.timeout):
         return True
@@ -39,9 +39,9 @@ def values_of(node: Node, name: str, parameters: list[str]) -> list[ParameterVal
 
 def get(arguments: argparse.Namespace) -> Result:
     """`ros2 param get`."""
-    name = absolute(arguments.node_name)
+    name = absolute_name(arguments.node_name)
     with DirectNode(arguments) as node:
-        if not found(node, arguments):
+        if not find_node(node, arguments):
             return NOT_FOUND
         values = values_of(node, name, [arguments.parameter_name])
         if not values:
@@ -73,9 +73,9 @@ def _shown(value: ParameterValue, kind: ParameterType) -> Any:
 
 def describe(arguments: argparse.Namespace) -> Result:
     """`ros2 param describe`."""
-    name = absolute(arguments.node_name)
+    name = absolute_name(arguments.node_name)
     with DirectNode(arguments) as node:
-        if not found(node, arguments):
+        if not find_node(node, arguments):
             return NOT_FOUND
         request = DescribeParameters.Request(names=arguments.parameter_names)
         described = call(node, DescribeParameters, f"{name}/describe_parameters", request).descriptors
@@ -120,9 +120,9 @@ def list_(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
         names = sorted(node_names(node, include_hidden=arguments.include_hidden_nodes))
         if arguments.node_name:
-            if not found(node, arguments):
+            if not find_node(node, arguments):
                 return NOT_FOUND
-            wanted = absolute(arguments.node_name)
+            wanted = absolute_name(arguments.node_name)
             names = [each for each in node_names(node, include_hidden=True) if each.full_name == wanted][:1]
         services = dict(node.get_service_names_and_types())
         for each in names:
@@ -156,9 +156,9 @@ def dump(arguments: argparse.Namespace) -> Result:
     """`ros2 param dump`."""
     import yaml
 
-    name = absolute(arguments.node_name)
+    name = absolute_name(arguments.node_name)
     with DirectNode(arguments) as node:
-        if not found(node, arguments):
+        if not find_node(node, arguments):
             return NOT_FOUND
         listed = call(node, ListParameters, f"{name}/list_parameters", ListParameters.Request())
         parameters: dict[str, Any] = {}

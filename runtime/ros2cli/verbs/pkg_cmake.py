@@ -34,8 +34,8 @@ def files(
         if dependencies or ament
         else texts.NO_FIND,
         "again": "".join(f"find_dependency({each})\n" for each in dependencies),
-        "use": _uses(ament, library, dependencies),
-        "node_use": _uses(ament, node, dependencies),
+        "use": _link_lines(ament, library, dependencies),
+        "node_use": _link_lines(ament, node, dependencies),
         "link": f"target_link_libraries({node} {library})\n" if library else "",
     }
     made["CMakeLists.txt"] = _cmake_lists(more, ament, node, library)
@@ -65,7 +65,7 @@ def _cmake_lists(words: Mapping[str, str], ament: bool, node: str, library: str)
     return "\n".join(parts)
 
 
-def _uses(ament: bool, target: str, dependencies: list[str]) -> str:
+def _link_lines(ament: bool, target: str, dependencies: list[str]) -> str:
     """Return the lines that link a target to the dependencies; empty for plain CMake: target names are unknown."""
     if not ament or not dependencies:
         return ""

@@ -20,9 +20,9 @@ from ros2cli.names_and_types import (
     print_names,
     print_types,
     repeat_hidden_argument,
-    visible,
+    visible_rows,
 )
-from ros2cli.type_discovery import full_type_name, typed_class
+from ros2cli.type_discovery import class_of_typed_name, full_type_name
 from ros2cli.verbs import service_echo
 from ros2cli.verbs.topic_pub import POSITIVE_FLOAT
 from ros2cli.yaml_values import read_values
@@ -40,7 +40,7 @@ def _list_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _list(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        rows = visible(node.get_service_names_and_types(), arguments.include_hidden_services)
+        rows = visible_rows(node.get_service_names_and_types(), arguments.include_hidden_services)
     if arguments.count_services:
         print(len(rows))
     else:
@@ -61,14 +61,14 @@ def _info_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _type(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        rows = visible(node.get_service_names_and_types(), arguments.include_hidden_services)
+        rows = visible_rows(node.get_service_names_and_types(), arguments.include_hidden_services)
     return print_types(rows, arguments.service_name)
 
 
 def _info(arguments: argparse.Namespace) -> Result:
     name = arguments.service_name
     with DirectNode(arguments) as node:
-        types = dict(visible(node.get_service_names_and_types(), arguments.include_hidden_services)).get(name)
+        types = dict(visible_rows(node.get_service_names_and_types(), arguments.include_hidden_services)).get(name)
         if types is None:
             return f"Unknown service '{name}'"
         clients = servers = 0
@@ -91,7 +91,7 @@ def _find_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _find(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        rows = visible(node.get_service_names_and_types(), arguments.include_hidden_services)
+        rows = visible_rows(node.get_service_names_and_types(), arguments.include_hidden_services)
     return print_found(rows, arguments.service_type, arguments.count_services)
 
 
@@ -112,7 +112,7 @@ def _call_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def _call(arguments: argparse.Namespace) -> Result:
-    kind = typed_class(_interface, "srv", arguments.service_type, "The passed service type is invalid")
+    kind = class_of_typed_name(_interface, "srv", arguments.service_type, "The passed service type is invalid")
     if isinstance(kind, str):
         return kind
     if not hasattr(kind, "Request"):

@@ -8,9 +8,9 @@ from typing import Any
 
 from rclpy.node import Node
 from ros2cli.command import Result
-from ros2cli.direct_node import DirectNode, absolute, add_strategy_arguments, spin_until
+from ros2cli.direct_node import DirectNode, absolute_name, add_strategy_arguments, spin_until
 from ros2cli.qos_arguments import add_qos_arguments, profile
-from ros2cli.type_discovery import typed_class
+from ros2cli.type_discovery import class_of_typed_name
 from ros2cli.verbs.topic_echo import add_form_arguments
 from rosidl_runtime_py import message_to_csv, message_to_ordereddict
 from rosidl_runtime_py.convert import ordereddict_to_yaml
@@ -54,11 +54,11 @@ def _service_class(node: Node, arguments: argparse.Namespace) -> Any:
     name = arguments.service_name
     if arguments.service_type is not None:
         invalid = f"The service type '{arguments.service_type}' is invalid"
-        return typed_class(get_service, "srv", arguments.service_type, invalid, node)
-    types = dict(node.get_service_names_and_types()).get(absolute(name))
+        return class_of_typed_name(get_service, "srv", arguments.service_type, invalid, node)
+    types = dict(node.get_service_names_and_types()).get(absolute_name(name))
     if not types:
         return "Could not load the type for the passed service"
-    return typed_class(get_service, "srv", types[0], f"The service name '{name}' is invalid", node)
+    return class_of_typed_name(get_service, "srv", types[0], f"The service name '{name}' is invalid", node)
 
 
 def _show(chosen: argparse.Namespace, event: Any) -> None:

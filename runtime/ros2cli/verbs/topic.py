@@ -15,7 +15,7 @@ from ros2cli.names_and_types import (
     print_names,
     print_types,
     repeat_hidden_argument,
-    visible,
+    visible_rows,
 )
 from ros2cli.verbs import topic_echo, topic_pub, topic_rate
 
@@ -32,7 +32,7 @@ def _list_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _list(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        rows = visible(node.get_topic_names_and_types(), arguments.include_hidden_topics)
+        rows = visible_rows(node.get_topic_names_and_types(), arguments.include_hidden_topics)
         counts = {name: (node.count_publishers(name), node.count_subscribers(name)) for name, _ in rows}
     if arguments.count_topics:
         print(len(rows))
@@ -91,7 +91,7 @@ def _type_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _type(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        rows = visible(node.get_topic_names_and_types(), arguments.include_hidden_topics)
+        rows = visible_rows(node.get_topic_names_and_types(), arguments.include_hidden_topics)
     return print_types(rows, arguments.topic_name)
 
 
@@ -104,7 +104,7 @@ def _find_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _find(arguments: argparse.Namespace) -> Result:
     with DirectNode(arguments) as node:
-        rows = visible(node.get_topic_names_and_types(), arguments.include_hidden_topics)
+        rows = visible_rows(node.get_topic_names_and_types(), arguments.include_hidden_topics)
     return print_found(rows, arguments.topic_type, arguments.count_topics)
 
 

@@ -10,9 +10,9 @@ from typing import Any
 from rclpy.event_handler import SubscriptionEventCallbacks
 from rclpy.node import Node
 from ros2cli.command import Result
-from ros2cli.direct_node import DirectNode, absolute, add_strategy_arguments, spin_until
-from ros2cli.qos_arguments import add_qos_arguments, compatible
-from ros2cli.type_discovery import message_class, typed_class
+from ros2cli.direct_node import DirectNode, absolute_name, add_strategy_arguments, spin_until
+from ros2cli.qos_arguments import add_qos_arguments, compatible_profile
+from ros2cli.type_discovery import class_of_typed_name, message_class
 from ros2cli.verbs.topic_pub import POSITIVE_FLOAT
 from rosidl_runtime_py import message_to_csv, message_to_yaml
 from rosidl_runtime_py.utilities import get_message
@@ -164,8 +164,8 @@ def _message_class(node: Node, arguments: argparse.Namespace) -> Any:
     """Return the class to subscribe with, or the reason why it is not available as a string."""
     if arguments.message_type:
         invalid = "The passed message type is invalid"
-        return typed_class(get_message, "msg", arguments.message_type, invalid, node)
-    name = absolute(arguments.topic_name)
+        return class_of_typed_name(get_message, "msg", arguments.message_type, invalid, node)
+    name = absolute_name(arguments.topic_name)
     types = dict(node.get_topic_names_and_types()).get(name)
     if not types:
         print(f"WARNING: topic [{arguments.topic_name}] does not appear to be published yet")
@@ -187,7 +187,7 @@ def echo(arguments: argparse.Namespace) -> Result:
         kind = _message_class(node, arguments)
         if isinstance(kind, str):
             return kind
-        qos = compatible(arguments, "sensor_data", node.get_publishers_info_by_topic(arguments.topic_name))
+        qos = compatible_profile(arguments, "sensor_data", node.get_publishers_info_by_topic(arguments.topic_name))
         lost = None if arguments.no_lost_messages else SubscriptionEventCallbacks(message_lost=_report_lost)
         node.create_subscription(kind, arguments.topic_name, printer.show, qos, raw=arguments.raw, event_callbacks=lost)
         spin_until(node, lambda: printer.done, arguments.timeout)

@@ -17,7 +17,7 @@ from ros2cli.advice import advise, no_subscription
 from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
 from ros2cli.qos_arguments import add_qos_arguments, profile
-from ros2cli.type_discovery import typed_class
+from ros2cli.type_discovery import class_of_typed_name
 from ros2cli.yaml_values import read_values
 from rosidl_runtime_py import set_message_fields
 from rosidl_runtime_py.utilities import get_message
@@ -103,7 +103,7 @@ def publish(arguments: argparse.Namespace) -> Result:
     """`ros2 topic pub`."""
     import yaml
 
-    kind = typed_class(get_message, "msg", arguments.message_type, "The passed message type is invalid")
+    kind = class_of_typed_name(get_message, "msg", arguments.message_type, "The passed message type is invalid")
     if isinstance(kind, str):
         return kind
     values: Any = {} if arguments.stdin else read_values(arguments.values)
@@ -117,16 +117,16 @@ def publish(arguments: argparse.Namespace) -> Result:
             return problem
         try:
             if arguments.stdin:
-                messages = (_filled(kind, each) for each in yaml.safe_load_all(sys.stdin))
+                messages = (_fill(kind, each) for each in yaml.safe_load_all(sys.stdin))
             else:
-                messages = itertools.repeat(_filled(kind, values))
+                messages = itertools.repeat(_fill(kind, values))
             _loop(node, publisher, messages, arguments)
-        except _Refused as refused:
+        except _RefusedError as refused:
             return str(refused)
     return None
 
 
-class _Refused(Exception):
+class _RefusedError(Exception):
     """The values do not fit the message."""
 
 
@@ -139,7 +139,7 @@ def _wait_for_subscriptions(node: Node, publisher: Any, arguments: argparse.Name
     wanted = int(arguments.once or arguments.times > 0) if wanted is None else wanted
     left: float = math.inf if arguments.max_wait_time_secs is None else arguments.max_wait_time_secs
     count: Callable[[], int] = publisher.get_subscription_count
-    hint: Callable[[], str] | None = partial(_unmatched, node, publisher, arguments.message_type)
+    hint: Callable[[], str] | None = partial(_why_unmatched, node, publisher, arguments.message_type)
     while count() < wanted:
         if left <= 0:
             # upstream's misspelling, as scripts search for this line
@@ -153,7 +153,7 @@ def _wait_for_subscriptions(node: Node, publisher: Any, arguments: argparse.Name
     return ""
 
 
-def _unmatched(node: Node, publisher: Any, message_type: str) -> str:
+def _why_unmatched(node: Node, publisher: Any, message_type: str) -> str:
     """Return, for a person, why nobody may receive the messages; empty if nothing is known."""
     topic = publisher.topic_name
     package, *_, name = message_type.split("/")
@@ -206,11 +206,11 @@ class _Sender:
             self._following = next(self._messages, None)
 
 
-def _filled(kind: Any, values: Any) -> _Filled:
+def _fill(kind: Any, values: Any) -> _Filled:
     """Return a message with the values, and functions that set its time stamps just before it is sent."""
     message = kind()
     try:
         stamps = set_message_fields(message, values, expand_header_auto=True, expand_time_now=True)
     except Exception as error:  # a field may raise any exception about a value; upstream also catches all
-        raise _Refused(f"Failed to populate field: {error}") from None
+        raise _RefusedError(f"Failed to populate field: {error}") from None
     return message, stamps or ()

@@ -12,7 +12,7 @@ from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from ros2cli.command import Result
-from ros2cli.direct_node import DirectNode, absolute, add_strategy_arguments, spin_until
+from ros2cli.direct_node import DirectNode, absolute_name, add_strategy_arguments, spin_until
 from ros2cli.type_discovery import message_class
 from ros2cli.verbs.topic_echo import message_filter
 
@@ -70,7 +70,7 @@ def delay_arguments(parser: argparse.ArgumentParser) -> None:
 
 def _subscribe(node: Node, topic: str, take: Callable[..., None], *, raw: bool = False) -> str:
     """Wait for the topic and subscribe to it; returns why that is impossible, or an empty string."""
-    name = absolute(topic)
+    name = absolute_name(topic)
     if name not in dict(node.get_topic_names_and_types()):
         print(f"WARNING: topic [{topic}] does not appear to be published yet")
     spin_until(node, lambda: name in dict(node.get_topic_names_and_types()))

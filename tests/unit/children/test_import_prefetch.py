@@ -80,7 +80,7 @@ def test_numpy_is_imported_for_a_file_that_may_need_it(text: str, wanted: list[s
 )
 def test_needed_modules_are_read_from_the_imports_of_a_file(text: str, wanted: list[str], tmp_path: Path) -> None:
     (tmp_path / "node.py").write_text(text)
-    assert [*import_prefetch._needed(str(tmp_path / "node.py"))] == wanted
+    assert [*import_prefetch._modules_needed(str(tmp_path / "node.py"))] == wanted
 
 
 def test_numpy_is_imported_for_an_entry_point_that_needs_it(tmp_path: Path) -> None:

@@ -67,21 +67,21 @@ def test_second_import_takes_code_from_the_cache() -> None:
 
     for definition in ("int32 a", "int32 a", "int32 b"):
         names: dict[str, object] = {}
-        exec(interface_cache.compiled("cached.msg", definition, source), names)
+        exec(interface_cache.compiled_module("cached.msg", definition, source), names)
         assert names["answer"] == 42
     assert len(made) == 2
 
 
 def test_damaged_cache_is_rebuilt() -> None:
-    interface_cache.compiled("spoilt.msg", "int32 a", lambda: "answer = 1")
+    interface_cache.compiled_module("spoilt.msg", "int32 a", lambda: "answer = 1")
     for path in (cache_folder() / "interfaces").iterdir():
         path.write_bytes(b"nonsense")
     names: dict[str, object] = {}
-    exec(interface_cache.compiled("spoilt.msg", "int32 a", lambda: "answer = 2"), names)
+    exec(interface_cache.compiled_module("spoilt.msg", "int32 a", lambda: "answer = 2"), names)
     assert names["answer"] == 2
 
 
 def test_unwritable_cache_is_not_an_error(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     monkeypatch.setenv("BOT_CONSOLE_USER_DIR", str(tmp_path / "file"))
-    assert interface_cache.compiled("nowhere.msg", "", lambda: "x = 1").co_filename == "<nowhere.msg>"
+    assert interface_cache.compiled_module("nowhere.msg", "", lambda: "x = 1").co_filename == "<nowhere.msg>"

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 import rclpy
-from bot_console.runtime.interfaces.type_inquiry import inquiry, whole
+from bot_console.runtime.interfaces.type_inquiry import containing_action, inquiry
 from bot_console.runtime.rosidl.type_hash import text
 from example_interfaces.action import Fibonacci
 from rclpy.action import ActionClient
@@ -97,4 +97,4 @@ def test_useless_answers_are_reported(node: Any) -> None:
     ],
 )
 def test_part_of_an_action_is_requested_as_the_whole_action(part: str, type_name: str) -> None:
-    assert whole(part) == type_name
+    assert containing_action(part) == type_name

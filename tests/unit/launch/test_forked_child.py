@@ -21,7 +21,7 @@ class EndedChild(ForkedChild):
 
     def __init__(self) -> None:
         super().__init__("talker", lambda fd, data: None, asyncio.get_running_loop())
-        self.reported(b"pid 4242\nexit 0\n")
+        self.on_report(b"pid 4242\nexit 0\n")
 
     def send_signal(self, signum: int) -> None:
         for stream in tuple(self.open_streams):

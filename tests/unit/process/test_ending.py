@@ -12,10 +12,10 @@ import pytest
 
 PROGRAM = """
 import atexit, os, sys
-from bot_console.runtime.process.ending import exit_functions_run
+from bot_console.runtime.process.ending import run_exit_functions
 atexit.register(lambda: print("last word", file=sys.stderr))
 print("first word")
-os._exit(exit_functions_run(3))
+os._exit(run_exit_functions(3))
 """
 
 

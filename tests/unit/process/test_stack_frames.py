@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import pytest
 from bot_console.runtime.process import stack_frames
-from bot_console.runtime.process.stack_frames import formatted
+from bot_console.runtime.process.stack_frames import format_exception
 
 UNCAUGHT = """
 from bot_console.runtime.process.stack_frames import print_exception
@@ -44,7 +44,7 @@ class Node:
 def test_formatted_exception_equals_what_the_interpreter_prints(mistyped: Callable[[], object], end: str) -> None:
     with pytest.raises(Exception) as caught:
         mistyped()
-    text = formatted(caught.value)
+    text = format_exception(caught.value)
     assert text.startswith("Traceback (most recent call last):\n")
     assert text.endswith(end)
 

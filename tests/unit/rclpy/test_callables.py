@@ -10,7 +10,7 @@ from types import MethodType
 from typing import Any
 
 import pytest
-from rclpy.impl.callables import is_coroutine, is_coroutine_function, takes
+from rclpy.impl.callables import accepts_arguments, is_coroutine, is_coroutine_function
 
 
 class Methods:
@@ -94,7 +94,9 @@ def by_inspect(callback: Callable[..., Any], count: int) -> bool:
 @pytest.mark.parametrize("name", CALLBACKS)
 def test_callback_is_classified_as_by_inspect(name: str) -> None:
     callback = CALLBACKS[name]
-    assert [takes(callback, count) for count in range(4)] == [by_inspect(callback, count) for count in range(4)]
+    assert [accepts_arguments(callback, count) for count in range(4)] == [
+        by_inspect(callback, count) for count in range(4)
+    ]
     assert is_coroutine_function(callback) == inspect.iscoroutinefunction(callback)
 
 
@@ -105,8 +107,8 @@ def test_callables_without_signature_raise_value_error() -> None:
         with pytest.raises(ValueError, match="signature"):
             inspect.signature(callback)
         with pytest.raises(ValueError, match="signature"):
-            takes(callback, 1)
-    assert not takes(3, 1)  # type: ignore[arg-type]
+            accepts_arguments(callback, 1)
+    assert not accepts_arguments(3, 1)  # type: ignore[arg-type]
 
 
 @pytest.mark.skipif(sys.version_info < (3, 12), reason="came with Python 3.12")

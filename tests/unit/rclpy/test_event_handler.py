@@ -145,7 +145,7 @@ def test_events_are_served_by_the_executor_of_their_node(stepped_ros: Any) -> No
 def test_incompatible_policy_prints_its_name() -> None:
     heard: list[QoSRequestedIncompatibleQoSInfo] = []
     handler = IncompatibleHandler(QoSRequestedIncompatibleQoSInfo, heard.append, None)
-    handler.happened("incompatible", "RELIABILITY")
+    handler.on_event("incompatible", "RELIABILITY")
     handler.run()
     (info,) = heard
     assert str(info.last_policy_kind) == "rmw_qos_policy_kind_t.RMW_QOS_POLICY_RELIABILITY"

@@ -219,10 +219,10 @@ def test_zero_depth_is_warned_about() -> None:
 
 def test_profile_from_the_wire_is_returned_as_a_new_object_each_time():
     from bot_console.runtime.rmw.zenoh.wire.qos_text import decode_qos
-    from rclpy.node_parts.graph import in_effect
+    from rclpy.node_parts.graph import effective_profile
 
-    first = in_effect(decode_qos("2:1:,7:,:3,:,,"))
+    first = effective_profile(decode_qos("2:1:,7:,:3,:,,"))
     assert (first.reliability, first.durability) == (ReliabilityPolicy.BEST_EFFORT, DurabilityPolicy.TRANSIENT_LOCAL)
     assert (first.depth, first.lifespan.nanoseconds // 10**9) == (7, 3)
     first.depth = 9
-    assert in_effect(decode_qos("2:1:,7:,:3,:,,")).depth == 7
+    assert effective_profile(decode_qos("2:1:,7:,:3,:,,")).depth == 7

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from bot_console.runtime.rosidl import sources, texts
 from bot_console.runtime.rosidl.parse import parse
-from bot_console.runtime.rosidl.write import written
+from bot_console.runtime.rosidl.write import to_text
 
 
 def all_names() -> list[str]:
@@ -31,7 +31,7 @@ def test_written_definitions_parse_as_the_same() -> None:
     for full_name in all_names():
         package, kind, name = full_name.split("/")
         interface = parse(texts.definition_text(package, kind, name) or "", package, kind, name)
-        assert parse(written(interface), package, kind, name) == interface
+        assert parse(to_text(interface), package, kind, name) == interface
 
 
 def test_packages_and_interfaces_are_listed() -> None:

@@ -109,10 +109,10 @@ class _TypeFinder:
         except (ImportError, AttributeError, ValueError):
             if type_name in self._asked:
                 raise
-        from ros2cli.type_discovery import learned
+        from ros2cli.type_discovery import learn_type
 
         self._asked.add(type_name)
-        if why := learned(type_name, self._node):
+        if why := learn_type(type_name, self._node):
             raise ImportError(why)
         return class_of(type_name)
 

@@ -230,9 +230,9 @@ def end_program(code: int) -> NoReturn:
     """
     if _taking_part or "zenoh" in sys.modules:
         try:
-            from bot_console.runtime.process.ending import exit_functions_run
+            from bot_console.runtime.process.ending import run_exit_functions
         except (MemoryError, ImportError):  # too little memory even to end; the cause has already been reported
             os._exit(code)
         # Exit functions remove sockets and temporary folders, as at any other end.
-        os._exit(exit_functions_run(code))
+        os._exit(run_exit_functions(code))
     sys.exit(code)

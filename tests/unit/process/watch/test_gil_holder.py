@@ -8,7 +8,7 @@ import time
 
 import pytest
 from bot_console.runtime.process.watch import gil_holder
-from bot_console.runtime.process.watch.gil_holder import GilHolder, held_in_stacks
+from bot_console.runtime.process.watch.gil_holder import GilHolder, holding_thread
 
 RUNTIME = os.path.dirname(os.path.dirname(os.path.dirname(sys.modules[GilHolder.__module__].__file__ or "")))
 LIBRARY = os.path.dirname(os.__file__)
@@ -43,19 +43,19 @@ def written(*threads: str, after_s: float = 1.25, woken: int = 200) -> tuple[str
 
 
 def line(*threads: str, after_s: float = 1.25, woken: int = 200) -> str | None:
-    held = held_in_stacks(*written(*threads, after_s=after_s, woken=woken))
+    held = holding_thread(*written(*threads, after_s=after_s, woken=woken))
     return held and held.line
 
 
 def test_running_thread_is_the_holder() -> None:
-    held = held_in_stacks(*written(WAITS, HOLDS, SPINS))
+    held = holding_thread(*written(WAITS, HOLDS, SPINS))
     assert held is not None
     assert (held.ident, held.line) == (0x00007F0000000003, "/home/me/holds.py:12, in tick")
 
 
 def test_there_is_no_holder_while_dumps_are_recent() -> None:
-    assert held_in_stacks("17 1000 50.0\n", 1000, 50.4) is None
-    assert held_in_stacks("", 1000, 50.4) is None
+    assert holding_thread("17 1000 50.0\n", 1000, 50.4) is None
+    assert holding_thread("", 1000, 50.4) is None
 
 
 def test_frozen_or_starved_process_is_not_blamed() -> None:
