@@ -28,5 +28,5 @@ class EventQueue:
         return not self._events
 
     def qsize(self) -> int:
-        """The number of queued events."""
+        """Return the number of queued events."""
         return len(self._events)

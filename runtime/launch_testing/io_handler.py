@@ -34,11 +34,11 @@ class IoHandler:
         return iter(list(self._sequence))
 
     def processes(self) -> list[Action]:
-        """The processes that have written something."""
+        """Return the processes that have written something."""
         return [pieces[0].action for pieces in list(self._by_name.values()) if pieces]
 
     def process_names(self) -> list[str]:
-        """The names of all known processes."""
+        """Return the names of all known processes."""
         return list(self._by_name)
 
     def __getitem__(self, process: Any) -> list[ProcessIO]:

@@ -24,11 +24,11 @@ class ProcInfoHandler:
         return iter(list(self._events.values()))
 
     def processes(self) -> list[Any]:
-        """The known processes."""
+        """Return the known processes."""
         return list(self._events)
 
     def process_names(self) -> list[str]:
-        """The names of the known processes."""
+        """Return the names of the known processes."""
         return [each.process_details["name"] for each in list(self._events)]
 
     def __getitem__(self, process: object) -> Any:

@@ -24,7 +24,7 @@ type(local).process = MAIN
 
 
 def current() -> CurrentProcess:
-    """The node process of the calling thread."""
+    """Return the node process of the calling thread."""
     return local.process
 
 

@@ -77,7 +77,7 @@ class InitContextManager:
 
 
 def get_global_executor() -> Executor:
-    """The executor used by `spin`, `spin_once` and `spin_until_future_complete` when none is given."""
+    """Return the executor used by `spin`, `spin_once` and `spin_until_future_complete` when none is given."""
     from rclpy.executors import SingleThreadedExecutor
 
     holder = _global_executor.get()

@@ -85,7 +85,7 @@ class Client(ServiceEnd):
         return future
 
     def get_pending_request(self, sequence_number: int) -> Future[Any]:
-        """The future of a request; raises `KeyError` for one that is not pending."""
+        """Return the future of a request; raises `KeyError` for one that is not pending."""
         return self._pending_requests[sequence_number]
 
     def remove_pending_request(self, future: Future[Any]) -> None:

@@ -157,14 +157,14 @@ class Clock(AnyClock):
         return f"Clock(clock_type={self._clock_type.name})"
 
     def now(self) -> Time:
-        """The current time."""
+        """Return the current time."""
         return Time._of(self._now_ns(), self._clock_type)
 
     def _now_ns(self) -> int:
         return self._read()
 
     def _reader(self) -> Callable[[], int]:
-        """The function behind `_now_ns`, for frequent callers."""
+        """Return the function behind `_now_ns`, for frequent callers."""
         return self._read
 
     def _steady_deadline(self, when: int) -> int | None:

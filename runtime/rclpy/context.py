@@ -126,7 +126,7 @@ class Context:
         return self._bus
 
     def get_domain_id(self) -> int:
-        """The ROS domain."""
+        """Return the ROS domain."""
         if not self._initialized:
             raise RuntimeError("Context must be initialized before it can have a domain id")
         return self._domain
@@ -207,7 +207,7 @@ class Context:
             node._ros_leave_graph()
 
     def tracked_nodes(self) -> list[NodeOfContext]:
-        """The nodes in this context."""
+        """Return the nodes in this context."""
         return list(self._nodes)
 
     def untrack_node(self, node: NodeOfContext) -> None:

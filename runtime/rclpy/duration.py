@@ -77,7 +77,7 @@ class Duration:
         return NotImplemented
 
     def to_msg(self) -> DurationMsg:
-        """A `builtin_interfaces/Duration`; its nanoseconds are never negative."""
+        """Return a `builtin_interfaces/Duration`; its nanoseconds are never negative."""
         from builtin_interfaces.msg import Duration as DurationMessage
 
         seconds, nanoseconds = divmod(self._nanoseconds, S_TO_NS)
@@ -85,7 +85,7 @@ class Duration:
 
     @classmethod
     def from_msg(cls, msg: object) -> Duration:
-        """The duration in a `builtin_interfaces/Duration`; raises `TypeError` for anything else."""
+        """Return the duration in a `builtin_interfaces/Duration`; raises `TypeError` for anything else."""
         from builtin_interfaces.msg import Duration as DurationMessage
 
         if not isinstance(msg, DurationMessage):

@@ -166,7 +166,7 @@ class _EventCallbacks:
     def create_event_handlers(
         self, callback_group: CallbackGroup, logger: Callable[[], RcutilsLogger], topic: str, qos: QoSProfile
     ) -> list[EventHandler]:
-        """The handlers of a publisher or subscription of a topic."""
+        """Return the handlers of a publisher or subscription of a topic."""
         handlers: list[EventHandler] = []
         incompatible = self.incompatible_qos or (self._warner(logger, topic) if self.use_default_callbacks else None)
         if incompatible is not None:
@@ -208,7 +208,7 @@ class SubscriptionEventCallbacks(_EventCallbacks):
     def create_event_handlers(
         self, callback_group: CallbackGroup, logger: Callable[[], RcutilsLogger], topic: str, qos: QoSProfile
     ) -> list[EventHandler]:
-        """The handlers of a subscription of a topic."""
+        """Return the handlers of a subscription of a topic."""
         handlers = super().create_event_handlers(callback_group, logger, topic, qos)
         if self.message_lost is not None:
             handlers.append(LostHandler(QoSMessageLostInfo, self.message_lost, callback_group))

@@ -227,7 +227,7 @@ class Executor(TaskQueue, ReadyCallbacks):
             node._ros_detach()
 
     def get_nodes(self) -> list[NodeBase]:
-        """The nodes of this executor."""
+        """Return the nodes of this executor."""
         return list(self._nodes)
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:

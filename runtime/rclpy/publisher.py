@@ -127,7 +127,7 @@ class Publisher:
         self._node.get_logger().error(f"cannot publish on '{self._endpoint.endpoint.topic}': {error}, at {where}")
 
     def get_subscription_count(self) -> int:
-        """The number of matched subscriptions; raises `RCLError` after a shutdown of the context."""
+        """Return the number of matched subscriptions; raises `RCLError` after a shutdown of the context."""
         if self.destroyed or self._context.ended:
             self._refuse("failed to get subscription count")
         return self._endpoint.matched_count()

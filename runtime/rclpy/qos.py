@@ -253,7 +253,7 @@ class QoSPresetProfiles(Enum):
 
     @classmethod
     def short_keys(cls) -> list[str]:
-        """The keys of all presets, in lower case."""
+        """Return the keys of all presets, in lower case."""
         return [name.lower() for name in cls.__members__]
 
     @classmethod

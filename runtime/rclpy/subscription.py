@@ -171,7 +171,7 @@ class Subscription(Entity):
         self._queue = self.endpoint.queue = queue
 
     def get_publisher_count(self) -> int:
-        """The number of matched publishers."""
+        """Return the number of matched publishers."""
         self.use()
         return self.endpoint.matched
 

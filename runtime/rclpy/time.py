@@ -120,13 +120,13 @@ class Time:
         return True
 
     def to_msg(self) -> TimeMsg:
-        """A `builtin_interfaces/Time`."""
+        """Return a `builtin_interfaces/Time`."""
         seconds, nanoseconds = self.seconds_nanoseconds()
         return TimeMessage(sec=seconds, nanosec=nanoseconds)
 
     @classmethod
     def from_msg(cls, msg: object, clock_type: ClockType | TimeClockType = ClockType.ROS_TIME) -> Time:
-        """The time in a `builtin_interfaces/Time`; raises `TypeError` for anything else."""
+        """Return the time in a `builtin_interfaces/Time`; raises `TypeError` for anything else."""
         if not isinstance(msg, TimeMessage):
             raise TypeError("Must pass a builtin_interfaces.msg.Time object")
         return cls(seconds=msg.sec, nanoseconds=msg.nanosec, clock_type=clock_type)

@@ -131,7 +131,7 @@ class Bus(Protocol):
         ...
 
     def tables(self) -> Sequence[GraphTables]:
-        """The graph tables of this process, and of the other processes if there are any."""
+        """Return the graph tables of this process, and of the other processes if there are any."""
         ...
 
     def on_graph_change(self, callback: GraphChanged) -> Callable[[], None]:
@@ -139,15 +139,15 @@ class Bus(Protocol):
         ...
 
     def stopped(self) -> Mapping[int, Sequence[str]]:
-        """The frozen processes by pid, each with its nodes' names as far as known."""
+        """Return the frozen processes by pid, each with its nodes' names as far as known."""
         ...
 
     def processes(self) -> Mapping[int, Sequence[str]]:
-        """The other processes of this machine in the domain by pid, each with its nodes' names as far as known."""
+        """Return this machine's other processes in the domain by pid, each with its nodes' names as far as known."""
         ...
 
     def debugged(self) -> Mapping[str, str]:
-        """The nodes whose processes are stopped in a debugger, each with the current line, as far as known.
+        """Return the nodes whose processes are stopped in a debugger, each with the current line, as far as known.
 
         The line is `/path/file.py:12, in function`, or empty if it is unknown.
         """

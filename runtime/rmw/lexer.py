@@ -68,11 +68,11 @@ class Lexer:
         return _PATTERNS[(found.lastindex or 1) - 1][0], found.end()
 
     def peek(self) -> Lexeme:
-        """The kind of the next lexeme."""
+        """Return the kind of the next lexeme."""
         return self._at(self.index)[0]
 
     def peek_two(self) -> tuple[Lexeme, Lexeme]:
-        """The kinds of the next two lexemes."""
+        """Return the kinds of the next two lexemes."""
         first, end = self._at(self.index)
         return first, self._at(end)[0]
 

@@ -222,7 +222,7 @@ class LocalBus:
         return lambda: present and not self.has_server(client)
 
     def tables(self) -> Sequence[GraphTables]:
-        """The graph tables of this process."""
+        """Return the graph tables of this process."""
         return (self._tables,)
 
     def on_graph_change(self, callback: GraphChanged) -> Callable[[], None]:

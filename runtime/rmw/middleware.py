@@ -27,7 +27,7 @@ def chosen_middleware() -> tuple[BusOf, QosRules]:
 
 
 def qos_rules() -> QosRules:
-    """The QoS rules of the chosen middleware."""
+    """Return the QoS rules of the chosen middleware."""
     return _rules
 
 

@@ -56,7 +56,7 @@ class NamespacedType(AbstractNestableType):
         self.name = name
 
     def namespaced_name(self) -> tuple[str, ...]:
-        """The namespaces and the name in one tuple."""
+        """Return the namespaces and the name in one tuple."""
         return (*self.namespaces, self.name)
 
 

@@ -111,5 +111,5 @@ class ComposableNode:
         return self.__extra_arguments
 
     def condition(self) -> Any:
-        """The condition for loading it."""
+        """Return the condition for loading it."""
         return self.__condition

@@ -70,7 +70,7 @@ class ActionClient(ActionEntity):
         self._join()
 
     def get_num_entities(self) -> NumberOfEntities:
-        """The number of entities: two subscriptions and three clients."""
+        """Return the number of entities: two subscriptions and three clients."""
         return NumberOfEntities(2, 0, 0, 3, 0)
 
     def run(self) -> object:

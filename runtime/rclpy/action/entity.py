@@ -52,7 +52,7 @@ class ActionEntity(Entity, Waitable):
         return not self.destroyed and self._endpoints.pending()
 
     def interfaces(self) -> Sequence[type]:
-        """The action itself, and those of its interfaces that have type hashes of their own in the graph."""
+        """Return the action itself, and those of its interfaces that have type hashes of their own in the graph."""
         impl = self._action_type.Impl
         return (self._action_type, impl.SendGoalService, impl.GetResultService, impl.FeedbackMessage)
 

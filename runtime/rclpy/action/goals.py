@@ -32,7 +32,7 @@ class Goals:
         return uuid in self._handles
 
     def get(self, uuid: bytes) -> ServerGoalHandle | None:
-        """The handle of the goal with that UUID, or None."""
+        """Return the handle of the goal with that UUID, or None."""
         return self._handles.get(uuid)
 
     def add(self, uuid: bytes, handle: ServerGoalHandle) -> None:
@@ -40,7 +40,7 @@ class Goals:
         self._handles[uuid] = handle
 
     def status_array(self) -> GoalStatusArray:
-        """The message of the status topic, with each goal that is still kept."""
+        """Return the message of the status topic, with each goal that is still kept."""
         return GoalStatusArray(
             status_list=[
                 GoalStatus(goal_info=each._goal_info, status=each._status) for each in list(self._handles.values())

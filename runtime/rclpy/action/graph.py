@@ -27,7 +27,7 @@ def _actions(topics: NamesAndTypes) -> NamesAndTypes:
 def get_action_client_names_and_types_by_node(
     node: Node, remote_node_name: str, remote_node_namespace: str
 ) -> NamesAndTypes:
-    """The actions that a node calls; raises `RCLError` for an unknown node."""
+    """Return the actions that a node calls; raises `RCLError` for an unknown node."""
     try:
         return _actions(node.get_subscriber_names_and_types_by_node(remote_node_name, remote_node_namespace))
     except NodeNameNonExistentError as error:
@@ -37,7 +37,7 @@ def get_action_client_names_and_types_by_node(
 def get_action_server_names_and_types_by_node(
     node: Node, remote_node_name: str, remote_node_namespace: str
 ) -> NamesAndTypes:
-    """The actions that a node serves; raises `RCLError` for an unknown node."""
+    """Return the actions that a node serves; raises `RCLError` for an unknown node."""
     try:
         return _actions(node.get_publisher_names_and_types_by_node(remote_node_name, remote_node_namespace))
     except NodeNameNonExistentError as error:
@@ -45,5 +45,5 @@ def get_action_server_names_and_types_by_node(
 
 
 def get_action_names_and_types(node: Node) -> NamesAndTypes:
-    """All actions with their types, by name."""
+    """Return all actions with their types, by name."""
     return _actions(node.get_topic_names_and_types())

@@ -144,7 +144,7 @@ class ActionServer(ActionEntity):
         self._execute_callback = execute_callback
 
     def get_num_entities(self) -> NumberOfEntities:
-        """The number of entities: a timer and three services."""
+        """Return the number of entities: a timer and three services."""
         return NumberOfEntities(0, 0, 1, 0, 3)
 
     def pending(self) -> bool:

@@ -18,5 +18,5 @@ class AnyClock:
     """Base of `rclpy.clock.Clock`, by which a logger recognises a clock without importing that module."""
 
     def now(self) -> Nanoseconds:
-        """The current time, an object with `nanoseconds`."""
+        """Return the current time, an object with `nanoseconds`."""
         raise NotImplementedError

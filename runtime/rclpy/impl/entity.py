@@ -120,7 +120,7 @@ class Entity:
         raise NotImplementedError
 
     def interfaces(self) -> Sequence[type]:
-        """The interface classes that the entity uses beyond its node's topics and services."""
+        """Return the interface classes that the entity uses beyond its node's topics and services."""
         return ()
 
     def attach(self, sink: EntityExecutor, node_order: int) -> None:

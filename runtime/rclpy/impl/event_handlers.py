@@ -44,7 +44,7 @@ class EventHandler(Entity):
         self.notify()
 
     def _info(self) -> object:
-        """The callback's argument; resets the changes."""
+        """Return the callback's argument; resets the changes."""
         raise NotImplementedError
 
     def pending(self) -> bool:
@@ -132,7 +132,7 @@ class TimedHandler(EventHandler):
         self._clock = current().clock
 
     def _due(self) -> int | None:
-        """The steady time (ns) at which the next event occurs; None if there is none."""
+        """Return the steady time (ns) at which the next event occurs; None if there is none."""
         raise NotImplementedError
 
     def _arm(self) -> None:

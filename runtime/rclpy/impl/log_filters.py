@@ -11,7 +11,7 @@ OPTIONS = ("throttle_duration_sec", "throttle_time_source_type", "skip_first", "
 
 
 def detect(options: dict[str, Any]) -> tuple[str, ...]:
-    """The filters that a call's options select, in order of application; raises `TypeError` for other options."""
+    """Return the filters that a call's options select, in order of application; `TypeError` for other options."""
     for name in options:
         if name == "severity":
             raise TypeError("RcutilsLogger.log() got multiple values for argument 'severity'")

@@ -25,7 +25,7 @@ _NUMERIC_LISTS = frozenset((INTEGER_ARRAY.code, DOUBLE_ARRAY.code))
 
 
 def infer(value: object) -> int:
-    """The parameter type of a value; an empty list is a byte array. Raises `TypeError` for any other value."""
+    """Return the parameter type of a value; an empty list is a byte array. Raises `TypeError` for any other value."""
     if value is None:
         return NOT_SET
     for kind, code in _SCALARS:

@@ -15,7 +15,7 @@ _MISSPELT = {"durability": "durabilty"}
 
 
 def errors(publisher: Any, subscription: Any) -> list[str]:
-    """The reasons why two profiles are incompatible."""
+    """Return the reasons why two profiles are incompatible."""
     found: list[str] = []
     reliability = publisher.reliability, subscription.reliability
     if reliability == (ReliabilityPolicy.BEST_EFFORT, ReliabilityPolicy.RELIABLE):
@@ -43,7 +43,7 @@ def _duration(offered: Nanoseconds, requested: Nanoseconds, what: str, other: st
 
 
 def warnings(publisher: Any, subscription: Any) -> list[str]:
-    """The reasons why two profiles may be incompatible, depending on a default of the middleware."""
+    """Return the reasons why two profiles may be incompatible, depending on a default of the middleware."""
     found = _unsure("reliability", publisher.reliability, subscription.reliability, "RELIABLE", "BEST_EFFORT")
     found += _unsure("durability", publisher.durability, subscription.durability, "TRANSIENT_LOCAL", "VOLATILE")
     found += _unsure("liveliness", publisher.liveliness, subscription.liveliness, "MANUAL_BY_TOPIC", "AUTOMATIC")

@@ -29,12 +29,12 @@ class QoSPolicyEnum(IntEnum, metaclass=QoSPolicyEnumMeta):
 
     @classmethod
     def short_keys(cls) -> list[str]:
-        """The keys of all members."""
+        """Return the keys of all members."""
         return [name.lower() for name, _ in cls.__members__.items() if not name.startswith("RMW")]
 
     @classmethod
     def get_from_short_key(cls, name: str) -> int:
-        """The number of the member with that key; raises `KeyError`."""
+        """Return the number of the member with that key; raises `KeyError`."""
         return cls[name.upper()].value
 
     @property
@@ -104,7 +104,7 @@ class QoSPolicyKind(IntEnum):
 
 
 def qos_policy_name_from_kind(policy_kind: QoSPolicyKind | int) -> str:
-    """The name of a policy."""
+    """Return the name of a policy."""
     return QoSPolicyKind(policy_kind).name
 
 

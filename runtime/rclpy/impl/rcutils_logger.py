@@ -29,7 +29,7 @@ class RcutilsLogger:
         self._sites: dict[tuple[str, str, int, int], Site] = {}
 
     def get_child(self, name: str) -> RcutilsLogger:
-        """The logger `<this>.<name>`; raises `ValueError` for an empty name, `TypeError` for anything but a string."""
+        """Return the logger `<this>.<name>`; `ValueError` for an empty name, `TypeError` for anything but a string."""
         if not self.name:
             raise ValueError("Logger name must not be empty.")
         if not name:
@@ -45,7 +45,7 @@ class RcutilsLogger:
         state().set_level(self.name, LoggingSeverity(level))
 
     def get_effective_level(self) -> LoggingSeverity:
-        """The lowest severity that is logged."""
+        """Return the lowest severity that is logged."""
         return LoggingSeverity(state().effective_level(self.name))
 
     def is_enabled_for(self, severity: LoggingSeverity | int) -> bool:

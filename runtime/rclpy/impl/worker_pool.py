@@ -108,7 +108,7 @@ def _report_unfetched(futures: deque[Any]) -> None:
 
 
 def cpu_count() -> int:
-    """The number of CPUs this process may use; 2 if the operating system does not tell."""
+    """Return the number of CPUs this process may use; 2 if the operating system does not tell."""
     try:
         return len(os.sched_getaffinity(0))
     except AttributeError:

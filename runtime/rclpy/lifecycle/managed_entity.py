@@ -14,27 +14,27 @@ class ManagedEntity:
     """Takes part in the transitions of its node; each callback gets the state that the node is leaving."""
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """The node is being configured."""
+        """Called while the node is being configured."""
         return TransitionCallbackReturn.SUCCESS
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """The node is being cleaned up."""
+        """Called while the node is being cleaned up."""
         return TransitionCallbackReturn.SUCCESS
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """The node is being shut down."""
+        """Called while the node is being shut down."""
         return TransitionCallbackReturn.SUCCESS
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """The node is being activated."""
+        """Called while the node is being activated."""
         return TransitionCallbackReturn.SUCCESS
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """The node is being deactivated."""
+        """Called while the node is being deactivated."""
         return TransitionCallbackReturn.SUCCESS
 
     def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """A transition has ended in an error."""
+        """Called after a transition has ended in an error."""
         return TransitionCallbackReturn.SUCCESS
 
 

@@ -117,27 +117,27 @@ class LifecycleNodeMixin(ManagedEntity):
             return TransitionCallbackReturn.ERROR
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """The node is being configured."""
+        """Called while the node is being configured."""
         return self.__ask_entities("on_configure", state)
 
     def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """The node is being cleaned up."""
+        """Called while the node is being cleaned up."""
         return self.__ask_entities("on_cleanup", state)
 
     def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """The node is being shut down."""
+        """Called while the node is being shut down."""
         return self.__ask_entities("on_shutdown", state)
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """The node is being activated."""
+        """Called while the node is being activated."""
         return self.__ask_entities("on_activate", state)
 
     def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """The node is being deactivated."""
+        """Called while the node is being deactivated."""
         return self.__ask_entities("on_deactivate", state)
 
     def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
-        """A transition has ended in an error; SUCCESS leads back to unconfigured, anything else to finalized."""
+        """Called after a failed transition; SUCCESS leads back to unconfigured, anything else to finalized."""
         return self.__ask_entities("on_error", state)
 
     def __ask_entities(self, name: str, state: LifecycleState) -> TransitionCallbackReturn:

@@ -67,7 +67,7 @@ class LifecycleStateMachine:
         return [_described(each) for each in TRANSITIONS]
 
     def get_transition_by_label(self, label: str) -> int:
-        """The id of a transition from the current state; raises `RCLError`."""
+        """Return the id of a transition from the current state; raises `RCLError`."""
         found = self._find(lambda each: each.label == label, label)
         if found is None:
             raise RCLError("Failed to get transition from label")

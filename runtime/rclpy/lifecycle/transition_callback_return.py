@@ -21,5 +21,5 @@ class TransitionCallbackReturnType(Enum):
         return self.value
 
     def to_label(self) -> str:
-        """The label of the transition that follows."""
+        """Return the label of the transition that follows."""
         return f"transition_{self.name.lower()}"

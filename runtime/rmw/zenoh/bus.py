@@ -254,15 +254,15 @@ class ZenohBus:
             return self._whole
 
     def tables(self) -> Sequence[GraphTables]:
-        """The graph tables of this process and of the other processes."""
+        """Return the graph tables of this process and of the other processes."""
         return (*self._local.tables(), self._graph().tables)
 
     def stopped(self) -> Mapping[int, Sequence[str]]:
-        """The frozen processes of the mesh by pid, with their nodes; Zenoh takes a long time to notice them."""
+        """Return the frozen processes of the mesh by pid, with their nodes; Zenoh takes a long time to notice them."""
         return self._nodes_of(self._session.stopped())
 
     def processes(self) -> Mapping[int, Sequence[str]]:
-        """The processes of the mesh on this machine, by pid, with their nodes."""
+        """Return the processes of the mesh on this machine, by pid, with their nodes."""
         return self._nodes_of(self._session.processes())
 
     def _nodes_of(self, pids: Mapping[str, int]) -> Mapping[int, Sequence[str]]:
@@ -272,7 +272,7 @@ class ZenohBus:
         return {pid: nodes.get(session, ()) for session, pid in pids.items()}
 
     def debugged(self) -> Mapping[str, str]:
-        """The nodes of the mesh's processes that are stopped in a debugger, each with the current line."""
+        """Return the nodes of the mesh's processes that are stopped in a debugger, each with the current line."""
         lines = self._session.debugged()
         if not lines:
             return {}

@@ -57,7 +57,7 @@ class SettingsError(SessionError):
 
 
 def endpoints_of_file(file: str, last: Iterable[tuple[str, str]]) -> Sequence[str]:
-    """The endpoints that a client with this configuration connects to; `last` (path, JSON5) overrides the file."""
+    """Return the endpoints to which this configuration makes a client connect; `last` (path, JSON5) overrides it."""
     import zenoh
 
     config = zenoh.Config.from_file(file)
@@ -146,23 +146,23 @@ class Session(Lifetime):
         """Watch the session's connection while it is open; not meant for short-lived programs."""
 
     def answer_timeout_s(self) -> float:
-        """The timeout of a graph query, in s: short if a process is known not to answer."""
+        """Return the timeout of a graph query, in s: short if a process is known not to answer."""
         return self.timeout_s
 
     def stopped(self) -> Mapping[str, int]:
-        """The frozen processes of the mesh: the first 8 digits of their session ids, mapped to their pids."""
+        """Return the frozen processes of the mesh: the first 8 digits of their session ids, mapped to their pids."""
         return {}
 
     def processes(self) -> Mapping[str, int]:
-        """The processes of the mesh on this machine: the first 8 digits of their session ids, mapped to their pids."""
+        """Return the mesh's processes on this machine: the first 8 digits of their session ids, mapped to pids."""
         return {}
 
     def debugged(self) -> Mapping[str, str]:
-        """The processes that are stopped in a debugger: the first 8 digits of their session ids, with the line."""
+        """Return the processes stopped in a debugger: the first 8 digits of their session ids, with the line."""
         return {}
 
     def stopped_behind_router(self) -> Sequence[int]:
-        """The pids of frozen processes behind a router, as far as it reports them; empty without a router."""
+        """Return the pids of frozen processes behind a router, as far as it reports them; empty without a router."""
         return ()
 
     def leave(self) -> None:
@@ -349,7 +349,7 @@ class Session(Lifetime):
         return False
 
     def linked(self) -> set[str]:
-        """The ids of the sessions that this session is linked to; empty while it is not open."""
+        """Return the ids of the sessions that this session is linked to; empty while it is not open."""
         with contextlib.suppress(self.errors()):
             return {str(each) for each in (*self._zenoh.info.peers_zid(), *self._zenoh.info.routers_zid())}
         return set()

@@ -148,20 +148,20 @@ class MeshSession(Session):
         return False
 
     def answer_timeout_s(self) -> float:
-        """The timeout of a graph query, in s: short if a process is frozen."""
+        """Return the timeout of a graph query, in s: short if a process is frozen."""
         return FROZEN_TIMEOUT_S if self.stopped() else self.timeout_s
 
     def stopped(self) -> Mapping[str, int]:
-        """The frozen processes of the mesh: the first 8 digits of their session ids, mapped to their pids."""
+        """Return the frozen processes of the mesh: the first 8 digits of their session ids, mapped to their pids."""
         found = sockets(os.path.dirname(self.socket.path))
         return {each.zid: each.pid for each in found if each != self.socket and each.is_stopped()}
 
     def processes(self) -> Mapping[str, int]:
-        """All processes of the mesh, including this one."""
+        """Return all processes of the mesh, including this one."""
         return {each.zid: each.pid for each in sockets(os.path.dirname(self.socket.path))}
 
     def debugged(self) -> Mapping[str, str]:
-        """The mesh's processes that a debugger has stopped: the first 8 digits of their session ids, with the line."""
+        """Return the mesh's processes stopped in a debugger: the first 8 digits of their session ids, with the line."""
         folder = os.path.dirname(self.socket.path)
         lines = debugger_lines(folder)
         return {each.zid: lines[each.pid] for each in sockets(folder) if each.pid in lines} if lines else {}

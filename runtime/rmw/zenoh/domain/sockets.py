@@ -35,7 +35,7 @@ class Socket(NamedTuple):
         return self.path + ".lock"
 
     def endpoint(self) -> str:
-        """The endpoint that Zenoh connects to; empty if the process ended before it wrote one."""
+        """Return the endpoint that Zenoh connects to; empty if the process ended before it wrote one."""
         return loopback.endpoint(self.path) if self.path.endswith(loopback.SUFFIX) else SCHEME + self.path
 
     def is_dead(self) -> bool:

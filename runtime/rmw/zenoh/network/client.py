@@ -108,15 +108,15 @@ class NetworkSession(Session):
         self._stopped = self._stopped or StoppedBehindRouter(self)
 
     def stopped(self) -> Mapping[str, int]:
-        """The frozen processes behind the router, if it is one of ours; empty unless `watch` was called."""
+        """Return the frozen processes behind the router, if it is one of ours; empty unless `watch` was called."""
         return self._stopped.now() if self._stopped else {}
 
     def debugged(self) -> Mapping[str, str]:
-        """The processes behind the router that are stopped in a debugger, each with the line."""
+        """Return the processes behind the router that are stopped in a debugger, each with the line."""
         return self._stopped.debugged() if self._stopped else {}
 
     def stopped_behind_router(self) -> Sequence[int]:
-        """The pids of the frozen processes, which run on the robot."""
+        """Return the pids of the frozen processes, which run on the robot."""
         return sorted(self.stopped().values())
 
     @property
