@@ -238,7 +238,7 @@ async def until(socket: Any, wanted: bytes) -> bytes:
 @pytest.mark.parametrize(
     ("words", "code", "reported"),
     [
-        (["run", "x.py"], 2, "'run' opens no console"),
+        (["run", "x.py"], 2, "'run' does not open a console"),
         (["--headless"], 2, "--headless has no screen"),
         (["nowhere"], 2, "there is no profile and no command 'nowhere'"),
         (["--host", "0.0.0.0"], 2, "means every network"),
