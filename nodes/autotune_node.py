@@ -31,11 +31,11 @@ WATCHED_NS = 1_000_000_000
 """Nanoseconds for which a report of the safety monitor is valid."""
 LOCKED = "emergency stop"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-COLLISION = 2.0
+COLLISION_PENALTY = 2.0
 """Score penalty for a collision, in m/s."""
-NEARNESS = 5.0
+NEARNESS_PENALTY = 5.0
 """Score penalty per metre of missing clearance, in m/s."""
-DIGITS = 3
+DECIMALS = 3
 """Number of decimals of the tried values."""
 
 
@@ -140,7 +140,7 @@ class AutoTune(Node):
     def _score(self) -> float:
         room = float(self.get_parameter("min_clearance").value) - self._nearest
         mean = math.fsum(self._speeds) / len(self._speeds)
-        return mean - NEARNESS * max(0.0, room) - COLLISION * self._bumps
+        return mean - NEARNESS_PENALTY * max(0.0, room) - COLLISION_PENALTY * self._bumps
 
     async def _suspend(self, why: str) -> None:
         if why == self._suspended:
@@ -186,7 +186,7 @@ class AutoTune(Node):
 
     async def _send(self, value: float) -> None:
         """Set a value and start an evaluation period with it."""
-        value = round(value, DIGITS)
+        value = round(value, DECIMALS)
         score, before = self._score() if self._speeds else math.nan, self._sent
         refusal = await self._set(value)
         if refusal:

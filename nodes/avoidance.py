@@ -11,9 +11,9 @@ import numpy.typing as npt
 
 Floats: TypeAlias = "npt.NDArray[np.float32]"
 
-HORIZON = 4.0
+HORIZON_M = 4.0
 """Distances (m) beyond this count as free; openings beyond it are not compared."""
-BRAKING = 1.5
+BRAKING_M_S2 = 1.5
 """The deceleration in m/s² used for planning the speed; less than the robot is capable of."""
 DIRECTIONS = np.radians(np.arange(-90.0, 91.0, 6.0)).astype(np.float32)
 """Candidate headings, in rad from straight ahead."""
@@ -70,13 +70,13 @@ class Avoidance:
             seen &= intensities >= rules.detection_threshold
         cos, sin = self._beams(len(ranges), first, increment)
         # Returns beyond the horizon do not block any lane.
-        near = (seen & (ranges < HORIZON + rules.safety_distance)).nonzero()[0]
+        near = (seen & (ranges < HORIZON_M + rules.safety_distance)).nonzero()[0]
         depth = ranges.take(near)
         within = depth if len(near) else ranges[seen]
         nearest = float(within.min()) if len(within) else math.inf
         room = self._room(depth * cos.take(near), depth * sin.take(near), rules.safety_distance)
         if rules.enable_safety and float(room[AHEAD]) <= rules.safety_distance:
-            side = self._keep_side(np.where(seen, ranges, np.float32(HORIZON)))
+            side = self._keep_side(np.where(seen, ranges, np.float32(HORIZON_M)))
             return Decision(0.0, side * rules.turn_rate, True, nearest)
         self._side = 0.0
         linear, angular = self._steer(room, rules)
@@ -91,13 +91,13 @@ class Avoidance:
     def _room(self, x: Floats, y: Floats, half_width: float) -> Floats:
         """Return how far a lane of width `2 * half_width` is free in each direction, in m."""
         if not len(x):
-            return np.full(len(DIRECTIONS), HORIZON, np.float32)
+            return np.full(len(DIRECTIONS), HORIZON_M, np.float32)
         along, across = self._cos * x, self._cos * y
         along += self._sin * y
         across -= self._sin * x
         in_lane = np.abs(across, across) < half_width
         in_lane &= along > 0.0
-        return np.minimum(np.where(in_lane, along, HORIZON).min(axis=1), HORIZON)
+        return np.minimum(np.where(in_lane, along, HORIZON_M).min(axis=1), HORIZON_M)
 
     def _steer(self, room: Floats, rules: Rules) -> tuple[float, float]:
         """Return the velocity towards the best direction."""
@@ -112,7 +112,7 @@ class Avoidance:
         if not rules.enable_safety:
             return rules.max_speed, angular
         spare = float(room[AHEAD]) - rules.safety_distance
-        fastest = min(rules.max_speed, math.sqrt(2.0 * BRAKING * spare))
+        fastest = min(rules.max_speed, math.sqrt(2.0 * BRAKING_M_S2 * spare))
         return fastest * max(0.2, math.cos(self._heading)), angular
 
     def _wander_offset(self) -> float:
@@ -126,7 +126,7 @@ class Avoidance:
         In a corner, choosing again each time would make it alternate for ever.
         """
         if self._side == 0.0:
-            capped = np.minimum(ranges, HORIZON)
+            capped = np.minimum(ranges, HORIZON_M)
             left, right = capped[self._angles > 0.0], capped[self._angles < 0.0]
             self._side = 1.0 if left.sum() >= right.sum() else -1.0
         return self._side

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from bot_console_robot.common.scans import Floats
 
-MAX_GAP = 0.35
+MAX_GAP_M = 0.35
 """Neighbouring returns closer than this (m) belong to the same object."""
 MIN_BEAMS = 3
 """Minimum number of beams for an object to be reported."""
@@ -49,7 +49,7 @@ def find(ranges: Floats, first: float, increment: float) -> list[Detection]:
     angle = first + increment * index
     depth = ranges[index].astype(np.float64)
     x, y = depth * np.cos(angle), depth * np.sin(angle)
-    apart = (np.hypot(x[1:] - x[:-1], y[1:] - y[:-1]) > MAX_GAP) | (index[1:] - index[:-1] > 2)
+    apart = (np.hypot(x[1:] - x[:-1], y[1:] - y[:-1]) > MAX_GAP_M) | (index[1:] - index[:-1] > 2)
     starts = np.concatenate(([0], apart.nonzero()[0] + 1))
     ends = np.concatenate((starts[1:], [len(index)]))
     beams = ends - starts

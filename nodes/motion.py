@@ -7,13 +7,13 @@ from collections import deque
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-REACHED = 0.35
+REACHED_M = 0.35
 """Distance in m from a waypoint at which it counts as reached."""
-CRUISE = 0.5
+CRUISE_M_S = 0.5
 """The speed in m/s towards a waypoint if no limit is given."""
-DETOUR = 2.0
+DETOUR_S = 2.0
 """Seconds for which an obstacle is avoided before the robot heads for the waypoint again."""
-CREEP = 0.05
+CREEP_M_S = 0.05
 """An allowed speed in m/s below which the way counts as blocked."""
 
 
@@ -70,7 +70,7 @@ class WaypointFollower:
 
     def arrived(self, x: float, y: float) -> bool:
         """Return whether the target is reached at this position; if so, make the next waypoint the target."""
-        if not self._points or math.dist((x, y), self._points[0]) > REACHED:
+        if not self._points or math.dist((x, y), self._points[0]) > REACHED_M:
             return False
         point = self._points.popleft()
         if self._loop:
@@ -89,13 +89,13 @@ class WaypointFollower:
         `allowed` is the navigator's velocity: it limits the speed, and replaces the result where the way is blocked.
         """
         self._detour = max(0.0, self._detour - dt)
-        if allowed and allowed[0] < CREEP:
-            self._detour = DETOUR
+        if allowed and allowed[0] < CREEP_M_S:
+            self._detour = DETOUR_S
         if allowed and self._detour > 0.0:
             return allowed
         assert self._points
         dx, dy = self._points[0][0] - pose[0], self._points[0][1] - pose[1]
         error = math.remainder(math.atan2(dy, dx) - pose[2], 2 * math.pi)
         speed = gains.kp_linear * math.hypot(dx, dy) * max(0.0, math.cos(error))
-        fastest = allowed[0] if allowed else CRUISE
+        fastest = allowed[0] if allowed else CRUISE_M_S
         return min(speed, fastest), gains.kp_angular * error

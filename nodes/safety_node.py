@@ -28,7 +28,7 @@ from sensor_msgs.msg import LaserScan
 TELEOP, NAVIGATION = "cmd_vel_teleop", "cmd_vel_nav"
 WATCH_PERIOD_S = 0.1
 """Seconds between two checks for commands and scans that are too old."""
-ZEROS = 10
+MAX_ZEROS = 10
 """Number of zero commands that are sent after the last source has expired."""
 NO_COMMAND = "no fresh command"
 NO_SCAN = "no fresh scan"
@@ -126,7 +126,7 @@ class SafetyMonitor(Node):
         self._zeros = 0 if driven else self._zeros + 1
         changed = (verdict.source, verdict.limited_by) != (self._verdict.source, self._verdict.limited_by)
         self._verdict = verdict
-        if self._zeros <= ZEROS:
+        if self._zeros <= MAX_ZEROS:
             self._command(verdict)
         if changed:
             self._report(verdict)

@@ -39,7 +39,7 @@ from std_msgs.msg import Bool, UInt32
 from std_srvs.srv import SetBool, Trigger
 from visualization_msgs.msg import MarkerArray
 
-CATCH_UP = 25
+MAX_CATCH_UP_STEPS = 25
 """Maximum number of steps made at once; any further lag is dropped, so that a stall is not followed by a burst."""
 MAX_STEPS_AHEAD = 5
 """Maximum number of steps until the next call of the timer: 50 ms, so that a collision is reported in time."""
@@ -246,10 +246,10 @@ class Simulator(Node):
         if self._paused:
             return
         due = (self._steady.now().nanoseconds - self._origin) // STEP_NS - self._done
-        if due > CATCH_UP:
-            self._report_lag((due - CATCH_UP) * STEP)
-            self._done += due - CATCH_UP
-            due = CATCH_UP
+        if due > MAX_CATCH_UP_STEPS:
+            self._report_lag((due - MAX_CATCH_UP_STEPS) * STEP)
+            self._done += due - MAX_CATCH_UP_STEPS
+            due = MAX_CATCH_UP_STEPS
         for _ in range(due):
             self._advance()
         self._done += due

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-MOVING = 0.05
+MOVING_M_S = 0.05
 """A speed in m/s above which the robot counts as driving."""
-STANDING = 0.02
+STANDING_M_S = 0.02
 """A speed in m/s below which it stands still."""
-GAP = 1.0
+MAX_GAP_S = 1.0
 """Gaps in odometry longer than this, in s, do not count as distance."""
 
 
@@ -24,12 +24,12 @@ class Trip:
         """Record a speed in m/s at a time in s."""
         if self._time is not None and time < self._time:
             self.distance, self.stops, self._driving = 0.0, 0, False
-        elif self._time is not None and time - self._time <= GAP:
+        elif self._time is not None and time - self._time <= MAX_GAP_S:
             self.distance += 0.5 * (abs(self.speed) + abs(speed)) * (time - self._time)
         self._time = time
         self.speed = speed
-        if self._driving and abs(speed) < STANDING:
+        if self._driving and abs(speed) < STANDING_M_S:
             self._driving = False
             self.stops += 1
-        elif abs(speed) > MOVING:
+        elif abs(speed) > MOVING_M_S:
             self._driving = True

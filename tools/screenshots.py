@@ -28,7 +28,7 @@ from textual.pilot import Pilot
 
 FOLDER = Path(__file__).resolve().parents[1] / "docs" / "images"
 LARGE, SMALL = (120, 40), (80, 24)
-DRIVING = 25.0
+DRIVE_S = 25.0
 """Seconds of driving before the first change, and again before the first picture."""
 BEGINNER = Path(tempfile.gettempdir()) / "beginner"
 """The home folder of a user without settings or history; its name is visible in the pictures."""
@@ -42,14 +42,14 @@ GENTLE = """# Gentle: near people
 /motion_controller:
   ros__parameters: {kp_angular: 50.0}
 """
-MEASURED = 8.0
+MEASURE_S = 8.0
 """Seconds to wait until the graph shows rates."""
-RESPONSE = 3.0
+RESPONSE_S = 3.0
 """Seconds of driving with each of two sets of values."""
 TIMEOUT_S = 30.0
 FONTS = "'DejaVu Sans Mono', 'Fira Code', Menlo, Consolas, monospace"
 FONT_FACE = re.compile(r"@font-face \{.*?\}", re.DOTALL)
-UNIQUE = re.compile(r"terminal-\d+-")
+CLASS_PREFIX = re.compile(r"terminal-\d+-")
 """The prefix that Rich puts before each class name, for pages that contain several pictures inline."""
 
 
@@ -119,7 +119,7 @@ class Photographer:
         """The screen as an SVG that uses the reader's fonts and loads none; its class names begin with `prefix`."""
         svg = self._session.app.export_screenshot(title="bot-console")
         svg = FONT_FACE.sub("", svg).replace("font-family: Fira Code, monospace", f"font-family: {FONTS}")
-        svg = UNIQUE.sub(prefix, svg)
+        svg = CLASS_PREFIX.sub(prefix, svg)
         return "\n".join(line.strip() for line in svg.splitlines() if line.strip()) + "\n"
 
     def take(self, name: str) -> None:
@@ -149,7 +149,7 @@ async def tune(at: Photographer) -> None:
     at.take("tuning-marked")
     for _ in range(2):
         await at.press("A", "y")
-        await at.drive(RESPONSE)
+        await at.drive(RESPONSE_S)
     await at.press("H", *["down"] * 2, "u")
     await at.drive(0.5)
     at.take("tuning-history")
@@ -162,13 +162,13 @@ async def tune(at: Photographer) -> None:
 async def take_all(at: Photographer) -> None:
     """Play the scenes."""
     await at.select("max_speed")
-    await at.drive(DRIVING)
+    await at.drive(DRIVE_S)
     await at.enter("1.6")
-    await at.drive(DRIVING)
+    await at.drive(DRIVE_S)
     await at.enter("10.0")
     at.take("overview")
     await at.press("3")
-    await at.drive(MEASURED)
+    await at.drive(MEASURE_S)
     at.take("graph")
     await at.resize(SMALL)
     await at.press("1")

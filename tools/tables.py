@@ -195,12 +195,12 @@ TABLES: dict[str, Callable[[], str]] = {
 }
 
 
-def filled(text: str) -> str:
+def fill_tables(text: str) -> str:
     """A document with its tables regenerated; raises `KeyError` for an unknown table."""
     return BLOCK.sub(lambda found: f"{found[1]}{TABLES[found[2]]()}{found[3]}", text)
 
 
-def named(text: str) -> list[str]:
+def table_names(text: str) -> list[str]:
     """The names of the tables in a document."""
     return [found[2] for found in BLOCK.finditer(text)]
 
@@ -228,7 +228,7 @@ def main() -> None:
         return
     for path in sorted(DOCS.glob("*.md")):
         old = path.read_text("utf-8")
-        new = filled(old)
+        new = fill_tables(old)
         if new != old:
             path.write_text(new, "utf-8")
             print(f"{path.relative_to(ROOT)} rewritten")

@@ -138,7 +138,7 @@ def _matches(case: str, patterns: Sequence[str], but: Sequence[str]) -> bool:
     return any(fnmatch(case, each) for each in patterns) and not any(fnmatch(case, each) for each in but)
 
 
-def differences() -> str:
+def difference_rows() -> str:
     """The rows of the second table."""
     lines = ""
     for row, cases in decisions():
@@ -147,7 +147,7 @@ def differences() -> str:
     return lines
 
 
-def newer() -> str:
+def newer_release_rows() -> str:
     """The rows of the table of newer releases."""
     rows = yaml.safe_load((Path(__file__).parent / "newer_releases.yaml").read_text("utf-8"))
     return "".join(f"| {row['release']} | {row['entry']} | {row['here']} | {row['how']} |\n" for row in rows)
@@ -159,7 +159,7 @@ def programs() -> str:
     return "".join(f"| `{name}` | {why} |\n" for name, why in rows.items())
 
 
-def kept() -> str:
+def kept_difference_rows() -> str:
     """The rows of the third table."""
     rows = yaml.safe_load((Path(__file__).parent / "kept_differences.yaml").read_text("utf-8"))
     return "".join(f"| {row['where']} | {row['here']} | {row['jazzy']} | {row['why']} |\n" for row in rows)
@@ -173,11 +173,11 @@ def page() -> str:
         HEAD
         + "".join(f"{row(each)}\n" for each in BY_FREQUENCY)
         + FOLLOWED
-        + newer()
+        + newer_release_rows()
         + COMPARED
-        + differences()
+        + difference_rows()
         + kept_head
-        + kept()
+        + kept_difference_rows()
     )
 
 

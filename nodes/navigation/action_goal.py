@@ -14,7 +14,7 @@ from rclpy.task import Future
 if TYPE_CHECKING:
     from rclpy.action.server import ServerGoalHandle
 
-FEEDBACK = 0.2
+FEEDBACK_PERIOD_S = 0.2
 """Interval between feedback messages, in s."""
 PREEMPTED = 1
 """Error code of a goal that was replaced by another one."""
@@ -73,7 +73,7 @@ async def run_goal(node: Node, goal: Goal, fill: Callable[[], None], message: An
         fill()
         goal.report(message)
 
-    timer = node.create_timer(FEEDBACK, report, clock=Clock(clock_type=ClockType.STEADY_TIME))
+    timer = node.create_timer(FEEDBACK_PERIOD_S, report, clock=Clock(clock_type=ClockType.STEADY_TIME))
     try:
         code = await goal.done
     finally:

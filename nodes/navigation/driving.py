@@ -13,9 +13,9 @@ Pose = tuple[float, float, float]
 Velocity = tuple[float, float]
 """Linear (m/s) and angular (rad/s) velocity."""
 
-CORNER_RADIUS = 0.25
+CORNER_RADIUS_M = 0.25
 """Distance (m) from a corner of the path at which the robot heads for the next one."""
-TURN_FIRST = 0.6
+TURN_FIRST_RAD = 0.6
 """Angle (rad) to the next point above which the robot turns in place first."""
 GAIN = 2.0
 """Turn rate per rad of error (1/s)."""
@@ -59,7 +59,7 @@ class PathFollower:
     def velocity(self, pose: Pose, ahead: float) -> Velocity | None:
         """Return the velocity at a pose with this much room ahead (m); None when the goal is reached."""
         limits = self._limits
-        while len(self.points) > 1 and math.dist(pose[:2], self.points[0]) < CORNER_RADIUS:
+        while len(self.points) > 1 and math.dist(pose[:2], self.points[0]) < CORNER_RADIUS_M:
             self.points.pop(0)
         if len(self.points) == 1 and math.dist(pose[:2], self.points[0]) < limits.place:
             self.points.clear()
@@ -68,7 +68,7 @@ class PathFollower:
             return None if abs(error) < limits.angle else turn_in_place(error, limits)
         x, y = self.points[0]
         error = heading_error(math.atan2(y - pose[1], x - pose[0]), pose[2])
-        if abs(error) > TURN_FIRST:
+        if abs(error) > TURN_FIRST_RAD:
             return turn_in_place(error, limits)
         speed = min(limits.speed, math.sqrt(0.8 * max(0.0, self.left(pose))), max(0.0, ahead - limits.room))
         return speed * math.cos(error), max(-limits.turn_rate, min(limits.turn_rate, GAIN * error))

@@ -10,11 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-OCCUPIED = 50
+OCCUPIED_PERCENT = 50
 """Occupancy in percent at and above which a cell is blocked; unknown cells (-1) are blocked too."""
-COARSE = 0.1
+PLANNING_CELL_M = 0.1
 """Cell size in m of the grid used for planning."""
-COMFORT_MARGIN = 0.3
+COMFORT_MARGIN_M = 0.3
 """Distance in m beyond the clearance within which a path costs more."""
 NEIGHBOURS = ((1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1))
 
@@ -40,10 +40,10 @@ class Planner:
 
     def __init__(self, grid: Grid, clearance: float) -> None:
         self._origin = grid.origin
-        self._step = max(COARSE, grid.resolution)
+        self._step = max(PLANNING_CELL_M, grid.resolution)
         taken = _coarse(grid, self._step)
         self._blocked = _grown(taken, clearance / self._step)
-        near = _grown(taken, (clearance + COMFORT_MARGIN) / self._step)
+        near = _grown(taken, (clearance + COMFORT_MARGIN_M) / self._step)
         self._cost: npt.NDArray[np.float64] = np.where(near, 3.0, 1.0)
 
     def plan(self, start: Point, goal: Point) -> list[Point]:
@@ -140,7 +140,7 @@ def _traced(came: dict[Cell, Cell], cell: Cell) -> list[Cell]:
 
 def _coarse(grid: Grid, step: float) -> npt.NDArray[np.bool_]:
     """Return which cells of size `step` are occupied."""
-    taken = (grid.cells >= OCCUPIED) | (grid.cells < 0)
+    taken = (grid.cells >= OCCUPIED_PERCENT) | (grid.cells < 0)
     rows, columns = (math.ceil(length * grid.resolution / step) for length in taken.shape)
     result = np.zeros((max(rows, 1), max(columns, 1)), np.bool_)
     found: npt.NDArray[np.intp] = np.argwhere(taken)

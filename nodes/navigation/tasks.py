@@ -16,9 +16,9 @@ from bot_console_robot.navigation.driving import (
     turn_in_place,
 )
 
-STUCK = 10.0
+STUCK_AFTER_S = 10.0
 """Seconds without progress after which a goal is aborted."""
-PROGRESS = 0.1
+MIN_PROGRESS = 0.1
 """Minimum distance (m) or angle (rad) that counts as progress."""
 FAILED_TO_MAKE_PROGRESS, COLLISION_AHEAD, TIMEOUT = 105, 714, 711
 """Error codes of Nav2."""
@@ -46,7 +46,7 @@ class Task:
         """Return the velocity for this step."""
         if self._mark is None or _moved(self._mark[1], seen.pose):
             self._mark = seen.time, seen.pose
-        if seen.time - self._mark[0] > STUCK:
+        if seen.time - self._mark[0] > STUCK_AFTER_S:
             return self.fail(FAILED_TO_MAKE_PROGRESS)
         wanted = self.wanted(seen)
         self.done = self.done or wanted is None
@@ -63,7 +63,7 @@ class Task:
 
 
 def _moved(before: Pose, after: Pose) -> bool:
-    return math.dist(before[:2], after[:2]) > PROGRESS or abs(heading_error(after[2], before[2])) > PROGRESS
+    return math.dist(before[:2], after[:2]) > MIN_PROGRESS or abs(heading_error(after[2], before[2])) > MIN_PROGRESS
 
 
 class FollowPath(Task):

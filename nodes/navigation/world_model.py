@@ -20,9 +20,9 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 from sensor_msgs.msg import LaserScan
 
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-CLEARANCE = 0.05
+CLEARANCE_M = 0.05
 """Distance in m to keep between the hull and obstacles, on paths and ahead."""
-CORRIDOR = 0.25
+CORRIDOR_M = 0.25
 """Half the width (m) of the area checked ahead and behind."""
 SCAN_TIMEOUT_S = 1.0
 """Seconds after which a scan is outdated and the robot stands still."""
@@ -51,7 +51,7 @@ class WorldModel:
         meta = message.info
         flat: Any = np.array(message.data, np.int8)
         cells: npt.NDArray[np.int8] = flat.reshape(meta.height, meta.width)
-        clearance = float(self._node.get_parameter("robot_radius").value) + CLEARANCE
+        clearance = float(self._node.get_parameter("robot_radius").value) + CLEARANCE_M
         origin = meta.origin.position.x, meta.origin.position.y
         self._planner = Planner(Grid(cells, meta.resolution, origin), clearance)
 
@@ -80,7 +80,7 @@ class WorldModel:
         angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
         usable = np.isfinite(ranges)
         along, aside = ranges[usable] * np.cos(angles[usable]), ranges[usable] * np.sin(angles[usable])
-        inside = np.abs(aside) < CORRIDOR
+        inside = np.abs(aside) < CORRIDOR_M
         ahead = float(np.min(along[inside & (along > 0)], initial=math.inf))
         behind = float(np.min(-along[inside & (along < 0)], initial=math.inf))
         self._scan = self._seconds(), ahead, behind
@@ -112,5 +112,5 @@ class WorldModel:
 
         return Limits(
             value("max_speed"), value("max_turn_rate"), value("xy_goal_tolerance"), value("yaw_goal_tolerance"),
-            value("robot_radius") + CLEARANCE,
+            value("robot_radius") + CLEARANCE_M,
         )  # fmt: skip

@@ -34,7 +34,7 @@ SERVICE = "service"
 """The key of stops requested by a service call, which does not identify its caller."""
 WATCH_PERIOD_S = 0.1
 """Seconds between two checks whether a requester or a node has fallen silent."""
-GONE = 3
+GONE_AFTER_CHECKS = 3
 """Checks without the arbiter after which the base locks; more than one, since all nodes of a system end together."""
 REPORT_POLLS = 10
 """Checks between two reports of an unchanged state; a replayed report can pass for the state no longer than that."""
@@ -177,7 +177,7 @@ class EmergencyStop:
             self._publish()
         if self._other == ARBITER and self._other_instances:
             self._gone = 0 if self._others else self._gone + 1
-            if self._gone == GONE:
+            if self._gone == GONE_AFTER_CHECKS:
                 self.stop(self._node.get_name(), "the safety monitor has gone")
 
     def _settle(self, changed: bool) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-TOUCH = 0.003
+TOUCH_M = 0.003
 """A gap in m below which the robot touches; pymunk lets bodies overlap by about 1 mm."""
 SAME_COLLISION_S = 0.5
 """Seconds without contact after which the next contact is a new collision."""
@@ -32,7 +32,7 @@ class CollisionLog:
 
     def update(self, time: float, gap: float, x: float, y: float, speed: float, what: str) -> bool:
         """Record the gap in m at a time in s; returns whether a new collision began."""
-        self.touching = gap < TOUCH
+        self.touching = gap < TOUCH_M
         if not self.touching:
             return False
         began = time - self._last_touch >= SAME_COLLISION_S

@@ -7,20 +7,20 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from bot_console_robot.simulation.arrays import Floats, table
-from bot_console_robot.simulation.collisions import TOUCH, CollisionLog
+from bot_console_robot.simulation.collisions import TOUCH_M, CollisionLog
 from bot_console_robot.simulation.figures.metrics import Metrics
 from bot_console_robot.simulation.geometry import TURN, Pose
 from bot_console_robot.simulation.lidar import Lidar, LidarSettings, Scan, Surfaces
 from bot_console_robot.simulation.moving_obstacles import MovingObstacle
 from bot_console_robot.simulation.odometry import Odometry, OdometryNoise
 from bot_console_robot.simulation.robot import DifferentialDrive, DriveLimits
-from bot_console_robot.simulation.space import FAR, Space
+from bot_console_robot.simulation.space import FAR_M, Space
 from bot_console_robot.simulation.world import World, WorldError, inside, populate
 
 STEP = 0.01
 """The constant physics step in s. Elapsed wall time determines how many steps are made, never how long they are."""
 STEP_NS = 10_000_000
-SLACK = 1e-9
+SLACK_M = 1e-9
 """Possible rounding error in m of a gap that is computed from an earlier one."""
 
 
@@ -105,13 +105,13 @@ class Simulation:
         # The gap shrinks at most by the distances driven, so most steps need no search of the surroundings: only those
         # in which a contact or a new minimum is possible.
         self._least_gap = gap = self._least_gap - (math.hypot(dx, dy) + self._movers_way)
-        return (gap < TOUCH or gap < metrics.min_clearance) and self._scan_surroundings()
+        return (gap < TOUCH_M or gap < metrics.min_clearance) and self._scan_surroundings()
 
     def _scan_surroundings(self) -> bool:
         """Measure the gap to the nearest obstacle; returns whether a collision began."""
         x, y, _ = self.pose
         gap, what = self._space.nearest(x, y)
-        self._least_gap = min(gap, FAR - self.drive.limits.radius) - SLACK
+        self._least_gap = min(gap, FAR_M - self.drive.limits.radius) - SLACK_M
         self.metrics.pass_by(max(0.0, gap))
         return self.collisions.update(self.steps * STEP, gap, x, y, self.speed, what)
 

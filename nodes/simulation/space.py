@@ -17,9 +17,9 @@ from bot_console_robot.simulation.world import World
 OBSTACLE = pymunk.ShapeFilter(categories=0b01)
 ROBOT = pymunk.ShapeFilter(categories=0b10)
 OBSTACLES_ONLY = pymunk.ShapeFilter(mask=0b01)
-FAR = 5.0
+FAR_M = 5.0
 """Distance in m beyond which obstacles are not searched for."""
-NEAR = 0.25
+NEAR_M = 0.25
 """Margin (m) added to the last distance for the first search; nothing farther away can come near within one step."""
 MASS_KG = 10.0
 SLOP_M = 0.001
@@ -40,7 +40,7 @@ class Space:
         self._pointer = pointer(self._space)
         self._kinds: dict[Any, str] = {}
         self._radius = radius
-        self._reach = FAR
+        self._reach = FAR_M
         self._place, self._found = ffi.new("cpVect *"), ffi.new("cpPointQueryInfo *")
         self._obstacles = ffi.new("cpShapeFilter *", tuple(OBSTACLES_ONLY))
         self._add_still(world)
@@ -106,13 +106,13 @@ class Space:
         """Return the gap (m) between a robot at a position and the nearest obstacle, negative inside, and its kind."""
         # If there is an obstacle within a short reach, it is the nearest overall, and few shapes have to be checked.
         found = self._find(x, y, self._reach)
-        if not found and self._reach < FAR:
-            found = self._find(x, y, FAR)
+        if not found and self._reach < FAR_M:
+            found = self._find(x, y, FAR_M)
         if not found:
-            self._reach = FAR
+            self._reach = FAR_M
             return math.inf, ""
         distance: float = self._found.distance
-        self._reach = min(FAR, max(0.0, distance) + NEAR)
+        self._reach = min(FAR_M, max(0.0, distance) + NEAR_M)
         return distance - self._radius, self._kinds[found]
 
     def _find(self, x: float, y: float, reach: float) -> Any:

@@ -11,7 +11,7 @@ import numpy as np
 from bot_console_robot.simulation.arrays import Floats, table
 from bot_console_robot.simulation.geometry import Block, Disc, Mover, Point, Pose, Wall, closed
 
-TRIES = 400
+MAX_TRIES = 400
 """Random positions tried for each scattered disc before it is omitted."""
 
 
@@ -69,7 +69,7 @@ def populate(world: World, rng: np.random.Generator) -> World:
 def _place(
     world: World, scatter: Scatter, edges: Floats, discs: Sequence[Disc], rng: np.random.Generator
 ) -> Disc | None:
-    for _ in range(TRIES):
+    for _ in range(MAX_TRIES):
         radius = float(rng.uniform(*scatter.radius))
         margin = radius + scatter.gap
         x = float(rng.uniform(margin, world.size[0] - margin))

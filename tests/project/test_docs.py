@@ -42,7 +42,7 @@ def anchors(path):
 
 @named
 def test_tables_match_the_code(path):
-    assert tables.filled(text_of(path)) == text_of(path), "run: python tools/tables.py"
+    assert tables.fill_tables(text_of(path)) == text_of(path), "run: python tools/tables.py"
 
 
 def test_manual_page_matches_the_options_and_commands():
@@ -50,14 +50,14 @@ def test_manual_page_matches_the_options_and_commands():
 
 
 def test_every_table_is_in_a_document():
-    assert {name for path in DOCUMENTS for name in tables.named(text_of(path))} == set(tables.TABLES)
+    assert {name for path in DOCUMENTS for name in tables.table_names(text_of(path))} == set(tables.TABLES)
 
 
 def test_changed_value_is_noticed():
     path = ROOT / "docs" / "parameters.md"
     wrong = text_of(path).replace("0.1 to 5 |", "0.1 to 6 |")
     assert wrong != text_of(path)
-    assert tables.filled(wrong) == text_of(path)
+    assert tables.fill_tables(wrong) == text_of(path)
 
 
 @named

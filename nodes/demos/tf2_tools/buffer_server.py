@@ -24,7 +24,7 @@ from tf2_ros import (
     TransformListener,
 )
 
-CHECK = 0.01
+CHECK_PERIOD_S = 0.01
 """Interval, in s, at which pending goals are checked."""
 ERRORS: dict[type[TransformException], int] = {
     LookupException: TF2Error.LOOKUP_ERROR,
@@ -54,7 +54,7 @@ class BufferServer(Node):
             handle_accepted_callback=self._accepted,
             cancel_callback=_accept,
         )
-        self.create_timer(CHECK, self._check, clock=self._steady)
+        self.create_timer(CHECK_PERIOD_S, self._check, clock=self._steady)
 
     def _accepted(self, goal: Any) -> None:
         timeout_ns = Duration.from_msg(goal.request.timeout).nanoseconds

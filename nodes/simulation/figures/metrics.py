@@ -6,9 +6,9 @@ import math
 
 from bot_console_robot.simulation.figures.digest import VERSION, PoseDigest
 
-MOVING = 0.05
+MOVING_M_S = 0.05
 """A speed in m/s above which the robot counts as driving."""
-STANDING = 0.02
+STANDING_M_S = 0.02
 """A speed in m/s below which it stands still; turning in place counts as standing."""
 
 
@@ -32,9 +32,9 @@ class Metrics:
         self._digest.add(x, y, heading)
         speed = abs(speed)
         self.distance += speed * self._dt
-        if speed >= STANDING:
+        if speed >= STANDING_M_S:
             self._standing_since = self.steps
-            if speed > MOVING:
+            if speed > MOVING_M_S:
                 self._driving = True
             return
         if self._driving:

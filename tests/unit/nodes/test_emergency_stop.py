@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import pytest
 from bot_console.runtime.rmw.local import LocalBus
-from bot_console_robot.safety.emergency_stop import ARBITER, BASE, GONE, EmergencyStop
+from bot_console_robot.safety.emergency_stop import ARBITER, BASE, GONE_AFTER_CHECKS, EmergencyStop
 from domains import unused_domain
 from rclpy.clock import Clock, ClockType
 from rclpy.context import Context
@@ -52,11 +52,11 @@ def rig() -> Iterator[Rig]:
 
 def test_base_locks_some_checks_after_its_monitor_has_gone(rig: Rig) -> None:
     assert not rig.settle().lock.held
-    assert not rig.settle(polls=2 * GONE).lock.held
+    assert not rig.settle(polls=2 * GONE_AFTER_CHECKS).lock.held
     rig.executor.remove_node(rig.monitor)
     rig.monitor.destroy_node()
-    assert not rig.settle(polls=GONE - 1).lock.held
-    rig.settle(polls=GONE)
+    assert not rig.settle(polls=GONE_AFTER_CHECKS - 1).lock.held
+    rig.settle(polls=GONE_AFTER_CHECKS)
     assert rig.stops[0].lock.reason == "the safety monitor has gone"
 
 
@@ -66,6 +66,6 @@ def test_lock_does_not_follow_the_graph(rig: Rig, monkeypatch: pytest.MonkeyPatc
 
     rig.settle()
     monkeypatch.setattr(LocalBus, "tables", never)
-    rig.settle(polls=GONE)
+    rig.settle(polls=GONE_AFTER_CHECKS)
     rig.stops[0].stop("somebody", "a test")
-    assert rig.settle(polls=GONE).lock.held
+    assert rig.settle(polls=GONE_AFTER_CHECKS).lock.held

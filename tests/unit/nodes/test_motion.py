@@ -2,7 +2,7 @@ import itertools
 import math
 
 import pytest
-from bot_console_robot.motion import CRUISE, DETOUR, Gains, VelocityController, WaypointFollower
+from bot_console_robot.motion import CRUISE_M_S, DETOUR_S, Gains, VelocityController, WaypointFollower
 
 GAINS = Gains(3.0, 6.0, 1.0)
 
@@ -82,7 +82,7 @@ def test_loop_starts_again_at_the_first_waypoint() -> None:
 def test_speed_stays_within_its_limit() -> None:
     follower = WaypointFollower()
     follower.follow([(5.0, 0.0)])
-    assert follower.steer((0, 0, 0), None, 0.05, GAINS)[0] == CRUISE
+    assert follower.steer((0, 0, 0), None, 0.05, GAINS)[0] == CRUISE_M_S
     assert follower.steer((0, 0, 0), (0.2, 0.0), 0.05, GAINS)[0] == 0.2
     assert follower.steer((4.9, 0, 0), (2.0, 0.0), 0.05, GAINS)[0] == pytest.approx(0.3)
 
@@ -92,5 +92,5 @@ def test_blocked_way_is_left_to_the_navigator_for_a_while() -> None:
     follower.follow([(5.0, 0.0)])
     assert follower.steer((0, 0, 0), (0.0, 1.0), 0.05, GAINS) == (0.0, 1.0)
     assert follower.steer((0, 0, 0), (0.6, 0.3), 0.05, GAINS) == (0.6, 0.3)
-    follower.steer((0, 0, 0), (0.6, 0.3), DETOUR, GAINS)
+    follower.steer((0, 0, 0), (0.6, 0.3), DETOUR_S, GAINS)
     assert follower.steer((0, 0, 0), (0.6, 0.3), 0.05, GAINS) == (0.6, 0.0)

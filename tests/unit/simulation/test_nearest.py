@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
-from bot_console_robot.simulation.collisions import TOUCH
+from bot_console_robot.simulation.collisions import TOUCH_M
 from bot_console_robot.simulation.geometry import Pose
 from bot_console_robot.simulation.simulation import Simulation
 from bot_console_robot.simulation.space import Space
@@ -53,4 +53,4 @@ def test_minimum_clearance_of_a_run_covers_every_step(speed: float) -> None:
         simulation.step()
         rooms.append(simulation.clearance)
         assert simulation.metrics.min_clearance == min(rooms)
-        assert simulation.collisions.touching == (rooms[-1] < TOUCH)
+        assert simulation.collisions.touching == (rooms[-1] < TOUCH_M)

@@ -53,7 +53,7 @@ def record(given: argparse.Namespace) -> int:
     recorder = _recorder(given, node, bag or ring)
     try:
         _serve(given, node, recorder, bag, ring)
-    finally:  # Also if a Ctrl-C came before there was anything to spin.
+    finally:  # even if Ctrl-C came before there was anything to spin
         recorder.close()
         if bag is not None:
             bag.close()
