@@ -11,7 +11,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, Any
 
 from bot_console.runtime.process import current
-from bot_console.runtime.rmw.endpoints import HeldMessage, SubscriptionEndpoint, own
+from bot_console.runtime.rmw.endpoints import HeldMessage, SubscriptionEndpoint, take_queued
 from rclpy._rclpy_pybind11 import RCLError
 from rclpy.impl.callables import accepts_arguments, is_coroutine_function
 from rclpy.impl.callback_order import SUBSCRIPTION
@@ -184,7 +184,7 @@ class Subscription(Entity):
         while self._queue:
             message, stamp, received, number, expires = self._queue.popleft()
             if expires is None or current().clock.system_ns() <= expires:
-                taken = own(message)
+                taken = take_queued(message)
                 if taken is not None:
                     return taken, _info(stamp, received, number)
         return None
@@ -199,7 +199,7 @@ class Subscription(Entity):
             self.notify()  # in a reentrant group the next callback may begin before this one has ended
         if expires is not None and current().clock.system_ns() > expires:
             return None
-        if isinstance(message, HeldMessage):  # inlined from `own`, to save a call per message
+        if isinstance(message, HeldMessage):  # inlined from `take_queued`, to save a call per message
             message = message.take()
             if message is None:
                 return None

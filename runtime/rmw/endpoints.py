@@ -91,7 +91,7 @@ class SharedMessage(HeldMessage):
         return self._message
 
 
-def own(message: Payload) -> Payload | None:
+def take_queued(message: Payload) -> Payload | None:
     """Take a queued message; None if it cannot be read, which has then been reported."""
     return message.take() if isinstance(message, HeldMessage) else message
 
@@ -176,7 +176,7 @@ class Endpoint:
 class SubscriptionEndpoint:
     """Receives messages: `queue` holds entries (message, sent ns, received ns, sequence number, expiry ns).
 
-    The message may be `HeldMessage`; `own` takes it.
+    The message may be `HeldMessage`; `take_queued` takes it.
     """
 
     def __init__(

@@ -25,48 +25,47 @@ class Entities(Generic[T]):
         """`what` is the name of the field that holds an entity's topic or service."""
         self._what = what
         self._lock = lock
-        # By name and by node, in order of arrival.
-        self._named: dict[str, dict[T, None]] = {}
-        self._owned: dict[Owner, dict[T, None]] = {}
-        self._kinds: dict[tuple[str, str], dict[T, None]] = {}
-        """By name and type."""
+        # Each in order of arrival.
+        self._by_name: dict[str, dict[T, None]] = {}
+        self._by_owner: dict[Owner, dict[T, None]] = {}
+        self._by_name_and_type: dict[tuple[str, str], dict[T, None]] = {}
 
     def add(self, entity: T) -> None:
         """Add an entity; does nothing if it is already there."""
         name, kind = getattr(entity, self._what), entity.type_name
         with self._lock:
-            _put(self._named, name, entity)
-            _put(self._owned, entity.node.owner, entity)
-            _put(self._kinds, (name, kind), entity)
+            _put(self._by_name, name, entity)
+            _put(self._by_owner, entity.node.owner, entity)
+            _put(self._by_name_and_type, (name, kind), entity)
 
     def remove(self, entity: T) -> None:
         """Remove an entity; does nothing if it is not there."""
         name, kind = getattr(entity, self._what), entity.type_name
         with self._lock:
-            _drop(self._named, name, entity)
-            _drop(self._owned, entity.node.owner, entity)
-            _drop(self._kinds, (name, kind), entity)
+            _drop(self._by_name, name, entity)
+            _drop(self._by_owner, entity.node.owner, entity)
+            _drop(self._by_name_and_type, (name, kind), entity)
 
     def on(self, name: str) -> Sequence[T]:
         """Return the entities of a topic or service."""
         with self._lock:
-            return [*self._named.get(name, {}).copy()]
+            return [*self._by_name.get(name, {}).copy()]
 
     def of(self, owner: Owner) -> Iterable[tuple[str, str]]:
         """Return the names and types of a node's entities."""
         with self._lock:
-            owned = self._owned.get(owner, {}).copy()
+            owned = self._by_owner.get(owner, {}).copy()
         return [(getattr(each, self._what), each.type_name) for each in owned]
 
     def pairs(self) -> Iterable[tuple[str, str]]:
         """Return all distinct pairs of a name and a type."""
         with self._lock:
-            return [*self._kinds.copy()]
+            return [*self._by_name_and_type.copy()]
 
     def all(self) -> Sequence[T]:
         """Return all entities, grouped by name."""
         with self._lock:
-            named = self._named.copy()
+            named = self._by_name.copy()
         return [each for row in named.values() for each in row.copy()]
 
 

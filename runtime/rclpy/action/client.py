@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from action_msgs.msg import GoalStatus as GoalStatus  # programs import it from this module
 from action_msgs.srv import CancelGoal
-from bot_console.runtime.rmw.endpoints import own
+from bot_console.runtime.rmw.endpoints import take_queued
 from rclpy.action.client_goal_handle import ClientGoalHandle
 from rclpy.action.endpoints import ClientEndpoints, action_names
 from rclpy.action.entity import ActionEntity, call, take
@@ -92,7 +92,7 @@ class ActionClient(ActionEntity):
         status: Arrival | None,
     ) -> None:
         handle = None if goal is None else self._goal_handle(*goal)
-        statuses = None if status is None else own(status[0])
+        statuses = None if status is None else take_queued(status[0])
         if statuses is not None:
             self._receive_status(statuses)  # before the goal's future is settled: another thread may run its callback
         if goal is not None and handle is not None:
@@ -105,7 +105,7 @@ class ActionClient(ActionEntity):
             self._settle(self._results, "result", *result)
 
     async def _receive_feedback(self, entry: Arrival | None) -> None:
-        message = None if entry is None else own(entry[0])
+        message = None if entry is None else take_queued(entry[0])
         callback = None if message is None else self._feedback_callbacks.get(bytes(message.goal_id.uuid))
         if callback is not None:
             await call(callback, message)

@@ -73,7 +73,7 @@ class ZenohBus:
         self._own: set[bytes] = set()
         self._watches = Watches(session)
         self._sender = Sender()
-        self._whole: WholeGraph | None = None
+        self._whole_graph: WholeGraph | None = None
         self._whole_lock = threading.Lock()
         session.on_rejoin = self._send_again
 
@@ -249,9 +249,9 @@ class ZenohBus:
     def _graph(self) -> WholeGraph:
         """Return the graph of the other processes; the first call starts watching it."""
         with self._whole_lock:
-            if self._whole is None:
-                self._whole = WholeGraph(self._session, self._local.changed, self._watches.known)
-            return self._whole
+            if self._whole_graph is None:
+                self._whole_graph = WholeGraph(self._session, self._local.changed, self._watches.known)
+            return self._whole_graph
 
     def tables(self) -> Sequence[GraphTables]:
         """Return the graph tables of this process and of the other processes."""

@@ -144,53 +144,53 @@ class TokenWatch(Declaration):
     def __init__(self, session: DeclarationOwner, declare: Declare, seen: TokenCallback) -> None:
         super().__init__(session, declare)
         self._seen = seen
-        self._is_asked = False
-        self._gone: set[str] = set()
+        self._is_querying = False
+        self._gone_since_query: set[str] = set()
         self._lock = threading.RLock()
-        self._there: set[str] = set()
-        self._not_again: set[str] = set()
+        self._existing: set[str] = set()
+        self._unconfirmed: set[str] = set()
 
     def on_token(self, key: str, came: bool) -> None:
         """Report that a token appeared or disappeared, with the lock held to keep the order of reports."""
         with self._lock:
-            self._not_again.discard(key)
+            self._unconfirmed.discard(key)
             if came:
-                self._there.add(key)
-                self._gone.discard(key)
+                self._existing.add(key)
+                self._gone_since_query.discard(key)
             else:
-                self._there.discard(key)
-                if self._is_asked:
-                    self._gone.add(key)
+                self._existing.discard(key)
+                if self._is_querying:
+                    self._gone_since_query.add(key)
             self._seen(key, came)
 
     def begin_query(self) -> None:
         """Begin a query for the existing tokens: record those that disappear from now on; no reply may restore them."""
-        self._is_asked = True
+        self._is_querying = True
 
     def add_existing(self, keys: Iterable[str]) -> None:
         """Handle a reply: report its tokens as existing, except those that have disappeared since the query."""
         for key in keys:
             with self._lock:
-                if key not in self._gone:
-                    self._not_again.discard(key)
-                    self._there.add(key)
+                if key not in self._gone_since_query:
+                    self._unconfirmed.discard(key)
+                    self._existing.add(key)
                     self._seen(key, True)
 
     def end_query(self) -> None:
         """End the query: all replies have arrived."""
         with self._lock:
-            self._is_asked = False
-            self._gone.clear()
+            self._is_querying = False
+            self._gone_since_query.clear()
 
     def on_links_lost(self) -> None:
         """Expect each token to appear again, as the links were cut."""
         with self._lock:
-            self._not_again = set(self._there)
+            self._unconfirmed = set(self._existing)
 
     def on_links_restored(self) -> None:
         """Report the tokens that have not appeared again as gone, as the new links are up."""
         with self._lock:
-            for key in tuple(self._not_again):
+            for key in tuple(self._unconfirmed):
                 self.on_token(key, False)
 
 

@@ -46,11 +46,11 @@ class LinkProbe:
     def __init__(self, ask: Ask, to: str, clock: Callable[[], float] = time.monotonic) -> None:
         self._ask = ask
         self._clock = clock
-        self._open: list[tuple[float, Answer]] = []
+        self._unanswered: list[tuple[float, Answer]] = []
         """Unanswered pings and when they were sent; the oldest first."""
         now = clock()
-        self._asked = now - PING_PERIOD_S
-        self._came = self._believed = now
+        self._last_ping = now - PING_PERIOD_S
+        self._last_answer = self._trusted_since = now
         """When the last answer came, and from which time of sending on a ping's answer is trusted."""
         self.state = LinkState(to, now)  # the link has just been opened
         self._ended = threading.Event()
@@ -71,29 +71,29 @@ class LinkProbe:
         with contextlib.suppress(RuntimeError):  # the session is being closed
             self._ask_if_due()
             self._take_answers()
-        since = self._clock() - self._asked
-        if not self._open:
+        since = self._clock() - self._last_ping
+        if not self._unanswered:
             return max(FIRST_PING_S, PING_PERIOD_S - since)
         return FIRST_PING_S if since < PING_POLL_S else PING_POLL_S
 
     def _ask_if_due(self) -> None:
-        if self._clock() - self._asked >= PING_PERIOD_S:
-            self._asked = self._clock()
-            self._open.append((self._asked, self._ask(PING_TIMEOUT_S)))
+        if self._clock() - self._last_ping >= PING_PERIOD_S:
+            self._last_ping = self._clock()
+            self._unanswered.append((self._last_ping, self._ask(PING_TIMEOUT_S)))
 
     def _take_answers(self) -> None:
-        for asked, answer in [*self._open]:
+        for asked, answer in [*self._unanswered]:
             answered = answer()
             if answered is not None:
-                self._open.remove((asked, answer))
+                self._unanswered.remove((asked, answer))
             if answered:
-                self._take(asked)
+                self._accept(asked)
 
-    def _take(self, asked: float) -> None:
+    def _accept(self, asked: float) -> None:
         """Accept an answer, unless its ping was pending during a long silence."""
         now = self._clock()
-        if now - self._came > DISTRUST_AFTER_S:
-            self._believed = now
-        self._came = now
-        if asked >= self._believed:
+        if now - self._last_answer > DISTRUST_AFTER_S:
+            self._trusted_since = now
+        self._last_answer = now
+        if asked >= self._trusted_since:
             self.state = replace(self.state, heard=now, delay=now - asked)

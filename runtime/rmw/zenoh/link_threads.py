@@ -41,7 +41,7 @@ class LinkWaker:
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._wake = wake
-        self._made, self._has_ended = threading.Event(), False
+        self._has_new_link, self._has_ended = threading.Event(), False
         thread = threading.Thread(target=self._run, name="zenoh-links", daemon=True)
         thread.pydev_do_not_trace = True  # pyright: ignore[reportAttributeAccessIssue] -- debugpy must not stop it
         thread.start()
@@ -49,14 +49,14 @@ class LinkWaker:
     def link_changed(self, zid: str, there: bool) -> None:
         """A link is being made (True) or was lost; called on one of Zenoh's threads."""
         if there:
-            self._made.set()
+            self._has_new_link.set()
 
     def end(self) -> None:
         """Stop the thread."""
         self._has_ended = True
-        self._made.set()
+        self._has_new_link.set()
 
     def _run(self) -> None:
-        while self._made.wait() and not self._has_ended:
-            self._made.clear()
+        while self._has_new_link.wait() and not self._has_ended:
+            self._has_new_link.clear()
             self._wake()

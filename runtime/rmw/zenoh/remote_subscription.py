@@ -72,8 +72,8 @@ class RemoteSubscription:
         """`own` holds the ids of this process's publishers, whose messages are passed as objects."""
         self._subscription = subscription
         self._raw = subscription.raw
-        self._counted = subscription.endpoint.topic in BLOCKING_TOPICS
-        self._opened = 0
+        self._counts_overruns = subscription.endpoint.topic in BLOCKING_TOPICS
+        self._opened_ns = 0
         """Start of reception (system time, ns); of the messages sent before it, only as many come as fit into the
         queue.
         """
@@ -86,17 +86,17 @@ class RemoteSubscription:
         self._session = session
         self._declared: Declaration | None = None
         qos = subscription.endpoint.qos
-        self._latched = qos.durability.name in ("TRANSIENT_LOCAL", "BEST_AVAILABLE")
+        self._wants_history = qos.durability.name in ("TRANSIENT_LOCAL", "BEST_AVAILABLE")
 
     def open(self) -> None:
         """Start receiving."""
-        self._opened = time.time_ns()
+        self._opened_ns = time.time_ns()
         qos = self._subscription.endpoint.qos
-        history = (depth(qos) or KEEP_ALL_DEPTH) if self._latched else None
+        history = (depth(qos) or KEEP_ALL_DEPTH) if self._wants_history else None
         reliable = qos.reliability.name != "BEST_EFFORT"
-        self._declared = self._session.declare_subscriber(self._key, self.received, reliable=reliable, history=history)
+        self._declared = self._session.declare_subscriber(self._key, self.on_sample, reliable=reliable, history=history)
 
-    def received(self, payload: bytes, attachment: bytes | None) -> None:
+    def on_sample(self, payload: bytes, attachment: bytes | None) -> None:
         """Handle a message, on one of Zenoh's threads."""
         subscription = self._subscription
         try:
@@ -109,7 +109,7 @@ class RemoteSubscription:
                 # Its first message can arrive before its token.
                 publisher = self._publishers[gid] = RemotePublisher()
             # A latched message can arrive twice: when it is published, and from the publisher's cache.
-            if not publisher.fits or (self._latched and number <= publisher.number):
+            if not publisher.fits or (self._wants_history and number <= publisher.number):
                 return
             if publisher.number and number > publisher.number + 1:
                 self._lost(number - publisher.number - 1)
@@ -120,7 +120,7 @@ class RemoteSubscription:
         message = payload if self._raw else ReceivedPayload(self, payload)
         expires = None if publisher.lifespan is None else stamp + publisher.lifespan
         queue = subscription.queue
-        if self._counted and stamp >= self._opened and len(queue) == queue.maxlen:
+        if self._counts_overruns and stamp >= self._opened_ns and len(queue) == queue.maxlen:
             self._overrun()
         queue.append((message, stamp, time.time_ns(), number, expires))
         subscription.notify()

@@ -40,14 +40,14 @@ class Sender:
         """Always held, except for the moment when the waiting thread is woken."""
         self._wake.acquire()
         self._queue: deque[tuple[Publisher, bytes, bytes]] = deque()
-        self._taken = 0
-        self._begun = 0
+        self._accepted_bytes = 0
+        self._dequeued_bytes = 0
         """Bytes accepted into the queue, and those of them no longer waiting; only one side writes each counter."""
-        self._emptied = threading.Event()
-        self._emptied.set()
+        self._empty = threading.Event()
+        self._empty.set()
         """Set by the thread when the queue is empty, cleared by whoever waits for that."""
-        self._late: int | None = None
-        """Value of `_begun` when a publisher last waited in vain for the queue to be sent."""
+        self._last_futile_wait: int | None = None
+        """Value of `_dequeued_bytes` when a publisher last waited in vain for the queue to be sent."""
         self._waits = False
         self._ended = False
         self._thread: threading.Thread | None = None
@@ -57,19 +57,19 @@ class Sender:
         """Queue a message; returns False if there is no room, which is reported once per topic."""
         queue = self._queue
         with self._lock:
-            waiting = self._taken - self._begun
+            waiting = self._accepted_bytes - self._dequeued_bytes
             if waiting and waiting + len(payload) > MAX_QUEUED_BYTES:
                 fits = False
             else:
                 fits = True
                 queue.append((publisher, payload, attachment))
-                self._taken += len(payload)
+                self._accepted_bytes += len(payload)
                 if self._waits or self._thread is None:
                     self._start()
-                waiting = self._taken - self._begun
+                waiting = self._accepted_bytes - self._dequeued_bytes
         if fits:
             if len(queue) >= BURST_MESSAGES or waiting >= BURST_BYTES:
-                self._let_send(waiting)
+                self._yield_to_thread(waiting)
         else:
             notify(
                 self._process,
@@ -78,10 +78,12 @@ class Sender:
             )
         return fits
 
-    def _let_send(self, waiting: int) -> None:
+    def _yield_to_thread(self, waiting: int) -> None:
         """Give the thread time to send the whole queue (`waiting` bytes), unless the last wait was in vain."""
-        if self._late is None or (waiting > MAX_QUEUED_BYTES // 2 and self._begun != self._late):
-            self._late = None if self._is_emptied(YIELD_TIMEOUT_S) else self._begun
+        if self._last_futile_wait is None or (
+            waiting > MAX_QUEUED_BYTES // 2 and self._dequeued_bytes != self._last_futile_wait
+        ):
+            self._last_futile_wait = None if self._wait_until_empty(YIELD_TIMEOUT_S) else self._dequeued_bytes
 
     def _start(self) -> None:
         """Wake or start the thread, since the queue is no longer empty; call with the lock held."""
@@ -92,13 +94,13 @@ class Sender:
             self._thread = threading.Thread(target=self._run, name="zenoh-sender", daemon=True)
             self._thread.start()
 
-    def _is_emptied(self, timeout_s: float) -> bool:
+    def _wait_until_empty(self, timeout_s: float) -> bool:
         """Wait until the queue is sent, at most `timeout_s`; return whether it was."""
         with self._lock:
             if not self._queue:
                 return True
-            self._emptied.clear()
-        return self._emptied.wait(timeout_s)
+            self._empty.clear()
+        return self._empty.wait(timeout_s)
 
     def undeclare(self, publisher: Publisher) -> None:
         """Undeclare a publisher once all its messages have been sent."""
@@ -114,7 +116,7 @@ class Sender:
         queue = self._queue
         while queue or self._has_more():
             publisher, payload, attachment = queue[0]
-            self._begun += len(payload)
+            self._dequeued_bytes += len(payload)
             if attachment:
                 publisher.put_surely(payload, attachment)
             else:
@@ -127,8 +129,8 @@ class Sender:
             with self._lock:
                 if self._queue:
                     return True
-                self._late = None
-                self._emptied.set()
+                self._last_futile_wait = None
+                self._empty.set()
                 if self._ended:
                     return False
                 self._waits = True
@@ -140,4 +142,4 @@ class Sender:
             self._ended = True
             if self._waits:
                 self._start()
-        return self._is_emptied(timeout_s)
+        return self._wait_until_empty(timeout_s)

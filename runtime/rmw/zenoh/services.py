@@ -98,7 +98,7 @@ class RequestSender:
         self._process = current()
         self._clock = current().clock
         self._querier: Querier | None = None
-        self._unasked: deque[tuple[int, Any]] = deque(maxlen=MAX_PENDING)
+        self._held_back: deque[tuple[int, Any]] = deque(maxlen=MAX_PENDING)
         self._servers: Counter[str] = Counter()
         """The number of servers in each session that has one."""
 
@@ -128,7 +128,7 @@ class RequestSender:
     def request(self, number: int, request: Any) -> None:
         """Send a request to the servers in other processes, if any; held back while the session is reopening."""
         if not self._ask(number, request):
-            self._unasked.append((number, request))
+            self._held_back.append((number, request))
             if self._session.settled.is_set():  # the session has just been reopened
                 self.send_again()
 
@@ -139,20 +139,20 @@ class RequestSender:
             self._querier = self._session.declare_querier(self._key, timeout)
         payload = serialize(request)
         attachment = pack(number, self._clock.system_ns(), self._client.gid, payload)
-        return self._querier.get(payload, attachment, self._replied)
+        return self._querier.get(payload, attachment, self._on_reply)
 
     def send_again(self) -> None:
         """Send the requests held back while the session was being reopened."""
-        for _ in range(len(self._unasked)):
+        for _ in range(len(self._held_back)):
             try:
-                waiting = self._unasked.popleft()
+                waiting = self._held_back.popleft()
             except IndexError:  # another thread is doing the same
                 return
             if not self._ask(*waiting):
-                self._unasked.appendleft(waiting)
+                self._held_back.appendleft(waiting)
                 return
 
-    def _replied(self, payload: bytes, attachment: bytes | None) -> None:
+    def _on_reply(self, payload: bytes, attachment: bytes | None) -> None:
         """Handle a response, on one of Zenoh's threads."""
         client = self._client
         try:

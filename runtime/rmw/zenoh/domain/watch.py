@@ -90,13 +90,13 @@ class Watch:
         self._folder_state: tuple[int, int] | None = None
         self._next_poll = 0.0
         self._is_calm = False
-        self._cut: set[str] = set()
+        self._cut_links: set[str] = set()
         self._answered: set[Identity] = set()
         self._since: dict[Identity, float] = {}
-        self._next_question, self._pause = 0.0, SOCKET_POLL_S
+        self._next_query, self._pause = 0.0, SOCKET_POLL_S
         self._lost: set[Identity] = set()
-        self._tries: dict[str, int] = {}
-        self._reopened = 0
+        self._reopens_for: dict[str, int] = {}
+        self._reopens = 0
         session.watch_links(self._link_changed)
 
     def begin(self) -> None:
@@ -112,7 +112,7 @@ class Watch:
     def _link_changed(self, zid: str, there: bool) -> None:
         """Handle a link that was made or lost; called on one of Zenoh's threads."""
         if not there:
-            self._cut.add(zid[:8])
+            self._cut_links.add(zid[:8])
 
     def _run(self) -> None:
         while not self._ended.wait(SOCKET_POLL_S):
@@ -133,7 +133,7 @@ class Watch:
         if now < self._next_poll:
             return False
         before, self._folder_state = self._folder_state, (state.st_ino, state.st_mtime_ns)
-        if self._is_calm and not self._cut and self._folder_state == before:
+        if self._is_calm and not self._cut_links and self._folder_state == before:
             return False
         self._next_poll = now + PROCESSES_POLL_S
         found = sockets(os.path.dirname(own.path))
@@ -150,16 +150,16 @@ class Watch:
         return bool(self._lost)
 
     def _grace(self, other: Identity) -> float:
-        times = min(2.0**self._reopened, MAX_TIMEOUT_FACTOR)
+        times = min(2.0**self._reopens, MAX_TIMEOUT_FACTOR)
         return LINK_TIMEOUT_S * times * (2.0 if other[0] < self._session.zid[:8] else 1.0)
 
     def _is_query_due(self, now: float) -> bool:
         """Whether it is time to query the processes that are not yet overdue; the intervals get longer."""
         if not self._since:
             self._pause = SOCKET_POLL_S
-        if now < self._next_question or not any(now - since >= SOCKET_POLL_S for since in self._since.values()):
+        if now < self._next_query or not any(now - since >= SOCKET_POLL_S for since in self._since.values()):
             return False
-        self._next_question, self._pause = now + self._pause, self._pause * 2
+        self._next_query, self._pause = now + self._pause, self._pause * 2
         return True
 
     def _ask(self, due: set[Identity]) -> None:
@@ -176,8 +176,8 @@ class Watch:
         live = live_sockets(folder)
         lost = self._running(self._without_link(live)) & self._lost
         for zid, _ in lost:
-            self._tries[zid] = self._tries.get(zid, 0) + 1
-        self._reopened += bool(lost)
+            self._reopens_for[zid] = self._reopens_for.get(zid, 0) + 1
+        self._reopens += bool(lost)
         self._answered.clear()
         self._since.clear()
         self._next_poll = 0.0
@@ -186,7 +186,7 @@ class Watch:
 
     def _without_link(self, found: list[Socket]) -> list[Socket]:
         """Return the sockets to which the session has no link, or a link over which no answer has come yet."""
-        cut, self._cut = self._cut, set()
+        cut, self._cut_links = self._cut_links, set()
         self._answered = {each for each in self._answered if each[0] not in cut}
         linked = {zid[:8] for zid in self._session.linked()}
         works = {zid for zid, _ in self._answered & {identity(each) for each in found}} & linked
@@ -195,7 +195,7 @@ class Watch:
     def _running(self, found: list[Socket]) -> set[Identity]:
         """Return the processes that are not frozen and have not yet made the session reopen too often."""
         running = {identity(each) for each in found if not is_stopped(each.pid)}
-        return {each for each in running if self._tries.get(each[0], 0) < MAX_REOPENS}
+        return {each for each in running if self._reopens_for.get(each[0], 0) < MAX_REOPENS}
 
 
 Identity = tuple[str, int]

@@ -3,7 +3,7 @@
 from types import SimpleNamespace
 
 import pytest
-from bot_console.runtime.rmw.endpoints import Endpoint, NodeId, SubscriptionEndpoint, Tap, own, queue_for
+from bot_console.runtime.rmw.endpoints import Endpoint, NodeId, SubscriptionEndpoint, Tap, queue_for, take_queued
 from bot_console.runtime.rmw.zenoh.remote_subscription import RemoteSubscription
 from bot_console.runtime.rmw.zenoh.wire.attachment import pack
 from rclpy.qos import QoSProfile
@@ -30,14 +30,14 @@ def received(topic):
 
 
 def give(remote_subscription, number, stamp=5):
-    remote_subscription.received(serialize_message(String(data=str(number))), pack(number, stamp, GID))
+    remote_subscription.on_sample(serialize_message(String(data=str(number))), pack(number, stamp, GID))
 
 
 def test_gap_in_sequence_numbers_is_an_event(received, notices):
     remote_subscription, queue, events = received
     for number in (7, 8, 11):
         give(remote_subscription, number)
-    assert [(own(message).data, stamp, number) for message, stamp, _, number, _ in queue] == [
+    assert [(take_queued(message).data, stamp, number) for message, stamp, _, number, _ in queue] == [
         ("7", 5, 7),
         ("8", 5, 8),
         ("11", 5, 11),
@@ -70,8 +70,8 @@ def test_dropped_log_lines_from_history_are_not_reported(received, notices, topi
 
 def test_invalid_message_is_dropped_when_taken(received, notices):
     remote_subscription, queue, _ = received
-    remote_subscription.received(b"\0\1\0\0\xff", pack(1, 1, GID))
-    assert own(queue.popleft()[0]) is None
+    remote_subscription.on_sample(b"\0\1\0\0\xff", pack(1, 1, GID))
+    assert take_queued(queue.popleft()[0]) is None
     assert "'/t' was dropped" in notices[0]
 
 
@@ -79,20 +79,20 @@ def test_corrupted_message_is_dropped_reported_and_counted(received, notices):
     remote_subscription, queue, events = received
     give(remote_subscription, 1)
     whole = serialize_message(String(data="forward, slowly"))
-    remote_subscription.received(whole[:-8] + b"foreign\0", pack(2, 5, GID, whole))
+    remote_subscription.on_sample(whole[:-8] + b"foreign\0", pack(2, 5, GID, whole))
     assert len(queue) == 1
     assert notices == [
         "a message on '/t' was dropped: it is not what was sent: the link to its sender broke during transmission"
     ]
-    remote_subscription.received(whole, pack(3, 5, GID, whole))
-    assert own(queue[-1][0]).data == "forward, slowly"
+    remote_subscription.on_sample(whole, pack(3, 5, GID, whole))
+    assert take_queued(queue[-1][0]).data == "forward, slowly"
     assert events == [("lost", 1)]
 
 
 @pytest.mark.parametrize(("payload", "attachment"), [(b"", None), (b"", b"x")])
 def test_garbage_is_dropped(received, payload, attachment):
     remote_subscription, queue, _ = received
-    remote_subscription.received(payload, attachment)
+    remote_subscription.on_sample(payload, attachment)
     assert not queue
     give(remote_subscription, 2)
     assert len(queue) == 1

@@ -123,7 +123,7 @@ def test_burst_yields_to_the_sender_thread(sender, monkeypatch, limit, value, co
     monkeypatch.setattr(module, limit, value)
     monkeypatch.setattr(module, "YIELD_TIMEOUT_S", TIMEOUT_S)
     publisher = FullLinkPublisher()
-    sender._emptied = NotifyingEvent(publisher.free.set)
+    sender._empty = NotifyingEvent(publisher.free.set)
     for _ in range(count - 1):
         sender.send(publisher, "/t", b"12", b"a")
         assert publisher.reached.wait(TIMEOUT_S)  # the message being sent does not count as waiting bytes
@@ -138,12 +138,12 @@ def test_burst_to_a_full_link_yields_only_once_until_the_queue_is_empty(sender, 
     waits = []
     for burst in (1, 2):
         publisher = FullLinkPublisher()
-        sender._emptied = NotifyingEvent(lambda: waits.append("once"))
+        sender._empty = NotifyingEvent(lambda: waits.append("once"))
         for _ in range(10):
             assert sender.send(publisher, "/t", b"1", b"a")
         assert waits == ["once"] * burst
-        sender._emptied.on_wait = publisher.free.set
-        assert sender._is_emptied(TIMEOUT_S)
+        sender._empty.on_wait = publisher.free.set
+        assert sender._wait_until_empty(TIMEOUT_S)
 
 
 def test_burst_yields_again_beyond_half_of_the_room_if_sending_progresses(sender, monkeypatch):
@@ -151,7 +151,7 @@ def test_burst_yields_again_beyond_half_of_the_room_if_sending_progresses(sender
     monkeypatch.setattr(module, "MAX_QUEUED_BYTES", 20)
     monkeypatch.setattr(module, "YIELD_TIMEOUT_S", 0.0)
     waits, publisher = [], OneAtATimePublisher()
-    sender._emptied = NotifyingEvent(lambda: waits.append("once"))
+    sender._empty = NotifyingEvent(lambda: waits.append("once"))
     sender.send(publisher, "/t", b"12", b"a")
     assert publisher.reached.acquire(timeout=TIMEOUT_S)
     for _ in range(6):

@@ -50,10 +50,10 @@ def test_corrupted_response_is_not_accepted(notices):
     client = ClientEndpoint(NodeId("n", "/"), NAME, TYPE, lambda: None, AddTwoInts, gid=GID)
     asking = RequestSender(SESSION, client, "key")
     sent = serialize_message(AddTwoInts.Response(sum=3))
-    asking._replied(corrupt(sent), pack(1, 5, GID, sent))
+    asking._on_reply(corrupt(sent), pack(1, 5, GID, sent))
     assert not client.queue
     assert notices == [f"a response of '/add' was dropped: {REPORTED}"]
-    asking._replied(sent, pack(1, 5, GID, sent))
+    asking._on_reply(sent, pack(1, 5, GID, sent))
     ((number, response),) = client.queue
     assert (number, response.sum) == (1, 3)
 
