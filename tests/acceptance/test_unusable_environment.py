@@ -35,7 +35,7 @@ def command(words: list[str], folder: Path, **options: object) -> subprocess.Com
     )
 
 
-@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="a system without /dev/full")
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="needs /dev/full")
 @pytest.mark.parametrize(
     "words",
     [
@@ -63,7 +63,7 @@ def test_closed_pipe_is_not_an_error(tmp_path: Path) -> None:
     assert (done.returncode, done.stderr) == (1, "")
 
 
-@pytest.mark.skipif(os.name == "nt", reason="a POSIX shell closes the streams")
+@pytest.mark.skipif(os.name == "nt", reason="needs a POSIX shell to close the streams")
 @pytest.mark.parametrize(
     "closed", ["<&- >&- 2>&-", *(pytest.param(each, marks=pytest.mark.slow) for each in (">&-", "2>&-"))]
 )
@@ -77,7 +77,7 @@ def test_closed_standard_streams_are_not_an_error(closed: str, tmp_path: Path) -
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
 
 
-@pytest.mark.skipif(os.name == "nt", reason="a POSIX shell closes the streams")
+@pytest.mark.skipif(os.name == "nt", reason="needs a POSIX shell to close the streams")
 def test_launched_nodes_have_streams_if_those_of_the_launch_were_closed(tmp_path: Path) -> None:
     (tmp_path / "node.py").write_text("import os\nos.fstat(0)\nprint('x')")
     text = "from launch import LaunchDescription\nfrom launch_ros.actions import Node\n\n\n"
@@ -171,7 +171,7 @@ def test_files_in_working_folder_do_not_shadow_libraries_of_launch_host(
     assert answer.ok and states == [ProcessState.RUNNING], (answer.text, (tmp_path / "host.log").read_text())
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="a system that has names of any bytes")
+@pytest.mark.skipif(sys.platform != "linux", reason="needs file names with arbitrary bytes")
 def test_node_below_a_path_that_is_not_utf_8_logs_as_usual(tmp_path: Path) -> None:
     folder = tmp_path / os.fsdecode(b"\xff")
     folder.mkdir()
@@ -198,7 +198,7 @@ def test_character_missing_in_the_c_locale_is_replaced(tmp_path: Path) -> None:
     assert (done.returncode, done.stdout) == (0, b"? held\n"), done.stderr
 
 
-@pytest.mark.skipif(os.name == "nt", reason="limits are those of POSIX")
+@pytest.mark.skipif(os.name == "nt", reason="needs POSIX limits")
 @pytest.mark.parametrize(
     ("limit", "words", "message"),
     [

@@ -37,7 +37,7 @@ class SkippedFile(pytest.Module):
 
     def collect(self) -> Iterable[pytest.Item | pytest.Collector]:
         """Skip the file with a one-line reason."""
-        pytest.skip(f"{OURS[self.path.name]}: nothing that another rclpy has")
+        pytest.skip(f"{OURS[self.path.name]}: not part of another rclpy")
 
 
 def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> pytest.Module | None:

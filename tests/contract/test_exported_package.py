@@ -16,7 +16,7 @@ from rigs import is_embedded_rclpy
 pytestmark = [
     pytest.mark.ros,
     pytest.mark.timeout(600),
-    pytest.mark.skipif(is_embedded_rclpy(), reason="for the rclpy of a machine without `ros2`: .ci/on_rclpy"),
+    pytest.mark.skipif(is_embedded_rclpy(), reason="needs rclpy on a machine without `ros2`: .ci/on_rclpy"),
 ]
 PROFILES = ("competition", "indoor", "outdoor", "warehouse")
 DRIVEN = """

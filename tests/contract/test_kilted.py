@@ -24,7 +24,7 @@ def run_program(*words: str, **environment: str) -> str:
     return run.stdout
 
 
-@pytest.mark.skipif(not is_embedded_rclpy(), reason="about our rclpy")
+@pytest.mark.skipif(not is_embedded_rclpy(), reason="tests our rclpy")
 @pytest.mark.parametrize(
     ("words", "environment"),
     [
@@ -39,7 +39,7 @@ def test_results_equal_those_of_kilted(words: list[str], environment: dict[str, 
 
 
 @pytest.mark.ros
-@pytest.mark.skipif(is_embedded_rclpy(), reason="for the rclpy of PyPI: .ci/on_rclpy")
+@pytest.mark.skipif(is_embedded_rclpy(), reason="needs the rclpy of PyPI: .ci/on_rclpy")
 @pytest.mark.skipif(os.environ.get("BOT_CONSOLE_TESTS_DISTRO") != "kilted", reason="recorded on Kilted")
 def test_real_rclpy_gives_the_recorded_results() -> None:
     assert run_program(sys.executable) == RECORDED.read_text("utf-8")

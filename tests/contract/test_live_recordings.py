@@ -22,7 +22,7 @@ from rigs import is_embedded_rclpy
 pytestmark = [
     pytest.mark.ros,
     pytest.mark.timeout(600),
-    pytest.mark.skipif(is_embedded_rclpy(), reason="for the rclpy of PyPI: .ci/on_rclpy"),
+    pytest.mark.skipif(is_embedded_rclpy(), reason="needs the rclpy of PyPI: .ci/on_rclpy"),
     pytest.mark.skipif(not GIVEN, reason=NOT_GIVEN),
 ]
 DISTRO = os.environ.get("BOT_CONSOLE_TESTS_DISTRO", "jazzy")

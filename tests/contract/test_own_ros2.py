@@ -18,7 +18,7 @@ from std_msgs.msg import String
 pytestmark = [
     pytest.mark.ros,
     pytest.mark.timeout(300),
-    pytest.mark.skipif(is_embedded_rclpy(), reason="for the rclpy of a machine without `ros2`: .ci/on_rclpy"),
+    pytest.mark.skipif(is_embedded_rclpy(), reason="needs rclpy on a machine without `ros2`: .ci/on_rclpy"),
 ]
 TIMEOUT_S = 240.0
 PEER = """

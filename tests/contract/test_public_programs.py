@@ -32,7 +32,7 @@ def programs() -> list[object]:
     ]
 
 
-@pytest.mark.skipif(not is_embedded_rclpy(), reason="about our rclpy")
+@pytest.mark.skipif(not is_embedded_rclpy(), reason="tests our rclpy")
 @pytest.mark.parametrize("name", programs())
 def test_program_ends_as_on_the_real_rclpy(name: str) -> None:
     ours, real = outcome(OURS, name, unused_domain()), recorded()[name]
@@ -44,7 +44,7 @@ def test_program_ends_as_on_the_real_rclpy(name: str) -> None:
 
 
 @pytest.mark.ros
-@pytest.mark.skipif(is_embedded_rclpy(), reason="for the rclpy of PyPI: .ci/on_rclpy")
+@pytest.mark.skipif(is_embedded_rclpy(), reason="needs the rclpy of PyPI: .ci/on_rclpy")
 @pytest.mark.skipif(os.environ.get("BOT_CONSOLE_TESTS_DISTRO", "jazzy") != "jazzy", reason="recorded on Jazzy")
 @pytest.mark.parametrize("name", names())
 def test_program_ends_as_recorded(name: str) -> None:

@@ -19,7 +19,7 @@ from rigs import is_embedded_rclpy
 pytestmark = [
     pytest.mark.ros,
     pytest.mark.timeout(300),
-    pytest.mark.skipif(is_embedded_rclpy(), reason="for a middleware with leases, such as DDS: .ci/on_rclpy"),
+    pytest.mark.skipif(is_embedded_rclpy(), reason="needs a middleware with leases, such as DDS: .ci/on_rclpy"),
 ]
 NODE = """
 import rclpy

@@ -18,7 +18,7 @@ from rigs import is_embedded_rclpy
 pytestmark = [
     pytest.mark.ros,
     pytest.mark.timeout(300),
-    pytest.mark.skipif(is_embedded_rclpy(), reason="for an environment with the rclpy of PyPI: .ci/on_rclpy"),
+    pytest.mark.skipif(is_embedded_rclpy(), reason="needs an environment with the rclpy of PyPI: .ci/on_rclpy"),
 ]
 TALKER = """
 import rclpy

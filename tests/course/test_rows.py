@@ -64,6 +64,6 @@ def test_no_row_is_both_checked_and_shown() -> None:
     assert not SHOWN.keys() & CHECKS.keys()
 
 
-@pytest.mark.skipif(bool(os.environ.get("BOT_CONSOLE_COURSE")), reason="there is a course")
+@pytest.mark.skipif(bool(os.environ.get("BOT_CONSOLE_COURSE")), reason="BOT_CONSOLE_COURSE names a course")
 def test_course_is_present() -> None:
     pytest.skip("BOT_CONSOLE_COURSE names no course")

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 if os.name == "nt":
-    pytest.skip("programs meet on Unix sockets", allow_module_level=True)
+    pytest.skip("needs Unix sockets", allow_module_level=True)
 
 from processes.kept_stops import Way, held_through
 from processes.live_robot import BackgroundRobot, LiveRobot, live_robot

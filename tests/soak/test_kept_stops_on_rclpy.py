@@ -25,7 +25,7 @@ from rigs import is_embedded_rclpy
 pytestmark = [
     pytest.mark.ros,
     pytest.mark.soak,
-    pytest.mark.skipif(is_embedded_rclpy(), reason="for the rclpy of a machine without `ros2`: .ci/on_rclpy"),
+    pytest.mark.skipif(is_embedded_rclpy(), reason="needs rclpy on a machine without `ros2`: .ci/on_rclpy"),
 ]
 TRIED = (
     "monitor killed", "monitor restarted", "base restarted", "both restarted", "both ended", "console killed",

@@ -61,7 +61,7 @@ def kill_writers(file: Path, times: int) -> None:
     assert last > times
 
 
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="forks")
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
 @pytest.mark.parametrize(
     "times",
     [

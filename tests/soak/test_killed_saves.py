@@ -156,7 +156,7 @@ def kill_writers(folder: Path, times: int) -> None:
         assert_whole(folder)
 
 
-@pytest.mark.skipif(not hasattr(os, "fork"), reason="forks")
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="needs fork")
 @pytest.mark.parametrize(
     "times",
     [

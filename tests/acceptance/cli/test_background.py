@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 if os.name == "nt":
-    pytest.skip("programs meet on Unix sockets", allow_module_level=True)
+    pytest.skip("needs Unix sockets", allow_module_level=True)
 
 from bot_console.runtime.rmw.zenoh.domain.folder import domain_folder
 from bot_console.tui.console.model import ProcessInfo, ProcessState

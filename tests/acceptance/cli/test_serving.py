@@ -15,7 +15,7 @@ from processes.command_line import run_cli
 from processes.ports import free_port
 
 if os.name == "nt":
-    pytest.skip("programs meet on Unix sockets", allow_module_level=True)
+    pytest.skip("needs Unix sockets", allow_module_level=True)
 
 TIMEOUT_S = 240
 

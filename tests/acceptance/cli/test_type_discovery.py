@@ -16,7 +16,7 @@ from processes.command_line import CommandLine, run_cli
 from rigs import until
 
 if os.name == "nt":
-    pytest.skip("programs meet on Unix sockets", allow_module_level=True)
+    pytest.skip("needs Unix sockets", allow_module_level=True)
 
 TIMEOUT_S = 240.0
 PAINTER = """

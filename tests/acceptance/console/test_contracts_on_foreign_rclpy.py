@@ -11,7 +11,7 @@ import pytest
 from fakes.ros_installation import make_standin
 
 if os.name == "nt":
-    pytest.skip("programs meet on Unix sockets", allow_module_level=True)
+    pytest.skip("needs Unix sockets", allow_module_level=True)
 
 ROOT = Path(__file__).resolve().parents[3]
 NEED_A_REAL_ONE = ("live_recordings", "own_ros2", "exported_package", "public_programs", "which_rclpy")

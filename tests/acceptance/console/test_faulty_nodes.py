@@ -204,7 +204,7 @@ def test_computing_node_is_named_with_its_figures(system: System, name: str) -> 
     system.kill([name])
 
 
-@pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="a system that cannot tell it")
+@pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="needs memfd_create")
 @pytest.mark.slow
 def test_node_holding_interpreter_lock_in_c_is_named_with_its_line(system: System) -> None:
     system.start({"hangs": HEAD + "ctypes.PyDLL(None).sleep(100000)\n"})
@@ -244,7 +244,7 @@ time.sleep(1000)
 """
 
 
-@pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="a system that cannot tell it")
+@pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="needs memfd_create")
 @pytest.mark.slow
 def test_host_with_thread_holding_interpreter_lock_is_named_and_ended(tmp_path: Path) -> None:
     host = start_host(log=tmp_path / "host.log")

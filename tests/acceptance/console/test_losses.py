@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 if os.name == "nt":
-    pytest.skip("programs meet on Unix sockets", allow_module_level=True)
+    pytest.skip("needs Unix sockets", allow_module_level=True)
 
 from processes.live_robot import LiveRobot, live_robot
 from processes.losses import PERSONS, STOPS

@@ -15,7 +15,7 @@ sys.path.insert(0, str(Path(__file__).parent))
 from terminal import Terminal
 
 if os.name == "nt":
-    pytest.skip("programs meet on Unix sockets", allow_module_level=True)
+    pytest.skip("needs Unix sockets", allow_module_level=True)
 
 CONSOLE = ["-m", "bot_console.tui"]
 SOCKETS = f"/tmp/bct-{os.getpid()}"

@@ -65,7 +65,7 @@ def test_real_time_run_is_reported_as_not_deterministic(tmp_path):
     assert '"deterministic": false' in done.stdout
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="POSIX signals")
+@pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
 @pytest.mark.parametrize(
     ("fast", "name"),
     [

@@ -16,7 +16,7 @@ import pytest
 from browser import CHROMIUM, Page, browser, new_page
 from emulator import Emulator
 
-pytestmark = pytest.mark.skipif(not CHROMIUM, reason="there is no Chromium")
+pytestmark = pytest.mark.skipif(not CHROMIUM, reason="Chromium is not installed")
 TIMEOUT_S = 280.0
 SHOWN = "document.body?.classList.contains('-first-byte')"
 ABOVE_STOP = (

@@ -24,7 +24,7 @@ class Certificates:
 def make_certificates(folder: Path, name: str = "robot") -> Certificates:
     """Make a new authority and a certificate."""
     if not shutil.which("openssl"):
-        pytest.skip("there is no openssl to make certificates with")
+        pytest.skip("needs openssl to make certificates")
     place = folder / name
     place.mkdir()
     (place / "names").write_text("subjectAltName=DNS:localhost,IP:127.0.0.1\n")

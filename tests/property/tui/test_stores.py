@@ -108,7 +108,7 @@ def read_in_time(read: Callable[[], list[str]]) -> list[str]:
     return found[0]
 
 
-@pytest.mark.skipif(os.name == "nt", reason="a system without named pipes")
+@pytest.mark.skipif(os.name == "nt", reason="needs named pipes")
 @pytest.mark.parametrize("kind", ["pipe", "folder", "link to itself", "link to nothing", "huge"])
 @pytest.mark.parametrize(("where", "read", "reports"), STORES.values(), ids=STORES)
 def test_a_path_that_is_not_a_regular_file_is_reported_once(

@@ -77,7 +77,7 @@ def test_invalid_input_is_rejected() -> None:
         bridge.imgmsg_to_cv2(Image(height=2, width=2, encoding="mono8", step=2, data=b"abc"))
 
 
-@pytest.mark.skipif(importlib.util.find_spec("cv2") is not None, reason="OpenCV is there")
+@pytest.mark.skipif(importlib.util.find_spec("cv2") is not None, reason="OpenCV is installed")
 def test_compressed_images_name_the_missing_package() -> None:
     with pytest.raises(ImportError, match=r"pip install 'bot-console\[opencv\]'"):
         bridge.compressed_imgmsg_to_cv2(CompressedImage())

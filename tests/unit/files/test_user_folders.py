@@ -9,7 +9,7 @@ import pytest
 from bot_console.runtime.files import user_folders
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere platformdirs is asked")
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems use platformdirs")
 @pytest.mark.parametrize("value", [None, "", " ", "/data/of mine"])
 def test_folders_equal_those_of_platformdirs(value: str | None, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv(user_folders.OVERRIDE, raising=False)

@@ -73,7 +73,7 @@ def test_interpreter_without_installed_packages_joins_the_domain(run: Launch, pr
     python = os.path.realpath(sys.executable)
     text = run([ExecuteProcess(cmd=[python, "-I", "-c", PROBE], output="screen")]).text
     if "bare" not in text:
-        pytest.skip("the interpreter of this environment has zenoh itself")
+        pytest.skip("the interpreter of this environment has its own zenoh")
     assert OUTPUT.removesuffix("]") in run([ExecuteProcess(cmd=[python, program, "a"], output="screen")]).text
 
 

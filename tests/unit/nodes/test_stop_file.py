@@ -192,7 +192,7 @@ class Clock:
             self._release()
 
 
-@pytest.mark.skipif(os.name == "nt", reason="the test locks a file as on POSIX")
+@pytest.mark.skipif(os.name == "nt", reason="needs POSIX file locks")
 @pytest.mark.parametrize(("release_s", "written"), [(0.5, True), (4.5, True), (60.0, False)])
 def test_lock_waits_five_seconds_for_the_other_one_to_write_the_file(
     release_s: float, written: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -30,7 +30,7 @@ def test_exit_functions_run_and_output_is_flushed() -> None:
     assert (end.returncode, end.stdout, end.stderr) == (3, "first word\n", "last word\n")
 
 
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
 def test_unwritable_output_gives_the_exit_code_of_the_interpreter() -> None:
     with open("/dev/full", "w") as full:
         assert run_to_end(full).returncode == 120

@@ -281,7 +281,7 @@ def process_exists(pid: int) -> bool:
     return True
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="a system that hands over no orphans")
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux has child subreapers")
 @pytest.mark.parametrize("deaf", [("SIGINT",), ("SIGINT", "SIGTERM", "SIGHUP")], ids=" ".join)
 def test_orphans_of_a_child_end_with_the_server(fork: Any, deaf: tuple[str, ...]) -> None:
     with closing(ForkServer("gc:collect")) as server:
@@ -292,7 +292,7 @@ def test_orphans_of_a_child_end_with_the_server(fork: Any, deaf: tuple[str, ...]
     assert not process_exists(orphan)
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="a system that hands over no orphans")
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux has child subreapers")
 def test_daemon_started_by_a_child_survives(fork: Any) -> None:
     with closing(ForkServer("gc:collect")) as server:
         child = fork(LEAVES, on=server)

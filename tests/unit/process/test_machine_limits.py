@@ -8,7 +8,7 @@ import sys
 import pytest
 
 if sys.platform == "win32":
-    pytest.skip("there are no such limits", allow_module_level=True)
+    pytest.skip("needs the resource limits of POSIX", allow_module_level=True)
 
 import resource
 import subprocess
@@ -78,7 +78,7 @@ def test_environment_of_children_is_unchanged_without_a_limit(
     assert not {ARENAS_VARIABLE, BLAS_VARIABLE} & set(os.environ)
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="only glibc reserves arenas")
+@pytest.mark.skipif(sys.platform != "linux", reason="only glibc reserves memory arenas")
 def test_threads_share_one_arena_under_a_limit() -> None:
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
     environment.pop(ARENAS_VARIABLE, None)

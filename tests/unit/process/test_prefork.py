@@ -123,7 +123,7 @@ def test_child_has_its_streams_even_if_the_programs_are_closed(tmp_path: Path, c
     assert (done.returncode, done.stderr) == (0, "child\n")
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="shown by Linux")
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux shows this")
 def test_server_and_children_do_not_share_the_parents_command_line(tmp_path: Path) -> None:
     shown = "print(*open(f'/proc/{pid}/cmdline').read().split('\\0'))\n"
     done = run_parent(tmp_path, f"import os\nfor pid in ('self', os.getppid()): {shown}")

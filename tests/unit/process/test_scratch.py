@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 if os.name == "nt":
-    pytest.skip("files are locked as on Unix", allow_module_level=True)
+    pytest.skip("needs Unix file locks", allow_module_level=True)
 
 PROGRAM = """
 import sys

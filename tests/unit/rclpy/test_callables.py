@@ -111,7 +111,7 @@ def test_callables_without_signature_raise_value_error() -> None:
     assert not accepts_arguments(3, 1)  # type: ignore[arg-type]
 
 
-@pytest.mark.skipif(sys.version_info < (3, 12), reason="came with Python 3.12")
+@pytest.mark.skipif(sys.version_info < (3, 12), reason="new in Python 3.12")
 def test_function_marked_as_coroutine_function_is_recognized() -> None:
     marked = inspect.markcoroutinefunction(lambda: None)  # type: ignore[attr-defined]
     assert is_coroutine_function(marked)

@@ -121,4 +121,4 @@ def test_command_that_finds_no_other_program_reports_it(ros, monkeypatch: pytest
 
 def test_advice_is_not_composed_without_a_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sys, "stderr", io.StringIO())
-    advice.advise(lambda: pytest.fail("composed"))
+    advice.advise(lambda: pytest.fail("composed a message"))

@@ -139,13 +139,13 @@ def test_ctrl_c_ends_the_node(ros, src: Path) -> None:
     assert stopped.stdout == "[ros2run]: Interrupt\n"
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="a script of the system's shell")
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a POSIX shell")
 def test_prefix_runs_a_separate_process(ros, src: Path) -> None:
     package(src, "p", report="def main():\n    pass\n")
     assert ros.ask("run", "--prefix", "echo prefixed", "p", "report").stdout.startswith("prefixed ")
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="a script of the system's shell")
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a POSIX shell")
 @pytest.mark.parametrize(
     ("prefix", "output"),
     [

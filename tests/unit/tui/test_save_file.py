@@ -15,7 +15,7 @@ import pytest
 from bot_console.tui.files import save_file as module
 from bot_console.tui.files.save_file import NotSaved, save_file, typed_path
 
-POSIX = pytest.mark.skipif(os.name != "posix", reason="modes and owners of POSIX")
+POSIX = pytest.mark.skipif(os.name != "posix", reason="needs POSIX permissions and owners")
 
 
 def mode(path: Path) -> int:
@@ -65,7 +65,7 @@ def test_saving_keeps_symbolic_links_even_dangling_ones(tmp_path: Path) -> None:
     assert names(tmp_path / "deep") == ["file"]
 
 
-@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() != 0, reason="only root gives files away")
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() != 0, reason="only root can change the owner of a file")
 def test_saving_keeps_the_owner(tmp_path: Path) -> None:
     path = tmp_path / "file"
     path.write_text("old")
@@ -199,7 +199,7 @@ def test_folder_that_cannot_be_created_is_reported(tmp_path: Path, monkeypatch: 
     assert str(caught.value) == f"{path}: its folder cannot be made: permission denied"
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="a working folder cannot be deleted")
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows cannot delete a working folder")
 def test_a_deleted_working_folder_is_reported(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     gone = tmp_path / "gone"
     gone.mkdir()

@@ -143,7 +143,7 @@ def test_signal_works_only_in_the_main_thread(run):
     assert run(target).stdout == "signal only works in main thread of the main interpreter\n"
 
 
-@pytest.mark.skipif(sys.version_info < (3, 11), reason="asyncio.run takes the signal itself since 3.11")
+@pytest.mark.skipif(sys.version_info < (3, 11), reason="asyncio.run handles the signal itself since 3.11")
 def test_asyncio_run_is_interrupted(start):
     def target():
         async def main():

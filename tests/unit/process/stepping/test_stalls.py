@@ -15,7 +15,7 @@ from ticking import ticker
 STALL = 0.02
 BURN = "import time\nwhile time.process_time() < 0.3: pass"
 
-pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems tell too little")
+pytestmark = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems report too little")
 
 
 def test_long_computation_lets_no_other_thread_run():

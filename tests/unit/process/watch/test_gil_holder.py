@@ -102,7 +102,7 @@ for _ in range(20):  # a process that gets no processor meanwhile is not blamed
         break
 """
 
-needs_a_file_in_memory = pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="a system that cannot tell it")
+needs_a_file_in_memory = pytest.mark.skipif(not hasattr(os, "memfd_create"), reason="needs memfd_create")
 
 
 def begin(folder: str, seconds: int) -> "subprocess.Popen[str]":

@@ -11,7 +11,7 @@ from bot_console.runtime.process import stack_frames
 from bot_console.runtime.process.node.running import process_of_thread
 
 LONG = 240.0
-linux_only = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="other systems do not tell")
+linux_only = pytest.mark.skipif(not sys.platform.startswith("linux"), reason="only Linux reports this")
 
 
 @linux_only

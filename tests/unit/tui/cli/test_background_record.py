@@ -23,7 +23,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "domain"
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="a system without process sessions")
+@pytest.mark.skipif(sys.platform == "win32", reason="needs process sessions")
 def test_down_ends_system_whose_domain_folder_was_deleted(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

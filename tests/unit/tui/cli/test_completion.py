@@ -10,7 +10,7 @@ from processes.command_line import run_cli
 from processes.two_processes import two_processes
 
 if os.name == "nt":
-    pytest.skip("programs meet on Unix sockets", allow_module_level=True)
+    pytest.skip("needs Unix sockets", allow_module_level=True)
 
 
 def complete(*words: str) -> list[str]:

@@ -36,7 +36,7 @@ def test_names_and_values_that_are_not_utf_8_are_refused_in_one_line(
     assert "\ufffd" in printed.err and "not UTF-8" in printed.err
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="a system that has names of any bytes")
+@pytest.mark.skipif(sys.platform != "linux", reason="needs file names with arbitrary bytes")
 @pytest.mark.parametrize(
     "line",
     [

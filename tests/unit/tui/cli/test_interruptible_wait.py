@@ -11,7 +11,7 @@ import pytest
 from bot_console.tui.cli.interruptible_wait import wait_interruptibly
 
 if os.name == "nt":
-    pytest.skip("signals are handed to no threads there", allow_module_level=True)
+    pytest.skip("needs signals for single threads", allow_module_level=True)
 
 TIMEOUT_S = 240.0
 

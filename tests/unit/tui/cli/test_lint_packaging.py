@@ -157,7 +157,7 @@ def test_another_name_in_setup_is_named(folder: Path) -> None:
     assert only.startswith("setup.py:5: setup() is called with the name 'q'") and only.endswith("write name='p'")
 
 
-@pytest.mark.skipif(os.name != "posix", reason="permissions of POSIX")
+@pytest.mark.skipif(os.name != "posix", reason="needs POSIX permissions")
 def test_programs_that_cannot_be_started_are_named(folder: Path) -> None:
     edit(folder, "    entry_points", "    scripts=['bin/run.py'],\n    entry_points")
     (folder / "bin").mkdir()

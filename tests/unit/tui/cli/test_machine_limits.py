@@ -7,7 +7,7 @@ import sys
 import pytest
 
 if sys.platform == "win32":
-    pytest.skip("there are no such limits", allow_module_level=True)
+    pytest.skip("needs the resource limits of POSIX", allow_module_level=True)
 
 import resource
 

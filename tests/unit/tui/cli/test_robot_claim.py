@@ -63,7 +63,7 @@ def test_released_claim_leaves_no_file(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="an open file cannot be removed there")
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows cannot remove an open file")
 def test_file_removed_while_it_is_being_locked_is_not_a_claim(tmp_path, monkeypatch):
     first, got = RobotClaim(tmp_path), []
 
@@ -86,7 +86,7 @@ def test_folder_without_lock_support_does_not_prevent_a_start(tmp_path):
     claim.release()
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="descriptors are inherited on POSIX only")
+@pytest.mark.skipif(sys.platform == "win32", reason="only POSIX processes inherit descriptors")
 def test_process_that_inherited_the_claim_holds_it_until_it_ends(tmp_path):
     claim = RobotClaim(tmp_path)
     line = [sys.executable, "-c", "input()"]

@@ -20,7 +20,7 @@ from bot_console.tui.files.folders import OVERRIDE
 from bot_console.tui.session.embedded.named_profile import named_profile
 from bot_console_robot.simulation_ros.worlds import find_world
 
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="a working folder cannot be deleted")
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows cannot delete a working folder")
 MOVED = "the folder you are in was deleted; go to another one (cd) and try again\n"
 
 

@@ -25,7 +25,7 @@ def is_gone(holder: str, *, here: bool = False) -> bool:
     return with_gone([RobotStop("key", holder, here=here)])[0].gone
 
 
-@pytest.mark.skipif(os.name == "nt", reason="a process cannot be asked there without ending it")
+@pytest.mark.skipif(os.name == "nt", reason="Windows cannot probe a process without ending it")
 def test_a_process_that_has_ended_is_marked_as_gone(ended_pid: int) -> None:
     assert is_gone(f"bot-console of {user()} (pid {ended_pid})")
     stop = with_gone([RobotStop("key", f"bot-console of {user()} (pid {ended_pid})", "because")])[0]

@@ -27,9 +27,7 @@ def test_fork_server_starts_early_only_if_launch_needs_it(
     started: list[bool] = []
     monkeypatch.setattr(early_fork_server, "CAN_FORK", True)
     monkeypatch.setattr(early_fork_server, "fork_server", lambda: started.append(True))
-    monkeypatch.setattr(
-        early_fork_server, "fork_off_server", lambda: pytest.fail("this process goes on with its threads")
-    )
+    monkeypatch.setattr(early_fork_server, "fork_off_server", lambda: pytest.fail("forked off a server"))
     early_fork_server.prefork([each.format(file=file) for each in words])
     assert bool(started) is starts
     started.clear()

@@ -80,7 +80,7 @@ def test_console_asks_before_it_adds_a_second_node_of_one_name(monkeypatch, caps
     assert asked == ["Attach the console to them, without a robot? [Y/n] "]
 
 
-@pytest.mark.skipif(sys.platform != "linux", reason="states of processes are read from /proc")
+@pytest.mark.skipif(sys.platform != "linux", reason="reads the states of processes from /proc")
 def test_status_reports_a_stopped_process(monkeypatch, capsys):
     with subprocess.Popen([sys.executable, "-c", "import time; time.sleep(600)"]) as child:
         there = [sockets.Socket("/a", os.getpid(), "0" * 8), sockets.Socket("/b", child.pid, "1" * 8)]

@@ -16,7 +16,7 @@ from bot_console.tui.session.embedded import start_lock as module
 from bot_console.tui.session.embedded.start_lock import start_lock
 
 if os.name == "nt":
-    pytest.skip("a process has other signals there", allow_module_level=True)
+    pytest.skip("needs POSIX signals", allow_module_level=True)
 
 TIMEOUT_S = 240.0
 

@@ -22,7 +22,7 @@ def test_no_folder_is_searched_for_another_name(named, monkeypatch):
     class Unsearched:
         @property
         def packages(self):
-            pytest.fail("packages were looked for")
+            pytest.fail("searched for packages")
 
     monkeypatch.setattr(workspaces, "workspace", Unsearched)
     workspaces.report_workspace(named)

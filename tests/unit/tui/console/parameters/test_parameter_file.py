@@ -218,7 +218,7 @@ def test_a_refused_file_with_a_name_of_maximum_length_suggests_a_shorter_one(tmp
     assert path.read_text() == "- 1\n"
 
 
-@pytest.mark.skipif(os.name != "posix", reason="modes and links of POSIX")
+@pytest.mark.skipif(os.name != "posix", reason="needs POSIX permissions and links")
 def test_link_and_mode_of_a_patched_file_are_kept(tmp_path: Path) -> None:
     real, link = tmp_path / "real.yaml", tmp_path / "link.yaml"
     real.write_text(FILE)
