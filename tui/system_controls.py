@@ -17,7 +17,7 @@ from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.commanding.command_handler import CommandHandler
 from bot_console.tui.commanding.recording import BagRecording
 from bot_console.tui.console.command_line import CommandLine
-from bot_console.tui.console.gated_command_line import GatedLines
+from bot_console.tui.console.gated_command_line import GatedCommandLine
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.panes.time_cursor import TimeCursor
 from bot_console.tui.safety.early_stop import EarlyStop
@@ -66,7 +66,7 @@ def controls_of(
     stopping = Stopping(app, console, quitting, stage.typing)
     early_stop.attach(console.drive, stopping.on_early_key, lambda: console.snapshot().drive.own_stops)
     leaving = TerminalHandover(app, console, redraw, holds=not console.gate.read_only)
-    gated = GatedLines(console.gate, lines)
+    gated = GatedCommandLine(console.gate, lines)
     panes = PaneMaker(console, time_cursor, stage.entries)
     return Controls(
         quitting=quitting,

@@ -121,9 +121,9 @@ def key_expressions(text: str) -> None:
 
 
 def printed(text: str) -> None:
-    from bot_console.tui.console.logs.tracebacks import Printed
+    from bot_console.tui.console.logs.tracebacks import PrintedLines
 
-    reader = Printed("n", lambda level, label, line: None, stderr=True)
+    reader = PrintedLines("n", lambda level, label, line: None, stderr=True)
     for line in text.split("\n"):
         reader.line(line)
     reader.close()

@@ -36,7 +36,7 @@ from bot_console.tui.session.live import Session
 from bot_console.tui.settings.settings import read_settings
 
 if TYPE_CHECKING:
-    from bot_console.tui.session.connected import Connected
+    from bot_console.tui.session.connected import ConnectedParts
 
 ATTACHED = "Attached to ROS domain {}: q ends only the console, and what was started from it."
 HOST_LOG = "launch-host.log"
@@ -90,22 +90,22 @@ def _prepare(options: Options) -> None:
     take_part()
 
 
-def _connect(options: Options, warnings: list[str], own: Host | None, start: Callable[[], Host]) -> Connected:
+def _connect(options: Options, warnings: list[str], own: Host | None, start: Callable[[], Host]) -> ConnectedParts:
     """Connect to the system, after the first frame, since these imports take longer than everything before it."""
     _prepare(options)
-    from bot_console.tui.session.composition import attached, embedded, hosted, overhear
-    from bot_console.tui.session.connected import Connected
+    from bot_console.tui.session.composition import attached_launcher, embedded_launcher, hosted_launcher, overhear
+    from bot_console.tui.session.connected import ConnectedParts
     from bot_console.tui.session.launch_host.proxy import HostedSnapshotBuffer
 
     message = [(Severity.WARN, each) for each in warnings]
     if options.attach:
         message.append((Severity.INFO, ATTACHED.format(domain())))
-        return Connected(options, message, attached(start))
+        return ConnectedParts(options, message, attached_launcher(start))
     size = read_settings().kept
     if own is None:
-        return Connected(options, message, embedded, overhear(size) if size else None)
+        return ConnectedParts(options, message, embedded_launcher, overhear(size) if size else None)
     buffer = HostedSnapshotBuffer(size.seconds) if size else None
-    return Connected(options, message, hosted(own, buffer), buffer)
+    return ConnectedParts(options, message, hosted_launcher(own, buffer), buffer)
 
 
 NO_TERMINAL = """\

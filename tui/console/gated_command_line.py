@@ -25,7 +25,7 @@ READING: Mapping[str, frozenset[str]] = {
 """Lines that change nothing: the subcommands that only read, by command."""
 
 
-class GatedLines:
+class GatedCommandLine:
     """A command line behind the gate."""
 
     def __init__(self, gate: Gate, lines: CommandLine | None) -> None:

@@ -59,7 +59,7 @@ CONNECT_TIMEOUT_S = 20.0
 """Seconds after which the search for other hosts begins even if the console has not connected."""
 
 
-class Launching:
+class RunningLaunch:
     """A running launch in a node process, whose output goes to the log instead of the screen."""
 
     def __init__(self, target: Callable[[], None], printed: Printed, env: dict[str, str]) -> None:
@@ -85,8 +85,8 @@ def launcher_here(
 ) -> RosLauncher:
     """A launcher that runs launches in this process."""
 
-    def spawn(target: Callable[[], None], path: str) -> Launching:
-        return Launching(target, printed, launch_environment(path))
+    def spawn(target: Callable[[], None], path: str) -> RunningLaunch:
+        return RunningLaunch(target, printed, launch_environment(path))
 
     settings = read_settings()
     return RosLauncher(
@@ -96,18 +96,18 @@ def launcher_here(
     )
 
 
-def embedded(console: RosConsole) -> RosLauncher:
+def embedded_launcher(console: RosConsole) -> RosLauncher:
     """A launcher in this process, with the nodes as threads: for pilot tests, and where programs cannot find each
     other.
     """
     return launcher_here(console.record, console.printed, console.heard)
 
 
-def hosted(host: Host, buffer: HostedSnapshotBuffer | None) -> Callable[[RosConsole], HostedLauncher]:
+def hosted_launcher(host: Host, buffer: HostedSnapshotBuffer | None) -> Callable[[RosConsole], HostedLauncher]:
     """A launcher through a launch host that this process owns; the host may keep the last minutes of traffic."""
 
     def make(console: RosConsole) -> HostedLauncher:
-        launcher = _of_own(host, console)
+        launcher = _launcher_of_own_host(host, console)
         if buffer is not None:
             buffer.host = launcher
         return launcher
@@ -115,7 +115,7 @@ def hosted(host: Host, buffer: HostedSnapshotBuffer | None) -> Callable[[RosCons
     return make
 
 
-def _of_own(host: Host, console: RosConsole) -> HostedLauncher:
+def _launcher_of_own_host(host: Host, console: RosConsole) -> HostedLauncher:
     return HostedLauncher(
         host.connection,
         console.record,
@@ -126,7 +126,7 @@ def _of_own(host: Host, console: RosConsole) -> HostedLauncher:
     )
 
 
-def attached(start_own: Callable[[], Host]) -> Callable[[RosConsole], CombinedLauncher]:
+def attached_launcher(start_own: Callable[[], Host]) -> Callable[[RosConsole], CombinedLauncher]:
     """A launcher through the hosts of all other programs in the domain, and its own host once it launches something."""
 
     def make(console: RosConsole) -> CombinedLauncher:
@@ -139,7 +139,7 @@ def attached(start_own: Callable[[], Host]) -> Callable[[RosConsole], CombinedLa
 
         def own() -> tuple[str, HostedLauncher]:
             host = start_own()
-            return address_of(folder, host.process.pid), _of_own(host, console)
+            return address_of(folder, host.process.pid), _launcher_of_own_host(host, console)
 
         folder = socket_folder()
         others = OtherHosts(lambda: host_addresses(folder), enter, partial(console.wait_ready, CONNECT_TIMEOUT_S))

@@ -16,13 +16,13 @@ from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.files.folders import config_folder, state_folder
 from bot_console.tui.pane_table import PaneEntry
 from bot_console.tui.session import robot_starter
-from bot_console.tui.session.composition import embedded, node_process
+from bot_console.tui.session.composition import embedded_launcher, node_process
 from bot_console.tui.session.embedded.domain import nodes_there, socket_folder
 from bot_console.tui.session.embedded.hooks import (
     DomainTypes,
-    fetched,
     graph_events,
     halted_nodes,
+    local_parameter_file,
     node_processes,
     take_over_streams,
 )
@@ -44,14 +44,14 @@ HISTORY = "history.sqlite"
 """The database of the parameter changes of all runs, in the user's state folder."""
 
 
-class Connected:
+class ConnectedParts:
     """The console and its launcher, and the system that it starts."""
 
     def __init__(
         self,
         options: Options,
         message: Sequence[tuple[Severity, str]] = (),
-        system: Callable[[RosConsole], ClosableLauncher] = embedded,
+        system: Callable[[RosConsole], ClosableLauncher] = embedded_launcher,
         buffer: SnapshotKeeper | None = None,
     ) -> None:
         """`message` contains early lines for the log; `system` makes the launcher, in this process by default.
@@ -72,7 +72,7 @@ class Connected:
             history=state_folder() / HISTORY,
             own_profiles=config_folder() / "profiles",
             workspace_profiles=config_folders,
-            fetch=fetched,
+            fetch=local_parameter_file,
             buffer=buffer,
             types=DomainTypes(),
             generic=DomainTypes(),

@@ -18,14 +18,14 @@ from bot_console.tui.pane_table import PaneEntry
 
 if TYPE_CHECKING:
     from bot_console.tui.console.ros_console import RosConsole
-    from bot_console.tui.session.connected import Connected
+    from bot_console.tui.session.connected import ConnectedParts
     from bot_console.tui.session.protocol import ClosableLauncher
 
 
 class Session:
     """The app and, once connected, the console and the launched system."""
 
-    def __init__(self, options: Options, connect: Callable[[], Connected] | None = None) -> None:
+    def __init__(self, options: Options, connect: Callable[[], ConnectedParts] | None = None) -> None:
         """`connect` makes the console and its launcher, by default in this process; called after the first frame."""
         self._options = options
         self._connect = connect or self._embedded
@@ -41,7 +41,7 @@ class Session:
         self._foreground = Foreground(self.app, self._printed, self._end, self._steers)
 
     @cached_property
-    def connected(self) -> Connected:
+    def connected(self) -> ConnectedParts:
         """The console and what it has started; created on first use."""
         return self._connect()
 
@@ -55,10 +55,10 @@ class Session:
         """The launcher that starts processes."""
         return self.connected.launcher
 
-    def _embedded(self) -> Connected:
-        from bot_console.tui.session.connected import Connected
+    def _embedded(self) -> ConnectedParts:
+        from bot_console.tui.session.connected import ConnectedParts
 
-        return Connected(self._options)
+        return ConnectedParts(self._options)
 
     def _reach(self) -> System:
         self._foreground.begin()

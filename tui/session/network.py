@@ -16,7 +16,7 @@ from bot_console.tui.session.attached import AttachedSession
 from bot_console.tui.session.embedded.connecting import connect, lead_children_to
 from bot_console.tui.session.embedded.domain import domain
 from bot_console.tui.session.embedded.hooks import DomainTypes, graph_events, halted_nodes, take_over_streams
-from bot_console.tui.session.embedded.link_state import LinkWords
+from bot_console.tui.session.embedded.link_state import LinkStatus
 from bot_console.tui.session.embedded.process_report_lines import log_process_reports
 from bot_console.tui.session.embedded.ros2_command_line import Ros2CommandLine
 from bot_console.tui.session.embedded.workspaces import choose, config_folders
@@ -51,7 +51,7 @@ def run_network(options: AttachOptions) -> int:
         workspace_profiles=config_folders,
         capabilities=CAPABILITIES,
         graph_events=graph_events,
-        link=LinkWords(buses).info,
+        link=LinkStatus(buses).info,
         foreign=True,
         halted=halted_nodes,
         types=DomainTypes(),

@@ -38,7 +38,8 @@ def reached_console(*, learning: bool = False) -> Generator[RosConsole | None]:
     hosts: dict[str, HostedLauncher] = {}
     launches = MergedInfo()
     console = RosConsole(
-        launch_info=lambda: launches.of({name: each.info() for name, each in hosts.items()}), processes=node_processes
+        launch_info=lambda: launches.merge({name: each.info() for name, each in hosts.items()}),
+        processes=node_processes,
     )
     console.start()
     with contextlib.ExitStack() as stack:
@@ -61,7 +62,7 @@ def _listen_to_hosts(console: RosConsole, hosts: dict[str, HostedLauncher], stac
             hosts[address] = host
 
 
-def known(console: RosConsole, timeout_s: float) -> bool:
+def wait_until_known(console: RosConsole, timeout_s: float) -> bool:
     """Wait until nodes and parameters stop changing, at most `timeout_s`; returns whether there are any nodes."""
 
     def counts() -> tuple[int, int, int]:
@@ -70,10 +71,10 @@ def known(console: RosConsole, timeout_s: float) -> bool:
         nodes = sum(not each.hidden for each in snapshot.graph.nodes)
         return nodes, len(trees), sum(len(each.parameters) for each in trees.values())
 
-    return bool(settled(counts, lambda found: bool(found[0]), GRAPH_SETTLED_S, timeout_s)[0])
+    return bool(wait_until_settled(counts, lambda found: bool(found[0]), GRAPH_SETTLED_S, timeout_s)[0])
 
 
-def settled(poll: Callable[[], T], is_there: Callable[[T], bool], still: float, timeout_s: float) -> T:
+def wait_until_settled(poll: Callable[[], T], is_there: Callable[[T], bool], still: float, timeout_s: float) -> T:
     """Wait until a value exists and has not changed for `still` seconds, at most `timeout_s`; returns the value."""
     deadline = time.monotonic() + timeout_s
     seen, since = poll(), time.monotonic()

@@ -17,7 +17,7 @@ from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.settings import Serving
 from bot_console.tui.console.model import Severity
 from bot_console.tui.panes.steering.state import Steering
-from bot_console.tui.session.embedded.link_state import LinkWords
+from bot_console.tui.session.embedded.link_state import LinkStatus
 from processes.bad_link import BadLink
 from processes.ports import free_port
 from rclpy.publisher import Publisher
@@ -37,7 +37,7 @@ class FarRig(RosRig):
         self.wire = BadLink(int(self.place.endpoints[0].rpartition(":")[2]))
         self._robot_buses: list[ZenohBus] = []
         self._console_buses = NetworkBuses(Way((f"tcp/127.0.0.1:{self.wire.port}",)))
-        self.words = LinkWords(self._console_buses)
+        self.words = LinkStatus(self._console_buses)
 
         def robot_bus(domain: int) -> ZenohBus:
             self._robot_buses.append(ZenohBus(open_network_session(domain, Way(self.place.endpoints)), LocalBus()))

@@ -14,7 +14,7 @@ from bot_console.tui.cli.check.script import ScriptError, Step, read
 from bot_console.tui.cli.check.stepped import StartError, read_start, run_stepped
 from bot_console.tui.cli.numbers import seconds, seed
 from bot_console.tui.session.embedded.workspaces import choose
-from bot_console.tui.session.reached_console import known, reached_console
+from bot_console.tui.session.reached_console import reached_console, wait_until_known
 from bot_console.tui.text.sanitize import counted, sanitize
 
 MAX_SCRIPT_BYTES = 1_000_000
@@ -96,7 +96,7 @@ def _run_live(steps: Sequence[Step], given: argparse.Namespace) -> list[Outcome]
     with reached_console() as console:
         if console is None:
             return None
-        if not known(console, given.wait):
+        if not wait_until_known(console, given.wait):
             print("no node is running in this domain; `bot-console up` starts the robot", file=sys.stderr)
             return None
         return _run_steps(Runner(console), steps, print_progress=not given.json, stop=given.stop)

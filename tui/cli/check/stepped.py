@@ -87,13 +87,13 @@ class StepRunner:
     def run(self) -> None:
         """The main function of the node process."""
         from bot_console.tui.console.ros_console import RosConsole
-        from bot_console.tui.session.reached_console import known
+        from bot_console.tui.session.reached_console import wait_until_known
 
         console = RosConsole()
         console.start()
         try:
             console.wait_ready(LINK_TIMEOUT_S)
-            known(console, self._wait_s)
+            wait_until_known(console, self._wait_s)
             runner = Runner(console, time.monotonic, time.sleep)
             for each in self._steps:
                 self.outcomes.append(runner.run(each))

@@ -15,7 +15,7 @@ from bot_console.tui.console.graph.findings import findings
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.console.topics.port import Measure
-from bot_console.tui.session.reached_console import reached_console, settled
+from bot_console.tui.session.reached_console import reached_console, wait_until_settled
 from bot_console.tui.settings.settings import read_settings
 from bot_console.tui.text.sanitize import sanitize
 
@@ -81,7 +81,7 @@ def _with_parameters(console: RosConsole) -> tuple[GraphInfo, bool]:
 
 
 def _write_launch(console: RosConsole, given: argparse.Namespace) -> int:
-    settled(
+    wait_until_settled(
         lambda: _with_parameters(console),
         lambda found: found[1],
         GRAPH_SETTLED_S,
@@ -132,7 +132,7 @@ def _settled_graph(console: RosConsole, wait: float) -> GraphInfo:
     def has_nodes(info: GraphInfo) -> bool:
         return any(not each.hidden for each in info.nodes)
 
-    return settled(lambda: console.snapshot().graph, has_nodes, GRAPH_SETTLED_S, wait)
+    return wait_until_settled(lambda: console.snapshot().graph, has_nodes, GRAPH_SETTLED_S, wait)
 
 
 def _measured(console: RosConsole, topics: list[str], seconds: float) -> Mapping[str, Measure]:

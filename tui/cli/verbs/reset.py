@@ -12,7 +12,7 @@ from typing import TypeVar
 from bot_console.tui.cli.verbs.stop import ask
 from bot_console.tui.console.model import ConsoleSnapshot, Value
 from bot_console.tui.console.ros_console import RosConsole
-from bot_console.tui.session.reached_console import known, reached_console
+from bot_console.tui.session.reached_console import reached_console, wait_until_known
 from bot_console.tui.text.sanitize import counted, sanitize
 from bot_console.tui.text.value_text import value_text
 
@@ -37,7 +37,7 @@ def run(words: list[str]) -> int:
     with reached_console(learning=True) as console:
         if console is None:
             return 1
-        if not known(console, ANSWER_TIMEOUT_S):
+        if not wait_until_known(console, ANSWER_TIMEOUT_S):
             print("there is no node to reset", file=sys.stderr)
             return 1
         return _reset(console, dry=given.dry_run)

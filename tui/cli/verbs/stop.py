@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from bot_console.runtime.importer import install
 from bot_console.runtime.programs.exit_messages import ended_code, place_fault
 from bot_console.tui.console.robot.robot_model import RobotStop
-from bot_console.tui.console.robot.stop_holders import with_gone
+from bot_console.tui.console.robot.stop_holders import mark_gone
 from bot_console.tui.session.embedded.reaching import reach_system
 from bot_console.tui.session.reached_stop import ReachedStop
 from bot_console.tui.text.sanitize import sanitize
@@ -111,7 +111,7 @@ def holders(to_find: float = 1.0, to_hear: float = HOLDER_TIMEOUT_S) -> list[str
 def _holder_lines(info: StopInfo) -> list[str]:
     """Who holds the robot and why, each reason once, with all its holders."""
     holders: dict[str, list[str]] = {}
-    for each in with_gone(info.stops):
+    for each in mark_gone(info.stops):
         holders.setdefault(each.reason, []).append(each.who)
     return [f"{', '.join(who)}: {reason}" for reason, who in holders.items()]
 

@@ -173,7 +173,7 @@ def _info(pid: int, nodes: tuple[str, ...], found: _ExternalProgram, now: float)
         pid,
         nodes,
         (HEADING, command),
-        problem=usage.stands if usage else "",
+        problem=usage.stall_reason if usage else "",
         cpu=usage.share if usage else None,
         memory=usage.memory if usage else None,
         started_by=f"{command} (pid {found.origin.pid})",

@@ -142,10 +142,10 @@ class RosLauncher(ProcessVerbs):
         usage.poll(now)
         self._dirty |= entry.process.uses(usage.share, usage.memory)
         label = entry.process.info.label
-        if entry.process.stands(usage.stands):
+        if entry.process.set_stall_reason(usage.stall_reason):
             self._dirty = True
-            if usage.stands.startswith(HANGS):
-                self._report(f"{label} {usage.stands}", Severity.WARN)
+            if usage.stall_reason.startswith(HANGS):
+                self._report(f"{label} {usage.stall_reason}", Severity.WARN)
         if before < BUSY_S <= usage.busy_s:
             self._report(f"{label} has been computing for {BUSY_S:g} s without a pause", Severity.WARN)
 

@@ -64,7 +64,7 @@ class LaunchedProcess:
         self._ran = False
         self._reported = False
         self._again = False
-        self._fault = self._stands = ""
+        self._fault = self._stall_reason = ""
         self._waiting: list[tuple[str, Future[Answer]]] = []
 
     @property
@@ -170,7 +170,7 @@ class LaunchedProcess:
         """
         own = pid if pid <= MAX_PID else None
         restarts, self._starts, self._alive = self._starts, self._starts + 1, True
-        self._ran, self._stands = True, ""
+        self._ran, self._stall_reason = True, ""
         self._began = self._clock()
         state = ProcessState.STOPPING if self._reported else ProcessState.RUNNING
         nodes = nodes or self.info.nodes
@@ -264,11 +264,11 @@ class LaunchedProcess:
         self.info = replace(self.info, cpu=cpu, memory=memory)
         return True
 
-    def stands(self, why: str) -> bool:
+    def set_stall_reason(self, why: str) -> bool:
         """Set the reason why it makes no progress, empty if it does; returns whether the reason has changed."""
-        if why == self._stands or not self._alive:
+        if why == self._stall_reason or not self._alive:
             return False
-        self._stands = why
+        self._stall_reason = why
         self.info = replace(self.info, problem=why)
         return True
 

@@ -17,7 +17,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Mapping
 
-from bot_console.tui.console.logs.tracebacks import Printed
+from bot_console.tui.console.logs.tracebacks import PrintedLines
 
 FORMAT_VARIABLE = "RCUTILS_CONSOLE_OUTPUT_FORMAT"
 ENVELOPE_VARIABLE = "BOT_CONSOLE_LOG_ENVELOPE"
@@ -64,7 +64,7 @@ class ProcessOutput:
         self._record = record
         self._every = every
         self._undecided = UndecidedLines(record, heard)
-        self._streams = {stderr: Printed(label, printed, stderr=stderr) for stderr in (False, True)}
+        self._streams = {stderr: PrintedLines(label, printed, stderr=stderr) for stderr in (False, True)}
         self._readers = {stderr: OutputReader(self.logged, each.line) for stderr, each in self._streams.items()}
 
     def feed(self, text: str, *, stderr: bool) -> None:

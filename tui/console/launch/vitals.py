@@ -73,7 +73,7 @@ class Usage:
         """
         self.memory: int | None = None
         """MB (10^6 bytes), rounded to tens from 100 on, so that the figure is steady while nothing happens."""
-        self.stands = ""
+        self.stall_reason = ""
         """Why the process makes no progress; empty if it does."""
         self._asked = now
         self.busy_s = 0.0
@@ -82,7 +82,7 @@ class Usage:
     def poll(self, now: float) -> None:
         """Measure if due; `now` is a monotonic time (s)."""
         if now - self._asked >= STATE_POLL_S:
-            self._asked, self.stands = now, self._why_it_stands()
+            self._asked, self.stall_reason = now, self._why_it_stalls()
         passed = now - self._at
         if passed < CPU_POLL_S / 2 or not is_due(self._at, now, CPU_POLL_S):
             return
@@ -96,7 +96,7 @@ class Usage:
         held = self._vitals.memory_bytes()
         self.memory = None if held is None else _steady(held)
 
-    def _why_it_stands(self) -> str:
+    def _why_it_stalls(self) -> str:
         if self._vitals.is_stopped():
             return FROZEN
         line = self._vitals.line_in_debugger()

@@ -82,7 +82,7 @@ def _frames(lines: Sequence[str]) -> Iterator[TracebackFrame]:
             yield TracebackFrame(found["file"], int(found["line"]), found["function"] or "<module>", source)
 
 
-class Printed:
+class PrintedLines:
     """Turns lines of one stream into log records: a traceback into one ERROR, any other line into one INFO or WARN."""
 
     def __init__(self, label: str, add: Callable[[int, str, str], None], *, stderr: bool) -> None:

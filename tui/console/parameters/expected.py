@@ -22,7 +22,7 @@ class ParameterRequest:
     by: str = ""
 
 
-class Expected:
+class ExpectedEvents:
     """The requests whose events have not arrived yet."""
 
     def __init__(self) -> None:

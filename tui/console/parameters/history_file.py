@@ -78,7 +78,7 @@ class History:
             if self._file.exists() and not self._file.is_file():
                 self.problem = f"changes are not kept: {self._file} is not a regular file"
                 return
-            self._link = _opened(self._file)
+            self._link = _open_database(self._file)
         except sqlite3.DatabaseError as error:
             if isinstance(error, sqlite3.OperationalError):
                 self.problem = f"changes are not kept: {self._file}: {error}"
@@ -95,15 +95,15 @@ class History:
         try:
             with folder_lock(self._file.parent, TIMEOUT_S) as locked:
                 self.problem = (
-                    self._replaced() if locked else "changes are not kept: another console is repairing the file"
+                    self._replace_file() if locked else "changes are not kept: another console is repairing the file"
                 )
         except (OSError, sqlite3.Error) as error:
             self.problem = f"changes are not kept: {self._file}: {error}"
 
-    def _replaced(self) -> str:
+    def _replace_file(self) -> str:
         """Replace the file with a new database unless another console has done so; returns a message for the user."""
         try:
-            self._link = _opened(self._file)
+            self._link = _open_database(self._file)
         except sqlite3.OperationalError:
             raise
         except sqlite3.DatabaseError:
@@ -111,7 +111,7 @@ class History:
             self._file.replace(aside)
             for suffix in ("-wal", "-shm"):
                 self._file.with_name(self._file.name + suffix).unlink(missing_ok=True)
-            self._link = _opened(self._file)
+            self._link = _open_database(self._file)
             return f"the history could not be read and starts afresh; the old file is {aside}"
         return ""
 
@@ -128,7 +128,7 @@ class History:
             self._waiting = [*self._waiting, row][-self._rows :]
             try:
                 with self._link:
-                    lost = [each for each in self._waiting if not _inserted(self._link, each)]
+                    lost = [each for each in self._waiting if not _insert(self._link, each)]
                     self._added += len(self._waiting)
                     if self._added >= ROWS_PER_TRIM:
                         self._trim(self._link)
@@ -176,7 +176,7 @@ class History:
                     link.close()
 
 
-def _opened(file: Path) -> sqlite3.Connection:
+def _open_database(file: Path) -> sqlite3.Connection:
     """Open a connection whose commits survive if the program is killed."""
     link = sqlite3.connect(file, timeout=TIMEOUT_S, check_same_thread=False)
     try:
@@ -197,7 +197,7 @@ def _text(data: bytes) -> str:
     return data.decode("utf-8", "replace")
 
 
-def _inserted(link: sqlite3.Connection, row: tuple[Any, ...]) -> bool:
+def _insert(link: sqlite3.Connection, row: tuple[Any, ...]) -> bool:
     """Insert a row; returns False if it can never be stored, which must not keep other rows from being stored."""
     try:
         link.execute(_INSERT, row)

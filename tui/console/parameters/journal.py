@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from bot_console.tui.console.model import Change, ChangeSource, JournalState, Value, same
-from bot_console.tui.console.parameters.unsaved import Unsaved
+from bot_console.tui.console.parameters.unsaved import UnsavedValues
 from bot_console.tui.text.value_text import value_text
 
 if TYPE_CHECKING:
@@ -90,7 +90,7 @@ class Journal:
         self._end = 0
         self._undo: deque[Step] = deque(maxlen=1_000)
         self._redo: list[Step] = []
-        self._unsaved = Unsaved()
+        self._unsaved = UnsavedValues()
         self._lock = threading.Lock()
         self._state = JournalState(problem=self._problem)
 
@@ -141,7 +141,7 @@ class Journal:
         with self._lock:
             self._changes.append(change)
             self._end += 1
-            self._renew()
+            self._update_state()
 
     def did(self, step: Step, source: ChangeSource, *, continues: bool = False) -> None:
         """Add an accepted step of this console, so that it can be undone.
@@ -161,33 +161,33 @@ class Journal:
                 self._redo.append(step)
             elif source is ChangeSource.REDO:
                 self._undo.append(step)
-            self._renew()
+            self._update_state()
 
     def take_undo(self) -> Step | None:
         """Remove and return the step to undo next; return it with `did` or `put_back`."""
         with self._lock:
             step = self._undo.pop() if self._undo else None
-            self._renew()
+            self._update_state()
             return step
 
     def take_redo(self) -> Step | None:
         """Remove and return the step to redo next; return it with `did` or `put_back`."""
         with self._lock:
             step = self._redo.pop() if self._redo else None
-            self._renew()
+            self._update_state()
             return step
 
     def put_back(self, step: Step, source: ChangeSource) -> None:
         """Return a step whose undo or redo was refused."""
         with self._lock:
             (self._undo if source is ChangeSource.UNDO else self._redo).append(step)
-            self._renew()
+            self._update_state()
 
     def saved(self, nodes: Collection[str]) -> None:
         """Record that the values of some nodes, or of all if none is named, are now in a file."""
         with self._lock:
             self._unsaved.saved(nodes)
-            self._renew()
+            self._update_state()
 
     def restarted(self, node: str, name: str) -> None:
         """Record that a node has restarted with another value: the earlier sets can no longer be undone or lost."""
@@ -197,7 +197,7 @@ class Journal:
                 steps.clear()
                 steps.extend(left)
             self._unsaved.restarted(node, name)
-            self._renew()
+            self._update_state()
 
     def after(self, seq: int) -> Sequence[Change]:
         """The entries from number `seq` on, oldest first; a number below 0 includes those of earlier runs."""
@@ -211,7 +211,7 @@ class Journal:
         if self._history:
             self._history.close()
 
-    def _renew(self) -> None:
+    def _update_state(self) -> None:
         first = self._end - len(self._changes)
         undoes, redoes = (_keys(steps[-1]) if steps else () for steps in (self._undo, self._redo))
         self._state = JournalState(first, self._end, self._unsaved.names, self._problem, undoes, redoes)
@@ -227,11 +227,13 @@ def _without(step: Step, node: str, name: str) -> Step:
     if not any(each.node == node and name in each.after for each in step.moves):
         return step
     moves = [
-        Move(each.node, _but(each.before, name), _but(each.after, name)) if each.node == node else each
+        Move(each.node, _without_name(each.before, name), _without_name(each.after, name))
+        if each.node == node
+        else each
         for each in step.moves
     ]
     return replace(step, moves=tuple(each for each in moves if each.after))
 
 
-def _but(values: Mapping[str, Value], name: str) -> Mapping[str, Value]:
+def _without_name(values: Mapping[str, Value], name: str) -> Mapping[str, Value]:
     return {key: value for key, value in values.items() if key != name}

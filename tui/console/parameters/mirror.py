@@ -256,7 +256,7 @@ class ParameterMirror:
             before = known.get(message.name)
             # the first value of a parameter that was declared without one
             if before is not None and before.value is None:
-                known[message.name] = self._moved(before, message)
+                known[message.name] = self._on_changed(before, message)
                 continue
             unknown = True  # its description may have changed as well, if the program was edited and restarted
             if before is not None:
@@ -266,14 +266,14 @@ class ParameterMirror:
             if before is None:
                 unknown = True
             else:
-                known[message.name] = self._moved(before, message)
+                known[message.name] = self._on_changed(before, message)
         for name in deleted & {each.name for each in tree.parameters}:
             self._changed(event.node, name, getattr(tree.get(name), "value", None), None)
         self._publish({**self.trees, event.node: replace(tree, parameters=tuple(known.values()))})
         if unknown:
             self._load(event.node)
 
-    def _moved(self, before: ParameterInfo, message: Parameter) -> ParameterInfo:
+    def _on_changed(self, before: ParameterInfo, message: Parameter) -> ParameterInfo:
         value = from_message(message.value)
         kind = Kind(message.value.type) if message.value.type else before.kind
         unreported = self._unreported.pop((before.node, before.name), before.value)

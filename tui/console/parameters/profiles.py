@@ -12,7 +12,7 @@ from typing import Any, cast
 
 import yaml
 from bot_console.tui.console.model import ParameterTree, Profile, ProfileDifference, Value, same
-from bot_console.tui.console.parameters.file.node_keys import is_wildcard, means
+from bot_console.tui.console.parameters.file.node_keys import is_wildcard, matches_node
 from bot_console.tui.console.parameters.file.text import KEYWORD, NOTHING, sections, value_at
 from bot_console.tui.console.parameters.safety import takes_safety
 from bot_console.tui.console.values import refusal
@@ -114,7 +114,7 @@ def differences(profile: Profile, trees: Mapping[str, ParameterTree]) -> Sequenc
     found: list[ProfileDifference] = []
     entries = _by_key(profile)
     for node, tree in trees.items():
-        for name, (key, then) in _given(entries, node).items():
+        for name, (key, then) in _values_for(entries, node).items():
             parameter = tree.get(name)
             if parameter is None:
                 if not is_wildcard(key):
@@ -143,9 +143,9 @@ def _by_key(profile: Profile) -> dict[str, list[_Entry]]:
     return found
 
 
-def _given(entries: Mapping[str, list[_Entry]], node: str) -> dict[str, tuple[str, Value]]:
+def _values_for(entries: Mapping[str, list[_Entry]], node: str) -> dict[str, tuple[str, Value]]:
     """The values that a profile gives to a node, with the key of each; as in ROS, the later of two keys wins."""
-    meant = chain.from_iterable(below for key, below in entries.items() if means(key, node))
+    meant = chain.from_iterable(below for key, below in entries.items() if matches_node(key, node))
     return {name: (key, value) for _, name, key, value in sorted(meant, key=itemgetter(0))}
 
 
@@ -164,4 +164,4 @@ def cannot_apply(profile: Profile, trees: Mapping[str, ParameterTree]) -> str:
 def unmatched(profile: Profile, trees: Mapping[str, ParameterTree]) -> tuple[str, ...]:
     """The keys of a profile that match no running node."""
     keys = dict.fromkeys(key for key, _ in profile.values)
-    return tuple(key for key in keys if not any(means(key, node) for node in trees))
+    return tuple(key for key in keys if not any(matches_node(key, node) for node in trees))

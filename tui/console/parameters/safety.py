@@ -15,7 +15,7 @@ from functools import lru_cache
 from bot_console.tui.console.model import ParameterInfo, Value
 
 
-class Worse(Enum):
+class UnsafeDirection(Enum):
     """The direction of change that makes the robot less safe."""
 
     LOWER = "lowers a safety margin"
@@ -30,7 +30,7 @@ class Worse(Enum):
 class Rule:
     """A pattern for the names or descriptions of parameters, and the direction of change that is less safe."""
 
-    worse: Worse
+    worse: UnsafeDirection
     name: re.Pattern[str]
     description: re.Pattern[str] | None = None
 
@@ -46,25 +46,25 @@ def _words(text: str) -> re.Pattern[str]:
 _PROTECTION = "safe|safety|emergency|collision|protective|obstacle|bumper|cliff|watchdog"
 _MOTION = "speed|velocity|vel|acceleration|accel|jerk|turn_rate|force|torque"
 NUMBERS = (
-    Rule(Worse.LATER, _words(r"(watchdog|dead_?man|heartbeat|command|cmd|cmd_vel)_?(timeout|time|silence)")),
+    Rule(UnsafeDirection.LATER, _words(r"(watchdog|dead_?man|heartbeat|command|cmd|cmd_vel)_?(timeout|time|silence)")),
     Rule(
-        Worse.LOWER,
+        UnsafeDirection.LOWER,
         _words(
             rf"(^|_)({_PROTECTION}|stop|stopping|warning|slowdown|min|minimum)_(.*_)?(distance|clearance|margin|radius|gap)"
             r"|clearance|inflation_radius|safety_margin"
         ),
         _words(r"\b(stop\w*|slower|slow down)\b.*\bdistance|minimum .*clearance"),
     ),
-    Rule(Worse.BLINDER, _words(r"(detection|obstacle)_threshold")),
+    Rule(UnsafeDirection.BLINDER, _words(r"(detection|obstacle)_threshold")),
     Rule(
-        Worse.HIGHER,
+        UnsafeDirection.HIGHER,
         _words(rf"^(max|maximum)_(.*_)?({_MOTION})(_|$)|({_MOTION})_(limit|max)"),
         _words(r"\b(maximum|highest|largest)\b.*\b(speed|velocity|acceleration|turn rate)\b"),
     ),
 )
 SWITCHES = (
-    Rule(Worse.ON, _words(rf"(disable|bypass|ignore|override)d?_.*({_PROTECTION}|filter|stop|limit)")),
-    Rule(Worse.OFF, _words(rf"(^|_)({_PROTECTION}|filter|filters|filtering)(_|$)|(speed|velocity)_limit")),
+    Rule(UnsafeDirection.ON, _words(rf"(disable|bypass|ignore|override)d?_.*({_PROTECTION}|filter|stop|limit)")),
+    Rule(UnsafeDirection.OFF, _words(rf"(^|_)({_PROTECTION}|filter|filters|filtering)(_|$)|(speed|velocity)_limit")),
 )
 
 
@@ -83,9 +83,9 @@ def risky_change(parameter: ParameterInfo) -> str:
     for rule in SWITCHES if isinstance(parameter.value, bool) else NUMBERS:
         if rule.fits(name, parameter.description):
             if isinstance(parameter.value, bool):
-                return f"{'true' if rule.worse is Worse.ON else 'false'} {rule.worse.value}"
+                return f"{'true' if rule.worse is UnsafeDirection.ON else 'false'} {rule.worse.value}"
             if isinstance(parameter.value, (int, float)):
-                return f"a {'smaller' if rule.worse is Worse.LOWER else 'greater'} value {rule.worse.value}"
+                return f"a {'smaller' if rule.worse is UnsafeDirection.LOWER else 'greater'} value {rule.worse.value}"
             return ""
     return ""
 
@@ -105,9 +105,9 @@ def importance(parameter: ParameterInfo) -> int | None:
     rule = _number_rule(name, parameter.description)
     if rule is None:
         return None
-    if rule.worse is Worse.HIGHER:
+    if rule.worse is UnsafeDirection.HIGHER:
         return 0 if re.search("speed|vel", name) else 1
-    return DISTANCE if rule.worse is Worse.LOWER else DISTANCE + 1
+    return DISTANCE if rule.worse is UnsafeDirection.LOWER else DISTANCE + 1
 
 
 @lru_cache(maxsize=20_000)
@@ -115,9 +115,9 @@ def _number_rule(name: str, description: str) -> Rule | None:
     return next((each for each in NUMBERS if each.fits(name, description)), None)
 
 
-def _is_worse(worse: Worse, before: Value, after: Value) -> bool:
+def _is_worse(worse: UnsafeDirection, before: Value, after: Value) -> bool:
     if isinstance(before, bool) or isinstance(after, bool):
-        return before is not after and after is (worse is Worse.ON)
+        return before is not after and after is (worse is UnsafeDirection.ON)
     if not isinstance(before, (int, float)) or not isinstance(after, (int, float)):
         return False
-    return after < before if worse is Worse.LOWER else after > before
+    return after < before if worse is UnsafeDirection.LOWER else after > before

@@ -10,7 +10,7 @@ from typing import Any
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.calls import Calls, NoAnswer
 from bot_console.tui.console.model import RESTARTED, ChangeSource, SetOutcome, Value, same
-from bot_console.tui.console.parameters.expected import Expected, ParameterRequest
+from bot_console.tui.console.parameters.expected import ExpectedEvents, ParameterRequest
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
 from bot_console.tui.console.parameters.mirror import ParameterMirror
 from bot_console.tui.console.values import refusal, to_message
@@ -27,7 +27,7 @@ class ParameterSetter:
         self._journal = journal
         self.profile = ""
         """The profile that was applied last and not undone."""
-        self._expected = Expected()
+        self._expected = ExpectedEvents()
 
     def announced(self, node: str, name: str, old: Value, new: Value) -> ChangeSource:
         """Process a parameter event; returns its source: that of the request that caused it, or `OTHER`."""
@@ -120,14 +120,16 @@ class ParameterSetter:
             bad = next((each for each in found if not each.accepted), None)
             if bad:
                 reported = f"not set because {bad.node} refused {bad.name}: {bad.reason}"
-                stuck = await self._taken_back(moves, reported)
-                return _none_of(wanted, outcomes, stuck, reported), tuple(each for each in moves if each.node in stuck)
+                stuck = await self._roll_back(moves, reported)
+                return _failed_outcomes(wanted, outcomes, stuck, reported), tuple(
+                    each for each in moves if each.node in stuck
+                )
         return tuple(outcomes), tuple(moves)
 
     def _will_refuse(self, node: str, values: Mapping[str, Value]) -> bool:
         return any(refusal(self._mirror.get(node, name), value)[1] for name, value in values.items())
 
-    async def _taken_back(self, moves: Sequence[Move], why: str) -> Mapping[str, str]:
+    async def _roll_back(self, moves: Sequence[Move], why: str) -> Mapping[str, str]:
         """Restore the old values; returns the reasons by the nodes that refused."""
         stuck: dict[str, str] = {}
         for move in reversed(moves):
@@ -199,7 +201,7 @@ class ParameterSetter:
         return Answer(True, f"{source.value}: {step.text(source)}")
 
 
-def _none_of(
+def _failed_outcomes(
     wanted: Mapping[str, Mapping[str, Value]], asked: Sequence[SetOutcome], stuck: Mapping[str, str], reported: str
 ) -> tuple[SetOutcome, ...]:
     """The outcomes if not everything was accepted: refusals, and accepted values that could not be reverted."""

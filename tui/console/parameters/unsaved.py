@@ -10,7 +10,7 @@ IN_A_FILE = (ChangeSource.PROFILE, ChangeSource.FILE)
 UNDONE = ChangeSource.UNDO
 
 
-class Unsaved:
+class UnsavedValues:
     """Knows the values to which each parameter that was set here can be restored without typing.
 
     These are the start value, the values of profiles and files, and saved values.

@@ -28,7 +28,7 @@ RATE_POLL_S = 0.5
 NUMBERS = (Kind.BOOL, Kind.INTEGER, Kind.DOUBLE)
 
 
-class _Watched:
+class _WatchedSeries:
     """A watched series and its source."""
 
     def __init__(self) -> None:
@@ -46,7 +46,7 @@ class PlotWatch:
         self._node = node
         self._start = time.monotonic()
         self._started_at = time.time_ns()
-        self._watched: dict[str, _Watched] = {}
+        self._watched: dict[str, _WatchedSeries] = {}
         self._other_clock: float | None = None
         """Offset added to the times of a simulator's clock, so that its messages are shown beside others."""
 
@@ -83,7 +83,7 @@ class PlotWatch:
             raise NotPlottable(f"{node} has no parameter '{name}'" if tree else f"there is no node {node}")
         if parameter.kind not in NUMBERS:
             raise NotPlottable(f"{name} is of type {parameter.kind.word}, not a number")
-        self._watched[path] = _Watched()
+        self._watched[path] = _WatchedSeries()
         self.record_parameter(node, name, parameter.value)
 
     def _watch_topic(self, path: str, graph: GraphInfo) -> None:
@@ -95,7 +95,7 @@ class PlotWatch:
         kind = message_class(types[0])
         if "[" not in rest:
             read(kind())
-        watched = self._watched[path] = _Watched()
+        watched = self._watched[path] = _WatchedSeries()
         watched.subscription = self._node.create_subscription(kind, topic, self._collector(watched, read), PLOT_QOS)
 
     def _watch_rate(self, path: str, topic: str, graph: GraphInfo) -> None:
@@ -103,7 +103,7 @@ class PlotWatch:
         types = next((each.types for each in graph.topics if each.name == topic), ())
         if not types:
             raise NotPlottable(f"there is no topic {topic}")
-        watched, meter = _Watched(), Meter(False, time.time_ns)
+        watched, meter = _WatchedSeries(), Meter(False, time.time_ns)
 
         def poll() -> None:
             rate = meter.poll().rate
@@ -115,7 +115,7 @@ class PlotWatch:
         watched.timer = self._node.create_timer(RATE_POLL_S, poll)
         self._watched[path] = watched
 
-    def _collector(self, watched: _Watched, read: Callable[[Any], float]) -> Callable[[Any], None]:
+    def _collector(self, watched: _WatchedSeries, read: Callable[[Any], float]) -> Callable[[Any], None]:
         def collect(message: Any) -> None:
             try:
                 watched.series.add(self.now(), read(message), self._header_time(message))

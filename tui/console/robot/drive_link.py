@@ -21,9 +21,9 @@ from bot_console.tui.console.robot.command_topics import (
     CommandTopics,
 )
 from bot_console.tui.console.robot.early_stops import EarlyStops
-from bot_console.tui.console.robot.fleet import Fleet, Published, Scope, steered_of
+from bot_console.tui.console.robot.fleet import Fleet, Published, Scope, driven_robot
 from bot_console.tui.console.robot.robot_model import DriveInfo, WorldInfo
-from bot_console.tui.console.robot.stop_holders import with_gone
+from bot_console.tui.console.robot.stop_holders import mark_gone
 from bot_console.tui.console.robot.stop_link import STATUS, StopLink, is_lock
 from bot_console.tui.console.robot.stop_means.configured import ConfiguredMeans
 from bot_console.tui.console.robot.stop_means.means import means_of
@@ -57,7 +57,7 @@ NO_ARBITER = "the node that takes cmd_vel_teleop has ended; start it again to dr
 
 
 @dataclass(frozen=True)
-class Surroundings:
+class GraphRobots:
     """The robots in a graph."""
 
     fleet: Fleet
@@ -68,7 +68,7 @@ class Surroundings:
     simulated: bool
 
     @classmethod
-    def of(cls, graph: GraphInfo) -> Surroundings:
+    def of(cls, graph: GraphInfo) -> GraphRobots:
         """Find the robots of a graph."""
         fleet = Fleet(graph)
         return cls(
@@ -105,7 +105,7 @@ class DriveLink:
         self._verdict = Verdict()
         self._heard: dict[str, float] = {}
         self._info = DriveInfo()
-        self._found = Surroundings.of(GraphInfo())
+        self._found = GraphRobots.of(GraphInfo())
         self._searching_until = math.inf
         """The time after which a robot that has not been found counts as absent; set with the first graph."""
         self._scope = Scope("/")
@@ -119,9 +119,9 @@ class DriveLink:
 
     def follow(self, graph: GraphInfo) -> None:
         """Find the robots' command topics, and subscribe to those of the driven robot."""
-        self.take(Surroundings.of(graph))
+        self.take(GraphRobots.of(graph))
 
-    def take(self, found: Surroundings) -> None:
+    def take(self, found: GraphRobots) -> None:
         """Apply what was found in a graph; to be called in the thread that serves the node."""
         self._found = found
         self._searching_until = min(self._searching_until, self._now() + SEARCH_S)
@@ -133,7 +133,7 @@ class DriveLink:
 
     def _follow_robot(self) -> None:
         found = self._found
-        robot = steered_of(found.fleet.robots, self._chosen)
+        robot = driven_robot(found.fleet.robots, self._chosen)
         before, self._robot = self._robot, robot
         self._scope = found.fleet.scope(robot)
         if before.robot not in ("", robot.robot):
@@ -390,7 +390,7 @@ class DriveLink:
             stopped_here=stop.here or self._zeros,
             own_stops=stop.own,
             press_waits=bool(self._early),
-            stops=with_gone(stop.stops),
+            stops=mark_gone(stop.stops),
             lockable=stop.locks > 0,
             unlocked=tuple(each.robot for each in self._unlocked),
             searching=self._now() < self._searching_until,

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 import rclpy
 from bot_console.tui.console.graph.watch import GraphWatch
 from bot_console.tui.console.model import GraphInfo
-from bot_console.tui.console.robot.drive_link import DriveLink, Surroundings
+from bot_console.tui.console.robot.drive_link import DriveLink, GraphRobots
 from bot_console.tui.console.robot.stop_means.configured import ConfiguredMeans
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
@@ -57,7 +57,7 @@ class DriveNode:
 
     def follow(self, graph: GraphInfo) -> None:
         """Find the robots of a graph in the calling thread, and apply the result in the thread that serves the link."""
-        self._executor.create_task(self.link.take, Surroundings.of(graph))
+        self._executor.create_task(self.link.take, GraphRobots.of(graph))
 
     def follow_alone(self) -> None:
         """Find the robots through this node once, because the console's main node has failed."""

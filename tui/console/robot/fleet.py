@@ -16,7 +16,7 @@ Published = Mapping[str, Collection[str]]
 """The names of the publishing nodes, by topic."""
 
 
-def steered_of(robots: Iterable[CommandTopics], chosen: str) -> CommandTopics:
+def driven_robot(robots: Iterable[CommandTopics], chosen: str) -> CommandTopics:
     """The robot with the chosen name, or else the first one whose topics have the usual names."""
     every = list(robots)
     usual = (each for each in every if each.standard)

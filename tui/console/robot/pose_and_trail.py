@@ -17,7 +17,7 @@ from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.offered_qos import OfferedSubscription
 from bot_console.tui.console.robot.beam_ends import MAX_RANGE_M, BeamEnds
 from bot_console.tui.console.robot.command_topics import NOBODY
-from bot_console.tui.console.robot.fleet import Fleet, steered_of
+from bot_console.tui.console.robot.fleet import Fleet, driven_robot
 from bot_console.tui.console.robot.past_poses import PastPoses, heading
 from bot_console.tui.console.robot.robot_model import GridMap, Pose, WorldInfo
 from bot_console.tui.console.robot.turtle_watch import TurtleWatch
@@ -86,7 +86,7 @@ class WorldWatch:
         self._follow_robot()
 
     def _follow_robot(self) -> None:
-        before, self._robot = self._robot, steered_of(self._fleet.robots, self._chosen)
+        before, self._robot = self._robot, driven_robot(self._fleet.robots, self._chosen)
         if self._robot.robot and self._robot.robot != self._shown:
             if self._shown:
                 self._forget()

@@ -15,7 +15,7 @@ _PROCESS = re.compile(r"@(?P<machine>[^@]*) \(pid (?P<pid>[0-9]{1,9})\)")
 """The end of a holder's name, in the form written by `stop_link.StopLink`."""
 
 
-def with_gone(stops: Sequence[RobotStop]) -> tuple[RobotStop, ...]:
+def mark_gone(stops: Sequence[RobotStop]) -> tuple[RobotStop, ...]:
     """Mark the stops whose holder was a process of this machine that has ended.
 
     Nothing is known about processes on other machines or holders that are not processes, so these are not marked.
@@ -27,10 +27,10 @@ def _is_gone(holder: str) -> bool:
     found = _PROCESS.search(holder)
     if not found or found.end() != len(holder) or found["machine"] != encodable(platform.node()):
         return False
-    return not _lives(int(found["pid"]))
+    return not _is_alive(int(found["pid"]))
 
 
-def _lives(pid: int) -> bool:
+def _is_alive(pid: int) -> bool:
     if os.name == "nt":  # probing a process there would affect it
         return True
     try:

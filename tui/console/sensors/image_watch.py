@@ -86,12 +86,12 @@ def _shown(message: Any, columns: int, rows: int) -> tuple[int, int, str, pixels
     if hasattr(message, "encoding"):
         shown, output = pixels.scaled(message, columns, rows)
         return int(message.width), int(message.height), str(message.encoding), shown, output
-    image = _unpacked(bytes(message.data))
+    image = _decode_image(bytes(message.data))
     height, width = image.shape[:2]
-    return width, height, str(message.format)[:24], pixels.of_colours(image, columns, rows), ""
+    return width, height, str(message.format)[:24], pixels.scale_rgb(image, columns, rows), ""
 
 
-def _unpacked(data: bytes) -> Any:
+def _decode_image(data: bytes) -> Any:
     """Decode a JPEG or PNG to an array of RGB; raises `ValueError`."""
     try:
         library: Any = importlib.import_module("PIL.Image")

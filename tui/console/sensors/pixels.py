@@ -53,39 +53,38 @@ def scaled(message: Any, columns: int, rows: int) -> tuple[Pixels, str]:
             f"{width} x {height} {encoding} needs {line} bytes per row, {line * height} in total; "
             f"there are {step} and {len(data)}"
         )
-    lines = [data[at * step : at * step + line] for at in _picked(height, rows)]
+    lines = [data[at * step : at * step + line] for at in _sample_indices(height, rows)]
     flat: Any = np.frombuffer(np.concatenate(lines).tobytes(), kind)
     image: Grey = flat.reshape(len(lines), width, channels)
-    image = image[:, _picked(width, columns)]
-    across, down = fitting(width, height, columns, rows)
+    image = image[:, _sample_indices(width, columns)]
+    across, down = fitted_size(width, height, columns, rows)
     if encoding in COLOURS:
-        return _shrunk(image[:, :, COLOURS[encoding]].astype(np.float32), across, down).astype(np.uint8), ""
+        return _shrink(image[:, :, COLOURS[encoding]].astype(np.float32), across, down).astype(np.uint8), ""
     grey, output = _as_grey(image[:, :, 0].astype(np.float64), wide=kind.itemsize > 1)
-    return _shrunk(np.repeat(grey[:, :, None], 3, axis=2), across, down).astype(np.uint8), output
+    return _shrink(np.repeat(grey[:, :, None], 3, axis=2), across, down).astype(np.uint8), output
 
 
-def of_colours(image: Grey, columns: int, rows: int) -> Pixels:
+def scale_rgb(image: Grey, columns: int, rows: int) -> Pixels:
     """Scale an RGB array (height, width, 3) to at most `columns` x `rows` pixels."""
     height, width = image.shape[:2]
-    across, down = fitting(width, height, columns, rows)
-    return _shrunk(image[_picked(height, rows)][:, _picked(width, columns)].astype(np.float32), across, down).astype(
-        np.uint8
-    )
+    across, down = fitted_size(width, height, columns, rows)
+    image = image[_sample_indices(height, rows)][:, _sample_indices(width, columns)]
+    return _shrink(image.astype(np.float32), across, down).astype(np.uint8)
 
 
-def fitting(width: int, height: int, columns: int, rows: int) -> tuple[int, int]:
+def fitted_size(width: int, height: int, columns: int, rows: int) -> tuple[int, int]:
     """The largest size within `columns` and `rows` that keeps the aspect ratio of an image and does not exceed it."""
     scale = min(columns / width, rows / height, 1.0)
     return max(1, round(width * scale)), max(1, round(height * scale))
 
 
-def _picked(size: int, wanted: int) -> npt.NDArray[np.intp]:
+def _sample_indices(size: int, wanted: int) -> npt.NDArray[np.intp]:
     """The rows or columns to sample: four for each displayed one, so that large images cost no more than small ones."""
     count = min(size, max(1, wanted) * 4)
     return ((np.arange(count) + 0.5) * size / count).astype(np.intp)
 
 
-def _shrunk(image: npt.NDArray[np.floating[Any]], across: int, down: int) -> npt.NDArray[np.floating[Any]]:
+def _shrink(image: npt.NDArray[np.floating[Any]], across: int, down: int) -> npt.NDArray[np.floating[Any]]:
     """Shrink an image; each resulting pixel is the mean of the pixels that it covers."""
     height, width = image.shape[:2]
     rows, columns = np.arange(down) * height // down, np.arange(across) * width // across

@@ -84,13 +84,13 @@ def field_at(message: Any, path: str) -> tuple[Any, str, str]:
 def wrong(payload: Payload, type_name: str, path: str, text: str) -> str:
     """Why a text is not valid for a field; empty if it is."""
     try:
-        _put(filled_class(payload, type_name)(), path, text)
+        _set_field(filled_class(payload, type_name)(), path, text)
     except ValueError as error:
         return str(error)
     return ""
 
 
-def _put(message: Any, path: str, text: str) -> bool:
+def _set_field(message: Any, path: str, text: str) -> bool:
     """Set a field; returns whether it is a time that is to be set whenever the message is sent."""
     holder, name, kind = field_at(message, path)
     value = parse(kind, text, constants(holder).get(name, {}))
@@ -108,7 +108,7 @@ def filled(payload: Payload, type_name: str, values: Values) -> tuple[Any, Seque
     message = filled_class(payload, type_name)()
     now = [each.path for each in slots(payload, type_name, values) if each.type in TIMES and each.text == NOW]
     for path, text in values.items():
-        _put(message, path, text)
+        _set_field(message, path, text)
     return message, now
 
 

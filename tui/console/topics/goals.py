@@ -19,7 +19,7 @@ STATUS = {4: "succeeded", 5: "canceled", 6: "aborted"}
 
 
 @dataclass
-class _Sent:
+class _SentGoal:
     """A goal that was sent."""
 
     type: str
@@ -38,7 +38,7 @@ class Goals:
     def __init__(self, node: Node) -> None:
         self._node = node
         self._clients: dict[tuple[str, str], Any] = {}
-        self._sent: dict[str, _Sent] = {}
+        self._sent: dict[str, _SentGoal] = {}
 
     def send(self, action: str, type_name: str, values: Values) -> None:
         """Send a goal; raises `ValueError` if it cannot be filled in."""
@@ -49,10 +49,10 @@ class Goals:
         if client is None:
             client = self._clients[key] = ActionClient(self._node, kind, action)
         stamp(goal, now, lambda: self._node.get_clock().now().to_msg())
-        sent = self._sent[action] = _Sent(type_name, time.monotonic(), Goal(action, "sent"))
+        sent = self._sent[action] = _SentGoal(type_name, time.monotonic(), Goal(action, "sent"))
         self._when_ready(client, goal, sent)
 
-    def _when_ready(self, client: Any, goal: Any, sent: _Sent, polls: int = 40) -> None:
+    def _when_ready(self, client: Any, goal: Any, sent: _SentGoal, polls: int = 40) -> None:
         """Send the goal once its client has discovered the server; after `polls` polls, fail."""
         if client.server_is_ready():
             answer = client.send_goal_async(goal, feedback_callback=partial(self._feedback, sent))
@@ -73,11 +73,11 @@ class Goals:
 
         timer = self._node.create_timer(0.05, poll)
 
-    def _feedback(self, sent: _Sent, message: Any) -> None:
+    def _feedback(self, sent: _SentGoal, message: Any) -> None:
         sent.feedback = message.feedback
         sent.goal = replace(sent.goal, feedback_count=sent.goal.feedback_count + 1)
 
-    def _accepted(self, sent: _Sent, done: Any) -> None:
+    def _accepted(self, sent: _SentGoal, done: Any) -> None:
         handle = done.result()
         if handle is None or not handle.accepted:
             self._end(sent, "rejected")
@@ -86,7 +86,7 @@ class Goals:
         sent.goal = replace(sent.goal, status="executing")
         handle.get_result_async().add_done_callback(partial(self._result, sent))
 
-    def _result(self, sent: _Sent, done: Any) -> None:
+    def _result(self, sent: _SentGoal, done: Any) -> None:
         answer = done.result()
         if answer is None:
             self._end(sent, "lost", problem="the server has ended")
@@ -95,7 +95,7 @@ class Goals:
         self._end(sent, STATUS.get(answer.status, f"status {answer.status}"), result=lines)
 
     @staticmethod
-    def _end(sent: _Sent, status: str, **more: Any) -> None:
+    def _end(sent: _SentGoal, status: str, **more: Any) -> None:
         sent.goal = replace(sent.goal, status=status, active=False, seconds=time.monotonic() - sent.began, **more)
 
     def why_not_cancel(self, action: str) -> str:
@@ -114,7 +114,7 @@ class Goals:
         sent.handle.cancel_goal_async().add_done_callback(partial(self._cancelled, sent))
 
     @staticmethod
-    def _cancelled(sent: _Sent, done: Any) -> None:
+    def _cancelled(sent: _SentGoal, done: Any) -> None:
         answer = done.result()
         if sent.goal.active and (answer is None or not answer.goals_canceling):
             sent.goal = replace(sent.goal, status="executing", problem="the server refuses to cancel it")

@@ -23,7 +23,7 @@ MAX_AGES = 10
 """The displayed age has this many steps per second, so that the object does not change at every poll."""
 
 
-class Listening(FollowedTopic):
+class MessageListener(FollowedTopic):
     """Keeps the newest message, and converts it to lines only on demand."""
 
     def __init__(self, node: Node, explain: Callable[[str, str], str]) -> None:

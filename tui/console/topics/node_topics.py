@@ -31,9 +31,9 @@ if TYPE_CHECKING:
     from bot_console.tui.console.calls import Calls
     from bot_console.tui.console.graph.type_discovery import TypeDiscovery, TypeSource
     from bot_console.tui.console.topics.goals import Goals
-    from bot_console.tui.console.topics.listening import Listening
+    from bot_console.tui.console.topics.listening import MessageListener
     from bot_console.tui.console.topics.meters import Meters
-    from bot_console.tui.console.topics.publishing import Publishing
+    from bot_console.tui.console.topics.publishing import MessagePublisher
     from rclpy.node import Node
 
 ANSWER_TIMEOUT_S = 30.0
@@ -49,8 +49,8 @@ class NodeTopics:
 
     _discovery: TypeDiscovery
     _meters: Meters
-    _listening: Listening
-    _publishing: Publishing
+    _listening: MessageListener
+    _publishing: MessagePublisher
     _goals: Goals
     _calls: Calls
     """These exist after `attach`."""
@@ -70,16 +70,16 @@ class NodeTopics:
         """Create what watches and uses the topics, once the system has been reached."""
         from bot_console.tui.console.graph.type_discovery import TypeDiscovery
         from bot_console.tui.console.topics.goals import Goals
-        from bot_console.tui.console.topics.listening import Listening
+        from bot_console.tui.console.topics.listening import MessageListener
         from bot_console.tui.console.topics.meters import Meters
-        from bot_console.tui.console.topics.publishing import Publishing
+        from bot_console.tui.console.topics.publishing import MessagePublisher
 
         self._calls = calls
         self._clock = node.get_clock()
         self._discovery = TypeDiscovery(node, calls, self._types, self._follow_known)
         self._meters = Meters(node)
-        self._listening = Listening(node, self._discovery.explain)
-        self._publishing = Publishing(node)
+        self._listening = MessageListener(node, self._discovery.explain)
+        self._publishing = MessagePublisher(node)
         self._goals = Goals(node)
         self._attached = True
 

@@ -20,7 +20,7 @@ MAX_MATCH_POLLS = 20
 
 
 @dataclass
-class _Running:
+class _RepeatedMessage:
     """A message that is published at a rate."""
 
     timer: Any
@@ -29,13 +29,13 @@ class _Running:
     count: int = 0
 
 
-class Publishing:
+class MessagePublisher:
     """Creates publishers on demand; may only be used in the executor's thread."""
 
     def __init__(self, node: Node) -> None:
         self._node = node
         self._publishers: dict[tuple[str, str], Any] = {}
-        self._running: dict[str, _Running] = {}
+        self._running: dict[str, _RepeatedMessage] = {}
         self._repeated: Mapping[str, Repeated] = {}
 
     def publish(self, topic: str, type_name: str, values: Values, rate: float, graph: GraphInfo) -> None:
@@ -52,7 +52,7 @@ class Publishing:
 
         if rate:
             self.stop(topic)
-            running = _Running(None, type_name, rate)
+            running = _RepeatedMessage(None, type_name, rate)
 
             def again() -> None:
                 send()

@@ -18,7 +18,7 @@ from bot_console.tui.console.model import (
     ProfileDifference,
     SetOutcome,
 )
-from bot_console.tui.console.parameters.file.node_keys import means
+from bot_console.tui.console.parameters.file.node_keys import matches_node
 from bot_console.tui.console.query import parse
 from bot_console.tui.files.save_file import typed_path
 from bot_console.tui.files.state_store import LAST_FILE
@@ -201,7 +201,7 @@ class ProfilesPane(ListPane):
     def _absent(self, profile: Profile) -> list[str]:
         """The node keys of a profile that match no running node."""
         keys = dict.fromkeys(key for key, _ in profile.values)
-        return [key for key in keys if not any(means(key, node) for node in self._snapshot.parameters)]
+        return [key for key in keys if not any(matches_node(key, node) for node in self._snapshot.parameters)]
 
     def on_row_list_moved(self, event: RowList.Moved) -> None:
         """Show the differences of the newly selected profile."""

@@ -50,7 +50,7 @@ def node_processes() -> Mapping[int, Sequence[str]]:
     return bus_of(domain()).processes()
 
 
-def fetched(address: str) -> Path:
+def local_parameter_file(address: str) -> Path:
     """The local copy of a parameter file on a server."""
     return local_copy(address)
 

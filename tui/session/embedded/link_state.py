@@ -12,7 +12,7 @@ NO_ANSWER_AFTER_S = 1
 """Seconds without a response from which on the status line counts them."""
 
 
-class LinkWords:
+class LinkStatus:
     """The state of the link in steps that are worth drawing."""
 
     def __init__(self, buses: NetworkBuses) -> None:
@@ -21,13 +21,13 @@ class LinkWords:
 
     def info(self) -> LinkInfo:
         """The state of the link; the same object until it changes."""
-        info = words_of(self._buses.link(), time.monotonic())
+        info = link_info(self._buses.link(), time.monotonic())
         if info != self._info:
             self._info = info
         return self._info
 
 
-def words_of(state: LinkState, now: float) -> LinkInfo:
+def link_info(state: LinkState, now: float) -> LinkInfo:
     """The state of the link at a monotonic time (s); delays above 20 ms are rounded to 10 ms so that the display is
     calm.
     """

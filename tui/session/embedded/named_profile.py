@@ -60,13 +60,13 @@ def named_profile(
         path = expanded_path(word)
         if not os.path.isfile(path):  # False for a name that is too long, for which `Path` raises
             raise NoProfileError(f"there is no file {word}")
-        return _loaded(path)
+        return _load(path)
     for folder in _folders(folders):
         for path in _files(folder, word):
-            return _loaded(path)
+            return _load(path)
     for folder in _workspace_folders(workspace) if word else ():
         for path in _files(folder, word):
-            return _loaded(path)
+            return _load(path)
     missing = "".join(f"; there is no folder {each}" for each in folders if not each.is_dir())
     raise NoProfileError(f"there is no {expected} '{word}'; profiles: {', '.join(profile_names(folders))}{missing}")
 
@@ -91,7 +91,7 @@ def _files(folder: Path, name: str = "") -> list[Path]:
         return []
 
 
-def _loaded(path: Path) -> NamedProfile:
+def _load(path: Path) -> NamedProfile:
     from bot_console.runtime.importer import install
 
     install()  # the reader of parameter files belongs to the half of the console that imports ROS names

@@ -47,7 +47,7 @@ class Ros2CommandLine:
             words = _words(line)
         except ValueError:
             return None
-        return _Streamed(words) if goes_on(words) else None
+        return _StreamedCommand(words) if goes_on(words) else None
 
     def commands(self) -> Sequence[str]:
         """The commands that a line may begin with."""
@@ -57,7 +57,7 @@ class Ros2CommandLine:
 
     def complete(self, words: Sequence[str], snapshot: ConsoleSnapshot) -> Future[Sequence[str]]:
         """Completions of the last word, found in the background."""
-        names = _Names(snapshot, self._known)
+        names = _CompletionNames(snapshot, self._known)
         return in_background(lambda: candidates(words, names), "ros2")
 
     def _recorded(self, line: str) -> str:
@@ -89,7 +89,7 @@ class Ros2CommandLine:
         return f"{wanted.name} runs, and is listed in the Launch pane, where x ends it", 0
 
 
-class _Names:
+class _CompletionNames:
     """Names for completion: those of running things from the console's snapshot, all others as verbs print them."""
 
     def __init__(self, snapshot: ConsoleSnapshot, known: dict[tuple[str, ...], list[str]]) -> None:
@@ -108,7 +108,7 @@ class _Names:
         return found if found is not None else [each.strip() for each in _printed_by(words)[0].splitlines()]
 
 
-class _Streamed(RunningLine):
+class _StreamedCommand(RunningLine):
     """A command in a node process, with the last lines that it has printed; recorded for an open lesson."""
 
     def __init__(self, words: Sequence[str]) -> None:

@@ -92,7 +92,7 @@ class CombinedLauncher(ProcessVerbs):
                     address, f"the launch host {number} has gone: everything it had started has ended with it"
                 )
                 del self._others[address]
-            return self._merged.of({name: each.info() for name, each in (*self._others.items(), *self._own.items())})
+            return self._merged.merge({name: each.info() for name, each in (*self._others.items(), *self._own.items())})
 
     def _free(self, *, use: bool) -> HostedLauncher | None:
         """A host of this console that can take another launch; with `use`, it is reserved for that launch."""

@@ -16,7 +16,7 @@ from bot_console.tui.console.bags.port import SnapshotKeeper
 from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.model import LaunchInfo
 from bot_console.tui.session.launch_host.channel import Channel, Message
-from bot_console.tui.session.launch_host.plain_data import of_arguments, of_info
+from bot_console.tui.session.launch_host.plain_data import arguments_to_data, info_to_data
 from bot_console.tui.session.protocol import ClosableLauncher
 
 LAUNCHER_POLL_S = 0.1
@@ -130,7 +130,7 @@ class LaunchHost:
 
     def _report(self, console: _Console, info: LaunchInfo) -> None:
         if info is not console.known:
-            console.channel.send({"info": of_info(info, console.next_event)})
+            console.channel.send({"info": info_to_data(info, console.next_event)})
             console.known = info
             console.next_event = info.timeline[-1].seq + 1 if info.timeline else 0
 
@@ -155,7 +155,7 @@ class LaunchHost:
 
     def _arguments(self, reply: Callable[..., None], path: str) -> None:
         try:
-            reply(value=of_arguments(self._service.arguments(path)))
+            reply(value=arguments_to_data(self._service.arguments(path)))
         except ValueError as error:
             reply(error=str(error))
 

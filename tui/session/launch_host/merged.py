@@ -27,7 +27,7 @@ class MergedInfo:
         stamp = self._info.timeline[-1].stamp if self._info.timeline else 0
         self._add([LaunchEvent(0, stamp, text)])
 
-    def of(self, infos: Mapping[str, LaunchInfo]) -> LaunchInfo:
+    def merge(self, infos: Mapping[str, LaunchInfo]) -> LaunchInfo:
         """Merge the states of hosts, by their names; returns the same object if nothing is new.
 
         If several hosts have a problem, that of the last one is shown.

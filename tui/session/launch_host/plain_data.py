@@ -17,7 +17,7 @@ from bot_console.tui.console.model import (
 )
 
 
-def of_info(info: LaunchInfo, timeline_from: int) -> dict[str, Any]:
+def info_to_data(info: LaunchInfo, timeline_from: int) -> dict[str, Any]:
     """The state of a launcher as plain data, with the timeline events from number `timeline_from` on."""
     return {
         "files": list(info.files),
@@ -30,8 +30,8 @@ def of_info(info: LaunchInfo, timeline_from: int) -> dict[str, Any]:
     }
 
 
-def to_info(data: Mapping[str, Any], before: LaunchInfo, kept: int) -> LaunchInfo:
-    """The state from the data of `of_info`, applied to the previous state; unchanged parts are the same objects."""
+def info_from_data(data: Mapping[str, Any], before: LaunchInfo, kept: int) -> LaunchInfo:
+    """Apply the data of `info_to_data` to the previous state; unchanged parts are the same objects."""
     known = {each.key: each for each in before.processes}
     processes: list[ProcessInfo] = []
     for each in data["processes"]:
@@ -52,13 +52,13 @@ def _process(data: Mapping[str, Any]) -> ProcessInfo:
     return ProcessInfo(**fields)
 
 
-def of_arguments(arguments: Iterable[LaunchArgument]) -> list[dict[str, Any]]:
+def arguments_to_data(arguments: Iterable[LaunchArgument]) -> list[dict[str, Any]]:
     """The arguments of a launch file as plain data."""
     return [asdict(each) for each in arguments]
 
 
-def to_arguments(data: Sequence[Mapping[str, Any]]) -> tuple[LaunchArgument, ...]:
-    """The arguments from the data of `of_arguments`."""
+def arguments_from_data(data: Sequence[Mapping[str, Any]]) -> tuple[LaunchArgument, ...]:
+    """The arguments from the data of `arguments_to_data`."""
     return tuple(
         LaunchArgument(each["name"], each["description"], each["default"], tuple(each["choices"])) for each in data
     )

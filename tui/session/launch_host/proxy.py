@@ -22,7 +22,7 @@ from bot_console.tui.console.launch.timeline import MAX_EVENTS
 from bot_console.tui.console.model import LaunchArgument, LaunchInfo, ProcessInfo, ProcessState, Severity
 from bot_console.tui.console.parameters.provenance import Learn
 from bot_console.tui.session.launch_host.channel import Channel, Message
-from bot_console.tui.session.launch_host.plain_data import to_arguments, to_info
+from bot_console.tui.session.launch_host.plain_data import arguments_from_data, info_from_data
 
 GONE = "the launch host has ended, and everything it had started has ended with it"
 CONNECTION_POLL_S = 0.5
@@ -107,7 +107,7 @@ class HostedLauncher(ProcessVerbs):
             raise ValueError(f"{path} has not reported its arguments within {ARGUMENTS_TIMEOUT_S:g} s") from None
         if "error" in message:
             raise ValueError(message["error"])
-        return to_arguments(message["value"])
+        return arguments_from_data(message["value"])
 
     def files(self) -> Sequence[str]:
         """The launch files of the host's workspace."""
@@ -165,7 +165,7 @@ class HostedLauncher(ProcessVerbs):
 
     def _received(self, message: Message) -> None:
         if "info" in message:
-            self._info = to_info(message["info"], self._info, MAX_EVENTS)
+            self._info = info_from_data(message["info"], self._info, MAX_EVENTS)
         elif "record" in message:
             stamp, severity, name, text, site = message["record"]
             self._record(stamp, severity, name, text, (site[0], site[1], site[2]))
@@ -191,7 +191,7 @@ class HostedLauncher(ProcessVerbs):
         # reveals it.
         own = self._owner and not self._ends
         if why == GONE and (own or any(each.state not in ENDED for each in self._info.processes)):
-            processes = tuple(map(_with_its_host, self._info.processes))
+            processes = tuple(map(_ended_with_host, self._info.processes))
             self._info = replace(self._info, processes=processes, problem=GONE)
             if own:
                 self._printed(Severity.ERROR, "launch", GONE)
@@ -213,7 +213,7 @@ class HostedSnapshotBuffer:
         return done(Answer(False, "nothing has been started yet"))
 
 
-def _with_its_host(process: ProcessInfo) -> ProcessInfo:
+def _ended_with_host(process: ProcessInfo) -> ProcessInfo:
     if process.state in ENDED:
         return process
     return replace(process, state=ProcessState.CRASHED, pid=None, cpu=None, memory=None, problem=GONE)

@@ -16,7 +16,7 @@ NO_ROS = (
 
 
 @dataclass(frozen=True)
-class Kind:
+class SystemChoice:
     """The choice: the machine's ROS 2 or, if `ros` is None, an embedded system; `code` is not 0 if there is none."""
 
     ros: MachineRos | None = None
@@ -32,34 +32,34 @@ def choose(
     find: Callable[[], MachineRos | None] = find_machine_ros,
     ask: Callable[[str], str] = input,
     interactive: Callable[[], bool] = lambda: sys.stdin.isatty() and sys.stdout.isatty(),
-) -> Kind:
+) -> SystemChoice:
     """Choose a system. `ros` and `embedded` are explicit requests; `system_there` says that an embedded system runs in
     the domain.
     """
     if embedded:
-        return Kind()
+        return SystemChoice()
     found = find()
     if ros:
         if found is None:
-            return Kind(code=1, text=NO_ROS)
-        return Kind(found) if found.usable else Kind(code=1, text=how_to_install(found))
+            return SystemChoice(code=1, text=NO_ROS)
+        return SystemChoice(found) if found.usable else SystemChoice(code=1, text=how_to_install(found))
     if found is None:
-        return Kind()
+        return SystemChoice()
     if not system_there:
-        return Kind(found) if found.usable else Kind(code=1, text=how_to_install(found))
+        return SystemChoice(found) if found.usable else SystemChoice(code=1, text=how_to_install(found))
     if not found.usable:
-        return Kind()
+        return SystemChoice()
     listed = f"There are two systems here:\n  1  {found}\n  2  a system of bot-console in this ROS domain\n"
     if not interactive():
-        return Kind(code=2, text=f"{listed}Choose one with --ros or --embedded.")
+        return SystemChoice(code=2, text=f"{listed}Choose one with --ros or --embedded.")
     return _asked(found, listed, ask)
 
 
-def _asked(found: MachineRos, listed: str, ask: Callable[[str], str]) -> Kind:
+def _asked(found: MachineRos, listed: str, ask: Callable[[str], str]) -> SystemChoice:
     try:
         answer = ask(f"{listed}Attach to which? [1/2] ").strip()
     except (EOFError, KeyboardInterrupt):
-        return Kind(code=1, text="")
+        return SystemChoice(code=1, text="")
     if answer == "1":
-        return Kind(found)
-    return Kind() if answer == "2" else Kind(code=1, text="neither 1 nor 2: nothing was done")
+        return SystemChoice(found)
+    return SystemChoice() if answer == "2" else SystemChoice(code=1, text="neither 1 nor 2: nothing was done")

@@ -16,7 +16,7 @@ BUNDLED_PACKAGE = ("rosidl_runtime_py", "ros2cli", "launch", "launch_ros", "laun
 """Pure Python packages that work on top of the machine's `rclpy` and `rosidl_parser`; PyPI has no releases of them."""
 
 
-class LentPackages:
+class BundledPackageFinder:
     """A finder for the end of `sys.meta_path` that provides our copies of packages that the machine lacks."""
 
     def find_spec(
@@ -33,8 +33,8 @@ class LentPackages:
 
 def provide_missing() -> None:
     """Make the bundled packages importable where they are not installed; the machine's own take precedence."""
-    if not any(isinstance(each, LentPackages) for each in sys.meta_path):
-        sys.meta_path.append(LentPackages())
+    if not any(isinstance(each, BundledPackageFinder) for each in sys.meta_path):
+        sys.meta_path.append(BundledPackageFinder())
 
 
 def missing_messages(path: Iterable[str] | None = None) -> str:

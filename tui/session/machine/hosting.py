@@ -16,7 +16,7 @@ from bot_console.tui.session.machine.launch_files import launch_files
 from bot_console.tui.settings.settings import read_settings
 
 
-class Turn:
+class MainThreadTask:
     """A piece of work for the main thread."""
 
     def __init__(self, work: Callable[[], None]) -> None:
@@ -32,11 +32,11 @@ class MainThread:
     """Runs work for other threads in the main thread, one piece at a time."""
 
     def __init__(self) -> None:
-        self._turns: queue.SimpleQueue[Turn | None] = queue.SimpleQueue()
+        self._turns: queue.SimpleQueue[MainThreadTask | None] = queue.SimpleQueue()
 
-    def spawn(self, work: Callable[[], None], file: str) -> Turn:
+    def spawn(self, work: Callable[[], None], file: str) -> MainThreadTask:
         """Queue a launch, which runs once the previous one has ended."""
-        turn = Turn(work)
+        turn = MainThreadTask(work)
         self._turns.put(turn)
         return turn
 

@@ -48,10 +48,10 @@ def find_machine_ros(path: Iterable[str] | None = None) -> MachineRos | None:
     found = _importable(path)
     if found is not None:
         return found
-    for folder in _of_prefixes():
+    for folder in _rclpy_in_prefixes():
         match = _FOLDER.search(folder.parent.parent.name)
         other = f"{match[1]}.{match[2]}" if match else "another version"
-        return MachineRos(folder, "" if other == _running() else other)
+        return MachineRos(folder, "" if other == _running_python() else other)
     return None
 
 
@@ -63,7 +63,7 @@ def how_to_install(ros: MachineRos) -> str:
             f"the wheels of ROS 2 {' and '.join(ros.wheels)} are in one environment, where they overwrite each other: "
             f"make one for each (`python3 -m venv ~/{one} && ~/{one}/bin/pip install 'bot-console[ros-{one}]'`)"
         )
-    whose = f"{ros} is sourced; it is for Python {ros.other_python}, while this bot-console runs on {_running()}"
+    whose = f"{ros} is sourced; it is for Python {ros.other_python}, while this bot-console runs on {_running_python()}"
     if _is_too_old(ros.other_python):
         return (
             f"{whose}, and needs {OLDEST[0]}.{OLDEST[1]} or newer: reach the robot over the network instead, if its "
@@ -115,11 +115,11 @@ def _wheels(folder: Path) -> tuple[str, ...]:
     return tuple(sorted({name[1] for name in names if name}))
 
 
-def _of_prefixes() -> Iterator[Path]:
+def _rclpy_in_prefixes() -> Iterator[Path]:
     for prefix in filter(None, os.environ.get("AMENT_PREFIX_PATH", "").split(os.pathsep)):
         for lib in ("lib", "local/lib"):
             yield from sorted(Path(prefix).glob(f"{lib}/python*/*-packages/rclpy"))
 
 
-def _running() -> str:
+def _running_python() -> str:
     return f"{sys.version_info.major}.{sys.version_info.minor}"

@@ -45,7 +45,7 @@ INTERRUPT_TIMEOUT_S = 3.0
 """Seconds that a command has to end after the interrupt."""
 
 
-class _Streamed(RunningLine):
+class _StreamedCommand(RunningLine):
     """A command in a separate process, with the last lines that it has printed."""
 
     def __init__(self, words: Sequence[str]) -> None:
@@ -91,7 +91,7 @@ class MachineCommandLine:
         except ValueError:
             return None
         program = _program(words)
-        return _Streamed(program) if program and (goes_on(words[1:]) or _starts(words[1:])) else None
+        return _StreamedCommand(program) if program and (goes_on(words[1:]) or _starts(words[1:])) else None
 
     def run(self, line: str) -> Future[str]:
         """Run a line in the background; the result is its output, or a `ValueError` if a quotation mark is

@@ -9,7 +9,7 @@ from bot_console.runtime.importer import install
 from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.model import LogFilter
 from bot_console.tui.console.ros_console import RosConsole
-from bot_console.tui.session.composition import Launching
+from bot_console.tui.session.composition import RunningLaunch
 from bot_console.tui.session.embedded.domain import join_domain
 from domains import unused_domain
 from launcher_bench import HEAD
@@ -65,7 +65,7 @@ def check(console, folder, names, count, before=""):
     launcher = RosLauncher(
         console.record,
         console.printed,
-        spawn=lambda target, file: Launching(target, console.printed, dict(os.environ)),
+        spawn=lambda target, file: RunningLaunch(target, console.printed, dict(os.environ)),
         heard=console.heard,
     )
     try:

@@ -103,12 +103,12 @@ def test_a_frozen_process_is_noticed_within_half_a_second() -> None:
     usage = Usage(reported, 0.0)
     reported.stopped = True
     usage.poll(0.4)
-    assert not usage.stands
+    assert not usage.stall_reason
     usage.poll(0.5)
-    assert usage.stands == FROZEN
+    assert usage.stall_reason == FROZEN
     reported.stopped = False
     usage.poll(1.0)
-    assert not usage.stands
+    assert not usage.stall_reason
 
 
 @pytest.mark.parametrize(
@@ -119,10 +119,10 @@ def test_a_process_at_a_breakpoint_is_shown_as_stopped_in_debugger(line: str, sh
     usage = Usage(reported, 0.0)
     reported.line = line
     usage.poll(0.5)
-    assert usage.stands == shown
+    assert usage.stall_reason == shown
     reported.line = None
     usage.poll(1.0)
-    assert not usage.stands
+    assert not usage.stall_reason
 
 
 def test_a_held_interpreter_lock_is_reported_with_the_line() -> None:
@@ -130,10 +130,10 @@ def test_a_held_interpreter_lock_is_reported_with_the_line() -> None:
     usage = Usage(reported, 0.0)
     reported.held = "holds.py:12, in tick"
     usage.poll(0.5)
-    assert usage.stands.startswith(f"{HANGS} holds.py:12, in tick")
+    assert usage.stall_reason.startswith(f"{HANGS} holds.py:12, in tick")
     reported.held = ""
     usage.poll(1.0)
-    assert not usage.stands
+    assert not usage.stall_reason
 
 
 def test_unavailable_vitals_are_unknown() -> None:

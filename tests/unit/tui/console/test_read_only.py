@@ -7,7 +7,7 @@ from typing import Any, cast
 import pytest
 from bot_console.tui.console.command_gate import READ_ONLY, Gate
 from bot_console.tui.console.command_line import Stream
-from bot_console.tui.console.gated_command_line import GatedLines
+from bot_console.tui.console.gated_command_line import GatedCommandLine
 from bot_console.tui.console.launch.gated_launcher import GatedLauncher
 from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.ros_console import RosConsole
@@ -66,7 +66,7 @@ def test_no_process_can_be_started_or_ended(verb: str, gate: Gate) -> None:
 )
 def test_only_lines_that_read_are_run(line: str, runs: bool, gate: Gate) -> None:
     asked: list[tuple[Any, ...]] = []
-    lines = GatedLines(gate, FakeCommandLine(asked))
+    lines = GatedCommandLine(gate, FakeCommandLine(asked))
     answer = lines.run(line)
     assert bool(asked) is runs and (runs or READ_ONLY in answer.result(0))
 
@@ -77,4 +77,4 @@ def test_only_lines_that_read_keep_running(line: str, runs: bool, gate: Gate) ->
         def stream(self, line: str) -> Stream | None:
             return cast("Stream", RunningLine())
 
-    assert bool(GatedLines(gate, Streaming([])).stream(line)) is runs
+    assert bool(GatedCommandLine(gate, Streaming([])).stream(line)) is runs

@@ -9,7 +9,7 @@ import sys
 
 import pytest
 from bot_console.tui.console.robot.robot_model import RobotStop
-from bot_console.tui.console.robot.stop_holders import with_gone
+from bot_console.tui.console.robot.stop_holders import mark_gone
 from bot_console.tui.console.robot.stop_link import user
 
 
@@ -22,13 +22,13 @@ def ended_pid() -> int:
 
 
 def is_gone(holder: str, *, here: bool = False) -> bool:
-    return with_gone([RobotStop("key", holder, here=here)])[0].gone
+    return mark_gone([RobotStop("key", holder, here=here)])[0].gone
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows cannot probe a process without ending it")
 def test_a_process_that_has_ended_is_marked_as_gone(ended_pid: int) -> None:
     assert is_gone(f"bot-console of {user()} (pid {ended_pid})")
-    stop = with_gone([RobotStop("key", f"bot-console of {user()} (pid {ended_pid})", "because")])[0]
+    stop = mark_gone([RobotStop("key", f"bot-console of {user()} (pid {ended_pid})", "because")])[0]
     assert stop.who == f"bot-console of {user()} (gone)" and stop.reason == "because"
 
 

@@ -2,7 +2,7 @@
 
 import sysconfig
 
-from bot_console.tui.console.logs.tracebacks import TRACEBACK, Printed, Traceback
+from bot_console.tui.console.logs.tracebacks import TRACEBACK, PrintedLines, Traceback
 
 LIBRARY = sysconfig.get_path("stdlib")
 LINES = [
@@ -23,7 +23,7 @@ LINES = [
 
 def log_records(lines: list[str]) -> list[tuple[int, str]]:
     got: list[tuple[int, str]] = []
-    stream = Printed("node-1", lambda severity, label, text: got.append((severity, text)), stderr=True)
+    stream = PrintedLines("node-1", lambda severity, label, text: got.append((severity, text)), stderr=True)
     for line in lines:
         stream.line(line)
     stream.close()
@@ -70,7 +70,7 @@ def test_a_chained_exception_names_its_cause() -> None:
 
 
 def test_a_fault_is_the_last_thing_printed() -> None:
-    stream = Printed("node-1", lambda *each: None, stderr=True)
+    stream = PrintedLines("node-1", lambda *each: None, stderr=True)
     for line in LINES:
         stream.line(line)
     assert stream.fault == "KeyError: 'speed' (node.py:12)"

@@ -11,7 +11,7 @@ from bot_console.tui.console.node import ConsoleNode
 from bot_console.tui.console.node_ports import NodePorts
 from bot_console.tui.console.robot.drive_link import COMMAND_LIFETIME_S, VERDICT_LIFETIME_S, DriveLink
 from bot_console.tui.console.robot.drive_node import DriveNode
-from bot_console.tui.console.robot.fleet import Fleet, steered_of
+from bot_console.tui.console.robot.fleet import Fleet, driven_robot
 from bot_console.tui.console.robot.pose_and_trail import MAP, ODOMETRY, WorldWatch
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
@@ -37,7 +37,7 @@ def node(name: str, listens: str = "", publishes: str = "") -> NodeInfo:
 
 def own_topic(graph: GraphInfo, robot: str, kind: str, *, shared: bool = False) -> set[str]:
     fleet = Fleet(graph)
-    return fleet.scope(steered_of(fleet.robots, robot)).own(fleet.published(kind), shared=shared)
+    return fleet.scope(driven_robot(fleet.robots, robot)).own(fleet.published(kind), shared=shared)
 
 
 BASE = node("/base", "/cmd_vel", f"/odom={ODOMETRY} /map={MAP}")

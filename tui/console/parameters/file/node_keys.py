@@ -11,7 +11,7 @@ def _pattern(key: str) -> re.Pattern[str]:
     return re.compile(re.escape(key).replace(r"/\*\*", r"(?:/\w+)*").replace(r"/\*", r"/\w+"))
 
 
-def means(key: str, node: str) -> bool:
+def matches_node(key: str, node: str) -> bool:
     """Whether a key such as `/**`, `/*/lidar` or `/robot` applies to a node (fully qualified name)."""
     return _pattern(key).fullmatch(node) is not None
 

@@ -9,7 +9,7 @@ from typing import Any, TypeAlias, cast
 
 from bot_console.tui.console.model import Value, same
 from bot_console.tui.console.parameters.file import yaml_tree
-from bot_console.tui.console.parameters.file.node_keys import means
+from bot_console.tui.console.parameters.file.node_keys import matches_node
 from bot_console.tui.console.parameters.file.text import KEYWORD, Section, block_text, inline_text, sections, value_at
 from bot_console.tui.console.parameters.file.yaml_tree import Scalar, Sequence, YamlTree, read_tree
 
@@ -48,7 +48,7 @@ class _Edit:
     text: str
 
 
-def _own(found: list[Section], node: str) -> list[Section]:
+def _sections_of(found: list[Section], node: str) -> list[Section]:
     """The sections whose key is exactly this node; the one that takes effect comes first."""
     return [each for each in reversed(found) if each.key == node]
 
@@ -56,29 +56,29 @@ def _own(found: list[Section], node: str) -> list[Section]:
 def _replacements(text: str, found: list[Section], values: Values) -> Iterator[_Edit]:
     for node, wanted in values.items():
         for name, value in wanted.items():
-            place = next((each.places[name] for each in _own(found, node) if name in each.places), None)
+            place = next((each.places[name] for each in _sections_of(found, node) if name in each.places), None)
             if place is not None and not (isinstance(place, Scalar) and place.missing):
                 if not same(value_at(name, place), value):
-                    yield from _replaced(text, place, value)
+                    yield from _value_edits(text, place, value)
             elif place is not None:
                 yield _Edit(place.start, place.start, " " + inline_text(value))
 
 
-def _replaced(text: str, place: Scalar | Sequence, value: Value) -> Iterator[_Edit]:
+def _value_edits(text: str, place: Scalar | Sequence, value: Value) -> Iterator[_Edit]:
     """Replace a value; if a list has one element per line, element by element, since comments may follow them."""
     if isinstance(place, Sequence) and not place.flow and place.elements and isinstance(value, tuple) and value:
         for element, new in zip(place.elements, value, strict=False):
             assert isinstance(element, Scalar)
             if not same(value_at("", element), new):
                 yield _Edit(element.start, _end(text, element), inline_text(new))
-        yield from _length(text, place, value)
+        yield from _length_edits(text, place, value)
     else:
         # The dashes of a list may be as far to the left as its key; a value has to be indented further.
         block = isinstance(place, Sequence) and not place.flow
         yield _Edit(place.start, _end(text, place), "  " * block + inline_text(value))
 
 
-def _length(text: str, place: Sequence, value: tuple[Any, ...]) -> Iterator[_Edit]:
+def _length_edits(text: str, place: Sequence, value: tuple[Any, ...]) -> Iterator[_Edit]:
     """Add lines for additional elements, or remove the lines of surplus ones."""
     ends = [_line_end(text, _end(text, each)) for each in place.elements]
     if len(value) < len(ends):
@@ -93,17 +93,17 @@ def _additions(text: str, found: list[Section], values: Values) -> Iterator[_Edi
     root = read_tree(text)
     missing: dict[str, Any] = {}
     for node, wanted in values.items():
-        own = _own(found, node)
+        own = _sections_of(found, node)
         new = {name: value for name, value in wanted.items() if not any(name in each.places for each in own)}
         if not own:
             missing[node] = {KEYWORD: nested(wanted)}
         elif new:
-            yield _added(text, own[0].mapping, new)
+            yield _addition(text, own[0].mapping, new)
     if missing and isinstance(root, yaml_tree.Mapping):
-        yield _added(text, root, missing)
+        yield _addition(text, root, missing)
 
 
-def _added(text: str, mapping: yaml_tree.Mapping, new: Mapping[str, Any]) -> _Edit:
+def _addition(text: str, mapping: yaml_tree.Mapping, new: Mapping[str, Any]) -> _Edit:
     if mapping.flow:
         inside = ", ".join(f"{inline_text(key)}: {inline_text(value)}" for key, value in new.items())
         at = mapping.end - 1
@@ -146,9 +146,9 @@ def nested(values: Mapping[str, Value]) -> dict[str, Any]:
 
 def compare(before: list[Section], after: list[Section], values: Values) -> None:
     """Raise `ValueError` if a node would not get its values from the new text, or if another value has changed."""
-    merged = _merged(after)
+    merged = _by_key(after)
     for node, wanted in values.items():
-        given = _given(merged, node)
+        given = _values_for(merged, node)
         for name, value in wanted.items():
             if name not in given:
                 raise ValueError(f"{node} would not get {name}")
@@ -168,7 +168,7 @@ _Places = dict[str, tuple[str, Scalar | Sequence]]
 """The key and the position of each value, by parameter."""
 
 
-def _merged(found: list[Section]) -> dict[str, _Places]:
+def _by_key(found: list[Section]) -> dict[str, _Places]:
     """The parameters below each key of a file, in which a key may occur more than once."""
     merged: dict[str, _Places] = {}
     for section in found:
@@ -176,10 +176,10 @@ def _merged(found: list[Section]) -> dict[str, _Places]:
     return merged
 
 
-def _given(merged: dict[str, _Places], node: str) -> _Places:
+def _values_for(merged: dict[str, _Places], node: str) -> _Places:
     """The values that a file gives to a node: the key and position of each. As in ROS, the later of two keys wins."""
     given: _Places = {}
     for key, places in merged.items():
-        if means(key, node):
+        if matches_node(key, node):
             given.update(places)
     return given

@@ -18,7 +18,7 @@ _MARKS = ((codecs.BOM_UTF8, "utf-8"), (codecs.BOM_UTF16_LE, "utf-16-le"), (codec
 
 
 @dataclass(frozen=True)
-class Saved:
+class SaveResult:
     """The number of saved parameters, and those that a parameter file cannot contain, with the reason."""
 
     count: int
@@ -38,7 +38,7 @@ def save(
     only_changed: bool = False,
     all_of_them: bool = False,
     title: str = "",
-) -> Saved:
+) -> SaveResult:
     """Write the parameters of some nodes (default: all); raises `NotSaved`, in which case the file is unchanged.
 
     `only_changed` restricts them to those that differ from their declared value or, if that is unknown, from their
@@ -61,7 +61,7 @@ def save(
     if not values:
         raise NotSaved("there are no parameters to save" + "".join(f"; {each}" for each in left_out))
     _write(path, values, title)
-    return Saved(sum(map(len, values.values())), tuple(left_out))
+    return SaveResult(sum(map(len, values.values())), tuple(left_out))
 
 
 def _unwritable(parameter: ParameterInfo) -> str:
@@ -80,10 +80,10 @@ def _write(path: Path, values: Values, title: str) -> None:
     except OSError as error:
         raise NotSaved(f"{path}: cannot be read: {error.strerror}") from error
     try:
-        mark, encoding, text = _decoded(content)
+        mark, encoding, text = _decode(content)
         before = sections(text)
         new = mark + patched(text or title, values).encode(encoding)
-        save_file(path, new, lambda written: compare(before, sections(_decoded(written)[2]), values))
+        save_file(path, new, lambda written: compare(before, sections(_decode(written)[2]), values))
     except ValueError as error:
         why = "it is not a text file" if isinstance(error, UnicodeDecodeError) else str(error)
         raise NotSaved(
@@ -91,7 +91,7 @@ def _write(path: Path, values: Values, title: str) -> None:
         ) from None
 
 
-def _decoded(content: bytes) -> tuple[bytes, str, str]:
+def _decode(content: bytes) -> tuple[bytes, str, str]:
     """The byte order mark of a file, the encoding, and the text after the mark; raises `UnicodeDecodeError`."""
     mark, encoding = next((each for each in _MARKS if content.startswith(each[0])), (b"", "utf-8"))
     return mark, encoding, content[len(mark) :].decode(encoding)

@@ -11,7 +11,7 @@ import pytest
 import yaml
 from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Value
 from bot_console.tui.console.parameters.file.patch import new_text, patched, same
-from bot_console.tui.console.parameters.file.saving import Saved, save
+from bot_console.tui.console.parameters.file.saving import SaveResult, save
 from bot_console.tui.files.save_file import NotSaved
 
 FILE = """\
@@ -68,7 +68,9 @@ def test_a_new_node_is_added_at_the_end() -> None:
 
 def test_saving_writes_a_file_that_ros_reads(tmp_path: Path) -> None:
     path = tmp_path / "deep" / "file.yaml"
-    assert save(path, {"/a": tree("/a", speed=1.0, use_sim_time=False), "/b": tree("/b", x=2.0)}, ("/a",)) == Saved(1)
+    assert save(
+        path, {"/a": tree("/a", speed=1.0, use_sim_time=False), "/b": tree("/b", x=2.0)}, ("/a",)
+    ) == SaveResult(1)
     assert path.read_text() == "/a:\n  ros__parameters:\n    speed: 1.0\n"
     assert [each.name for each in path.parent.iterdir()] == ["file.yaml"]
 

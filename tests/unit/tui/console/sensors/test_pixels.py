@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 from bot_console.tui.console.sensors.image_watch import _shown
-from bot_console.tui.console.sensors.pixels import KNOWN, fitting, scaled
+from bot_console.tui.console.sensors.pixels import KNOWN, fitted_size, scaled
 from hypothesis import given
 from hypothesis import strategies as st
 from sensor_msgs.msg import CompressedImage, Image
@@ -95,7 +95,7 @@ def test_any_message_gives_fitting_pixels_or_a_reason(encoding, width, height, s
     except ValueError as error:
         assert str(error)
     else:
-        assert (pixels.shape[1], pixels.shape[0]) == fitting(width, height, columns, rows)
+        assert (pixels.shape[1], pixels.shape[0]) == fitted_size(width, height, columns, rows)
         assert pixels.shape[0] <= rows and pixels.shape[1] <= columns and pixels.dtype == np.uint8
 
 

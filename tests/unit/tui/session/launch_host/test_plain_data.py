@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 
 from bot_console.tui.console.model import LaunchEvent, LaunchInfo, ProcessInfo, ProcessState, Program, Severity
-from bot_console.tui.session.launch_host.plain_data import of_info, to_info
+from bot_console.tui.session.launch_host.plain_data import info_from_data, info_to_data
 
 PROCESS = ProcessInfo(
     "1", "node-1", ProcessState.CRASHED, 7, ("/node",), ("a.launch.py",), 2, -9, "killed", program=Program(("node",))
@@ -14,4 +14,4 @@ INFO = LaunchInfo(("a.launch.py",), (PROCESS,), (LaunchEvent(0, 5, "begun", Seve
 
 
 def test_state_arrives_unchanged() -> None:
-    assert to_info(json.loads(json.dumps(of_info(INFO, 0))), LaunchInfo(), kept=10) == INFO
+    assert info_from_data(json.loads(json.dumps(info_to_data(INFO, 0))), LaunchInfo(), kept=10) == INFO

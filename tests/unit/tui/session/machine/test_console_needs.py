@@ -7,7 +7,7 @@ import pytest
 from bot_console.tui.session.machine.console_needs import (
     BUNDLED_PACKAGE,
     MESSAGES,
-    LentPackages,
+    BundledPackageFinder,
     missing_messages,
     provide_missing,
 )
@@ -20,7 +20,7 @@ def test_bundled_packages_are_importable_only_if_machine_lacks_them(
     provide_missing()
     provide_missing()
     finder = sys.meta_path[-1]
-    assert isinstance(finder, LentPackages) and not isinstance(sys.meta_path[-2], LentPackages)
+    assert isinstance(finder, BundledPackageFinder) and not isinstance(sys.meta_path[-2], BundledPackageFinder)
     for name in BUNDLED_PACKAGE:
         spec = finder.find_spec(name, None)
         assert spec is not None and spec.origin is not None and Path(spec.origin).is_file()
